@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Tetrakis: progressive codec for textured terrain. C interface.
+ *
+ * One call encodes a height field, a texture or both into one embedded stream (.tks). Any prefix of
+ * that stream is legal input to the decoder and yields the best surface and image its bytes buy.
+ *
+ * Trust contract: every decoding function is safe on untrusted input. It returns TKS_OK and fully
+ * written outputs, or an error and untouched outputs; it never prints, exits or throws. Truncation
+ * is not an error. All functions are reentrant; one handle serves one thread at a time.
+ */
+#ifndef TETRAKIS_TETRAKIS_H
+#define TETRAKIS_TETRAKIS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define TKS_VERSION_MAJOR 0
+#define TKS_VERSION_MINOR 1
+#define TKS_VERSION_PATCH 0
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Stable numbers; the command line returns them as its exit codes. */
+typedef enum tks_status {
+  TKS_OK = 0,
+  TKS_USAGE = 1,       /* an argument makes no sense: fix the call */
+  TKS_IO = 2,          /* a file cannot be read or written (command line only) */
+  TKS_CORRUPT = 3,     /* the bytes are not a Tetrakis stream, or break its syntax */
+  TKS_TRUNCATED = 4,   /* strict mode only: the stream ends early */
+  TKS_UNSUPPORTED = 5, /* version, profile or feature unknown to this library */
+  TKS_LIMIT = 6,       /* a limit of tks_limits would be exceeded */
+  TKS_MISMATCH = 7,    /* comparison or verification failed */
+  TKS_NO_MEMORY = 8
+} tks_status;
+
+typedef enum tks_sample {
+  TKS_U8 = 0,
+  TKS_I8 = 1,
+  TKS_U16 = 2,
+  TKS_I16 = 3,
+  TKS_U32 = 4,
+  TKS_I32 = 5,
+  TKS_F32 = 6
+} tks_sample;
+
+/* Bytes of one sample: 1, 1, 2, 2, 4, 4, 4. 0 for a value outside the enumeration. */
+size_t tks_sample_bytes(tks_sample sample);
+
+/* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
+ * Sizes from 2 x 2. A sample v stands for the height v * scale + offset in `unit`. */
+typedef struct tks_heights {
+  size_t size; /* sizeof(tks_heights) */
+  uint32_t width, height;
+  tks_sample sample;
+  const void* data;
+  double scale, offset;           /* 1 and 0 when samples are heights */
+  double step;                    /* quantisation step in sample units; 0: chosen (exact if possible) */
+  double spacing_x, spacing_y;    /* metres per sample; 0: unknown */
+  const char* unit;               /* UTF-8, NULL: unknown; e.g. "m" */
+  const char* vertical_datum;     /* UTF-8, NULL: unknown; e.g. "EGM2008" */
+  const char* crs;                /* UTF-8 WKT or EPSG text, NULL: unknown */
+} tks_heights;
+
+/* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed. It
+ * covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1. */
+typedef struct tks_image {
+  size_t size; /* sizeof(tks_image) */
+  uint32_t width, height, channels;
+  tks_sample sample;
+  const void* data;
+} tks_image;
+
+/* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1]. */
+typedef int (*tks_progress)(void* user, double done);
+
+/* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
+typedef struct tks_encode_options {
+  size_t size;       /* sizeof(tks_encode_options) */
+  uint64_t bytes;    /* the whole stream takes at most this many bytes */
+  double psnr;       /* heights (peak: their range) and texture each reach this many dB */
+  double max_error;  /* every decoded height is within this distance, in `unit`; guaranteed */
+  int lossless;      /* everything comes back bit for bit */
+  uint32_t triangles;/* meshes will be drawn with at most this many triangles; 0: no bound */
+  double parallax;   /* screen-space weight of heights: texture metres shifted per metre of height
+                        error (cotangent of the view's elevation); 0: the default oblique view */
+  uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
+  int index;         /* non-zero: write the front index (byte ranges of every packet) */
+  tks_progress progress;
+  void* user;
+} tks_encode_options;
+
+/* Bytes allocated by the library; release with tks_free_buffer. */
+typedef struct tks_buffer {
+  uint8_t* data;
+  size_t size;
+} tks_buffer;
+
+void tks_free_buffer(tks_buffer* buffer);
+
+/* Encodes heights (NULL: texture only), image (NULL: geometry only), or both.
+ * message, if not NULL, receives one sentence of at most message_size - 1 characters on failure. */
+tks_status tks_encode(const tks_heights* heights, const tks_image* image,
+                      const tks_encode_options* options, tks_buffer* out, char* message,
+                      size_t message_size);
+
+/* Refused before anything is allocated. 0 in a field: its default. */
+typedef struct tks_limits {
+  size_t size;          /* sizeof(tks_limits) */
+  uint64_t max_samples; /* heights; default 2^28 */
+  uint64_t max_texels;  /* default 2^28 */
+  uint64_t max_memory;  /* bytes a decode may allocate; default 8 GiB */
+} tks_limits;
+
+typedef struct tks_decoder tks_decoder;
+
+/* Opens the first `size` bytes of a stream. The data must outlive the decoder. A prefix too short to
+ * hold the header gives TKS_TRUNCATED with the number of bytes needed in the message. */
+tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
+                    char* message, size_t message_size);
+void tks_close(tks_decoder* decoder);
+
+/* One sentence about the last failure of this decoder; "" if none. Owned by the decoder. */
+const char* tks_message(const tks_decoder* decoder);
+
+typedef struct tks_info {
+  size_t size; /* sizeof(tks_info), set by the caller */
+  uint32_t format_version, profile, level;
+  uint64_t header_bytes;   /* bytes before the first packet */
+  uint64_t stream_bytes;   /* what the encoder wrote, header included */
+  uint64_t available_bytes;/* what tks_open was given */
+  uint64_t packets;        /* packets begun in the available bytes */
+  uint64_t geometry_bytes, texture_bytes; /* payload available of either track */
+  int has_heights, has_texture;
+  uint32_t width, height;  /* heights; 0 when absent */
+  tks_sample sample;
+  double scale, offset, step; /* decoded integer q stands for sample q * step + base */
+  double base;
+  double spacing_x, spacing_y;
+  int exact_steps;         /* the step loses nothing */
+  int lossless;            /* the complete stream restores every sample */
+  double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
+  uint32_t triangles;      /* the encoder's triangle budget; 0: none */
+  uint32_t texture_width, texture_height, texture_channels;
+  tks_sample texture_sample;
+  double heights_rmse;     /* stated by the last complete packet, in unit; < 0: not yet stated */
+  double texture_psnr;     /* likewise, dB; < 0: not yet stated; infinity: exact */
+  const char* unit;            /* "" when unknown; owned by the decoder */
+  const char* vertical_datum;
+  const char* crs;
+} tks_info;
+
+tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
+
+/* Writes width * height samples of info.sample; bytes must be their exact size. */
+tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes);
+
+/* Writes texture_width * texture_height * texture_channels samples of info.texture_sample. */
+tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes);
+
+/* Checks the whole stream's syntax; TKS_TRUNCATED if it is a prefix. */
+tks_status tks_verify(tks_decoder* decoder);
+
+typedef enum tks_mesh_kind {
+  TKS_MESH_CODED = 0, /* closure of the significant vertices under the parent relation */
+  TKS_MESH_BUDGET = 1 /* best mesh of the decoded surface with at most max_triangles */
+} tks_mesh_kind;
+
+/* A conforming 4-8 mesh. Vertex i lies on sample grid_index[i] (y * width + x) and has the height
+ * height[i] in `unit`. Vertices come in insertion order, parents before children: the first vertices
+ * of a finer mesh of the same surface are those of the coarser one. Triangles are counter-clockwise
+ * seen from above with x to the right and y down the rows towards the viewer. */
+typedef struct tks_mesh {
+  uint32_t vertex_count, triangle_count;
+  uint32_t* grid_index;
+  float* height;
+  uint32_t* triangles; /* 3 * triangle_count indices, all < vertex_count */
+} tks_mesh;
+
+/* max_triangles bounds TKS_MESH_BUDGET (0: every sample becomes a vertex) and is ignored for
+ * TKS_MESH_CODED. A budget below the base mesh gives the base mesh. */
+tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                           tks_mesh* out);
+void tks_free_mesh(tks_mesh* mesh);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
