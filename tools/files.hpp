@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights, images and meshes on disk. Everything the command line reads or writes passes here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::tools {
+
+/// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host
+/// byte order. Height in `unit` = sample * scale + offset.
+struct HeightFile {
+  uint32_t width = 0, height = 0;
+  tks_sample sample = TKS_U16;
+  std::vector<std::byte> data;
+  double scale = 1, offset = 0;
+  double spacing_x = 0, spacing_y = 0;  ///< metres per sample; 0: unknown
+  std::optional<double> nodata;         ///< the file's declared nodata value
+  std::string unit, vertical_datum, crs;  ///< "" when unknown
+};
+
+/// 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA; sample is TKS_U8 or TKS_U16; interleaved, host byte order.
+struct ImageFile {
+  uint32_t width = 0, height = 0, channels = 0;
+  tks_sample sample = TKS_U8;
+  std::vector<std::byte> data;
+};
+
+/// A mesh ready to be written: positions in metres, x east, y up, z south (glTF axes), texture
+/// coordinates with (0, 0) at the image's top left corner (glTF convention).
+struct MeshFile {
+  std::vector<float> positions;      ///< 3 per vertex
+  std::vector<float> texcoords;      ///< 2 per vertex; empty without texture
+  std::vector<uint32_t> triangles;   ///< 3 per triangle, counter-clockwise seen from above
+  const ImageFile* texture = nullptr;  ///< not owned; may be null
+};
+
+/// Reads TIFF (integer or float), PNG 8/16, EXR, .hgt, or headerless .raw given as
+/// "file.raw:WIDTHxHEIGHT:u8|u16|i16|i32|f32" (little endian). "-" reads standard input.
+Result<HeightFile> readHeights(const std::string& path);
+
+/// Writes the same integer or float type in the format of the extension; fails with TKS_USAGE if
+/// that format cannot hold the type. Writes to `path` directly: see AtomicOutput for renaming.
+/// `format` overrides the extension ("tif", "png", "exr", "hgt", "raw").
+Status writeHeights(const std::string& path, const HeightFile& heights,
+                    const std::string& format = "");
+
+/// Reads what OpenImageIO reads. Palette and CMYK files are converted to RGB and `note` says so; float
+/// images are refused with TKS_USAGE. Embedded colour profiles are kept out of the samples.
+Result<ImageFile> readImage(const std::string& path, std::string* note = nullptr);
+Status writeImage(const std::string& path, const ImageFile& image, const std::string& format = "");
+
+/// JPEG by libjpeg-turbo (4:4:4), for the texture inside a GLB. 8-bit grey or RGB.
+Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
+
+/// .glb (texture embedded: JPEG, or PNG when it has alpha), .obj (+ .mtl and .png), .ply.
+Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "");
+
+}  // namespace tetrakis::tools
