@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bitstream/track.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tetrakis {
+
+namespace {
+
+/// Delay of a pass against the plain order by norm * 2^plane, in 1/16 of a bit-plane. Measured: the
+/// slope dD/dR of the likely pass is steepest, then the rest, then refinement (-1.5 % bytes on terrain
+/// against no delay).
+constexpr std::array<int, 3> kDelay = {0, 10, 6};
+
+}  // namespace
+
+std::vector<Pass> schedule(const std::vector<BandPlan>& plan, int planes) {
+  struct Keyed {
+    int key;
+    Pass pass;
+  };
+  std::vector<Keyed> keyed;
+  keyed.reserve(plan.size() * static_cast<size_t>(planes) * kDelay.size());
+  for (int plane = planes - 1; plane >= 0; --plane) {
+    for (size_t band = 0; band < plan.size(); ++band) {
+      if (plan[band].shape.empty()) continue;
+      for (int kind = 0; kind < 3; ++kind) {
+        keyed.push_back({16 * plane + plan[band].log_norm - kDelay[kind],
+                         {static_cast<uint16_t>(band), static_cast<uint8_t>(plane),
+                          static_cast<PassKind>(kind)}});
+      }
+    }
+  }
+  std::stable_sort(keyed.begin(), keyed.end(),
+                   [](const Keyed& a, const Keyed& b) { return a.key > b.key; });
+  std::vector<Pass> passes;
+  passes.reserve(keyed.size());
+  for (const Keyed& k : keyed) passes.push_back(k.pass);
+  return passes;
+}
+
+TrackState::TrackState(const std::vector<BandPlan>& plan) {
+  uint32_t classes = 0;
+  bands.reserve(plan.size());
+  for (const BandPlan& band : plan) {
+    bands.emplace_back(band.shape);
+    classes = std::max(classes, band.models + 1);
+  }
+  models.resize(classes);
+}
+
+}  // namespace tetrakis

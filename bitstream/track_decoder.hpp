@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes any prefix of a track's codeword into what it says about the coefficients.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/track.hpp"
+
+namespace tetrakis {
+
+/// Runs the passes of `plan` over `codeword` until its bytes decide nothing more. Safe on any bytes:
+/// work is bounded by planes * coefficients, memory by the plan.
+TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes, const HintFactory& factory,
+                       std::span<const uint8_t> codeword);
+
+}  // namespace tetrakis

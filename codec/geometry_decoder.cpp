@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry_decoder.hpp"
+
+#include "bitstream/track_decoder.hpp"
+#include "codec/geometry_plan.hpp"
+#include "codec/lifting.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+void scatter(const Band& band, const Level& level, uint32_t width, DecodedGeometry& out) {
+  if (!band.nonzero) return;
+  for (uint32_t row = 0; row < level.shape.rows; ++row) {
+    size_t at = size_t{level.y(row)} * width + level.firstX(row);
+    const size_t first = level.shape.cell(row, 0);
+    for (uint32_t column = 0; column < level.shape.columns[row % 2]; ++column) {
+      const int32_t value = band.value(first + column);
+      out.heights[at] = value;
+      out.significant[at] = value != 0;
+      at += level.pitch();
+    }
+  }
+}
+
+}  // namespace
+
+DecodedGeometry decodeGeometry(std::span<const uint8_t> codeword, int planes, uint32_t width,
+                               uint32_t height) {
+  const size_t samples = size_t{width} * height;
+  DecodedGeometry out{std::vector<int32_t>(samples, 0), std::vector<uint8_t>(samples, 0)};
+  const GeometryPlan plan(width, height);
+  const TrackState state = decodeTrack(plan.bands(), planes, plan, codeword);
+  for (size_t i = 0; i < plan.levels().size(); ++i) {
+    scatter(state.bands[i], plan.levels()[i], width, out);
+  }
+  inverseLifting(out.heights, width, height);
+  return out;
+}
+
+}  // namespace tetrakis
