@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <utility>
 
 #include "bitstream/range_encoder.hpp"
 
@@ -43,14 +44,19 @@ class EncodingIo {
     const double truth = magnitudeOf(source_->values[cell]);
     const double before = truth - Band::middle(magnitude_before, magnitude_before ? plane_before : 0);
     const double after = truth - Band::middle(band.magnitude[cell], band.plane[cell]);
-    distortion += source_->weight * (squared(after) - squared(before));
+    distortion_ += source_->weight * (squared(after) - squared(before));
+    if (distortion_ < best_) best_ = distortion_;
+    dips_ |= distortion_ > kDip * best_;
   }
+  void start(double energy) { distortion_ = best_ = energy; }
+  /// The point reached now; asks about dips since the last call.
+  RatePoint point() { return {decidedBytes(), distortion_, std::exchange(dips_, false)}; }
   uint64_t decidedBytes() const { return encoder_.decidedBytes(); }
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
-  double distortion = 0;
-
  private:
+  static constexpr double kDip = 1.004;  ///< 0.017 dB: well inside the 0.03 dB that a prefix may fall
+
   bool reaches(const CellRange& range, int plane) const {
     for (uint32_t row = range.row; row < range.row_end; ++row) {
       const uint32_t end = std::min(range.column_end, shape_->columns[row % 2]);
@@ -62,6 +68,8 @@ class EncodingIo {
   }
 
   RangeEncoder encoder_;
+  double distortion_ = 0, best_ = 0;
+  bool dips_ = false;
   const BandShape* shape_ = nullptr;
   const BandSource* source_ = nullptr;
 };
@@ -84,33 +92,48 @@ double energyOf(const std::vector<BandSource>& sources) {
   return energy;
 }
 
+/// Drops what is no improvement: a later point with no more bytes or no less distortion wins or loses.
+void append(std::vector<RatePoint>& points, RatePoint point) {
+  if (point.distortion >= points.back().distortion) {
+    points.back().dips |= point.dips;
+    return;
+  }
+  if (point.bytes <= points.back().bytes) {
+    point.dips |= points.back().dips;
+    points.pop_back();
+  }
+  points.push_back(point);
+}
+
 }  // namespace
 
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
-                         const HintFactory& factory) {
+                         const HintFactory& factory, uint64_t limit) {
   EncodedTrack track;
   track.planes = planesOf(sources);
   TrackState state(plan);
   std::vector<std::unique_ptr<HintSource>> hints;
   for (uint32_t band = 0; band < plan.size(); ++band) hints.push_back(factory.hints(state, band));
   EncodingIo io;
-  io.distortion = energyOf(sources);
-  track.points.push_back({0, io.distortion});
+  io.start(energyOf(sources));
+  track.points.push_back({0, energyOf(sources)});
   for (const Pass& pass : schedule(plan, track.planes)) {
     io.select(plan[pass.band].shape, sources[pass.band]);
     PlanePass<EncodingIo>(state.bands[pass.band], state.models[plan[pass.band].models],
                           *hints[pass.band], io)
         .run(pass.kind, pass.plane);
-    if (io.distortion < track.points.back().distortion) {
-      if (io.decidedBytes() <= track.points.back().bytes) track.points.pop_back();
-      track.points.push_back({io.decidedBytes(), io.distortion});
+    append(track.points, io.point());
+    if (io.decidedBytes() > limit) {
+      track.complete = false;
+      break;
     }
   }
   track.codeword = io.finish();
-  while (track.points.size() > 1 && track.points.back().bytes >= track.codeword.size()) {
-    track.points.pop_back();
-  }
-  track.points.push_back({track.codeword.size(), 0.0});
+  RatePoint last = track.points.back();
+  last.bytes = track.codeword.size();
+  if (track.complete) last.distortion = 0;
+  while (track.points.size() > 1 && track.points.back().bytes >= last.bytes) track.points.pop_back();
+  if (last.bytes > 0) track.points.push_back(last);
   return track;
 }
 

@@ -38,4 +38,11 @@ DecodedGeometry decodeGeometry(std::span<const uint8_t> codeword, int planes, ui
   return out;
 }
 
+void dropFraction(std::vector<int32_t>& heights, int bits) {
+  if (bits == 0) return;
+  for (int32_t& h : heights) {
+    h = static_cast<int32_t>((int64_t{h} + (int64_t{1} << (bits - 1))) >> bits);
+  }
+}
+
 }  // namespace tetrakis

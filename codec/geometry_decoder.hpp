@@ -17,4 +17,7 @@ struct DecodedGeometry {
 DecodedGeometry decodeGeometry(std::span<const uint8_t> codeword, int planes, uint32_t width,
                                uint32_t height);
 
+/// Drops the fraction bits of heights (GeometryHeader::fraction_bits), rounding half up.
+void dropFraction(std::vector<int32_t>& heights, int bits);
+
 }  // namespace tetrakis

@@ -26,13 +26,14 @@ BandSource gather(std::span<const int32_t> coefficients, uint32_t width, const L
 
 }  // namespace
 
-EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height) {
+EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height,
+                            uint64_t limit) {
   std::vector<int32_t> coefficients(heights.begin(), heights.end());
   forwardLifting(coefficients, width, height);
   const GeometryPlan plan(width, height);
   std::vector<BandSource> sources;
   for (const Level& level : plan.levels()) sources.push_back(gather(coefficients, width, level));
-  return encodeTrack(plan.bands(), sources, plan);
+  return encodeTrack(plan.bands(), sources, plan, limit);
 }
 
 }  // namespace tetrakis

@@ -9,8 +9,9 @@
 
 namespace tetrakis {
 
-/// heights: width * height integers, |height| < 2^26. Distortion is in squared height units, summed
-/// over the samples. The complete track is lossless.
-EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height);
+/// heights: width * height integers, |height| < 2^27. Distortion is in squared height units, summed
+/// over the samples. A complete track is lossless; coding stops soon after `limit` bytes.
+EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height,
+                            uint64_t limit);
 
 }  // namespace tetrakis

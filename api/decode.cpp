@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// The decoding half of the C interface (include/tetrakis/tetrakis.h).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "api/decoder.hpp"
+#include "api/height_steps.hpp"
+#include "api/message.hpp"
+#include "api/samples.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+constexpr uint64_t kDefaultSamples = uint64_t{1} << 28;
+constexpr uint64_t kDefaultMemory = uint64_t{8} << 30;
+// Working memory: coefficients and band state of one track, and the output.
+constexpr uint64_t kBytesPerHeight = 24;
+constexpr uint64_t kBytesPerTexel = 24;  // per channel
+
+Status exceeds(const char* what, uint64_t value, uint64_t limit) {
+  return {TKS_LIMIT, "The stream holds " + std::to_string(value) + " " + what + "; the limit is " +
+                         std::to_string(limit) + "."};
+}
+
+Status checkLimits(const StreamHeader& header, const tks_limits* limits) {
+  const auto or_default = [](uint64_t given, uint64_t fallback) { return given != 0 ? given : fallback; };
+  const uint64_t most_samples = or_default(limits ? limits->max_samples : 0, kDefaultSamples);
+  const uint64_t most_texels = or_default(limits ? limits->max_texels : 0, kDefaultSamples);
+  const uint64_t most_memory = or_default(limits ? limits->max_memory : 0, kDefaultMemory);
+  uint64_t memory = 0;
+  if (header.geometry) {
+    const uint64_t samples = uint64_t{header.geometry->width} * header.geometry->height;
+    if (samples > most_samples) return exceeds("height samples", samples, most_samples);
+    memory = std::max(memory, samples * kBytesPerHeight);
+  }
+  if (header.texture) {
+    const uint64_t texels = uint64_t{header.texture->width} * header.texture->height;
+    if (texels > most_texels) return exceeds("texels", texels, most_texels);
+    memory = std::max(memory, texels * header.texture->channels * kBytesPerTexel);
+  }
+  if (memory > most_memory) return exceeds("samples in need of bytes of memory:", memory, most_memory);
+  return {};
+}
+
+Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder& decoder) {
+  decoder.data = data;
+  Result<ParsedHeader> parsed = readHeader(data);
+  if (!parsed.ok()) return parsed.status();
+  decoder.parsed = std::move(*parsed);
+  const StreamHeader& header = decoder.parsed.header;
+  if (Status status = checkLimits(header, limits); !status.ok()) return status;
+  const size_t start = decoder.parsed.bytes;
+  const auto available = static_cast<size_t>(std::min<uint64_t>(data.size() - start, header.payload_bytes));
+  Result<Demultiplexed> payload = demultiplex(data.subspan(start, available), start,
+                                              {header.geometry.has_value(), header.texture.has_value()});
+  if (!payload.ok()) return payload.status();
+  decoder.payload = std::move(*payload);
+  return {};
+}
+
+Status wrongSize(uint64_t wanted, uint64_t given) {
+  return {TKS_USAGE, "The output takes " + std::to_string(wanted) + " bytes, the buffer has " +
+                         std::to_string(given) + "."};
+}
+
+}  // namespace
+
+/// Heights in whole steps, decoded once.
+Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
+  const auto& geometry = decoder.parsed.header.geometry;
+  if (!geometry) return Status(TKS_USAGE, "The stream holds no heights.");
+  if (!decoder.geometry) {
+    DecodedGeometry decoded = decodeGeometry(decoder.payload.codewords[0], geometry->planes,
+                                             geometry->width, geometry->height);
+    dropFraction(decoded.heights, geometry->fraction_bits);
+    decoder.geometry = std::move(decoded);
+  }
+  return &*decoder.geometry;
+}
+
+namespace {
+
+Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
+  Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
+  if (!decoded.ok()) return decoded.status();
+  const GeometryHeader& header = *decoder.parsed.header.geometry;
+  const size_t wanted = (*decoded)->heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.sample));
+  if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
+  fromSteps((*decoded)->heights, header, out);
+  return {};
+}
+
+Status decodeTexels(tks_decoder& decoder, void* out, size_t bytes) {
+  const auto& header = decoder.parsed.header.texture;
+  if (!header) return {TKS_USAGE, "The stream holds no texture."};
+  const auto sample = static_cast<tks_sample>(header->sample);
+  const size_t wanted = size_t{header->width} * header->height * header->channels * tks_sample_bytes(sample);
+  if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
+  const Texels texels = decodeTexture(*header, decoder.payload.codewords[1]);
+  withSampleType(sample, [&](auto type) {
+    std::transform(texels.samples.begin(), texels.samples.end(), static_cast<decltype(type)*>(out),
+                   [](int32_t v) { return static_cast<decltype(type)>(v); });
+  });
+  return {};
+}
+
+Status verify(const tks_decoder& decoder) {
+  const StreamHeader& header = decoder.parsed.header;
+  const uint64_t total = decoder.parsed.bytes + header.payload_bytes;
+  if (decoder.data.size() < total) {
+    return {TKS_TRUNCATED, "The stream ends at byte " + std::to_string(decoder.data.size()) + " of " +
+                               std::to_string(total) + "."};
+  }
+  if (decoder.data.size() > total) {
+    return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - total) +
+                             " bytes follow its end at byte " + std::to_string(total) + "."};
+  }
+  return {};
+}
+
+void fillQuality(const tks_decoder& decoder, tks_info& info) {
+  const StreamHeader& header = decoder.parsed.header;
+  info.heights_rmse = info.texture_psnr = -1;
+  if (const auto quality = decoder.payload.quality[0]; quality && header.geometry) {
+    info.heights_rmse = rmseOf(*quality) * header.geometry->step * std::abs(header.metadata.scale);
+  }
+  if (const auto quality = decoder.payload.quality[1]; quality && header.texture) {
+    const double peak = header.texture->sample == TKS_U8 ? 255 : 65535;
+    const double rmse = rmseOf(*quality);
+    info.texture_psnr = rmse == 0 ? std::numeric_limits<double>::infinity() : 20 * std::log10(peak / rmse);
+  }
+}
+
+void fillInfo(const tks_decoder& decoder, tks_info& info) {
+  const StreamHeader& header = decoder.parsed.header;
+  info = {};
+  info.size = sizeof(tks_info);
+  info.format_version = header.version;
+  info.profile = header.profile;
+  info.level = header.level;
+  info.header_bytes = decoder.parsed.bytes;
+  info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
+  info.available_bytes = decoder.data.size();
+  info.packets = decoder.payload.packets;
+  info.geometry_bytes = decoder.payload.codewords[0].size();
+  info.texture_bytes = decoder.payload.codewords[1].size();
+  info.has_heights = header.geometry.has_value();
+  info.has_texture = header.texture.has_value();
+  info.lossless = header.lossless;
+  info.triangles = header.triangles;
+  info.max_error = -1;
+  if (header.geometry) {
+    const GeometryHeader& g = *header.geometry;
+    info.width = g.width;
+    info.height = g.height;
+    info.sample = static_cast<tks_sample>(g.sample);
+    info.base = g.base;
+    info.step = g.step;
+    info.exact_steps = g.exact;
+    info.max_error = g.max_error;
+  }
+  if (header.texture) {
+    info.texture_width = header.texture->width;
+    info.texture_height = header.texture->height;
+    info.texture_channels = header.texture->channels;
+    info.texture_sample = static_cast<tks_sample>(header.texture->sample);
+  }
+  const Metadata& m = header.metadata;
+  info.scale = m.scale;
+  info.offset = m.offset;
+  info.spacing_x = m.spacing_x;
+  info.spacing_y = m.spacing_y;
+  info.unit = m.unit.c_str();
+  info.vertical_datum = m.vertical_datum.c_str();
+  info.crs = m.crs.c_str();
+  fillQuality(decoder, info);
+}
+
+/// Runs f and keeps its sentence in the decoder.
+template <class F>
+tks_status keeping(tks_decoder* decoder, F&& f) {
+  if (decoder == nullptr) return TKS_USAGE;
+  const Status status = guarded(f);
+  decoder->message = status.message();
+  return status.code();
+}
+
+}  // namespace
+
+}  // namespace tetrakis
+
+using tetrakis::Status;
+
+size_t tks_sample_bytes(tks_sample sample) {
+  if (sample < TKS_U8 || sample > TKS_F32) return 0;
+  return tetrakis::withSampleType(sample, [](auto type) { return sizeof(type); });
+}
+
+tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
+                    char* message, size_t message_size) {
+  if (out == nullptr || (data == nullptr && size != 0)) return TKS_USAGE;
+  *out = nullptr;
+  tks_decoder* decoder = nullptr;
+  const Status status = tetrakis::guarded([&]() -> Status {
+    decoder = new tks_decoder;
+    return tetrakis::open({data, size}, limits, *decoder);
+  });
+  if (status.ok()) {
+    *out = decoder;
+  } else {
+    delete decoder;
+  }
+  return tetrakis::report(status, message, message_size);
+}
+
+void tks_close(tks_decoder* decoder) { delete decoder; }
+
+const char* tks_message(const tks_decoder* decoder) { return decoder ? decoder->message.c_str() : ""; }
+
+tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
+  if (decoder == nullptr || info == nullptr || info->size != sizeof(tks_info)) return TKS_USAGE;
+  tetrakis::fillInfo(*decoder, *info);
+  return TKS_OK;
+}
+
+tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes) {
+  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeHeights(*decoder, out, bytes); });
+}
+
+tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes) {
+  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeTexels(*decoder, out, bytes); });
+}
+
+tks_status tks_verify(tks_decoder* decoder) {
+  return tetrakis::keeping(decoder, [&] { return tetrakis::verify(*decoder); });
+}

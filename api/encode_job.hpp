@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// One encoding: inputs, tracks, joint order of the packets, and the stream cut to its target.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "api/height_steps.hpp"
+#include "bitstream/packet.hpp"
+#include "ratecontrol/allocation.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
+
+namespace tetrakis {
+
+class EncodeJob {
+ public:
+  /// The arguments have passed checkArguments() and outlive the job.
+  EncodeJob(const tks_heights* heights, const tks_image* image, const tks_encode_options& options);
+
+  /// The finished stream, or why there is none.
+  Result<std::vector<uint8_t>> run();
+
+ private:
+  struct Geometry {
+    HeightSteps steps;
+    int fraction_bits = 0;
+    EncodedTrack track;
+  };
+  /// How much of each track the target wants, in bytes of its codeword.
+  using Needs = std::array<uint64_t, kTracks>;
+
+  Status quantise();
+  Status encodeTracks();
+  Status encodeLosslessGeometryIfItFits();
+  void encodeGeometryWith(int fraction_bits);
+  int lossyFractionBits() const;
+
+  void order();
+  TrackCurve geometryCurve() const;
+  TrackCurve textureCurve() const;
+
+  // encode_target.cpp: how much of each track a quality target needs.
+  Result<Needs> needs() const;
+  Result<uint64_t> geometryNeed() const;
+  uint64_t textureNeed(const Needs& so_far) const;
+  bool geometryMeetsTarget(uint64_t bytes) const;
+  bool textureMeetsTarget(uint64_t bytes) const;
+  void keepNeeded(const Needs& needs);
+
+  StreamHeader makeHeader(uint64_t payload_bytes, bool lossless) const;
+  Result<std::vector<uint8_t>> assemble() const;
+  uint64_t usefulPayload(uint64_t room) const;
+  bool everythingWithin(uint64_t payload) const;
+  Status report(double done) const;
+
+  const tks_heights* heights_;
+  const tks_image* image_;
+  const tks_encode_options& options_;
+  std::optional<Geometry> geometry_;
+  Texels texels_;
+  std::optional<EncodedTexture> texture_;
+  std::vector<Packet> packets_;
+};
+
+}  // namespace tetrakis

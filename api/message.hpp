@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sentences across the C boundary.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "bitstream/status.hpp"
+
+namespace tetrakis {
+
+/// Copies the sentence, cut to fit, and hands the code on.
+inline tks_status report(const Status& status, char* message, size_t message_size) {
+  if (message != nullptr && message_size > 0) {
+    const size_t length = std::min(status.message().size(), message_size - 1);
+    std::memcpy(message, status.message().data(), length);
+    message[length] = '\0';
+  }
+  return status.code();
+}
+
+/// Runs f; the one exception that may occur inside, exhausted memory, becomes a Status.
+template <class F>
+Status guarded(F&& f) {
+  try {
+    return f();
+  } catch (const std::bad_alloc&) {
+    return {TKS_NO_MEMORY, "Not enough memory."};
+  }
+}
+
+}  // namespace tetrakis

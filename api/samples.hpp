@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dispatch from tks_sample to a C++ type.
+#pragma once
+
+#include <cstdint>
+
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis {
+
+/// Calls f(T{}) with the type that `sample` names. Unknown values are refused before this point.
+template <class F>
+auto withSampleType(tks_sample sample, F&& f) {
+  switch (sample) {
+    case TKS_U8: return f(uint8_t{});
+    case TKS_I8: return f(int8_t{});
+    case TKS_U16: return f(uint16_t{});
+    case TKS_I16: return f(int16_t{});
+    case TKS_U32: return f(uint32_t{});
+    case TKS_I32: return f(int32_t{});
+    case TKS_F32: break;
+  }
+  return f(float{});
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stream header (docs/FORMAT.md, section 2). A decoder can size everything from it before it
+// allocates anything.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bitstream/fields.hpp"
+#include "bitstream/status.hpp"
+
+namespace tetrakis {
+
+inline constexpr std::array<uint8_t, 4> kMagic = {'T', 'K', 'S', 0x1a};
+inline constexpr uint8_t kFormatVersion = 1;
+inline constexpr uint8_t kMainProfile = 0;
+inline constexpr uint32_t kMaxSide = 1u << 20;          ///< samples in a row or column of heights
+inline constexpr uint32_t kMaxTextureSide = 1u << 15;   ///< texels in a row or column
+inline constexpr int kMaxFractionBits = 8;
+inline constexpr uint32_t kMaxHeaderBytes = 1u << 20;
+
+/// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
+struct GeometryHeader {
+  uint32_t width = 0, height = 0;
+  uint8_t sample = 0;         ///< tks_sample of the input and of the decoded output
+  uint8_t fraction_bits = 0;  ///< the transform works on heights * 2^fraction_bits
+  uint8_t planes = 0;
+  uint8_t exact = 0;          ///< the steps restore every input sample
+  double base = 0, step = 1;
+  double max_error = -1;      ///< guaranteed for the complete stream, in the unit; < 0: not stated
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("geometry_width", width, 2, kMaxSide);
+    v.varint("geometry_height", height, 2, kMaxSide);
+    v.u8("geometry_sample", sample, 0, TKS_F32);
+    v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
+    v.u8("geometry_planes", planes, 0, 30);
+    v.u8("exact", exact, 0, 1);
+    v.f64("base", base);
+    v.f64("step", step);
+    v.f64("max_error", max_error);
+  }
+};
+
+/// Texture: see texture_wavelet/colour.hpp for the component transform.
+struct TextureHeader {
+  static constexpr size_t kColourCoefficients = 9;
+  uint32_t width = 0, height = 0;
+  uint8_t channels = 0;
+  uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
+  uint8_t planes = 0;
+  uint8_t colour = 0;  ///< component transform: 0 none, 1 shears
+  std::array<uint8_t, 3> order = {0, 1, 2};
+  std::array<int64_t, kColourCoefficients> coefficients{};
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("texture_width", width, 1, kMaxTextureSide);
+    v.varint("texture_height", height, 1, kMaxTextureSide);
+    v.u8("channels", channels, 1, 4);
+    v.u8("texture_sample", sample, 0, TKS_U16);
+    v.u8("texture_planes", planes, 0, 30);
+    v.u8("colour", colour, 0, 1);
+    if (colour == 0) return;
+    for (uint8_t& o : order) v.u8("order", o, 0, 2);
+    for (int64_t& c : coefficients) v.zigzag("coefficient", c);
+  }
+};
+
+/// What the heights mean on the ground.
+struct Metadata {
+  double scale = 1, offset = 0;  ///< height in the unit = sample * scale + offset
+  double spacing_x = 0, spacing_y = 0;
+  std::string unit, vertical_datum, crs;
+
+  bool isDefault() const;
+
+  template <class V>
+  void visit(V& v) {
+    v.f64("scale", scale);
+    v.f64("offset", offset);
+    v.f64("spacing_x", spacing_x);
+    v.f64("spacing_y", spacing_y);
+    v.text("unit", unit);
+    v.text("vertical_datum", vertical_datum);
+    v.text("crs", crs);
+  }
+};
+
+/// One entry of the front index: a packet's head, ahead of time.
+struct IndexEntry {
+  uint64_t head = 0;  ///< as in the packet (bitstream/packet.hpp)
+  uint8_t quality = 0;
+};
+
+struct StreamHeader {
+  uint8_t version = kFormatVersion;
+  uint8_t profile = kMainProfile;
+  uint8_t level = 0;
+  uint64_t payload_bytes = 0;  ///< what the encoder wrote behind the header
+  uint8_t lossless = 0;        ///< the complete stream restores every sample
+  uint32_t triangles = 0;      ///< budget the stream was made for; 0: none
+  std::optional<GeometryHeader> geometry;
+  std::optional<TextureHeader> texture;
+  Metadata metadata;
+  std::vector<IndexEntry> index;
+};
+
+/// Smallest n such that neither component has more than 4^(n + 8) samples.
+uint8_t levelFor(const StreamHeader& header);
+
+/// Magic, version, profile, level, size of the body, body, CRC-32 of everything before it.
+std::vector<uint8_t> writeHeader(const StreamHeader& header);
+
+struct ParsedHeader {
+  StreamHeader header;
+  size_t bytes = 0;  ///< header bytes: the payload starts here
+};
+
+/// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT, TKS_UNSUPPORTED.
+Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);
+
+}  // namespace tetrakis

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packets and the multiplexer (docs/FORMAT.md, section 3). A packet is a run of bytes of one track's
+// codeword:
+//
+//   head     varint   length << 2 | whole << 1 | track     length >= 1
+//   quality  u8       error of the track after the packet: RMSE = 2^((quality - 64) / 8), 0 exact
+//   payload  length bytes
+//
+// A packet that is cut keeps what its bytes decide, unless `whole` is set: then it counts only when
+// complete (the encoder sets it where a part of the packet could look worse than none).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/status.hpp"
+
+namespace tetrakis {
+
+enum class TrackId : uint8_t { kGeometry = 0, kTexture = 1 };
+inline constexpr size_t kTracks = 2;
+
+struct Packet {
+  TrackId track = TrackId::kGeometry;
+  bool whole = false;
+  uint8_t quality = 0;
+  uint64_t begin = 0, end = 0;  ///< bytes of the track's codeword
+
+  uint64_t head() const {
+    return (end - begin) << 2 | static_cast<uint64_t>(whole) << 1 | static_cast<uint64_t>(track);
+  }
+};
+
+/// RMSE to its byte, rounded up, and back. In integer steps of the heights, or texel units.
+uint8_t qualityOf(double rmse);
+double rmseOf(uint8_t quality);
+
+/// Bytes of head and quality.
+size_t overheadOf(const Packet& packet);
+
+/// Writes the packets in order, stopping at `limit` bytes (inside a packet if need be).
+std::vector<uint8_t> multiplex(std::span<const Packet> packets,
+                               const std::array<std::span<const uint8_t>, kTracks>& codewords,
+                               uint64_t limit);
+
+struct Demultiplexed {
+  std::array<std::vector<uint8_t>, kTracks> codewords;  ///< what is available of each track
+  std::array<std::optional<uint8_t>, kTracks> quality;  ///< of the last complete packet of each
+  uint64_t packets = 0;                                 ///< begun
+};
+
+/// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that no
+/// encoder writes. `present[t]`: the header announces track t.
+Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
+                                  const std::array<bool, kTracks>& present);
+
+}  // namespace tetrakis

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/allocation.hpp"
+
+#include <algorithm>
+
+namespace tetrakis {
+
+namespace {
+
+struct Priced {
+  double slope;  // distortion removed per byte
+  Packet packet;
+};
+
+std::vector<Priced> price(const TrackCurve& curve, TrackId track) {
+  std::vector<Priced> out;
+  for (size_t i = 1; i < curve.points.size(); ++i) {
+    const RatePoint &a = curve.points[i - 1], &b = curve.points[i];
+    const Packet packet{track, b.dips, qualityOf(curve.rmse[i]), a.bytes, b.bytes};
+    out.push_back({(a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes), packet});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves) {
+  std::vector<Packet> order;
+  const std::vector<Priced> geometry = price(curves[0], TrackId::kGeometry);
+  const std::vector<Priced> texture = price(curves[1], TrackId::kTexture);
+  // Convex curves have falling slopes, so a merge keeps each codeword in order.
+  size_t g = 0, t = 0;
+  while (g < geometry.size() || t < texture.size()) {
+    const bool take_geometry =
+        t == texture.size() || (g < geometry.size() && geometry[g].slope >= texture[t].slope);
+    order.push_back(take_geometry ? geometry[g++].packet : texture[t++].packet);
+  }
+  return order;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image to texture track.
+#pragma once
+
+#include <cstdint>
+
+#include "bitstream/header.hpp"
+#include "bitstream/track_encoder.hpp"
+#include "texture_wavelet/texels.hpp"
+
+namespace tetrakis {
+
+struct EncodedTexture {
+  TextureHeader header;
+  EncodedTrack track;  ///< distortion: squared error summed over all samples of all channels
+};
+
+/// A complete track is lossless; coding stops soon after `limit` bytes.
+EncodedTexture encodeTexture(const Texels& texels, uint64_t limit);
+
+}  // namespace tetrakis
