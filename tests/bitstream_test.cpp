@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Range coder, tail rule, header and packets.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "bitstream/header.hpp"
+#include "bitstream/packet.hpp"
+#include "bitstream/range_decoder.hpp"
+#include "bitstream/range_encoder.hpp"
+
+namespace tetrakis {
+namespace {
+
+struct CodedBits {
+  std::vector<bool> bits;
+  std::vector<uint64_t> decided;  ///< bytes that decide each bit
+  std::vector<uint8_t> codeword;
+};
+
+CodedBits randomBits(uint32_t seed) {
+  std::mt19937 random(seed);
+  CodedBits out;
+  RangeEncoder encoder;
+  std::array<AdaptiveBit, 3> models;
+  const auto odds = static_cast<uint32_t>(random() % 1001);
+  for (size_t i = random() % 400; i-- > 0;) {
+    const bool bit = random() % 1000 < odds;
+    const size_t n = out.bits.size();
+    n % 7 == 0 ? encoder.encodeEven(bit) : encoder.encode(models[n % 3], bit);
+    out.bits.push_back(bit);
+    out.decided.push_back(encoder.decidedBytes());
+  }
+  out.codeword = encoder.finish();
+  return out;
+}
+
+/// Bits that a prefix of the codeword decides.
+std::vector<bool> decodePrefix(const CodedBits& coded, size_t bytes) {
+  std::array<AdaptiveBit, 3> models;
+  RangeDecoder decoder(std::span(coded.codeword).first(bytes));
+  std::vector<bool> bits;
+  while (bits.size() < coded.bits.size()) {
+    const size_t n = bits.size();
+    const bool bit = n % 7 == 0 ? decoder.decodeEven() : decoder.decode(models[n % 3]);
+    if (decoder.exhausted()) break;
+    bits.push_back(bit);
+  }
+  return bits;
+}
+
+TEST(RangeCoder, EveryPrefixDecidesAPrefixOfTheBits) {
+  for (uint32_t seed = 0; seed < 300; ++seed) {
+    const CodedBits coded = randomBits(seed);
+    EXPECT_EQ(decodePrefix(coded, coded.codeword.size()), coded.bits);
+    size_t before = 0;
+    for (size_t bytes = 0; bytes <= coded.codeword.size(); ++bytes) {
+      const std::vector<bool> bits = decodePrefix(coded, bytes);
+      ASSERT_GE(bits.size(), before);
+      before = bits.size();
+      ASSERT_TRUE(std::equal(bits.begin(), bits.end(), coded.bits.begin())) << seed << " " << bytes;
+      if (bits.size() == coded.bits.size()) continue;
+      ASSERT_GT(coded.decided[bits.size()], bytes);
+    }
+  }
+}
+
+TEST(RangeCoder, TailRuleNeverDependsOnTheMissingBytes) {
+  const CodedBits coded = randomBits(7);
+  for (size_t bytes = 0; bytes < coded.codeword.size(); ++bytes) {
+    const std::vector<bool> decided = decodePrefix(coded, bytes);
+    for (const uint8_t fill : {uint8_t{0x00}, uint8_t{0xff}}) {
+      CodedBits other = coded;
+      std::fill(other.codeword.begin() + static_cast<ptrdiff_t>(bytes), other.codeword.end(), fill);
+      other.codeword.resize(coded.codeword.size() + 8, fill);
+      const std::vector<bool> bits = decodePrefix(other, other.codeword.size());
+      ASSERT_GE(bits.size(), decided.size());
+      EXPECT_TRUE(std::equal(decided.begin(), decided.end(), bits.begin()));
+    }
+  }
+}
+
+TEST(RangeCoder, AdaptsToSkewedOdds) {
+  RangeEncoder encoder;
+  AdaptiveBit model;
+  for (int i = 0; i < 100000; ++i) encoder.encode(model, i % 100 == 0);
+  // Entropy of 1 : 99 is 0.081 bits; adaptation costs a tenth more.
+  EXPECT_LT(static_cast<double>(encoder.finish().size()), 100000 * 0.081 / 8 * 1.15);
+}
+
+StreamHeader sampleHeader() {
+  StreamHeader header;
+  header.payload_bytes = 12345;
+  header.triangles = 777;
+  header.geometry.emplace();
+  header.geometry->width = 300;
+  header.geometry->height = 2;
+  header.geometry->sample = TKS_I16;
+  header.geometry->planes = 14;
+  header.geometry->base = -12.5;
+  header.geometry->step = 0.1;
+  header.texture.emplace();
+  header.texture->width = 5;
+  header.texture->height = 70000 / 7;
+  header.texture->channels = 3;
+  header.metadata.crs = "EPSG:32633";
+  header.metadata.spacing_x = 30;
+  header.index = {{40, 3}, {81, 0}};
+  return header;
+}
+
+TEST(Header, ReadsWhatItWrites) {
+  const std::vector<uint8_t> bytes = writeHeader(sampleHeader());
+  Result<ParsedHeader> parsed = readHeader(bytes);
+  ASSERT_TRUE(parsed.ok()) << parsed.status().message();
+  EXPECT_EQ(parsed->bytes, bytes.size());
+  EXPECT_EQ(writeHeader(parsed->header), bytes);
+  EXPECT_EQ(parsed->header.geometry->base, -12.5);
+  EXPECT_EQ(parsed->header.metadata.crs, "EPSG:32633");
+  EXPECT_EQ(parsed->header.index.size(), 2u);
+}
+
+TEST(Header, EveryPrefixAsksForMore) {
+  const std::vector<uint8_t> bytes = writeHeader(sampleHeader());
+  for (size_t n = 0; n < bytes.size(); ++n) {
+    const Result<ParsedHeader> parsed = readHeader(std::span(bytes).first(n));
+    ASSERT_FALSE(parsed.ok());
+    EXPECT_EQ(parsed.status().code(), TKS_TRUNCATED) << n;
+  }
+}
+
+TEST(Header, EveryCorruptByteIsNoticed) {
+  std::vector<uint8_t> bytes = writeHeader(sampleHeader());
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    for (const int change : {1, 0x80, 0xff}) {
+      bytes[i] = static_cast<uint8_t>(bytes[i] ^ change);
+      EXPECT_FALSE(readHeader(bytes).ok()) << i;
+      bytes[i] = static_cast<uint8_t>(bytes[i] ^ change);
+    }
+  }
+}
+
+TEST(Packets, DemultiplexUndoesMultiplexAtEveryCut) {
+  std::vector<uint8_t> geometry(700), texture(300);
+  for (size_t i = 0; i < geometry.size(); ++i) geometry[i] = static_cast<uint8_t>(i * 7);
+  for (size_t i = 0; i < texture.size(); ++i) texture[i] = static_cast<uint8_t>(i * 11);
+  const std::vector<Packet> packets = {{TrackId::kGeometry, false, 90, 0, 40},
+                                       {TrackId::kTexture, true, 80, 0, 300},
+                                       {TrackId::kGeometry, false, 70, 40, 700}};
+  const std::vector<uint8_t> payload = multiplex(packets, {geometry, texture}, UINT64_MAX);
+  for (size_t cut = 0; cut <= payload.size(); ++cut) {
+    Result<Demultiplexed> out = demultiplex(std::span(payload).first(cut), 0, {true, true});
+    ASSERT_TRUE(out.ok());
+    const auto& g = out->codewords[0];
+    const auto& t = out->codewords[1];
+    EXPECT_TRUE(std::equal(g.begin(), g.end(), geometry.begin()));
+    EXPECT_TRUE(t.empty() || t == texture);  // a whole packet comes whole or not at all
+  }
+  EXPECT_FALSE(demultiplex(payload, 0, {true, false}).ok());
+}
+
+TEST(Packets, QualityRoundsUp) {
+  EXPECT_EQ(rmseOf(qualityOf(0)), 0);
+  for (double rmse = 0.01; rmse < 1e6; rmse *= 1.37) {
+    EXPECT_GE(rmseOf(qualityOf(rmse)), rmse * 0.999999);
+    EXPECT_LE(rmseOf(qualityOf(rmse)), rmse * 1.0906);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis
