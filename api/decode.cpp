@@ -68,7 +68,6 @@ Status wrongSize(uint64_t wanted, uint64_t given) {
 
 }  // namespace
 
-/// Heights in whole steps, decoded once.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
   const auto& geometry = decoder.parsed.header.geometry;
   if (!geometry) return Status(TKS_USAGE, "The stream holds no heights.");

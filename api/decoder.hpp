@@ -17,3 +17,10 @@ struct tks_decoder {
   std::optional<tetrakis::DecodedGeometry> geometry;  ///< decoded on first use, in whole steps
   std::string message;
 };
+
+namespace tetrakis {
+
+/// Heights in whole steps, decoded once. TKS_USAGE if the stream holds none.
+Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
+
+}  // namespace tetrakis

@@ -24,7 +24,7 @@ class FieldWriter {
   void varint(const char*, T& value, uint64_t, uint64_t) {
     put(static_cast<uint64_t>(value));
   }
-  void zigzag(const char*, int64_t& value) {
+  void zigzag(const char*, int64_t& value, int64_t) {
     put((static_cast<uint64_t>(value) << 1) ^ static_cast<uint64_t>(value >> 63));
   }
   void f64(const char*, double& value) {
@@ -59,9 +59,15 @@ class FieldReader {
   void varint(const char* name, T& value, uint64_t low, uint64_t high) {
     accept(name, take(), low, high, value);
   }
-  void zigzag(const char*, int64_t& value) {
+  void zigzag(const char* name, int64_t& value, int64_t largest) {
     const uint64_t raw = take();
-    if (ok()) value = static_cast<int64_t>((raw >> 1) ^ (~(raw & 1) + 1));
+    const auto signed_raw = static_cast<int64_t>((raw >> 1) ^ (~(raw & 1) + 1));
+    if (!ok()) return;
+    if (signed_raw < -largest || signed_raw > largest) {
+      fail(name, "is " + std::to_string(signed_raw) + ", at most +-" + std::to_string(largest) + " is allowed");
+    } else {
+      value = signed_raw;
+    }
   }
   void f64(const char*, double& value) {
     uint64_t bits = 0;

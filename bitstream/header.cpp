@@ -74,11 +74,6 @@ Status checkMeaning(const StreamHeader& header) {
     if (t.sample != TKS_U8 && t.sample != TKS_U16) {
       return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
     }
-    std::array<uint8_t, 3> order = t.order;
-    std::sort(order.begin(), order.end());
-    if (order != std::array<uint8_t, 3>{0, 1, 2} || (t.colour != 0 && t.channels < 3)) {
-      return {TKS_CORRUPT, "Corrupt stream: the component transform does not fit the channels."};
-    }
   }
   return {};
 }

@@ -47,16 +47,16 @@ struct GeometryHeader {
   }
 };
 
-/// Texture: see texture_wavelet/colour.hpp for the component transform.
+/// Texture: centre, order and shears as in texture_wavelet/colour.hpp.
 struct TextureHeader {
-  static constexpr size_t kColourCoefficients = 9;
   uint32_t width = 0, height = 0;
   uint8_t channels = 0;
-  uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
+  uint8_t sample = 0;       ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
-  uint8_t colour = 0;  ///< component transform: 0 none, 1 shears
-  std::array<uint8_t, 3> order = {0, 1, 2};
-  std::array<int64_t, kColourCoefficients> coefficients{};
+  uint8_t colour_order = 0;
+  std::array<int64_t, 8> colour_shears{};     ///< read and written where there are 3 channels or more
+  std::array<uint16_t, 4> centre{};           ///< one per channel
+  std::array<int64_t, 4> priority{};          ///< 16 log2 of each component's weight, for the pass order
 
   template <class V>
   void visit(V& v) {
@@ -65,11 +65,15 @@ struct TextureHeader {
     v.u8("channels", channels, 1, 4);
     v.u8("texture_sample", sample, 0, TKS_U16);
     v.u8("texture_planes", planes, 0, 30);
-    v.u8("colour", colour, 0, 1);
-    if (colour == 0) return;
-    for (uint8_t& o : order) v.u8("order", o, 0, 2);
-    for (int64_t& c : coefficients) v.zigzag("coefficient", c);
+    for (size_t c = 0; c < channels && v.ok(); ++c) {
+      v.varint("centre", centre[c], 0, 0xffff);
+      v.zigzag("priority", priority[c], kMaxPriority);
+    }
+    if (channels < 3) return;
+    v.u8("colour_order", colour_order, 0, 5);
+    for (int64_t& shear : colour_shears) v.zigzag("colour_shear", shear, INT16_MAX);
   }
+  static constexpr int64_t kMaxPriority = 128;
 };
 
 /// What the heights mean on the ground.

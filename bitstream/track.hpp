@@ -37,6 +37,7 @@ struct TrackState {
   explicit TrackState(const std::vector<BandPlan>& plan);
   std::vector<Band> bands;
   std::vector<BandModels> models;
+  bool complete = false;  ///< every pass has been decoded: the coefficients are exact
 };
 
 /// Makes the hint source of each band; it may look at every band of the state.

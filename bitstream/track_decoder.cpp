@@ -33,8 +33,9 @@ TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes, const Hint
     PlanePass<DecodingIo>(state.bands[pass.band], state.models[plan[pass.band].models],
                           *hints[pass.band], io)
         .run(pass.kind, pass.plane);
-    if (io.stopped()) break;
+    if (io.stopped()) return state;
   }
+  state.complete = true;
   return state;
 }
 

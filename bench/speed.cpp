@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_speed [HEIGHT IMAGE]: encoding and decoding, one thread, beside OpenJPEG in one process:
+// alternating runs, medians of the processor time, and their ratio.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+
+#include "bench/child_memory.hpp"
+#include "bench/openjpeg_peer.hpp"
+#include "bench/results.hpp"
+#include "bench/tetrakis_peer.hpp"
+#include "tools/files.hpp"
+#include "tools/synth.hpp"
+
+namespace {
+
+using namespace tetrakis;
+using namespace tetrakis::bench;
+
+using Bytes = std::vector<uint8_t>;
+
+constexpr uint32_t kHeightSide = 1025;
+constexpr uint32_t kImageSide = 1024;
+constexpr uint64_t kJointBytes = 65536;
+
+struct Options {
+  std::string heights, image;  // both empty: the sample terrain
+  int runs = 9;
+  std::string csv;
+};
+
+struct Terrain {
+  Raster heights, image;
+};
+
+/// The same work for both codecs.
+struct Task {
+  std::string name;
+  double elements = 0;  ///< heights and pixels
+  std::function<Status()> tetrakis, openjpeg;
+};
+
+/// What either codec makes of one source; OpenJPEG: one codestream for heights, one for the image.
+struct Streams {
+  Bytes tetrakis;
+  std::vector<Bytes> openjpeg;
+};
+
+Result<Terrain> loadTerrain(const Options& options) {
+  tools::HeightFile heights;
+  tools::ImageFile image;
+  if (options.heights.empty()) {
+    tools::SynthOptions synth;
+    synth.size = kHeightSide;
+    tools::SynthTerrain terrain = tools::synthesize(synth);
+    heights = std::move(terrain.heights);
+    image = std::move(terrain.texture);
+  } else {
+    auto height_file = tools::readHeights(options.heights);
+    if (!height_file.ok()) return height_file.status();
+    auto image_file = tools::readImage(options.image);
+    if (!image_file.ok()) return image_file.status();
+    heights = std::move(*height_file);
+    image = std::move(*image_file);
+  }
+  const Result<Raster> samples = heightRaster(heights);
+  if (!samples.ok()) return samples.status();
+  return Terrain{mirrorTo(*samples, kHeightSide, kHeightSide),
+                 mirrorTo(imageRaster(image), kImageSide, kImageSide)};
+}
+
+/// Codes `source` with either codec; OpenJPEG is given the bytes that Tetrakis spent on each track.
+Result<Streams> makeStreams(const StreamSource& source, uint64_t bytes) {
+  Streams streams;
+  auto stream = encodeTetrakis(source, bytes);
+  if (!stream.ok()) return stream.status();
+  streams.tetrakis = std::move(*stream);
+  const auto decoded = decodeTetrakis(streams.tetrakis);
+  if (!decoded.ok()) return decoded.status();
+  const double payload = static_cast<double>(decoded->geometry_bytes + decoded->texture_bytes);
+  const auto share = [&](uint64_t track) {
+    return static_cast<uint64_t>(static_cast<double>(bytes) * static_cast<double>(track) / payload);
+  };
+  for (const auto& [raster, track] : {std::pair(source.heights, decoded->geometry_bytes),
+                                      std::pair(source.image, decoded->texture_bytes)}) {
+    if (!raster) continue;
+    auto codestream = encodeOpenJpeg(*raster, {std::max<uint64_t>(share(track), 1), 6});
+    if (!codestream.ok()) return codestream.status();
+    streams.openjpeg.push_back(std::move(*codestream));
+  }
+  return streams;
+}
+
+/// An encoding and a decoding task of the source at about `bytes`.
+Status addTasks(const std::string& name, StreamSource source, uint64_t bytes,
+                std::vector<Task>& tasks) {
+  auto made = makeStreams(source, bytes);
+  if (!made.ok()) return made.status();
+  const auto streams = std::make_shared<const Streams>(std::move(*made));
+  Task encode, decode;
+  encode.name = name + "_encode";
+  decode.name = name + "_decode";
+  for (const Raster* raster : {source.heights, source.image}) {
+    if (raster) encode.elements += static_cast<double>(raster->pixels());
+  }
+  decode.elements = encode.elements;
+  encode.tetrakis = [=] { return encodeTetrakis(source, bytes).status(); };
+  decode.tetrakis = [=] { return decodeTetrakis(streams->tetrakis).status(); };
+  encode.openjpeg = [=] {
+    size_t next = 0;
+    for (const Raster* raster : {source.heights, source.image}) {
+      if (!raster) continue;
+      const uint64_t size = streams->openjpeg[next++].size();
+      const Status status = encodeOpenJpeg(*raster, {size, 6}).status();
+      if (!status.ok()) return status;
+    }
+    return Status();
+  };
+  decode.openjpeg = [=] {
+    for (const Bytes& codestream : streams->openjpeg) {
+      const Status status = decodeOpenJpeg(codestream).status();
+      if (!status.ok()) return status;
+    }
+    return Status();
+  };
+  tasks.push_back(std::move(encode));
+  tasks.push_back(std::move(decode));
+  return {};
+}
+
+Result<std::vector<Task>> makeTasks(const Terrain& terrain) {
+  const Raster& heights = terrain.heights;
+  const Raster& image = terrain.image;
+  std::vector<Task> tasks;
+  Status status = addTasks("joint_64k", {&heights, &image}, kJointBytes, tasks);
+  if (status.ok())
+    status = addTasks("heights_1bpp", {&heights, nullptr}, heights.pixels() / 8, tasks);
+  if (status.ok()) status = addTasks("texture_1bpp", {nullptr, &image}, image.pixels() / 8, tasks);
+  if (!status.ok()) return status;
+  return tasks;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+/// Processor seconds of this process: other work on the machine counts less than on a wall clock.
+Result<double> processorSeconds(const std::function<Status()>& work) {
+  const std::clock_t start = std::clock();
+  const Status status = work();
+  if (!status.ok()) return status;
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+struct Timing {
+  double tetrakis = 0, openjpeg = 0;  ///< median seconds
+};
+
+Result<Timing> timeTask(const Task& task, int runs) {
+  std::vector<double> ours, theirs;
+  for (int i = 0; i < runs; ++i) {
+    for (const auto& [work, seconds] :
+         {std::pair(&task.tetrakis, &ours), std::pair(&task.openjpeg, &theirs)}) {
+      const Result<double> time = processorSeconds(*work);
+      if (!time.ok()) return time.status();
+      seconds->push_back(*time);
+    }
+  }
+  return Timing{median(ours), median(theirs)};
+}
+
+Result<std::vector<ResultRow>> measure(const std::vector<Task>& tasks, int runs) {
+  constexpr double kMiB = 1 << 20;
+  std::vector<std::pair<double, double>> peaks;
+  for (const Task& task : tasks) {
+    const auto ours = peakMemory(task.tetrakis);
+    if (!ours.ok()) return ours.status();
+    const auto theirs = peakMemory(task.openjpeg);
+    if (!theirs.ok()) return theirs.status();
+    peaks.emplace_back(static_cast<double>(*ours) / kMiB, static_cast<double>(*theirs) / kMiB);
+  }
+  std::vector<ResultRow> rows;
+  std::printf("%-20s %23s %9s %17s\n%-20s %11s %11s %9s %8s %8s\n", "", "million elements / s",
+              "speed", "peak MiB", "task", "tetrakis", "openjpeg97", "ratio", "tetrakis",
+              "openjpeg");
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    const Task& task = tasks[i];
+    const auto timing = timeTask(task, runs);
+    if (!timing.ok()) return timing.status();
+    const double ours = task.elements / timing->tetrakis / 1e6;
+    const double theirs = task.elements / timing->openjpeg / 1e6;
+    std::printf("%-20s %11.2f %11.2f %9.3f %8.1f %8.1f\n", task.name.c_str(), ours, theirs,
+                ours / theirs, peaks[i].first, peaks[i].second);
+    std::fflush(stdout);
+    rows.push_back({task.name, "tetrakis", "melements_per_second", ours});
+    rows.push_back({task.name, "tetrakis", "speed_ratio", ours / theirs});
+    rows.push_back({task.name, "tetrakis", "peak_mib", peaks[i].first});
+    rows.push_back({task.name, "openjpeg97", "melements_per_second", theirs});
+    rows.push_back({task.name, "openjpeg97", "peak_mib", peaks[i].second});
+  }
+  return rows;
+}
+
+Status run(const Options& options) {
+  const Result<Terrain> terrain = loadTerrain(options);
+  if (!terrain.ok()) return terrain.status();
+  const auto tasks = makeTasks(*terrain);
+  if (!tasks.ok()) return tasks.status();
+  const auto rows = measure(*tasks, options.runs);
+  if (!rows.ok()) return rows.status();
+  return options.csv.empty() ? Status() : updateResults(options.csv, "speed", *rows);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Speed and memory of coding a terrain, beside OpenJPEG 9/7");
+  CLI::Option* heights = app.add_option("HEIGHT", options.heights, "Height file");
+  CLI::Option* image = app.add_option("IMAGE", options.image, "Image of the same footprint");
+  heights->needs(image);
+  app.add_option("--runs", options.runs, "Runs that each median is taken of")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
+  CLI11_PARSE(app, argc, argv);
+
+  const Status status = run(options);
+  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
+  return status.code();
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tetrakis through its C interface; see tetrakis_peer.hpp.
+#include "bench/tetrakis_peer.hpp"
+
+#include <array>
+#include <memory>
+
+namespace tetrakis::bench {
+namespace {
+
+using DecoderPtr = std::unique_ptr<tks_decoder, decltype(&tks_close)>;
+
+// Room for the one sentence of a failure.
+using Message = std::array<char, 512>;
+
+tks_heights describeHeights(const Raster& raster) {
+  tks_heights heights{};
+  heights.size = sizeof(heights);
+  heights.width = raster.width;
+  heights.height = raster.height;
+  heights.sample = TKS_U16;
+  heights.data = raster.samples.data();
+  heights.scale = raster.unit;
+  return heights;
+}
+
+tks_image describeImage(const Raster& raster, const std::vector<uint8_t>& samples) {
+  tks_image image{};
+  image.size = sizeof(image);
+  image.width = raster.width;
+  image.height = raster.height;
+  image.channels = raster.channels;
+  image.sample = TKS_U8;
+  image.data = samples.data();
+  return image;
+}
+
+Status decodeHeights(tks_decoder* decoder, const tks_info& info, std::vector<uint16_t>& out) {
+  out.resize(size_t{info.width} * info.height);
+  const tks_status code = tks_decode_heights(decoder, out.data(), out.size() * sizeof(out.front()));
+  return code == TKS_OK ? Status() : Status(code, tks_message(decoder));
+}
+
+Status decodeImage(tks_decoder* decoder, const tks_info& info, std::vector<uint16_t>& out) {
+  std::vector<uint8_t> bytes(size_t{info.texture_width} * info.texture_height *
+                             info.texture_channels);
+  const tks_status code = tks_decode_texture(decoder, bytes.data(), bytes.size());
+  if (code != TKS_OK) return {code, tks_message(decoder)};
+  out.assign(bytes.begin(), bytes.end());
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<uint8_t>> encodeTetrakis(const StreamSource& source, uint64_t bytes) {
+  tks_heights heights{};
+  tks_image image{};
+  std::vector<uint8_t> image_samples;
+  if (source.heights) heights = describeHeights(*source.heights);
+  if (source.image) {
+    image_samples.assign(source.image->samples.begin(), source.image->samples.end());
+    image = describeImage(*source.image, image_samples);
+  }
+  tks_encode_options options{};
+  options.size = sizeof(options);
+  options.bytes = bytes;
+  options.lossless = bytes == 0;
+
+  tks_buffer buffer{};
+  Message message{};
+  const tks_status code =
+      tks_encode(source.heights ? &heights : nullptr, source.image ? &image : nullptr, &options,
+                 &buffer, message.data(), message.size());
+  if (code != TKS_OK) return Status(code, message.data());
+  std::vector<uint8_t> stream(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  return stream;
+}
+
+Result<DecodedStream> decodeTetrakis(std::span<const uint8_t> prefix) {
+  Message message{};
+  tks_decoder* handle = nullptr;
+  const tks_status opened =
+      tks_open(prefix.data(), prefix.size(), nullptr, &handle, message.data(), message.size());
+  if (opened != TKS_OK) return Status(opened, message.data());
+  const DecoderPtr decoder(handle, &tks_close);
+  tks_info info{};
+  info.size = sizeof(info);
+  const tks_status informed = tks_get_info(handle, &info);
+  if (informed != TKS_OK) return Status(informed, tks_message(handle));
+
+  DecodedStream out;
+  out.geometry_bytes = info.geometry_bytes;
+  out.texture_bytes = info.texture_bytes;
+  Status status;
+  if (info.has_heights) status = decodeHeights(handle, info, out.heights);
+  if (status.ok() && info.has_texture) status = decodeImage(handle, info, out.image);
+  if (!status.ok()) return status;
+  return out;
+}
+
+Result<PeerCurves> TetrakisPeer::curves(const Raster& raster,
+                                        const std::vector<uint64_t>& targets) const {
+  const bool is_image = kind_ == RasterKind::kImage;
+  const StreamSource source{is_image ? nullptr : &raster, is_image ? &raster : nullptr};
+  const auto stream = encodeTetrakis(source, 0);
+  if (!stream.ok()) return stream.status();
+  const auto decodePrefix = [&](uint64_t bytes) -> Result<std::vector<uint16_t>> {
+    auto decoded = decodeTetrakis(std::span(*stream).first(bytes));
+    if (!decoded.ok()) return decoded.status();
+    return std::move(is_image ? decoded->image : decoded->heights);
+  };
+
+  PeerCurves curves;
+  std::vector<CodedPoint>& cuts = curves.settings.emplace_back();
+  for (const uint64_t bytes : targets) {
+    if (bytes >= stream->size()) break;
+    const auto decoded = decodePrefix(bytes);
+    if (decoded.status().code() == TKS_TRUNCATED) continue;
+    if (!decoded.ok()) return decoded.status();
+    cuts.push_back({bytes, meanSquaredError(raster, *decoded)});
+  }
+  const auto restored = decodePrefix(stream->size());
+  if (!restored.ok()) return restored.status();
+  if (*restored != raster.samples) {
+    return Status(TKS_MISMATCH, "The lossless stream does not restore the samples.");
+  }
+  curves.lossless_bytes = stream->size();
+  return curves;
+}
+
+}  // namespace tetrakis::bench

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_texture DIR...: images. One Tetrakis stream, cut, against OpenJPEG 9/7 files made for each
+// rate. PSNR of the mean squared error over the channels, 8 bits.
+#include "bench/comparison.hpp"
+#include "bench/openjpeg_peer.hpp"
+#include "bench/options.hpp"
+#include "bench/tetrakis_peer.hpp"
+#include "tools/files.hpp"
+
+namespace {
+
+using namespace tetrakis;
+using namespace tetrakis::bench;
+
+Result<Raster> load(const std::string& path, uint64_t max_pixels) {
+  const Result<tools::ImageFile> file = tools::readImage(path);
+  if (!file.ok()) return file.status();
+  return cropCentre(imageRaster(*file), max_pixels);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ComparisonOptions options;
+  options.window = {0.1, 2};
+  uint64_t max_pixels = uint64_t{2048} * 2048;
+  CLI::App app("Rate against PSNR of images, beside OpenJPEG 9/7");
+  addComparisonOptions(app, options);
+  app.add_option("--max-pixels", max_pixels, "Larger images are cut to their centre")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  ComparisonSpec spec;
+  spec.bench = "texture";
+  spec.extensions = {".png", ".tif", ".tiff", ".jpg", ".jpeg"};
+  spec.wanted = [](const std::string& stem) { return stem != "height"; };
+  spec.load = [max_pixels](const std::string& path) { return load(path, max_pixels); };
+  spec.peers.push_back(std::make_unique<OpenJpegPeer>(std::vector{6}, false));
+  spec.peers.push_back(std::make_unique<TetrakisPeer>(RasterKind::kImage));
+  return runComparison(spec, options);
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// One descent over the forest: moments bottom-up inside the grid, rasterised planes where it
+// overhangs.
+#include "codec/gains.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "codec/clamped_triangle.hpp"
+#include "codec/moments.hpp"
+#include "codec/triangle.hpp"
+
+namespace tetrakis {
+namespace {
+
+struct HeightCorner {
+  GridPoint point;
+  double height = 0;
+};
+using HeightTriangle = LatticeTriangle<HeightCorner>;
+
+class GainBuilder {
+ public:
+  GainBuilder(const Lattice& lattice, const SurfaceView& surface)
+      : lattice_(lattice), surface_(surface), gains_(lattice.vertexCount()) {}
+
+  std::vector<double> build() {
+    forEachRootTriangle(
+        lattice_, [&](GridPoint p) { return cornerAt(p); },
+        [&](const HeightTriangle& t) { energyOf(t); });
+    round();
+    return std::move(gains_);
+  }
+
+ private:
+  HeightCorner cornerAt(GridPoint p) const {
+    return {p, static_cast<double>(surface_.heights[lattice_.gridIndex(p)])};
+  }
+
+  /// Of full-resolution triangles at a sample: 8 meet in samples of even coordinate sum, 4 in the
+  /// others.
+  double cornerWeight(GridPoint p) const {
+    const double inside = (p.x + p.y) % 2 == 0 ? 0.125 : 0.25;
+    const double side = p.x == 0 || p.x + 1 == lattice_.width() ? 2 : 1;
+    return inside * side * (p.y == 0 || p.y + 1 == lattice_.height() ? 2 : 1);
+  }
+
+  /// Adds the gains in and below a triangle that lies inside the grid.
+  TriangleMoments moments(const HeightTriangle& t) {
+    const HeightCorner w = cornerAt(t.splitPoint());
+    const double delta = w.height - 0.5 * (t.a.height + t.b.height);
+    double& gain = gains_[lattice_.id(lattice_.siteAt(t.level, w.point))];
+    if (t.level + 1 == lattice_.levelCount()) {
+      const TriangleMoments finest =
+          mergeFinest({cornerWeight(t.a.point), cornerWeight(t.b.point), cornerWeight(t.apex.point),
+                       cornerWeight(w.point)},
+                      delta);
+      gain += finest.energy;
+      return finest;
+    }
+    const TriangleMoments first = moments(t.first(w)), second = moments(t.second(w));
+    gain += splitGain(first, second, delta);
+    return merge(first, second, delta);
+  }
+
+  /// Adds the gains in and below any triangle. Depth at most levelCount().
+  double energyOf(const HeightTriangle& t) {
+    if (t.collapses(lattice_) || t.level == lattice_.levelCount()) return 0;
+    return t.overhangs(lattice_) ? overhangingEnergy(t) : moments(t).energy;
+  }
+
+  /// The halves of a clamped triangle need not fill it, but those of a whole diamond do: the sum
+  /// over its triangles is right.
+  double overhangingEnergy(const HeightTriangle& t) {
+    const HeightCorner w = cornerAt(t.splitPoint());
+    const double halves = energyOf(t.first(w)) + energyOf(t.second(w));
+    const GridPoint a = lattice_.clamp(t.a.point), b = lattice_.clamp(t.b.point);
+    const GridPoint split = lattice_.clamp(w.point);
+    if (split == a || split == b) return halves;  // one half is all of t, the other has no area
+    const double whole = clampedEnergy(surface_, {a, b, lattice_.clamp(t.apex.point)});
+    gains_[lattice_.id(lattice_.siteAt(t.level, w.point))] += whole - halves;
+    return whole;
+  }
+
+  /// Doubles hold every multiple of a unit up to 2^53 units: no sum of gains comes near that.
+  void round() {
+    double total = 0;
+    for (const double g : gains_) total += std::abs(g);
+    if (total == 0) return;
+    const int exponent = std::max(-30, std::ilogb(total) - 51);
+    const double unit = std::ldexp(1.0, exponent), inverse = std::ldexp(1.0, -exponent);
+    for (double& g : gains_) g = std::round(g * inverse) * unit;
+  }
+
+  const Lattice& lattice_;
+  const SurfaceView& surface_;
+  std::vector<double> gains_;
+};
+
+}  // namespace
+
+std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surface) {
+  assert(surface.width == lattice.width() && surface.height == lattice.height());
+  assert(surface.heights.size() == lattice.sampleCount());
+  return GainBuilder(lattice, surface).build();
+}
+
+}  // namespace tetrakis

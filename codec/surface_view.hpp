@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// A height field that somebody else owns.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace tetrakis {
+
+/// heights: width * height values, row by row; any int32. Sizes from 2 x 2.
+struct SurfaceView {
+  uint32_t width = 0, height = 0;
+  std::span<const int32_t> heights;
+};
+
+}  // namespace tetrakis

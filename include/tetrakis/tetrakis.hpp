@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tetrakis for C++20: owning types and spans over the C interface of tetrakis.h. Header only;
+// throws nothing but std::bad_alloc. The trust contract is that of tetrakis.h.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis {
+// Inline: users write tetrakis::Decoder, while the symbols stay apart from the library's own
+// classes.
+inline namespace v0 {
+
+/// A failure: a stable code and one sentence that says what, where and what to do.
+struct Error {
+  tks_status code = TKS_OK;
+  std::string message;
+};
+
+/// A value, or the Error that explains why there is none.
+template <class T>
+class [[nodiscard]] Expected {
+ public:
+  Expected(T value) : state_(std::move(value)) {}
+  Expected(Error error) : state_(std::move(error)) {}
+  explicit operator bool() const { return std::holds_alternative<T>(state_); }
+  T& operator*() { return std::get<T>(state_); }
+  const T& operator*() const { return std::get<T>(state_); }
+  T* operator->() { return &std::get<T>(state_); }
+  const T* operator->() const { return &std::get<T>(state_); }
+  const Error& error() const { return std::get<Error>(state_); }
+
+ private:
+  std::variant<Error, T> state_;
+};
+
+/// Success, or an Error.
+template <>
+class [[nodiscard]] Expected<void> {
+ public:
+  Expected() = default;
+  Expected(Error error) : error_(std::move(error)) {}
+  explicit operator bool() const { return !error_; }
+  const Error& error() const { return *error_; }
+
+ private:
+  std::optional<Error> error_;
+};
+
+/// A stream as the encoder returned it. Move only.
+class Buffer {
+ public:
+  explicit Buffer(tks_buffer buffer) : buffer_(buffer) {}
+  Buffer(Buffer&& other) noexcept : buffer_(std::exchange(other.buffer_, {})) {}
+  Buffer& operator=(Buffer&& other) noexcept {
+    std::swap(buffer_, other.buffer_);
+    return *this;
+  }
+  ~Buffer() { tks_free_buffer(&buffer_); }
+
+  std::span<const uint8_t> bytes() const { return {buffer_.data, buffer_.size}; }
+
+ private:
+  tks_buffer buffer_{};
+};
+
+/// A conforming 4-8 mesh (tks_mesh says what its arrays promise). Move only.
+class Mesh {
+ public:
+  explicit Mesh(tks_mesh mesh) : mesh_(mesh) {}
+  Mesh(Mesh&& other) noexcept : mesh_(std::exchange(other.mesh_, {})) {}
+  Mesh& operator=(Mesh&& other) noexcept {
+    std::swap(mesh_, other.mesh_);
+    return *this;
+  }
+  ~Mesh() { tks_free_mesh(&mesh_); }
+
+  /// y * width + x of the sample under each vertex.
+  std::span<const uint32_t> gridIndices() const { return {mesh_.grid_index, mesh_.vertex_count}; }
+  /// Height of each vertex, in the unit of the stream.
+  std::span<const float> heights() const { return {mesh_.height, mesh_.vertex_count}; }
+  /// Three vertex indices a triangle, counter-clockwise seen from above.
+  std::span<const uint32_t> triangles() const {
+    return {mesh_.triangles, size_t{3} * mesh_.triangle_count};
+  }
+  uint32_t vertexCount() const { return mesh_.vertex_count; }
+  uint32_t triangleCount() const { return mesh_.triangle_count; }
+
+ private:
+  tks_mesh mesh_{};
+};
+
+/// The `size` members set, everything else zero: fill in the rest.
+inline tks_heights makeHeights() {
+  tks_heights heights{};
+  heights.size = sizeof heights;
+  heights.scale = 1;
+  return heights;
+}
+inline tks_image makeImage() {
+  tks_image image{};
+  image.size = sizeof image;
+  return image;
+}
+inline tks_encode_options makeEncodeOptions() {
+  tks_encode_options options{};
+  options.size = sizeof options;
+  return options;
+}
+inline tks_limits makeLimits() {
+  tks_limits limits{};
+  limits.size = sizeof limits;
+  return limits;
+}
+
+/// Encodes heights, an image, or both (a null pointer leaves one out). Errors: see tks_encode.
+inline Expected<Buffer> encode(const tks_heights* heights, const tks_image* image,
+                               const tks_encode_options& options) {
+  char message[512] = "";
+  tks_buffer buffer{};
+  const tks_status status = tks_encode(heights, image, &options, &buffer, message, sizeof message);
+  if (status != TKS_OK) return Error{status, message};
+  return Buffer(buffer);
+}
+
+/// Decodes a stream or any prefix of one. Move only; one decoder serves one thread at a time.
+class Decoder {
+ public:
+  /// `bytes` are borrowed and must outlive the decoder. TKS_TRUNCATED: too short for the header.
+  static Expected<Decoder> open(std::span<const uint8_t> bytes,
+                                const tks_limits& limits = makeLimits()) {
+    char message[512] = "";
+    tks_decoder* decoder = nullptr;
+    const tks_status status =
+        tks_open(bytes.data(), bytes.size(), &limits, &decoder, message, sizeof message);
+    if (status != TKS_OK) return Error{status, message};
+    Decoder result(decoder);
+    result.info_.size = sizeof(tks_info);
+    if (const tks_status got = tks_get_info(decoder, &result.info_); got != TKS_OK)
+      return result.error(got);
+    return result;
+  }
+
+  /// Sizes, types and metadata; its strings live as long as the decoder.
+  const tks_info& info() const { return info_; }
+
+  /// width * height samples of info().sample, host byte order, row by row.
+  Expected<std::vector<std::byte>> heights() {
+    std::vector<std::byte> samples(size_t{info_.width} * info_.height *
+                                   tks_sample_bytes(info_.sample));
+    const tks_status status = tks_decode_heights(decoder_.get(), samples.data(), samples.size());
+    if (status != TKS_OK) return error(status);
+    return samples;
+  }
+
+  /// texture_width * texture_height * texture_channels samples of info().texture_sample.
+  Expected<std::vector<std::byte>> texture() {
+    std::vector<std::byte> texels(size_t{info_.texture_width} * info_.texture_height *
+                                  info_.texture_channels * tks_sample_bytes(info_.texture_sample));
+    const tks_status status = tks_decode_texture(decoder_.get(), texels.data(), texels.size());
+    if (status != TKS_OK) return error(status);
+    return texels;
+  }
+
+  /// The mesh that the stream itself codes: closure of its significant vertices.
+  Expected<Mesh> codedMesh() { return mesh(TKS_MESH_CODED, 0); }
+
+  /// The best mesh of the decoded surface with at most max_triangles; 0: every sample.
+  Expected<Mesh> budgetMesh(uint32_t max_triangles) { return mesh(TKS_MESH_BUDGET, max_triangles); }
+
+  /// Checks the syntax of the whole stream. TKS_TRUNCATED if it ends early.
+  Expected<void> verify() {
+    const tks_status status = tks_verify(decoder_.get());
+    if (status != TKS_OK) return error(status);
+    return {};
+  }
+
+ private:
+  struct Close {
+    void operator()(tks_decoder* decoder) const { tks_close(decoder); }
+  };
+  explicit Decoder(tks_decoder* decoder) : decoder_(decoder) {}
+
+  Error error(tks_status status) const { return {status, tks_message(decoder_.get())}; }
+
+  Expected<Mesh> mesh(tks_mesh_kind kind, uint32_t max_triangles) {
+    tks_mesh result{};
+    const tks_status status = tks_decode_mesh(decoder_.get(), kind, max_triangles, &result);
+    if (status != TKS_OK) return error(status);
+    return Mesh(result);
+  }
+
+  std::unique_ptr<tks_decoder, Close> decoder_;
+  tks_info info_{};
+};
+
+}  // namespace v0
+}  // namespace tetrakis

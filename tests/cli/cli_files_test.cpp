@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files, standard input and output: what goes in comes out, whole or not at all.
+#include <sys/stat.h>
+
+#include "tests/cli/cli_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using CliFiles = CliTest;
+
+TEST_F(CliFiles, LosslessRoundTripKeepsSamplesTypeAndMetadata) {
+  makeStream();
+  ASSERT_EQ(cli("decode a.tks --height h.tif --texture t.png").code, 0);
+  const auto heights = tools::readHeights(path("h.tif"));
+  ASSERT_TRUE(heights.ok());
+  const tools::HeightFile original = hills(17);
+  EXPECT_EQ(heights->data, original.data);
+  EXPECT_EQ(heights->sample, original.sample);
+  EXPECT_EQ(heights->scale, original.scale);
+  EXPECT_EQ(heights->unit, original.unit);
+  const auto image = tools::readImage(path("t.png"));
+  ASSERT_TRUE(image.ok());
+  EXPECT_EQ(image->data, photo(34).data);
+}
+
+TEST_F(CliFiles, StandardInputAndOutputCarryTheSameBytesAsFiles) {
+  makeStream();
+  ASSERT_EQ(cli("decode a.tks --height h.tif").code, 0);
+  const std::string stream = content("a.tks");
+  const std::string target = " --texture texture.png --lossless -q -o -";
+  EXPECT_EQ(cli("encode height.tif" + target).out, stream);
+  EXPECT_EQ(cli("encode -" + target, "height.tif").out, stream);
+  EXPECT_EQ(cli("truncate - --bytes 1M -o -", "a.tks").out, stream);
+  EXPECT_EQ(cli("decode - --height -", "a.tks").out, content("h.tif"));
+  EXPECT_EQ(shell("cat a.tks | \"$TETRAKIS\" truncate - --bytes 300 -o - | "
+                  "\"$TETRAKIS\" decode - --height -")
+                .out,
+            cli("decode a.tks --bytes 300 --height -").out);
+  EXPECT_EQ(cli("info -", "a.tks").out, cli("info a.tks").out);
+}
+
+TEST_F(CliFiles, TruncateWritesTheExactPrefix) {
+  makeStream();
+  const std::string stream = content("a.tks");
+  for (const size_t bytes : {stream.size() / 2, stream.size() - 1, stream.size()}) {
+    ASSERT_EQ(cli("truncate a.tks -f -o b.tks --bytes " + std::to_string(bytes)).code, 0);
+    EXPECT_EQ(content("b.tks"), stream.substr(0, bytes));
+  }
+}
+
+TEST_F(CliFiles, ByteBudgetIsKeptAndSuffixesMeanPowersOf1024) {
+  makeInputs(65);
+  const std::string encode = "encode height.tif --texture texture.png -f -q -o ";
+  for (const char* arguments : {"a.tks --bytes 2048", "b.tks --bytes 2k", "c.tks --bytes 2KiB"})
+    ASSERT_EQ(cli(encode + arguments).code, 0) << arguments;
+  EXPECT_LE(content("a.tks").size(), 2048u);
+  EXPECT_GT(content("a.tks").size(), 1500u);
+  EXPECT_EQ(content("b.tks"), content("a.tks"));
+  EXPECT_EQ(content("c.tks"), content("a.tks"));
+}
+
+TEST_F(CliFiles, ExistingFilesAreKeptUnlessForced) {
+  makeStream();
+  write("kept", "precious");
+  for (const char* arguments :
+       {"encode height.tif --lossless -o kept", "truncate a.tks --bytes 300 -o kept",
+        "decode a.tks --height kept"}) {
+    const Outcome run = cli(arguments);
+    EXPECT_EQ(run.code, 2) << arguments;
+    EXPECT_NE(run.err.find("-f"), std::string::npos) << arguments;
+    EXPECT_EQ(content("kept"), "precious") << arguments;
+  }
+  EXPECT_EQ(cli("truncate a.tks --bytes 300 -o kept -f").code, 0);
+  EXPECT_EQ(content("kept"), content("a.tks").substr(0, 300));
+}
+
+TEST_F(CliFiles, OneFailingOutputHoldsTheOthersBack) {
+  makeStream();
+  const std::set<std::string> before = names();
+  EXPECT_NE(cli("decode a.tks --height h.tif --texture t.nothing").code, 0);
+  EXPECT_EQ(names(), before);
+  EXPECT_NE(cli("decode a.tks --height h.tif --mesh h.tif").code, 0);
+  EXPECT_EQ(names(), before);
+}
+
+TEST_F(CliFiles, PipesAreWrittenNotReplaced) {
+  makeStream();
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const Outcome run =
+      shell("cat pipe >got & \"$TETRAKIS\" truncate a.tks --bytes 300 -o pipe && wait");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(content("got"), content("a.tks").substr(0, 300));
+  EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
+}
+
+TEST_F(CliFiles, LinksStayLinks) {
+  makeStream();
+  write("target", "old");
+  std::filesystem::create_symlink("target", path("link"));
+  ASSERT_EQ(cli("truncate a.tks --bytes 300 -o link -f").code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_EQ(content("target"), content("a.tks").substr(0, 300));
+}
+
+TEST_F(CliFiles, MeshesOfEveryFormatAreWrittenWithTheirSideFiles) {
+  makeStream();
+  for (const char* name : {"m.glb", "m.obj", "m.ply"}) {
+    const Outcome run = cli("decode a.tks --mesh " + std::string(name));
+    EXPECT_EQ(run.code, 0) << name << run.err;
+    EXPECT_GT(content(name).size(), 1000u) << name;
+  }
+  EXPECT_NE(content("m.obj").find("mtllib m.mtl"), std::string::npos);
+  EXPECT_NE(content("m.mtl"), "");
+  EXPECT_TRUE(cli("decode a.tks --mesh - --triangles 20").out.starts_with("glTF"));
+  EXPECT_TRUE(cli("decode a.tks --mesh - --coded-mesh").out.starts_with("glTF"));
+  EXPECT_EQ(cli("decode a.tks --mesh m.obj").code, 2);
+}
+
+TEST_F(CliFiles, SynthesisIsDeterministicAndDependsOnTheSeed) {
+  ASSERT_EQ(cli("synth -o a --size 33").code, 0);
+  ASSERT_EQ(cli("synth -o b --size 33 --seed 1").code, 0);
+  ASSERT_EQ(cli("synth -o c --size 33 --seed 2").code, 0);
+  EXPECT_EQ(content("a/height.tif"), content("b/height.tif"));
+  EXPECT_EQ(content("a/texture.png"), content("b/texture.png"));
+  EXPECT_NE(content("a/height.tif"), content("c/height.tif"));
+  EXPECT_EQ(cli("synth -o a --size 33").code, 2);
+  EXPECT_EQ(cli("encode a/height.tif --texture a/texture.png --bytes 4k -o a.tks").code, 0);
+}
+
+TEST_F(CliFiles, FolderWithoutManifestCannotBeVerified) {
+  EXPECT_EQ(cli("verify .").code, 2);
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// What info, compare and the report say.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+class CliMeasure : public CliTest {
+ protected:
+  nlohmann::json json(const std::string& arguments) {
+    const Outcome run = cli(arguments + " --json");
+    EXPECT_EQ(run.code, 0) << arguments << run.err;
+    return nlohmann::json::parse(run.out, nullptr, false);
+  }
+};
+
+TEST_F(CliMeasure, InfoTellsWhatWasEncoded) {
+  makeInputs();
+  ASSERT_EQ(cli("encode height.tif --texture texture.png --lossless -o a.tks --spacing 30,25 "
+                "--vertical-datum EGM2008 --offset -5 --triangles 77")
+                .code,
+            0);
+  const auto info = json("info a.tks");
+  EXPECT_EQ(info["stream_bytes"], content("a.tks").size());
+  EXPECT_EQ(info["complete"], true);
+  EXPECT_EQ(info["lossless"], true);
+  EXPECT_EQ(info["triangles"], 77);
+  EXPECT_EQ(info["heights"]["width"], 17);
+  EXPECT_EQ(info["heights"]["sample"], "u16");
+  EXPECT_EQ(info["heights"]["scale"], 0.1);
+  EXPECT_EQ(info["heights"]["offset"], -5);
+  EXPECT_EQ(info["heights"]["spacing_y"], 25);
+  EXPECT_EQ(info["heights"]["vertical_datum"], "EGM2008");
+  EXPECT_EQ(info["texture"]["channels"], 3);
+  EXPECT_EQ(json("info a.tks --bytes 300")["available_bytes"], 300);
+  EXPECT_EQ(json("info a.tks --bytes 300")["complete"], false);
+}
+
+TEST_F(CliMeasure, LosslessComparesExact) {
+  makeStream();
+  const auto all = json("compare a.tks --height height.tif --texture texture.png --view all");
+  EXPECT_EQ(all["bytes"], content("a.tks").size());
+  EXPECT_EQ(all["triangles"], 2 * 16 * 16);
+  EXPECT_EQ(all["height_rmse"], 0);
+  EXPECT_EQ(all["height_max_error"], 0);
+  for (const std::string what : {"height", "texture", "screen"}) {
+    EXPECT_EQ(all[what + "_exact"], true) << what;
+    EXPECT_TRUE(all[what + "_psnr"].is_null()) << what;
+  }
+  EXPECT_EQ(all["cameras"].size(), 3u);
+}
+
+TEST_F(CliMeasure, PrefixHasFiniteFigures) {
+  makeStream(65);
+  const auto cut =
+      json("compare a.tks --bytes 1k --height height.tif --texture texture.png --view oblique");
+  EXPECT_EQ(cut["bytes"], 1024);
+  EXPECT_GT(cut["texture_psnr"], 3);
+  EXPECT_GT(cut["screen_psnr"], 3);
+  EXPECT_LT(cut["texture_psnr"], 60);
+  EXPECT_LT(cut["screen_psnr"], 60);
+  EXPECT_EQ(cut["screen_exact"], false);
+  EXPECT_EQ(cut["cameras"][0]["screen_psnr"], cut["screen_psnr"]);
+}
+
+TEST_F(CliMeasure, WhatDoesNotApplyIsNull) {
+  makeInputs();
+  ASSERT_EQ(cli("encode --texture texture.png --lossless -o t.tks").code, 0);
+  const auto texture = json("compare t.tks --texture texture.png");
+  EXPECT_TRUE(texture["height_rmse"].is_null());
+  EXPECT_TRUE(texture["triangles"].is_null());
+  EXPECT_EQ(texture["texture_exact"], true);
+  ASSERT_EQ(cli("encode height.tif --lossless -o h.tks").code, 0);
+  EXPECT_TRUE(json("compare h.tks --height height.tif")["texture_psnr"].is_null());
+}
+
+/// A plane is the linear interpolant of any mesh: exact rasterisation has no error at all.
+TEST_F(CliMeasure, MeshOfAPlaneHasNoError) {
+  tools::HeightFile plane = hills(1);
+  plane.width = 33, plane.height = 20;
+  plane.scale = 1;
+  plane.data.clear();
+  for (uint32_t i = 0; i < 33 * 20; ++i)
+    appendSample(plane, static_cast<uint16_t>(700 + 3 * (i % 33) + 11 * (i / 33)));
+  ASSERT_TRUE(tools::writeHeights(path("plane.tif"), plane).ok());
+  ASSERT_EQ(cli("encode plane.tif --lossless -o p.tks").code, 0);
+  for (const char* triangles : {"8", "50", "1000"}) {
+    const auto mesh =
+        json("compare p.tks --height plane.tif --triangles " + std::string(triangles));
+    EXPECT_LE(mesh["triangles"], std::max(8, std::stoi(triangles)));
+    EXPECT_EQ(mesh["height_max_error"], 0) << triangles;
+  }
+}
+
+TEST_F(CliMeasure, TrianglesBoundTheMeshAndMoreOfThemAreCloser) {
+  makeStream(65);
+  const std::string compare = "compare a.tks --height height.tif --triangles ";
+  const auto coarse = json(compare + "100"), fine = json(compare + "2000");
+  EXPECT_LE(coarse["triangles"], 100);
+  EXPECT_LE(fine["triangles"], 2000);
+  EXPECT_GT(coarse["height_rmse"], fine["height_rmse"]);
+  EXPECT_GT(fine["height_rmse"], 0);
+}
+
+TEST_F(CliMeasure, MaxErrorHoldsInTheUnitAsked) {
+  makeInputs(65);
+  for (const char* bound : {"2", "2m", "200cm", "6.5ft"}) {
+    ASSERT_EQ(cli("encode height.tif -f -o a.tks --max-error " + std::string(bound)).code, 0);
+    EXPECT_LE(json("compare a.tks --height height.tif")["height_max_error"], 2.0) << bound;
+  }
+}
+
+TEST_F(CliMeasure, OtherReferencesFail) {
+  makeStream();
+  ASSERT_TRUE(tools::writeHeights(path("larger.tif"), hills(18)).ok());
+  tools::HeightFile changed = hills(17);
+  changed.data[40] ^= std::byte{1};
+  ASSERT_TRUE(tools::writeHeights(path("changed.tif"), changed).ok());
+  EXPECT_EQ(cli("compare a.tks --height larger.tif").code, 7);
+  EXPECT_EQ(cli("compare a.tks --height changed.tif").code, 7);
+  ASSERT_TRUE(tools::writeImage(path("other.png"), photo(33)).ok());
+  EXPECT_EQ(cli("compare a.tks --texture other.png").code, 7);
+}
+
+TEST_F(CliMeasure, ReportIsOnePageWithItsPicturesInside) {
+  makeInputs(65);
+  const std::string encode =
+      "encode height.tif --texture texture.png --bytes 16k --view all -q -f -o a.tks --report r";
+  ASSERT_EQ(cli(encode).code, 0);
+  const std::string page = content("r/index.html");
+  size_t pictures = 0;
+  for (size_t at = page.find("<img"); at != std::string::npos; at = page.find("<img", at + 1))
+    ++pictures;
+  EXPECT_EQ(pictures, 3u * (1 + 5));
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("r")), {}), 1);
+  EXPECT_EQ(cli("encode height.tif --lossless -o b.tks --report r").code, 2);
+  EXPECT_FALSE(names().contains("b.tks"));
+}
+
+TEST_F(CliMeasure, ReportOfATextureAlone) {
+  makeInputs(65);
+  ASSERT_EQ(cli("encode --texture texture.png --bytes 8k -o t.tks --report r").code, 0);
+  EXPECT_NE(content("r/index.html").find("<img"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tetrakis::test

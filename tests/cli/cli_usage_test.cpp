@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exit codes, messages, and that a command that fails leaves the folder as it was.
+#include "tests/cli/cli_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+class CliUsage : public CliTest {
+ protected:
+  /// Runs the command and expects the code, one sentence on standard error, nothing on standard
+  /// output, and no change of the folder.
+  void expectFailure(const std::string& arguments, int code) {
+    const std::set<std::string> before = names();
+    const Outcome run = cli(arguments);
+    EXPECT_EQ(run.code, code) << arguments << "\n" << run.err;
+    EXPECT_EQ(run.out, "") << arguments;
+    EXPECT_TRUE(run.err.starts_with("tetrakis: ")) << arguments << "\n" << run.err;
+    EXPECT_EQ(names(), before) << arguments;
+  }
+};
+
+TEST_F(CliUsage, CommandsThatMakeNoSenseGiveOne) {
+  makeStream();
+  for (const char* arguments : {
+           "",
+           "fly",
+           "encode height.tif -o b.tks",
+           "encode height.tif -o b.tks --bytes 64k --lossless",
+           "encode height.tif --bytes 64k",
+           "encode -o b.tks --lossless",
+           "encode height.tif -o b.tks --bytes 0",
+           "encode height.tif -o b.tks --bytes=-5",
+           "encode height.tif -o b.tks --bytes 64x",
+           "encode height.tif -o b.tks --bytes 99999999999E",
+           "encode height.tif -o b.tks --psnr 0",
+           "encode height.tif -o b.tks --max-error 0",
+           "encode height.tif -o b.tks --max-error 3parsec",
+           "encode height.tif -o b.tks --max-error 1m --unit K",
+           "encode height.tif -o b.tks --lossless --spacing 0",
+           "encode height.tif -o b.tks --lossless --view inside",
+           "encode height.tif -o b.tks --lossless --view top --cameras c.json",
+           "encode --texture texture.png -o b.tks --max-error 1",
+           "encode --texture texture.png -o b.tks --bytes 1k --triangles 5",
+           "encode - --texture - -o b.tks --lossless",
+           "decode a.tks",
+           "decode a.tks --mesh m.glb --triangles 0",
+           "decode a.tks --mesh m.glb --triangles 9 --coded-mesh",
+           "decode a.tks --height h.tif --triangles 9",
+           "decode a.tks --height - --texture -",
+           "truncate a.tks -o b.tks",
+           "compare a.tks",
+           "compare a.tks --texture texture.png --triangles 9",
+           "synth -o s --size 1",
+           "verify",
+       })
+    expectFailure(arguments, 1);
+}
+
+TEST_F(CliUsage, WhatCannotBeReadOrWrittenGivesTwo) {
+  makeStream();
+  for (const char* arguments : {
+           "encode missing.tif -o b.tks --lossless",
+           "encode height.tif -o missing/b.tks --lossless",
+           "encode height.tif -o . --lossless",
+           "encode height.tif --texture missing.png -o b.tks --lossless",
+           "encode height.tif -o b.tks --lossless --cameras missing.json",
+           "decode missing.tks --height h.tif",
+           "decode a.tks --height missing/h.tif",
+           "truncate missing.tks --bytes 9 -o b.tks",
+           "info missing.tks",
+           "compare a.tks --height missing.tif",
+           "verify missing.tks",
+           "synth -o height.tif",
+       })
+    expectFailure(arguments, 2);
+}
+
+TEST_F(CliUsage, WhatIsNoStreamGivesThree) {
+  makeInputs();
+  for (const char* verb : {"info", "verify", "decode --height h.tif", "compare --height height.tif",
+                           "truncate --bytes 50 -o b.tks"})
+    expectFailure(std::string(verb) + " texture.png", 3);
+}
+
+TEST_F(CliUsage, TruncationIsAnErrorOnlyWhenStrict) {
+  makeStream();
+  const auto size = std::filesystem::file_size(path("a.tks"));
+  ASSERT_EQ(cli("truncate a.tks --bytes " + std::to_string(size - 1) + " -o cut.tks").code, 0);
+  for (const std::string verb :
+       {"info", "decode --texture -", "compare --height height.tif --texture texture.png"}) {
+    EXPECT_EQ(cli(verb + " cut.tks").code, 0) << verb;
+    EXPECT_EQ(cli(verb + " --strict a.tks").code, 0) << verb;
+    expectFailure(verb + " --strict cut.tks", 4);
+  }
+  EXPECT_EQ(cli("verify a.tks").code, 0);
+  expectFailure("verify cut.tks", 4);
+}
+
+TEST_F(CliUsage, PrefixTooShortForTheHeaderSaysWhatItNeeds) {
+  makeStream();
+  expectFailure("truncate a.tks --bytes 9 -o b.tks", 4);
+  EXPECT_NE(cli("info a.tks --bytes 9").err.find("byte"), std::string::npos);
+}
+
+TEST_F(CliUsage, TrackThatTheStreamLacksIsAUsageError) {
+  makeInputs();
+  ASSERT_EQ(cli("encode height.tif --lossless -o h.tks").code, 0);
+  ASSERT_EQ(cli("encode --texture texture.png --lossless -o t.tks").code, 0);
+  expectFailure("decode h.tks --texture x.png", 1);
+  expectFailure("decode t.tks --height x.tif", 1);
+  expectFailure("decode t.tks --mesh x.glb", 1);
+  expectFailure("compare h.tks --texture texture.png", 1);
+  expectFailure("compare t.tks --height height.tif", 1);
+}
+
+TEST_F(CliUsage, HelpAndVersionGoToStandardOutput) {
+  for (const char* arguments : {"--help", "encode --help", "verify --help", "--version"}) {
+    const Outcome run = cli(arguments);
+    EXPECT_EQ(run.code, 0) << arguments;
+    EXPECT_NE(run.out, "") << arguments;
+    EXPECT_EQ(run.err, "") << arguments;
+  }
+}
+
+TEST_F(CliUsage, QuietSaysNothingAndNoBarIsDrawnWithoutATerminal) {
+  makeInputs();
+  EXPECT_EQ(cli("encode height.tif --lossless -o a.tks -q").err, "");
+  const Outcome run = cli("encode height.tif --lossless -o b.tks");
+  EXPECT_NE(run.err.find("b.tks: "), std::string::npos);
+  EXPECT_EQ(run.err.find('\r'), std::string::npos);
+  EXPECT_EQ(run.out, "");
+}
+
+}  // namespace
+}  // namespace tetrakis::test

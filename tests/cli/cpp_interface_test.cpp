@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C++ interface: it owns what it gets, moves, and reports every failure as an Error.
+#include "tetrakis/tetrakis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace tetrakis::test {
+namespace {
+
+static_assert(!std::is_copy_constructible_v<Buffer> &&
+              std::is_nothrow_move_constructible_v<Buffer>);
+static_assert(!std::is_copy_constructible_v<Mesh> && std::is_nothrow_move_constructible_v<Mesh>);
+static_assert(!std::is_copy_constructible_v<Decoder> && std::is_move_constructible_v<Decoder>);
+
+constexpr uint32_t kWidth = 21, kHeight = 13;
+
+std::vector<int16_t> waves() {
+  std::vector<int16_t> samples;
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i)
+    samples.push_back(static_cast<int16_t>(300 * std::sin(i % kWidth / 3.0) - 2.0 * i));
+  return samples;
+}
+
+Expected<Buffer> encodeWaves(const std::vector<int16_t>& samples) {
+  tks_heights heights = makeHeights();
+  heights.width = kWidth;
+  heights.height = kHeight;
+  heights.sample = TKS_I16;
+  heights.data = samples.data();
+  tks_encode_options options = makeEncodeOptions();
+  options.lossless = 1;
+  return encode(&heights, nullptr, options);
+}
+
+TEST(CppInterface, RoundTripThroughMovedObjects) {
+  const std::vector<int16_t> samples = waves();
+  Expected<Buffer> stream = encodeWaves(samples);
+  ASSERT_TRUE(stream) << stream.error().message;
+  const Buffer buffer = std::move(*stream);
+  Expected<Decoder> opened = Decoder::open(buffer.bytes());
+  ASSERT_TRUE(opened) << opened.error().message;
+  Decoder decoder = std::move(*opened);
+  EXPECT_EQ(decoder.info().width, kWidth);
+  EXPECT_TRUE(decoder.verify());
+  const Expected<std::vector<std::byte>> heights = decoder.heights();
+  ASSERT_TRUE(heights) << heights.error().message;
+  ASSERT_EQ(heights->size(), samples.size() * sizeof(int16_t));
+  EXPECT_EQ(std::memcmp(heights->data(), samples.data(), heights->size()), 0);
+}
+
+TEST(CppInterface, MeshesStayInsideTheGrid) {
+  const std::vector<int16_t> samples = waves();
+  const Expected<Buffer> stream = encodeWaves(samples);
+  ASSERT_TRUE(stream);
+  Expected<Decoder> decoder = Decoder::open(stream->bytes());
+  ASSERT_TRUE(decoder);
+  for (const uint32_t triangles : {0u, 40u, 100u}) {
+    Expected<Mesh> made = decoder->budgetMesh(triangles);
+    ASSERT_TRUE(made) << made.error().message;
+    Mesh mesh = std::move(*made);
+    if (triangles > 0) EXPECT_LE(mesh.triangleCount(), triangles);
+    EXPECT_EQ(mesh.triangles().size(), size_t{3} * mesh.triangleCount());
+    EXPECT_EQ(mesh.heights().size(), mesh.gridIndices().size());
+    for (const uint32_t vertex : mesh.triangles()) EXPECT_LT(vertex, mesh.vertexCount());
+    for (const uint32_t sample : mesh.gridIndices()) EXPECT_LT(sample, kWidth * kHeight);
+  }
+  EXPECT_TRUE(decoder->codedMesh());
+}
+
+TEST(CppInterface, FailuresCarryCodeAndSentence) {
+  const Expected<Buffer> nothing = encode(nullptr, nullptr, makeEncodeOptions());
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().code, TKS_USAGE);
+  EXPECT_NE(nothing.error().message, "");
+  const std::vector<uint8_t> noise(100, 0x5a);
+  const Expected<Decoder> corrupt = Decoder::open(noise);
+  ASSERT_FALSE(corrupt);
+  EXPECT_EQ(corrupt.error().code, TKS_CORRUPT);
+  EXPECT_NE(corrupt.error().message, "");
+  const Expected<Decoder> empty = Decoder::open({});
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().code, TKS_TRUNCATED);
+}
+
+TEST(CppInterface, DecoderRefusesWhatTheStreamLacks) {
+  const std::vector<int16_t> samples = waves();
+  const Expected<Buffer> stream = encodeWaves(samples);
+  ASSERT_TRUE(stream);
+  Expected<Decoder> decoder = Decoder::open(stream->bytes());
+  ASSERT_TRUE(decoder);
+  const Expected<std::vector<std::byte>> texture = decoder->texture();
+  ASSERT_FALSE(texture);
+  EXPECT_EQ(texture.error().code, TKS_USAGE);
+  tks_limits limits = makeLimits();
+  limits.max_samples = 4;
+  const Expected<Decoder> limited = Decoder::open(stream->bytes(), limits);
+  ASSERT_FALSE(limited);
+  EXPECT_EQ(limited.error().code, TKS_LIMIT);
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lengths as people type them.
+#include "tools/units.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tetrakis::tools {
+namespace {
+
+TEST(Units, SuffixesConvertToTheUnitOfTheHeights) {
+  EXPECT_DOUBLE_EQ(*parseLength("0.5", "K"), 0.5);
+  EXPECT_DOUBLE_EQ(*parseLength("0.5m", "m"), 0.5);
+  EXPECT_DOUBLE_EQ(*parseLength("50cm", "m"), 0.5);
+  EXPECT_DOUBLE_EQ(*parseLength("50cm", ""), 0.5);
+  EXPECT_DOUBLE_EQ(*parseLength("1e2mm", "cm"), 10);
+  EXPECT_DOUBLE_EQ(*parseLength("1ft", "m"), 0.3048);
+  EXPECT_DOUBLE_EQ(*parseLength("0.3048m", "ft"), 1);
+}
+
+TEST(Units, NonsenseIsRefused) {
+  for (const char* text : {"", "m", "-1", "1 m", "1parsec", "nan", "inf", "1m2", "1,5", "0x1m"})
+    EXPECT_EQ(parseLength(text, "m").status().code(), TKS_USAGE) << text;
+  EXPECT_EQ(parseLength("1m", "K").status().code(), TKS_USAGE);
+}
+
+TEST(Units, SpacingIsOneNumberOrTwo) {
+  EXPECT_EQ(*parseSpacing("30"), (std::array<double, 2>{30, 30}));
+  EXPECT_EQ(*parseSpacing("30,24.5"), (std::array<double, 2>{30, 24.5}));
+  for (const char* text : {"", "0", "-3", "30,", ",30", "30,0", "30;25", "30,25,20", "a"})
+    EXPECT_EQ(parseSpacing(text).status().code(), TKS_USAGE) << text;
+}
+
+}  // namespace
+}  // namespace tetrakis::tools

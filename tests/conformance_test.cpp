@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The conformance vectors decode as their manifest says, and the runner sees it when they do not.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "conformance/digest.hpp"
+#include "conformance/runner.hpp"
+#include "conformance/vector_cases.hpp"
+
+namespace tetrakis::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A copy of the vectors that a test may spoil; removed afterwards.
+class Vectors : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() /
+                 (std::string("tetrakis_") +
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                  std::to_string(::getpid()));
+    fs::copy(kVectors, directory_, fs::copy_options::recursive);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  static constexpr const char* kVectors = TETRAKIS_VECTORS;
+  fs::path directory_;
+  std::ostringstream log_;
+};
+
+TEST(Digest, IsSha256OfLittleEndianSamples) {
+  EXPECT_EQ(sampleDigest({}, TKS_U8),
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  const uint16_t samples[] = {0x6261};  // "ab"
+  EXPECT_EQ(sampleDigest(std::as_bytes(std::span(samples)), TKS_U16),
+            "fb8e20fc2e4c3f248c60c39bd652f3c1347298bb977b8b4d5903b85055620603");
+}
+
+TEST_F(Vectors, AllPass) {
+  const auto summary = runVectors(kVectors, log_);
+  ASSERT_TRUE(summary.ok()) << summary.status().message();
+  EXPECT_EQ(summary->failed, 0) << log_.str();
+  EXPECT_GE(summary->passed, 12);
+}
+
+/// Every stream on disk is listed, every listed stream is small and comes from a case.
+TEST_F(Vectors, ManifestIsComplete) {
+  const auto vectors = readManifest(kVectors);
+  ASSERT_TRUE(vectors.ok()) << vectors.status().message();
+  std::set<std::string> listed{kManifestName};
+  for (const Vector& vector : *vectors) {
+    EXPECT_TRUE(listed.insert(vector.file).second) << vector.file << " is listed twice";
+    EXPECT_LT(fs::file_size(fs::path(kVectors) / vector.file), 20000u);
+    EXPECT_FALSE(vector.purpose.empty());
+    EXPECT_FALSE(vector.cuts.empty());
+  }
+  for (const auto& entry : fs::directory_iterator(kVectors)) {
+    EXPECT_TRUE(listed.contains(entry.path().filename())) << entry.path();
+  }
+  EXPECT_EQ(vectors->size(), vectorCases().size());
+}
+
+TEST_F(Vectors, ManifestIsWrittenAsItIsRead) {
+  const auto vectors = readManifest(kVectors);
+  ASSERT_TRUE(vectors.ok());
+  ASSERT_TRUE(writeManifest(directory_, *vectors).ok());
+  const auto original = readFile(std::string(kVectors) + "/" + kManifestName);
+  const auto copy = readFile(directory_ / kManifestName);
+  EXPECT_TRUE(*original == *copy);
+}
+
+TEST_F(Vectors, RunnerSeesWrongSamplesShortStreamsAndMissingFiles) {
+  auto vectors = readManifest(directory_);
+  ASSERT_TRUE(vectors.ok());
+  ASSERT_GE(vectors->size(), 3u);
+  const auto stream = readFile(directory_ / (*vectors)[1].file);
+  ASSERT_TRUE(
+      writeFile(directory_ / (*vectors)[1].file, std::string(stream->begin(), stream->end() - 1))
+          .ok());
+  fs::remove(directory_ / (*vectors)[2].file);
+  Cut& whole = vectors->front().cuts.back();
+  (whole.heights.empty() ? whole.texture : whole.heights)[5] ^= 1;
+  ASSERT_TRUE(writeManifest(directory_, *vectors).ok());
+  const auto summary = runVectors(directory_, log_);
+  ASSERT_TRUE(summary.ok());
+  EXPECT_EQ(summary->failed, 3) << log_.str();
+  EXPECT_EQ(summary->passed + 3, static_cast<int>(vectors->size()));
+}
+
+TEST_F(Vectors, ManifestErrors) {
+  EXPECT_EQ(runVectors(directory_ / "nowhere", log_).status().code(), TKS_IO);
+  for (const char* text : {"", "[]", "{\"vectors\": [{\"name\": 3}]}", "{\"vectors\": 7"}) {
+    ASSERT_TRUE(writeFile(directory_ / kManifestName, text).ok());
+    EXPECT_EQ(runVectors(directory_, log_).status().code(), TKS_CORRUPT) << text;
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::conformance

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// libFuzzer target: everything a reader does with bytes from a stranger. Seeds:
+// conformance/vectors.
+#include <cstdint>
+#include <cstdlib>
+
+#include "tests/header_seal.hpp"
+#include "tetrakis/tetrakis.hpp"
+
+extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
+
+namespace {
+
+/// Small enough that an input costs milliseconds, large enough for several levels.
+tks_limits fuzzLimits() {
+  tks_limits limits = tetrakis::makeLimits();
+  limits.max_samples = limits.max_texels = 1 << 13;
+  limits.max_memory = 64 << 20;
+  return limits;
+}
+
+/// The promise of tks_mesh: indices stay inside.
+void checkMesh(const tetrakis::Expected<tetrakis::Mesh>& mesh, const tks_info& info) {
+  if (!mesh) return;
+  const uint64_t samples = uint64_t{info.width} * info.height;
+  for (const uint32_t index : mesh->gridIndices()) {
+    if (index >= samples) std::abort();
+  }
+  for (const uint32_t index : mesh->triangles()) {
+    if (index >= mesh->vertexCount()) std::abort();
+  }
+}
+
+}  // namespace
+
+/// Random bytes never pass the header's checksum: every other mutant gets the right one.
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size,
+                                          unsigned int seed) {
+  const size_t mutated = LLVMFuzzerMutate(data, size, max_size);
+  if (seed & 1u) tetrakis::test::sealHeader({data, mutated});
+  return mutated;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  auto decoder = tetrakis::Decoder::open({data, size}, fuzzLimits());
+  if (!decoder) return 0;
+  const tks_info& info = decoder->info();
+  if (info.has_heights) {
+    const auto first = decoder->heights();
+    const auto second = decoder->heights();
+    if (static_cast<bool>(first) != static_cast<bool>(second)) std::abort();
+    if (first && *first != *second) std::abort();
+    checkMesh(decoder->codedMesh(), info);
+    checkMesh(decoder->budgetMesh(100), info);
+  }
+  if (info.has_texture) static_cast<void>(decoder->texture());
+  static_cast<void>(decoder->verify());
+  return 0;
+}

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# glb_test.sh TETRAKIS NODE_FOLDER: every kind of mesh that the command line writes passes the Khronos
+# glTF validator. Exits with 77 (skipped) where NODE_FOLDER has no validator: scripts/test installs it.
+set -euo pipefail
+cli="$1" node_folder="$2"
+here="$(cd "$(dirname "$0")" && pwd)"
+[[ -d "$node_folder/node_modules/gltf-validator" ]] || exit 77
+
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+tetrakis() { "$cli" -q "$@"; }
+
+tetrakis synth -o "$work" --size 65
+tetrakis encode "$work/height.tif" --texture "$work/texture.png" --bytes 16k -o "$work/both.tks"
+tetrakis encode "$work/height.tif" --lossless -o "$work/bare.tks"
+for stream in both bare; do
+  tetrakis decode "$work/$stream.tks" --mesh "$work/$stream-full.glb"
+  tetrakis decode "$work/$stream.tks" --triangles 500 --mesh "$work/$stream-budget.glb"
+  tetrakis decode "$work/$stream.tks" --bytes 3000 --coded-mesh --mesh "$work/$stream-coded.glb"
+done
+
+cd "$node_folder"
+node "$here/validate_glb.mjs" "$work"/*.glb

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images on disk: lossless formats are exact, conversions are told, the rest is refused.
+#include <cmath>
+#include <random>
+#include <tuple>
+
+#include "tests/scratch_folder.hpp"
+#include "tests/tiny_tiff.hpp"
+#include "tools/files.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using test::ScratchFolder;
+using test::TinyTiff;
+
+ImageFile randomImage(uint32_t width, uint32_t height, uint32_t channels, tks_sample sample) {
+  ImageFile image{width, height, channels, sample, {}};
+  image.data.resize(size_t{width} * height * channels * tks_sample_bytes(sample));
+  std::mt19937 random(width + 7 * channels);
+  for (std::byte& byte : image.data) byte = static_cast<std::byte>(random());
+  return image;
+}
+
+void expectPixels(const Result<ImageFile>& read, const std::vector<uint8_t>& pixels) {
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  ASSERT_EQ(read->data.size(), pixels.size());
+  for (size_t i = 0; i < pixels.size(); ++i) EXPECT_EQ(uint8_t(read->data[i]), pixels[i]) << i;
+}
+
+TEST_F(ScratchFolder, LosslessFormatsAreExact) {
+  for (const tks_sample sample : {TKS_U8, TKS_U16}) {
+    for (uint32_t channels = 1; channels <= 4; ++channels) {
+      for (const auto& [width, height] : {std::pair{1U, 1U}, {1U, 300U}, {257U, 2U}, {64U, 65U}}) {
+        const ImageFile image = randomImage(width, height, channels, sample);
+        for (const char* format : {"png", "tif"}) {
+          SCOPED_TRACE(std::string(format) + " " + std::to_string(channels));
+          ASSERT_TRUE(writeImage(path("a"), image, format).ok());
+          std::string note = "unset";
+          const auto read = readImage(path("a"), &note);
+          ASSERT_TRUE(read.ok()) << read.status().message();
+          EXPECT_EQ(note, "");
+          EXPECT_EQ(read->width, width);
+          EXPECT_EQ(read->height, height);
+          EXPECT_EQ(read->channels, channels);
+          EXPECT_EQ(read->sample, sample);
+          EXPECT_TRUE(read->data == image.data);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ScratchFolder, JpegIsCloseAndGrowsWithQuality) {
+  for (const uint32_t channels : {1U, 3U}) {
+    ImageFile image{61, 47, channels, TKS_U8, {}};
+    for (uint32_t i = 0; i < 61 * 47 * channels; ++i) {
+      image.data.push_back(static_cast<std::byte>(std::lround(128 + 100 * std::sin(i * 0.003))));
+    }
+    ASSERT_TRUE(writeImage(path("a.jpg"), image).ok());
+    const auto read = readImage(path("a.jpg"));
+    ASSERT_TRUE(read.ok()) << read.status().message();
+    ASSERT_EQ(read->data.size(), image.data.size());
+    for (size_t i = 0; i < image.data.size(); ++i) {
+      EXPECT_NEAR(int(read->data[i]), int(image.data[i]), 8);
+    }
+    const auto coarse = encodeJpeg(image, 20), fine = encodeJpeg(image, 95);
+    ASSERT_TRUE(coarse.ok() && fine.ok());
+    EXPECT_LT(coarse->size(), fine->size());
+  }
+}
+
+TEST_F(ScratchFolder, JpegRefusesWhatItCannotHold) {
+  EXPECT_EQ(encodeJpeg(randomImage(4, 4, 4, TKS_U8), 90).status().code(), TKS_USAGE);
+  EXPECT_EQ(encodeJpeg(randomImage(4, 4, 3, TKS_U16), 90).status().code(), TKS_USAGE);
+  EXPECT_EQ(encodeJpeg(randomImage(70000, 1, 1, TKS_U8), 90).status().code(), TKS_USAGE);
+  EXPECT_EQ(writeImage(path("a.jpg"), randomImage(4, 4, 2, TKS_U8)).code(), TKS_USAGE);
+  EXPECT_FALSE(std::filesystem::exists(path("a.jpg")));
+}
+
+TEST_F(ScratchFolder, PalettesAreExpandedAndTold) {
+  // 2 x 1 pixels, indices 1 and 0 into (10, 20, 30), (40, 50, 60).
+  const std::vector<uint8_t> png{
+      0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44,
+      0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x03, 0x00, 0x00, 0x00, 0xC3,
+      0xFC, 0x8F, 0xB8, 0x00, 0x00, 0x00, 0x06, 0x50, 0x4C, 0x54, 0x45, 0x0A, 0x14, 0x1E, 0x28,
+      0x32, 0x3C, 0xD5, 0x1B, 0xB4, 0xE9, 0x00, 0x00, 0x00, 0x0B, 0x49, 0x44, 0x41, 0x54, 0x78,
+      0xDA, 0x63, 0x60, 0x64, 0x00, 0x00, 0x00, 0x05, 0x00, 0x02, 0x42, 0xC2, 0x44, 0x9F, 0x00,
+      0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+  std::string note;
+  expectPixels(readImage(save("a.png", png), &note), {40, 50, 60, 10, 20, 30});
+  EXPECT_NE(note.find("palette"), std::string::npos);
+  EXPECT_EQ(readHeights(path("a.png")).status().code(), TKS_USAGE);
+
+  TinyTiff tiff(2, 1, 1, 8, {1, 0});
+  tiff.shorts(TinyTiff::kPhotometric, {3});
+  std::vector<uint16_t> colours(3 * 256);
+  for (size_t channel = 0; channel < 3; ++channel) {
+    colours[256 * channel] = uint16_t(257 * 10 * (channel + 1));
+    colours[256 * channel + 1] = uint16_t(257 * 10 * (channel + 4));
+  }
+  tiff.shorts(TinyTiff::kColorMap, colours);
+  note.clear();
+  expectPixels(readImage(save("a.tif", tiff.bytes()), &note), {40, 50, 60, 10, 20, 30});
+  EXPECT_NE(note.find("palette"), std::string::npos);
+}
+
+TEST_F(ScratchFolder, CmykIsConvertedAndTold) {
+  TinyTiff tiff(1, 1, 4, 8, {0, 255, 255, 0});  // no cyan, full magenta and yellow: red
+  tiff.shorts(TinyTiff::kPhotometric, {5});
+  std::string note;
+  expectPixels(readImage(save("a.tif", tiff.bytes()), &note), {255, 0, 0});
+  EXPECT_NE(note.find("CMYK"), std::string::npos);
+}
+
+TEST_F(ScratchFolder, FewBitsAreWidenedToFullRange) {
+  const TinyTiff tiff(4, 1, 1, 4, {0x0F, 0x50});
+  expectPixels(readImage(save("a.tif", tiff.bytes())), {0, 255, 85, 0});
+  const TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
+  expectPixels(readImage(save("b.tif", bilevel.bytes())), {255, 0, 255, 0, 0, 0, 0, 0, 255});
+}
+
+TEST_F(ScratchFolder, OrientationIsApplied) {
+  TinyTiff tiff(3, 2, 1, 8, {1, 2, 3, 4, 5, 6});
+  const std::tuple<uint16_t, std::vector<uint8_t>> upright[] = {
+      {2, {3, 2, 1, 6, 5, 4}}, {3, {6, 5, 4, 3, 2, 1}}, {4, {4, 5, 6, 1, 2, 3}},
+      {5, {1, 4, 2, 5, 3, 6}}, {6, {4, 1, 5, 2, 6, 3}}, {7, {6, 3, 5, 2, 4, 1}},
+      {8, {3, 6, 2, 5, 1, 4}}};
+  for (const auto& [orientation, pixels] : upright) {
+    SCOPED_TRACE(orientation);
+    tiff.shorts(TinyTiff::kOrientation, {orientation});
+    std::string note;
+    const auto image = readImage(save("a.tif", tiff.bytes()), &note);
+    expectPixels(image, pixels);
+    EXPECT_EQ(image->width, orientation < 5 ? 3U : 2U);
+    EXPECT_NE(note.find("orientation"), std::string::npos);
+  }
+}
+
+TEST_F(ScratchFolder, ImagesThatAreNoneAreRefused) {
+  HeightFile floats;
+  floats.width = floats.height = 2;
+  floats.sample = TKS_F32;
+  floats.data.resize(16);
+  ASSERT_TRUE(writeHeights(path("float.tif"), floats).ok());
+  HeightFile is_signed = floats;
+  is_signed.sample = TKS_I16;
+  is_signed.data.resize(8);
+  ASSERT_TRUE(writeHeights(path("signed.tif"), is_signed).ok());
+  const TinyTiff five(1, 1, 5, 8, {1, 2, 3, 4, 5});
+  const std::tuple<std::string, tks_status> refused[] = {
+      {path("float.tif"), TKS_USAGE},
+      {path("signed.tif"), TKS_USAGE},
+      {save("five.tif", five.bytes()), TKS_USAGE},
+      {path("missing.png"), TKS_IO},
+      {save("text.png", std::vector<char>{'n', 'o'}), TKS_IO}};
+  for (const auto& [file, code] : refused) {
+    const auto read = readImage(file);
+    EXPECT_EQ(read.status().code(), code) << file << ": " << read.status().message();
+    EXPECT_NE(read.status().message().find(file), std::string::npos);
+  }
+}
+
+TEST_F(ScratchFolder, ImagesThatCannotBeWrittenFail) {
+  const ImageFile image = randomImage(4, 4, 3, TKS_U8);
+  EXPECT_EQ(writeImage(path("a.xyz"), image).code(), TKS_USAGE);
+  EXPECT_EQ(writeImage(path("a"), image).code(), TKS_USAGE);
+  EXPECT_EQ(writeImage(path("missing/a.png"), image).code(), TKS_IO);
+  ImageFile wrong = image;
+  wrong.data.pop_back();
+  EXPECT_EQ(writeImage(path("a.png"), wrong).code(), TKS_USAGE);
+  wrong = image;
+  wrong.channels = 5;
+  EXPECT_EQ(writeImage(path("a.png"), wrong).code(), TKS_USAGE);
+}
+
+TEST_F(ScratchFolder, ImagesComeFromStandardInput) {
+  const ImageFile image = randomImage(5, 6, 3, TKS_U8);
+  ASSERT_TRUE(writeImage(path("a.png"), image).ok());
+  ASSERT_NE(std::freopen(path("a.png").c_str(), "rb", stdin), nullptr);
+  const auto read = readImage("-");
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_TRUE(read->data == image.data);
+}
+
+}  // namespace
+}  // namespace tetrakis::tools

@@ -1,0 +1,42 @@
+# The walls between rooms (docs/ARCHITECTURE.md), checked when CMake configures.
+
+# Every library that `target` links, directly or not.
+function(tks_closure target out)
+  set(open ${target})
+  set(closed)
+  while(open)
+    list(POP_FRONT open next)
+    if(next IN_LIST closed)
+      continue()
+    endif()
+    list(APPEND closed ${next})
+    if(TARGET ${next})
+      get_target_property(libraries ${next} INTERFACE_LINK_LIBRARIES)
+      if(libraries)
+        list(APPEND open ${libraries})
+      endif()
+    endif()
+  endwhile()
+  list(REMOVE_ITEM closed ${target})
+  set(${out} ${closed} PARENT_SCOPE)
+endfunction()
+
+# tks_wall(TARGET REGEX...): no library that TARGET links may match.
+function(tks_wall target)
+  tks_closure(${target} libraries)
+  foreach(regex IN LISTS ARGN)
+    foreach(library IN LISTS libraries)
+      if(library MATCHES "${regex}")
+        message(FATAL_ERROR "${target} must not link ${library}")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+# The decoder is the WebAssembly build: no encoder, no rate control, nothing from outside.
+tks_wall(tetrakis_decoder "encoder" "ratecontrol" "::")
+tks_wall(tetrakis "tks_files" "tks_conformance" "tks_cli" "PkgConfig" "GTest")
+tks_wall(tks_bitstream "codec" "texture" "ratecontrol" "tetrakis" "::")
+tks_wall(tks_codec "texture" "ratecontrol" "tetrakis" "::")
+tks_wall(tks_mesh "texture" "ratecontrol" "tetrakis" "::")
+tks_wall(tks_texture "codec" "mesh" "ratecontrol" "tetrakis" "::")
