@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <map>
 
 #include "api/samples.hpp"
+#include "codec/geometry_decoder.hpp"
 #include "codec/geometry_encoder.hpp"
+#include "ratecontrol/audit.hpp"
 #include "ratecontrol/hull.hpp"
 #include "ratecontrol/screen_model.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {
 
@@ -28,6 +32,29 @@ Texels toTexels(const tks_image& image) {
   return texels;
 }
 
+double squaredDistance(const std::vector<int32_t>& a, const std::vector<int32_t>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const double difference = static_cast<double>(a[i]) - b[i];
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+/// The hull of a track in the common distortion, with the RMSE that each packet states.
+template <class MeanSquare, class Cost>
+TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost cost) {
+  std::map<uint64_t, double> rmse;
+  for (RatePoint& point : points) {
+    rmse[point.bytes] = std::sqrt(mean_square(point.distortion));
+    point.distortion = cost(point.distortion);
+  }
+  TrackCurve curve;
+  curve.points = lowerHull(points, kPacketGrowth);
+  for (const RatePoint& point : curve.points) curve.rmse.push_back(rmse[point.bytes]);
+  return curve;
+}
+
 double metresPerUnit(const char* unit) {
   const std::string name = unit ? unit : "";
   return name == "ft" ? 0.3048 : name == "cm" ? 0.01 : name == "mm" ? 0.001 : name == "km" ? 1000 : 1;
@@ -39,6 +66,7 @@ EncodeJob::EncodeJob(const tks_heights* heights, const tks_image* image, const t
     : heights_(heights), image_(image), options_(options) {}
 
 Result<std::vector<uint8_t>> EncodeJob::run() {
+  if (Status status = report(0); !status.ok()) return status;
   if (Status status = quantise(); !status.ok()) return status;
   if (Status status = encodeTracks(); !status.ok()) return status;
   order();
@@ -47,7 +75,9 @@ Result<std::vector<uint8_t>> EncodeJob::run() {
   Result<Needs> wanted = needs();
   if (!wanted.ok()) return wanted.status();
   keepNeeded(*wanted);
-  return assemble();
+  Result<std::vector<uint8_t>> stream = assemble();
+  if (Status status = report(1); !status.ok()) return status;
+  return stream;
 }
 
 Status EncodeJob::report(double done) const {
@@ -83,14 +113,17 @@ void EncodeJob::encodeGeometryWith(int fraction_bits) {
   geometry_->fraction_bits = fraction_bits;
   std::vector<int32_t> scaled = geometry_->steps.steps;
   for (int32_t& q : scaled) q *= 1 << fraction_bits;
-  geometry_->track = encodeGeometry(scaled, heights_->width, heights_->height,
-                                    options_.bytes != 0 ? options_.bytes : UINT64_MAX);
+  geometry_->track = encodeGeometry(scaled, heights_->width, heights_->height, trackLimit());
+  for (RatePoint& point : geometry_->track.points) point.distortion *= std::exp2(-2 * fraction_bits);
 }
 
+/// Bytes of a track worth coding. Beyond the budget, because the slopes of the last packets within it
+/// depend on the points that follow, and the order must not depend on the budget.
+uint64_t EncodeJob::trackLimit() const { return options_.bytes != 0 ? 2 * options_.bytes + 4096 : UINT64_MAX; }
+
 Status EncodeJob::encodeTracks() {
-  const uint64_t limit = options_.bytes != 0 ? options_.bytes : UINT64_MAX;
   const bool parallel = options_.threads > 1 && geometry_ && image_ != nullptr;
-  const auto encode_texture = [&] { return encodeTexture(texels_, limit); };
+  const auto encode_texture = [&] { return encodeTexture(texels_, trackLimit()); };
   std::future<EncodedTexture> texture;
   if (image_ != nullptr) {
     texture = std::async(parallel ? std::launch::async : std::launch::deferred, encode_texture);
@@ -124,48 +157,54 @@ Status EncodeJob::encodeLosslessGeometryIfItFits() {
   return {};
 }
 
-bool EncodeJob::everythingWithin(uint64_t payload) const {
-  uint64_t total = 0;
-  for (const Packet& packet : packets_) total += overheadOf(packet) + packet.end - packet.begin;
-  return total <= payload && (!geometry_ || geometry_->track.complete) && (!texture_ || texture_->track.complete);
+std::vector<int32_t> EncodeJob::decodedSteps(uint64_t bytes) const {
+  DecodedGeometry decoded = decodeGeometry(std::span(geometry_->track.codeword).first(bytes), geometry_->track.planes,
+                                           heights_->width, heights_->height);
+  dropFraction(decoded.heights, geometry_->fraction_bits);
+  return std::move(decoded.heights);
+}
+
+Texels EncodeJob::decodedTexels(uint64_t bytes) const {
+  return decodeTexture(texture_->header, std::span(texture_->track.codeword).first(bytes));
+}
+
+/// Sum of squared errors in steps.
+double EncodeJob::geometrySquares(uint64_t bytes) const {
+  return squaredDistance(decodedSteps(bytes), geometry_->steps.steps);
+}
+
+double EncodeJob::textureSquares(uint64_t bytes) const {
+  return squaredDistance(decodedTexels(bytes).samples, texels_.samples);
 }
 
 TrackCurve EncodeJob::geometryCurve() const {
-  TrackCurve curve;
-  if (!geometry_) return curve;
-  const double unit = geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
-  const double samples = static_cast<double>(geometry_->steps.steps.size());
-  const double to_steps = std::exp2(-2 * geometry_->fraction_bits) / samples;
-  std::vector<RatePoint> points = geometry_->track.points;
-  if (image_ != nullptr) {
-    const double relief = std::exp2(geometry_->steps.range_bits) * unit;
-    const double side = std::max(heights_->width, heights_->height) - 1;
-    const double spacing = heights_->spacing_x > 0 ? heights_->spacing_x : 10 * relief / side;
-    const double texel = spacing * (heights_->width - 1) / image_->width;
-    const double parallax = options_.parallax > 0 ? options_.parallax : kDefaultParallax;
-    const ScreenModel model(texels_, parallax / texel);
-    for (RatePoint& p : points) p.distortion = model.cost(p.distortion * to_steps * unit * unit);
-  } else {
-    for (RatePoint& p : points) p.distortion *= to_steps;
-  }
-  curve.points = lowerHull(points, kPacketGrowth);
-  for (const RatePoint& p : curve.points) {
-    const auto same = std::find_if(geometry_->track.points.begin(), geometry_->track.points.end(),
-                                   [&](const RatePoint& q) { return q.bytes == p.bytes; });
-    curve.rmse.push_back(std::sqrt(same->distortion * to_steps));
-  }
-  return curve;
+  if (!geometry_) return {};
+  const uint64_t samples = geometry_->steps.steps.size();
+  const std::vector<RatePoint> points =
+      audit(geometry_->track, samples, budgeted(), [&](uint64_t bytes) { return geometrySquares(bytes); });
+  const double step = geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
+  const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
+  if (image_ == nullptr) return priced(points, mean_square, mean_square);
+  const ScreenModel model(texels_, texelsPerMetre(step));
+  return priced(points, mean_square, [&](double squares) { return model.cost(mean_square(squares) * step * step); });
+}
+
+/// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to be
+/// ten times as wide as it is high.
+double EncodeJob::texelsPerMetre(double step) const {
+  const double relief = std::exp2(geometry_->steps.range_bits) * step;
+  const double side = std::max(heights_->width, heights_->height) - 1;
+  const double spacing = heights_->spacing_x > 0 ? heights_->spacing_x : 10 * relief / side;
+  const double texel = spacing * (heights_->width - 1) / image_->width;
+  return (options_.parallax > 0 ? options_.parallax : kDefaultParallax) / texel;
 }
 
 TrackCurve EncodeJob::textureCurve() const {
-  TrackCurve curve;
-  if (!texture_) return curve;
-  const double samples = static_cast<double>(texels_.samples.size());
-  std::vector<RatePoint> points = texture_->track.points;
-  for (RatePoint& p : points) p.distortion /= samples;
-  curve.points = lowerHull(points, kPacketGrowth);
-  for (const RatePoint& p : curve.points) curve.rmse.push_back(std::sqrt(p.distortion));
-  return curve;
+  if (!texture_) return {};
+  const uint64_t samples = texels_.samples.size();
+  const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
+  return priced(audit(texture_->track, samples, budgeted(), [&](uint64_t bytes) { return textureSquares(bytes); }),
+                mean_square, mean_square);
 }
 
 void EncodeJob::order() { packets_ = allocate({geometryCurve(), textureCurve()}); }
@@ -197,15 +236,14 @@ StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const 
   return header;
 }
 
-/// Cuts inside a packet head, or inside a packet that counts only whole, buy nothing: leave them out.
-uint64_t EncodeJob::usefulPayload(uint64_t room) const {
-  uint64_t used = 0;
-  for (const Packet& packet : packets_) {
-    const uint64_t head = overheadOf(packet), size = head + packet.end - packet.begin;
-    if (size > room - used) return packet.whole || room - used <= head ? used : room;
-    used += size;
-  }
-  return used;
+uint64_t EncodeJob::totalPayload() const {
+  uint64_t total = 0;
+  for (const Packet& packet : packets_) total += overheadOf(packet) + packet.end - packet.begin;
+  return total;
+}
+
+bool EncodeJob::everythingWithin(uint64_t payload) const {
+  return totalPayload() <= payload && (!geometry_ || geometry_->track.complete) && (!texture_ || texture_->track.complete);
 }
 
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {
@@ -222,7 +260,7 @@ Result<std::vector<uint8_t>> EncodeJob::assemble() const {
     }
     room = options_.bytes - header_bytes;
   }
-  const uint64_t payload_bytes = usefulPayload(room);
+  const uint64_t payload_bytes = std::min(room, totalPayload());
   std::vector<uint8_t> stream = writeHeader(makeHeader(payload_bytes, everythingWithin(room)));
   const std::vector<uint8_t> payload = multiplex(packets_, codewords, payload_bytes);
   stream.insert(stream.end(), payload.begin(), payload.end());

@@ -35,10 +35,17 @@ class EncodeJob {
   Status encodeLosslessGeometryIfItFits();
   void encodeGeometryWith(int fraction_bits);
   int lossyFractionBits() const;
+  uint64_t trackLimit() const;
+  bool budgeted() const { return options_.bytes != 0; }
 
   void order();
   TrackCurve geometryCurve() const;
   TrackCurve textureCurve() const;
+  double texelsPerMetre(double step) const;
+  std::vector<int32_t> decodedSteps(uint64_t bytes) const;
+  Texels decodedTexels(uint64_t bytes) const;
+  double geometrySquares(uint64_t bytes) const;
+  double textureSquares(uint64_t bytes) const;
 
   // encode_target.cpp: how much of each track a quality target needs.
   Result<Needs> needs() const;
@@ -50,7 +57,7 @@ class EncodeJob {
 
   StreamHeader makeHeader(uint64_t payload_bytes, bool lossless) const;
   Result<std::vector<uint8_t>> assemble() const;
-  uint64_t usefulPayload(uint64_t room) const;
+  uint64_t totalPayload() const;
   bool everythingWithin(uint64_t payload) const;
   Status report(double done) const;
 

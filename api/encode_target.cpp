@@ -6,8 +6,6 @@
 
 #include "api/encode_job.hpp"
 #include "api/samples.hpp"
-#include "codec/geometry_decoder.hpp"
-#include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {
 
@@ -68,22 +66,14 @@ uint64_t first(const std::vector<uint64_t>& ends, Meets meets) {
 bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
   const StreamHeader header = makeHeader(0, false);
   const GeometryHeader& g = *header.geometry;
-  DecodedGeometry decoded = decodeGeometry(std::span(geometry_->track.codeword).first(bytes), g.planes, g.width, g.height);
-  dropFraction(decoded.heights, g.fraction_bits);
-  const HeightErrors errors = measure(*heights_, g, decoded.heights);
+  const HeightErrors errors = measure(*heights_, g, decodedSteps(bytes));
   if (options_.max_error > 0) return errors.largest * std::abs(heights_->scale) <= options_.max_error;
   return errors.mean_square <= worstMeanSquare(errors.range, options_.psnr);
 }
 
 bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
-  const Texels decoded = decodeTexture(texture_->header, std::span(texture_->track.codeword).first(bytes));
-  double squares = 0;
-  for (size_t i = 0; i < decoded.samples.size(); ++i) {
-    const double error = decoded.samples[i] - texels_.samples[i];
-    squares += error * error;
-  }
   const double peak = (1 << texels_.bits) - 1;
-  return squares / static_cast<double>(decoded.samples.size()) <= worstMeanSquare(peak, options_.psnr);
+  return textureSquares(bytes) / static_cast<double>(texels_.samples.size()) <= worstMeanSquare(peak, options_.psnr);
 }
 
 Result<uint64_t> EncodeJob::geometryNeed() const {

@@ -55,7 +55,7 @@ class EncodingIo {
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
  private:
-  static constexpr double kDip = 1.004;  ///< 0.017 dB: well inside the 0.03 dB that a prefix may fall
+  static constexpr double kDip = 1.0015;  ///< 0.0065 dB: well inside the 0.03 dB that a prefix may fall
 
   bool reaches(const CellRange& range, int plane) const {
     for (uint32_t row = range.row; row < range.row_end; ++row) {

@@ -18,10 +18,25 @@ namespace {
 
 enum class State : uint32_t { kPresent, kTouched, kRemoved };
 
-/// u(M_v), thesis (5.3): what removing v and its remaining descendants costs and saves.
-struct Domain {
+/// What a vertex, or several, are worth: a vector functional u = (D, R) of the thesis.
+struct Worth {
   double distortion = 0;
   uint32_t triangles = 0;
+
+  Worth& operator+=(const Worth& other) {
+    distortion += other.distortion;
+    triangles += other.triangles;
+    return *this;
+  }
+  Worth& operator-=(const Worth& other) {
+    distortion -= other.distortion;
+    triangles -= other.triangles;
+    return *this;
+  }
+};
+
+/// u(M_v), thesis (5.3): what removing v and its remaining descendants costs and saves.
+struct Domain : Worth {
   State state = State::kPresent;
 
   /// What saves no triangles goes at once if it costs nothing, and as late as it can otherwise.
@@ -36,7 +51,7 @@ class Decimator {
  public:
   Decimator(const Lattice& lattice, const std::vector<double>& gains)
       : lattice_(lattice),
-        walk_(lattice),
+        sums_(lattice),
         gains_(gains),
         domains_(gains.size()),
         queue_(sumDomains()) {}
@@ -59,21 +74,18 @@ class Decimator {
 
  private:
   std::vector<double> sumDomains() {
+    const auto add = [&](VertexId a, const Worth& worth) { domains_[a] += worth; };
     for (VertexId v = 0; v < domains_.size(); ++v) {
       const Site site = lattice_.site(v);
-      const uint32_t triangles = lattice_.triangleCost(site);
-      add(v, gains_[v], triangles);
-      walk_.forEach(site, [&](VertexId a) { add(a, gains_[v], triangles); });
+      sums_.add(site, worthOf(site, v), add);
     }
+    sums_.flush(add);
     std::vector<double> slopes(domains_.size());
     for (VertexId v = 0; v < domains_.size(); ++v) slopes[v] = domains_[v].slope();
     return slopes;
   }
 
-  void add(VertexId v, double distortion, uint32_t triangles) {
-    domains_[v].distortion += distortion;
-    domains_[v].triangles += triangles;
-  }
+  Worth worthOf(Site site, VertexId v) const { return {gains_[v], lattice_.triangleCost(site)}; }
 
   void remove(VertexId v) {
     collect(v);
@@ -97,33 +109,25 @@ class Decimator {
       });
   }
 
-  /// A single vertex has the least slope of all, so no slope falls, but that of domains without
-  /// triangles.
+  /// A single vertex has the least slope of all: no slope falls. (Nor is a domain left that saves
+  /// no triangles and costs nothing: its slope was the same, and the coarser vertex goes first.)
   void updateAncestors(Site site, VertexId v) {
-    const double distortion = gains_[v];
-    const uint32_t triangles = lattice_.triangleCost(site);
-    walk_.forEach(site, [&](VertexId a) {
-      domains_[a].distortion -= distortion;
-      domains_[a].triangles -= triangles;
-      if (domains_[a].triangles == 0) queue_.push({domains_[a].slope(), a});
-    });
+    const Worth worth = worthOf(site, v);
+    forEachAncestor(lattice_, site, [&](VertexId a) { domains_[a] -= worth; });
   }
 
   void updateAncestorsOfGroup() {
     touched_.clear();
-    for (const Site site : group_) {
-      const double distortion = gains_[lattice_.id(site)];
-      const uint32_t triangles = lattice_.triangleCost(site);
-      if (distortion == 0 && triangles == 0) continue;
-      walk_.forEach(site, [&](VertexId a) {
-        Domain& domain = domains_[a];
-        if (domain.state == State::kRemoved) return;
-        if (domain.state == State::kPresent) touched_.push_back({domain.slope(), a});
-        domain.state = State::kTouched;
-        domain.distortion -= distortion;
-        domain.triangles -= triangles;
-      });
-    }
+    const auto subtract = [&](VertexId a, const Worth& worth) {
+      Domain& domain = domains_[a];
+      if (domain.state == State::kRemoved) return;
+      if (domain.state == State::kPresent) touched_.push_back({domain.slope(), a});
+      domain.state = State::kTouched;
+      domain -= worth;
+    };
+    for (size_t i = group_.size(); i-- > 0;)
+      sums_.add(group_[i], worthOf(group_[i], lattice_.id(group_[i])), subtract);
+    sums_.flush(subtract);
     for (const Candidate& before : touched_) {
       Domain& domain = domains_[before.vertex];
       domain.state = State::kPresent;
@@ -132,7 +136,7 @@ class Decimator {
   }
 
   const Lattice& lattice_;
-  const AncestorWalk walk_;
+  AncestorSums<Worth> sums_;
   const std::vector<double>& gains_;
   std::vector<Domain> domains_;
   SlopeQueue queue_;

@@ -136,15 +136,15 @@ std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId
   return idsOf(marks);
 }
 
-LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> significant) {
-  assert(significant.size() == lattice.sampleCount());
-  std::vector<bool> marks(lattice.vertexCount());
+LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks) {
+  assert(marks.size() == lattice.sampleCount());
+  std::vector<bool> chosen(lattice.vertexCount());
   for (VertexId v = 0; v < lattice.vertexCount(); ++v) {
     const Site site = lattice.site(v);
-    marks[v] = !lattice.hidden(site) && significant[lattice.gridIndex(lattice.position(site))] != 0;
+    chosen[v] = !lattice.hidden(site) && marks[lattice.gridIndex(lattice.position(site))] != 0;
   }
-  close(lattice, marks);
-  return meshOf(lattice, idsOf(marks));
+  close(lattice, chosen);
+  return meshOf(lattice, idsOf(chosen));
 }
 
 }  // namespace tetrakis

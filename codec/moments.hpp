@@ -37,7 +37,7 @@ struct TriangleMoments {
   Gram gram;
 };
 
-/// Total weight of a sample in one full-resolution triangle that has it as a corner.
+/// Weights of the corner samples in one full-resolution triangle; split: of w in either half.
 struct CornerWeights {
   double a = 0, b = 0, apex = 0, split = 0;
 };

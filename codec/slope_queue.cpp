@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorting floats by their bits, and a binary heap.
+// Sorting floats by their bits; buckets; a binary heap.
 #include "codec/slope_queue.hpp"
 
 #include <algorithm>
@@ -8,9 +8,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace tetrakis {
 namespace {
+
+constexpr uint32_t kBuckets = 1 << 16;
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 /// Largest float that is not above the slope.
 float roundDown(double slope) {
@@ -46,21 +50,40 @@ void radixSort(std::vector<uint64_t>& entries) {
 
 }  // namespace
 
-SlopeQueue::SlopeQueue(std::span<const double> slopes) : sorted_(slopes.size()) {
+SlopeQueue::SlopeQueue(std::span<const double> slopes)
+    : sorted_(slopes.size()), buckets_(kBuckets, kNone), free_(kNone) {
   for (size_t v = 0; v < slopes.size(); ++v)
     sorted_[v] = uint64_t{orderedBits(roundDown(slopes[v]))} << 32 | v;
   radixSort(sorted_);
 }
 
-Candidate SlopeQueue::front() const {
-  const uint64_t entry = sorted_[next_];
+Candidate SlopeQueue::sortedFront() const {
+  const uint64_t entry = sorted_[next_sorted_];
   return {floatOf(static_cast<uint32_t>(entry >> 32)), static_cast<VertexId>(entry)};
 }
 
+/// Makes the least entry either the heap's or the sorted one.
+void SlopeQueue::fillHeap() {
+  const uint32_t last =
+      sortedIsEmpty() ? kBuckets - 1 : static_cast<uint32_t>(sorted_[next_sorted_] >> 48);
+  while (heap_.empty() && current_ < last) openBucket(++current_);
+}
+
+void SlopeQueue::openBucket(uint32_t bucket) {
+  uint32_t i = std::exchange(buckets_[bucket], kNone);
+  while (i != kNone) {
+    heap_.push_back({entries_[i].slope, entries_[i].vertex});
+    const uint32_t next = std::exchange(entries_[i].next, free_);
+    free_ = std::exchange(i, next);
+  }
+  std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
+}
+
 Candidate SlopeQueue::pop() {
-  if (next_ < sorted_.size() && (heap_.empty() || front() <= heap_.front())) {
-    const Candidate least = front();
-    ++next_;
+  fillHeap();
+  if (!sortedIsEmpty() && (heap_.empty() || sortedFront() <= heap_.front())) {
+    const Candidate least = sortedFront();
+    ++next_sorted_;
     return least;
   }
   std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
@@ -70,12 +93,26 @@ Candidate SlopeQueue::pop() {
 }
 
 void SlopeQueue::push(const Candidate& candidate) {
-  heap_.push_back(candidate);
-  std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+  const uint32_t bucket = orderedBits(roundDown(candidate.slope)) >> 16;
+  if (bucket <= current_) {
+    heap_.push_back(candidate);
+    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    return;
+  }
+  const Entry entry{candidate.slope, candidate.vertex, buckets_[bucket]};
+  if (free_ == kNone) {
+    buckets_[bucket] = static_cast<uint32_t>(entries_.size());
+    entries_.push_back(entry);
+  } else {
+    const uint32_t place = std::exchange(free_, entries_[free_].next);
+    buckets_[bucket] = place;
+    entries_[place] = entry;
+  }
 }
 
-bool SlopeQueue::isBeforeAll(const Candidate& candidate) const {
-  return (next_ == sorted_.size() || candidate <= front()) &&
+bool SlopeQueue::isBeforeAll(const Candidate& candidate) {
+  fillHeap();
+  return (sortedIsEmpty() || candidate <= sortedFront()) &&
          (heap_.empty() || candidate <= heap_.front());
 }
 

@@ -91,6 +91,16 @@ double bruteForceError(const LatticeMesh& mesh, const Terrain& terrain) {
   return error;
 }
 
+/// Conforms, and has the triangles and the error that the sequence states.
+void expectPrefix(const MeshSequence& sequence, size_t inserted, const Terrain& terrain) {
+  const LatticeMesh mesh = sequence.mesh(inserted);
+  checks::expectConforming(mesh, terrain.width, terrain.height);
+  EXPECT_EQ(mesh.triangleCount(), sequence.triangleCount(inserted));
+  const double error = bruteForceError(mesh, terrain);
+  EXPECT_NEAR(sequence.squaredError(inserted), error,
+              1e-9 * error + 1e-12 * (1 + sequence.squaredError(0)));
+}
+
 TEST(Decimation, EveryPrefixConformsAndItsErrorIsThatOfTheSurface) {
   for (const auto& [width, height] : kSizes)
     for (const Relief relief : kReliefs) {
@@ -100,15 +110,23 @@ TEST(Decimation, EveryPrefixConformsAndItsErrorIsThatOfTheSurface) {
       for (size_t n = 0; n <= sequence->order().size(); ++n) {
         SCOPED_TRACE(testing::Message() << width << " x " << height << ", relief "
                                         << static_cast<int>(relief) << ", " << n << " inserted");
-        const LatticeMesh mesh = sequence->mesh(n);
-        checks::expectConforming(mesh, width, height);
-        EXPECT_EQ(mesh.triangleCount(), sequence->triangleCount(n));
-        const double error = bruteForceError(mesh, terrain);
-        EXPECT_NEAR(sequence->squaredError(n), error,
-                    1e-9 * error + 1e-12 * (1 + sequence->squaredError(0)));
+        expectPrefix(*sequence, n, terrain);
         if (HasFailure()) return;
       }
     }
+}
+
+TEST(Decimation, PrefixesOfLargerGridsKeepTheirErrorToo) {
+  const std::vector<std::pair<uint32_t, uint32_t>> sizes = {{33, 33}, {37, 45}, {66, 34}, {20, 90}};
+  for (const auto& [width, height] : sizes) {
+    const Terrain terrain(width, height, Relief::kTerrain);
+    const Result<MeshSequence> sequence = decimate(terrain.view());
+    const size_t count = sequence->order().size();
+    for (size_t n = 0; n <= count; n += count / 9) {
+      SCOPED_TRACE(testing::Message() << width << " x " << height << ", " << n << " inserted");
+      expectPrefix(*sequence, n, terrain);
+    }
+  }
 }
 
 /// Thesis 5.2.2 to the letter: every slope from scratch before every step.
@@ -165,25 +183,37 @@ class BruteForceGreedy {
   std::vector<bool> present_;
 };
 
+void expectGreedyChoices(const Terrain& terrain) {
+  const Result<MeshSequence> sequence = decimate(terrain.view());
+  const std::vector<VertexId>& order = sequence->order();
+  BruteForceGreedy greedy(terrain);
+  auto end = order.end();
+  while (end != order.begin()) {
+    const std::vector<VertexId> expected = greedy.next();
+    const auto count = static_cast<ptrdiff_t>(expected.size());
+    ASSERT_LE(count, end - order.begin());
+    std::vector<VertexId> removed(end - count, end);
+    std::sort(removed.begin(), removed.end());
+    ASSERT_EQ(removed, expected) << end - order.begin() << " left";
+    end -= count;
+  }
+  EXPECT_TRUE(greedy.next().empty());
+}
+
 TEST(Decimation, EveryStepIsTheGreedyChoice) {
   for (const auto& [width, height] : kSizes)
     for (const Relief relief : kReliefs) {
-      const Terrain terrain(width, height, relief);
-      const Result<MeshSequence> sequence = decimate(terrain.view());
-      const std::vector<VertexId>& order = sequence->order();
-      BruteForceGreedy greedy(terrain);
-      size_t end = order.size();
-      while (end > 0) {
-        const std::vector<VertexId> expected = greedy.next();
-        ASSERT_LE(expected.size(), end);
-        std::vector<VertexId> removed(order.begin() + static_cast<ptrdiff_t>(end - expected.size()),
-                                      order.begin() + static_cast<ptrdiff_t>(end));
-        std::sort(removed.begin(), removed.end());
-        ASSERT_EQ(removed, expected) << width << " x " << height << ", relief "
-                                     << static_cast<int>(relief) << ", " << end << " left";
-        end -= expected.size();
-      }
-      EXPECT_TRUE(greedy.next().empty());
+      SCOPED_TRACE(testing::Message()
+                   << width << " x " << height << ", relief " << static_cast<int>(relief));
+      expectGreedyChoices(Terrain(width, height, relief));
+    }
+}
+
+TEST(Decimation, EveryStepIsTheGreedyChoiceWhateverTheOverhang) {
+  for (uint32_t width = 2; width <= 12; ++width)
+    for (uint32_t height = 2; height <= 9; ++height) {
+      SCOPED_TRACE(testing::Message() << width << " x " << height);
+      expectGreedyChoices(Terrain(width, height, Relief::kNoise));
     }
 }
 

@@ -176,9 +176,10 @@ TEST_F(ScratchFolder, HgtIsBigEndianAndKnowsItsPlace) {
   expectSameSamples(read, expected);
   EXPECT_EQ(read->nodata, -32768);
   EXPECT_EQ(read->unit, "m");
-  // One degree at 45.5 degrees: NGA's length calculator says 78 150 m and 111 142 m.
-  EXPECT_NEAR(read->spacing_x, 78150, 10);
-  EXPECT_NEAR(read->spacing_y, 111142, 10);
+  // One degree at latitude -45.5, by the usual series for WGS 84: 111412.84 cos p - 93.5 cos 3p +
+  // 0.118 cos 5p along the parallel, 111132.92 - 559.82 cos 2p + 1.175 cos 4p along the meridian.
+  EXPECT_NEAR(read->spacing_x, 78158.0, 0.2);
+  EXPECT_NEAR(read->spacing_y, 111141.5, 0.2);
   const auto elsewhere = readHeights(save("tile.hgt", bytes));
   ASSERT_TRUE(elsewhere.ok());
   EXPECT_EQ(elsewhere->spacing_x, 0);

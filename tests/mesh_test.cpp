@@ -88,15 +88,29 @@ TEST_P(EverySize, ChildrenAreTheVerticesWhoseParentOneIs) {
 }
 
 TEST_P(EverySize, AncestorsAreTheClosureOfParents) {
-  const AncestorWalk walk(lattice_);
   const VertexId stride = lattice_.vertexCount() / 500 + 1;
   for (VertexId v = 0; v < lattice_.vertexCount(); v += stride) {
     std::vector<VertexId> walked;
-    walk.forEach(lattice_.site(v), [&](VertexId a) { walked.push_back(a); });
+    forEachAncestor(lattice_, lattice_.site(v), [&](VertexId a) { walked.push_back(a); });
     walked.push_back(v);
     std::sort(walked.begin(), walked.end());
     ASSERT_EQ(walked, closureOf(lattice_, std::span(&v, 1)));
   }
+}
+
+TEST_P(EverySize, AncestorSumsAddUpWhatEachVertexAdds) {
+  std::vector<uint64_t> direct(lattice_.vertexCount()), summed(lattice_.vertexCount());
+  AncestorSums<uint64_t> sums(lattice_);
+  const auto add = [&](VertexId a, uint64_t amount) { summed[a] += amount; };
+  std::mt19937 random(3);
+  for (VertexId v = 0; v < lattice_.vertexCount(); ++v) {
+    const uint64_t amount = random() % 1000;
+    direct[v] += amount;
+    forEachAncestor(lattice_, lattice_.site(v), [&](VertexId a) { direct[a] += amount; });
+    sums.add(lattice_.site(v), amount, add);
+  }
+  sums.flush(add);
+  EXPECT_EQ(summed, direct);
 }
 
 TEST_P(EverySize, FullMeshHasEverySampleAndAllUnitTriangles) {

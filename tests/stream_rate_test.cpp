@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Encoder targets: byte budgets are obeyed and used, error bounds hold, one order serves all
 // budgets, and neither threads nor repetition change a byte.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/stream_fixture.hpp"
@@ -58,9 +59,8 @@ TEST(StreamRate, BudgetsShareOneOrder) {
   };
   const Prefix a = payload(small), b = payload(large);
   ASSERT_LT(a.size(), b.size());
-  size_t equal = 0;
-  while (equal < a.size() && a[equal] == b[equal]) ++equal;
-  EXPECT_EQ(equal, a.size());
+  const auto equal = std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin();
+  EXPECT_EQ(static_cast<size_t>(equal), a.size());
 }
 
 TEST(StreamRate, MoreBytesMeanLessError) {

@@ -33,13 +33,16 @@ std::string label(const samples::Recipe& r) {
          std::to_string(int(r.sample));
 }
 
+// The first failure of a test is enough: the others of its loop say the same.
 void expectHeightsRoundTrip(const samples::Recipe& recipe) {
+  if (::testing::Test::HasFailure()) return;
   SCOPED_TRACE(label(recipe));
   const Raster heights = make(recipe);
   expectRoundTrip(&heights, nullptr);
 }
 
 void expectImageRoundTrip(const samples::Recipe& recipe) {
+  if (::testing::Test::HasFailure()) return;
   SCOPED_TRACE(label(recipe));
   const Raster image = make(recipe);
   expectRoundTrip(nullptr, &image);
@@ -54,12 +57,11 @@ TEST(StreamRoundTrip, HeightsOfEveryTypeAndPattern) {
   }
 }
 
-/// Every pair of residues modulo 7 occurs, and every width and height from 2 to 40.
+/// Every width and every height from 2 to 40 once: 17 and 39 have no common divisor.
 TEST(StreamRoundTrip, HeightsOfManySizes) {
   for (uint32_t width = 2; width <= 40; ++width) {
-    for (uint32_t height = 2 + width % 7; height <= 40; height += 7) {
-      expectHeightsRoundTrip({Pattern::kRidges, width, height, 1, kHeightTypes[width % 7]});
-    }
+    const uint32_t height = 2 + width * 17 % 39;
+    expectHeightsRoundTrip({Pattern::kRidges, width, height, 1, kHeightTypes[width % 7]});
   }
 }
 
@@ -74,18 +76,21 @@ TEST(StreamRoundTrip, ImagesOfEveryTypeAndPattern) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       for (const Pattern pattern : kPatterns) {
         expectImageRoundTrip({pattern, 1, 1, channels, sample});
-        expectImageRoundTrip({pattern, 19, 14, channels, sample});
+        expectImageRoundTrip({pattern, 11, 9, channels, sample});
       }
     }
   }
 }
 
+/// Every width and every height from 1 to 40 once: 17 and 40 have no common divisor.
 TEST(StreamRoundTrip, ImagesOfManySizes) {
-  for (uint32_t width = 1; width <= 40; width += 3) {
-    for (uint32_t height = 1 + width % 5; height <= 40; height += 5) {
-      expectImageRoundTrip({Pattern::kRidges, width, height, 1 + (width + height) % 4, TKS_U8});
-    }
+  for (uint32_t width = 1; width <= 40; ++width) {
+    const uint32_t height = 1 + width * 17 % 40;
+    expectImageRoundTrip({Pattern::kRidges, width, height, 1 + width % 4, TKS_U8});
   }
+}
+
+TEST(StreamRoundTrip, LongAndLargeImages) {
   expectImageRoundTrip({Pattern::kRidges, 1, 1000, 3, TKS_U8});
   expectImageRoundTrip({Pattern::kRidges, 300, 200, 3, TKS_U8});
 }

@@ -40,7 +40,7 @@ class SubbandHints : public HintSource {
 uint32_t modelsOf(const Subband& subband, uint32_t component, uint32_t channels) {
   const bool alpha = channels % 2 == 0 && component + 1 == channels;
   const uint32_t kind = alpha ? 2 : component == 0 ? 0 : 1;
-  const uint32_t scale = subband.level <= 2 ? static_cast<uint32_t>(subband.level - 1) : 2;
+  const auto scale = static_cast<uint32_t>(std::clamp(subband.level, 1, 3) - 1);
   return (kind * 3 + scale) * 4 + static_cast<uint32_t>(subband.orientation);
 }
 

@@ -20,8 +20,8 @@ struct HeightFile {
   tks_sample sample = TKS_U16;
   std::vector<std::byte> data;
   double scale = 1, offset = 0;
-  double spacing_x = 0, spacing_y = 0;  ///< metres per sample; 0: unknown
-  std::optional<double> nodata;         ///< the file's declared nodata value
+  double spacing_x = 0, spacing_y = 0;    ///< metres per sample; 0: unknown
+  std::optional<double> nodata;           ///< the file's declared nodata value
   std::string unit, vertical_datum, crs;  ///< "" when unknown
 };
 
@@ -35,31 +35,44 @@ struct ImageFile {
 /// A mesh ready to be written: positions in metres, x east, y up, z south (glTF axes), texture
 /// coordinates with (0, 0) at the image's top left corner (glTF convention).
 struct MeshFile {
-  std::vector<float> positions;      ///< 3 per vertex
-  std::vector<float> texcoords;      ///< 2 per vertex; empty without texture
-  std::vector<uint32_t> triangles;   ///< 3 per triangle, counter-clockwise seen from above
+  std::vector<float> positions;        ///< 3 per vertex
+  std::vector<float> texcoords;        ///< 2 per vertex; empty without texture
+  std::vector<uint32_t> triangles;     ///< 3 per triangle, counter-clockwise seen from above
   const ImageFile* texture = nullptr;  ///< not owned; may be null
 };
 
-/// Reads TIFF (integer or float), PNG 8/16, EXR, .hgt, or headerless .raw given as
-/// "file.raw:WIDTHxHEIGHT:u8|u16|i16|i32|f32" (little endian). "-" reads standard input.
+/// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt, or
+/// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian). "-"
+/// reads standard input. Samples come as stored, never rescaled; half floats become floats. Spacing
+/// in degrees is turned into metres at the raster's centre. Fails with TKS_IO if the file cannot be
+/// read, TKS_USAGE if it does not hold heights (channels, sample type, size).
 Result<HeightFile> readHeights(const std::string& path);
 
-/// Writes the same integer or float type in the format of the extension; fails with TKS_USAGE if
-/// that format cannot hold the type. Writes to `path` directly: see AtomicOutput for renaming.
-/// `format` overrides the extension ("tif", "png", "exr", "hgt", "raw").
+/// Writes the same integer or float type, losslessly, in the format of the extension. .tif holds
+/// all types and the tags (but CRS: there is no position to go with it), .png u8 and u16, .exr u32
+/// and f32, .hgt a square of i16, .raw all types; fails with TKS_USAGE if the format cannot hold
+/// them. Writes to `path` directly: see Output for renaming and standard output. `format` overrides
+/// the extension ("tif", "png", "exr", "hgt", "raw").
 Status writeHeights(const std::string& path, const HeightFile& heights,
                     const std::string& format = "");
 
-/// Reads what OpenImageIO reads. Palette and CMYK files are converted to RGB and `note` says so; float
-/// images are refused with TKS_USAGE. Embedded colour profiles are kept out of the samples.
+/// Reads what OpenImageIO reads; "-" reads standard input. Integers of other depths are scaled to 8
+/// or 16 bits, palette and CMYK files are converted to RGB, an orientation tag is applied, and
+/// `note` then says so ("" otherwise). Float or signed images and more than 4 channels are refused
+/// with TKS_USAGE. Alpha is as stored; embedded colour profiles are kept out of the samples.
 Result<ImageFile> readImage(const std::string& path, std::string* note = nullptr);
+
+/// Writes .png or .tif (lossless) or .jpg (8-bit grey or RGB, quality 95, 4:4:4).
 Status writeImage(const std::string& path, const ImageFile& image, const std::string& format = "");
 
-/// JPEG by libjpeg-turbo (4:4:4), for the texture inside a GLB. 8-bit grey or RGB.
+/// JPEG by libjpeg-turbo (4:4:4), for the texture inside a GLB. 8-bit grey or RGB; quality 1 to
+/// 100.
 Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
 
-/// .glb (texture embedded: JPEG, or PNG when it has alpha), .obj (+ .mtl and .png), .ply.
+/// .glb (32-bit indices, smooth normals, texture embedded: JPEG, or PNG when it has alpha or 16
+/// bits, reduced to 8), .obj (+ .mtl and .png of the same name when textured), .ply (binary,
+/// texture coordinates but no texture). Coordinates come back bit for bit. Fails with TKS_USAGE on
+/// an empty or inconsistent mesh.
 Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "");
 
 }  // namespace tetrakis::tools

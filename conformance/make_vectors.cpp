@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// make_vectors OUTDIR: encodes every vector case, writes the streams with their manifest, and
+// prints the rows of README.md's table. The decoder under test makes the digests, so run it only
+// when a change of the format is intended, and review the difference.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "conformance/runner.hpp"
+#include "conformance/vector_cases.hpp"
+#include "tetrakis/tetrakis.hpp"
+
+namespace tetrakis::conformance {
+namespace {
+
+/// Around the header's end, then evenly and oddly through the payload, then everything.
+std::vector<size_t> cutsOf(std::span<const uint8_t> stream) {
+  const size_t size = stream.size();
+  const auto decoder = Decoder::open(stream);
+  if (!decoder) return {size};
+  const size_t header = static_cast<size_t>(decoder->info().header_bytes);
+  std::vector<size_t> cuts{header - 1, header, header + 1, header + 7};
+  for (size_t part = 1; part < 8; ++part) cuts.push_back(header + (size - header) * part / 8);
+  cuts.push_back(size - 1);
+  cuts.push_back(size);
+  std::erase_if(cuts, [size](size_t cut) { return cut > size; });
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  return cuts;
+}
+
+Result<Vector> makeVector(const VectorCase& vector_case, const std::string& directory) {
+  const auto stream = encodeCase(vector_case);
+  if (!stream.ok()) return stream.status();
+  Vector vector{vector_case.name, vector_case.name + ".tks", vector_case.purpose, {}};
+  for (const size_t cut : cutsOf(*stream)) {
+    vector.cuts.push_back(decodeCut(std::span(*stream).first(cut)));
+  }
+  const Status written =
+      writeFile(directory + "/" + vector.file, std::string(stream->begin(), stream->end()));
+  if (!written.ok()) return written;
+  return vector;
+}
+
+Status makeVectors(const std::string& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) return {TKS_IO, "Cannot make '" + directory + "': " + error.message() + "."};
+  std::vector<Vector> vectors;
+  for (const VectorCase& vector_case : vectorCases()) {
+    auto vector = makeVector(vector_case, directory);
+    if (!vector.ok()) return vector.status();
+    std::cout << "| `" << vector->name << "` | " << vector->cuts.back().bytes << " | "
+              << vector->purpose << " |\n";
+    vectors.push_back(std::move(*vector));
+  }
+  return writeManifest(directory, vectors);
+}
+
+}  // namespace
+}  // namespace tetrakis::conformance
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: make_vectors OUTDIR\n";
+    return TKS_USAGE;
+  }
+  const tetrakis::Status status = tetrakis::conformance::makeVectors(argv[1]);
+  if (!status.ok()) std::cerr << "make_vectors: " << status.message() << "\n";
+  return status.code();
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of conformance vectors: streams, where to cut them, what a decoder must answer there.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.hpp"
+
+namespace tetrakis::conformance {
+
+/// What the first `bytes` bytes of a stream decode to.
+struct Cut {
+  uint64_t bytes = 0;
+  int status = TKS_OK;  ///< tks_status of opening and decoding
+  std::string heights;  ///< sampleDigest of the height samples; "" when there are none
+  std::string texture;  ///< sampleDigest of the texture samples; "" when there are none
+};
+
+struct Vector {
+  std::string name;
+  std::string file;     ///< relative to the manifest
+  std::string purpose;  ///< the tools of the format that it exercises
+  std::vector<Cut> cuts;
+};
+
+/// The manifest's name inside a directory of vectors.
+inline constexpr const char* kManifestName = "manifest.json";
+
+/// TKS_IO if there is no readable manifest in the directory, TKS_CORRUPT if it is not one.
+Result<std::vector<Vector>> readManifest(const std::string& directory);
+
+/// Replaces the manifest of the directory. TKS_IO if it cannot be written.
+Status writeManifest(const std::string& directory, const std::vector<Vector>& vectors);
+
+/// The whole file. TKS_IO with the path in the message.
+Result<std::vector<uint8_t>> readFile(const std::string& path);
+
+/// Replaces the file's content. TKS_IO with the path in the message.
+Status writeFile(const std::string& path, const std::string& content);
+
+}  // namespace tetrakis::conformance

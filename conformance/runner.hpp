@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs conformance vectors: decodes every cut of every stream and compares with the manifest.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <span>
+#include <string>
+
+#include "bitstream/status.hpp"
+#include "conformance/manifest.hpp"
+
+namespace tetrakis::conformance {
+
+struct VectorSummary {
+  int passed = 0, failed = 0;  ///< vectors; one passes when all its cuts do
+};
+
+/// Decodes the vectors of a directory that holds a manifest. Writes a line for each vector, and one
+/// for each difference, to `log`. Fails with TKS_IO or TKS_CORRUPT for the manifest alone: a stream
+/// that is missing or decodes differently counts as failed.
+Result<VectorSummary> runVectors(const std::string& directory, std::ostream& log);
+
+/// What this library's decoder makes of `prefix`; the manifest's digests come from here.
+Cut decodeCut(std::span<const uint8_t> prefix);
+
+}  // namespace tetrakis::conformance

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The inputs from which the conformance vectors are encoded.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.hpp"
+#include "tests/terrain_samples.hpp"
+
+namespace tetrakis::conformance {
+
+/// One vector: what to encode, how, and why.
+struct VectorCase {
+  std::string name;
+  std::string purpose;
+  std::optional<samples::Recipe> heights;
+  std::optional<samples::Recipe> texture;
+  tks_encode_options options = {};
+  double scale = 1, offset = 0;
+  int damaged_byte = -1;  ///< inverted after encoding; such a stream must not open
+};
+
+/// All cases, in the order of the manifest.
+std::vector<VectorCase> vectorCases();
+
+/// The complete stream of a case.
+Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case);
+
+}  // namespace tetrakis::conformance

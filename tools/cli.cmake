@@ -1,0 +1,18 @@
+# The command line, split so that the tests can link its parts: everything but main is tks_cli.
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+tks_room(tks_cli
+  SOURCES
+    command_compare.cpp command_decode.cpp command_encode.cpp command_info.cpp command_line.cpp
+    command_synth.cpp command_truncate.cpp command_verify.cpp
+    comparison.cpp json.cpp output.cpp progress.cpp report.cpp report_page.cpp report_plot.cpp
+    scene.cpp stream.cpp units.cpp
+  USES tetrakis tks_files tks_render tks_synth tks_conformance CLI11::CLI11
+    nlohmann_json::nlohmann_json)
+target_link_libraries(tks_cli PRIVATE PkgConfig::TKS_FILE_FORMATS)  # base64
+
+add_executable(tetrakis_cli main.cpp)
+set_target_properties(tetrakis_cli PROPERTIES OUTPUT_NAME tetrakis)
+target_link_libraries(tetrakis_cli PRIVATE tks_cli)
+install(TARGETS tetrakis_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

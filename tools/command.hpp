@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs of the command line. Each adds its options to the parser and, when chosen, puts the
+// work to do into `action`. What they promise: docs/CLI.md.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "bitstream/status.hpp"
+#include "tools/scene.hpp"
+#include "tools/stream.hpp"
+
+namespace tetrakis::tools {
+
+/// What the parser found out: the work to do, and the options that all verbs share.
+struct CommandLine {
+  std::function<Status()> action;
+  bool quiet = false;  ///< -q: no progress bar, no notes
+};
+
+void addEncode(CLI::App& app, CommandLine& line);
+void addDecode(CLI::App& app, CommandLine& line);
+void addTruncate(CLI::App& app, CommandLine& line);
+void addInfo(CLI::App& app, CommandLine& line);
+void addCompare(CLI::App& app, CommandLine& line);
+void addVerify(CLI::App& app, CommandLine& line);
+void addSynth(CLI::App& app, CommandLine& line);
+
+/// Without the description that CLI11 would append to the option's type.
+inline CLI::Validator silent(CLI::Validator validator) {
+  return validator.description("");
+}
+
+/// --bytes SIZE with the suffixes k, M, G (powers of 1024; KiB and the like mean the same).
+template <class T>
+CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
+  return app.add_option("--bytes", bytes, help)
+      ->transform(silent(CLI::AsSizeValue(false)))
+      ->type_name("SIZE");
+}
+
+/// --cameras FILE.json or --view NAME.
+inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
+  CLI::Option* const file =
+      app.add_option("--cameras", choice.file, "Cameras to look with")->type_name("FILE.json");
+  app.add_option("--view", choice.view, "Preset cameras: oblique (default), low, top, all")
+      ->type_name("NAME")
+      ->excludes(file);
+}
+
+/// --triangles N.
+inline CLI::Option* addTriangles(CLI::App& app, uint32_t& triangles, const std::string& help) {
+  return app.add_option("--triangles", triangles, help)
+      ->check(silent(CLI::Range(uint32_t{1}, std::numeric_limits<uint32_t>::max())))
+      ->type_name("N");
+}
+
+inline void addForce(CLI::App& app, bool& force) {
+  app.add_flag("-f,--force", force, "Overwrite files that exist");
+}
+
+/// The positional stream of a verb that reads one, with --bytes and --strict.
+inline void addSource(CLI::App& app, StreamSource& source) {
+  app.add_option("IN", source.path, "Stream (.tks) or any prefix of one; - is standard input")
+      ->required()
+      ->type_name("");
+  addBytes(app, source.bytes, "Use only the first bytes");
+  app.add_flag("--strict", source.strict, "Refuse a stream that ends early");
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis decode: heights, texture and mesh out of a stream or a prefix of one.
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "tools/command.hpp"
+#include "tools/output.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+struct DecodeArguments {
+  StreamSource source;
+  std::string height, texture, mesh;
+  uint32_t triangles = 0;
+  bool coded_mesh = false;
+  bool force = false;
+};
+
+Status checkOutputs(const DecodeArguments& arguments) {
+  const std::string* const outputs[] = {&arguments.height, &arguments.texture, &arguments.mesh};
+  const auto count = [&](const std::string& name) {
+    return std::count_if(std::begin(outputs), std::end(outputs),
+                         [&](const std::string* output) { return *output == name; });
+  };
+  if (count("") == 3)
+    return Status(TKS_USAGE, "nothing to write: give --height, --texture or --mesh");
+  if (count("-") > 1) return Status(TKS_USAGE, "only one output can be standard output");
+  return Status();
+}
+
+/// Decodes into staged outputs; the caller commits them when all have succeeded.
+class Decoding {
+ public:
+  Decoding(const DecodeArguments& arguments, Decoder& decoder)
+      : arguments_(arguments), decoder_(decoder) {}
+
+  Status writeHeightField() {
+    const Result<HeightFile> heights = decodeHeights(decoder_);
+    if (!heights.ok()) return heights.status();
+    return stage(arguments_.height, ".tif",
+                 [&](const std::string& path) { return writeHeights(path, *heights); });
+  }
+
+  Status writeTexture() {
+    const Result<ImageFile> image = decodeImage(decoder_);
+    if (!image.ok()) return image.status();
+    return stage(arguments_.texture, ".png",
+                 [&](const std::string& path) { return writeImage(path, *image); });
+  }
+
+  Status writeSurfaceMesh() {
+    const tks_info& info = decoder_.info();
+    if (!info.has_heights)
+      return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
+    const Expected<Mesh> mesh =
+        arguments_.coded_mesh ? decoder_.codedMesh() : decoder_.budgetMesh(arguments_.triangles);
+    if (!mesh) return toStatus(mesh.error());
+    MeshFile file = placeMesh(*mesh, frameOf(info));
+    ImageFile texture;
+    if (info.has_texture) {
+      Result<ImageFile> image = decodeImage(decoder_);
+      if (!image.ok()) return image.status();
+      texture = std::move(*image);
+      file.texture = &texture;
+    }
+    return stage(arguments_.mesh, ".glb",
+                 [&](const std::string& path) { return writeMesh(path, file); });
+  }
+
+  Status commit() {
+    for (Output& output : outputs_)
+      if (Status status = output.commit(); !status.ok()) return status;
+    return Status();
+  }
+
+ private:
+  template <class Write>
+  Status stage(const std::string& path, const std::string& extension, const Write& write) {
+    Result<Output> output = Output::plan(path, arguments_.force, extension);
+    if (!output.ok()) return output.status();
+    outputs_.push_back(std::move(*output));
+    return outputs_.back().stage(write);
+  }
+
+  const DecodeArguments& arguments_;
+  Decoder& decoder_;
+  std::vector<Output> outputs_;
+};
+
+Status decode(const DecodeArguments& arguments) {
+  if (Status status = checkOutputs(arguments); !status.ok()) return status;
+  Result<OpenStream> stream = openStream(arguments.source);
+  if (!stream.ok()) return stream.status();
+  Decoding decoding(arguments, stream->decoder);
+  if (!arguments.height.empty())
+    if (Status status = decoding.writeHeightField(); !status.ok()) return status;
+  if (!arguments.texture.empty())
+    if (Status status = decoding.writeTexture(); !status.ok()) return status;
+  if (!arguments.mesh.empty())
+    if (Status status = decoding.writeSurfaceMesh(); !status.ok()) return status;
+  return decoding.commit();
+}
+
+}  // namespace
+
+void addDecode(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<DecodeArguments>();
+  CLI::App& verb = *app.add_subcommand("decode", "Write heights, texture or mesh of a stream");
+  addSource(verb, arguments->source);
+  verb.add_option("--height", arguments->height, "Heights, same type as encoded (.tif .png .exr …)")
+      ->type_name("OUT.tif");
+  verb.add_option("--texture", arguments->texture, "Texture (.png .tif .jpg)")
+      ->type_name("OUT.png");
+  CLI::Option* const mesh =
+      verb.add_option("--mesh", arguments->mesh, "Mesh in metres (.glb .obj .ply)")
+          ->type_name("OUT.glb");
+  CLI::Option* const triangles =
+      addTriangles(verb, arguments->triangles, "At most so many triangles; else every sample")
+          ->needs(mesh);
+  verb.add_flag("--coded-mesh", arguments->coded_mesh, "The mesh that the bytes themselves code")
+      ->needs(mesh)
+      ->excludes(triangles);
+  addForce(verb, arguments->force);
+  verb.callback([arguments, &line] { line.action = [arguments] { return decode(*arguments); }; });
+}
+
+}  // namespace tetrakis::tools

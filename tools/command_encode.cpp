@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis encode: heights, a texture or both into one embedded stream.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "tools/command.hpp"
+#include "tools/output.hpp"
+#include "tools/progress.hpp"
+#include "tools/report.hpp"
+#include "tools/units.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+/// A camera straight above sees no parallax at all, but 0 would mean "the default view": use a
+/// millimetre a metre.
+constexpr double kLeastParallax = 1e-3;
+
+struct EncodeArguments {
+  std::string height, texture, output, report;
+  uint64_t bytes = 0;
+  double psnr = 0;
+  std::string max_error;
+  bool lossless = false;
+  uint32_t triangles = 0, threads = 1;
+  double step = 0;
+  std::optional<double> scale, offset;
+  std::string spacing;
+  std::optional<std::string> unit, vertical_datum, crs;
+  CameraChoice cameras;
+  bool index = false, force = false;
+};
+
+void note(const std::string& text, bool quiet) {
+  if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
+}
+
+Status checkArguments(const EncodeArguments& arguments) {
+  if (arguments.height.empty() && arguments.texture.empty())
+    return Status(TKS_USAGE, "nothing to encode: give HEIGHT, --texture or both");
+  if (arguments.height == "-" && arguments.texture == "-")
+    return Status(TKS_USAGE, "heights and texture cannot both come from standard input");
+  if (arguments.height.empty() && (arguments.triangles > 0 || !arguments.max_error.empty()))
+    return Status(TKS_USAGE, "--triangles and --max-error are about heights: give HEIGHT");
+  return Status();
+}
+
+std::string nodataNote(const HeightFile& heights) {
+  if (!heights.nodata) return "";
+  const Surface samples = samplesOf(heights.width, heights.height, heights.sample, heights.data);
+  const auto count = std::count(samples.values.begin(), samples.values.end(), *heights.nodata);
+  if (count == 0) return "";
+  return std::to_string(count) + " samples hold the file's nodata value; they are coded as heights";
+}
+
+Status describe(const EncodeArguments& arguments, HeightFile& heights) {
+  heights.scale = arguments.scale.value_or(heights.scale);
+  heights.offset = arguments.offset.value_or(heights.offset);
+  heights.unit = arguments.unit.value_or(heights.unit);
+  heights.vertical_datum = arguments.vertical_datum.value_or(heights.vertical_datum);
+  heights.crs = arguments.crs.value_or(heights.crs);
+  if (arguments.spacing.empty()) return Status();
+  const Result<std::array<double, 2>> spacing = parseSpacing(arguments.spacing);
+  if (!spacing.ok()) return spacing.status();
+  heights.spacing_x = (*spacing)[0];
+  heights.spacing_y = (*spacing)[1];
+  return Status();
+}
+
+Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
+  Reference inputs;
+  if (!arguments.height.empty()) {
+    Result<HeightFile> heights = readHeights(arguments.height);
+    if (!heights.ok()) return heights.status();
+    if (Status status = describe(arguments, *heights); !status.ok()) return status;
+    note(nodataNote(*heights), quiet);
+    inputs.heights = std::move(*heights);
+  }
+  if (!arguments.texture.empty()) {
+    std::string remark;
+    Result<ImageFile> image = readImage(arguments.texture, &remark);
+    if (!image.ok()) return image.status();
+    note(remark, quiet);
+    inputs.image = std::move(*image);
+  }
+  return inputs;
+}
+
+Result<double> parallax(const EncodeArguments& arguments, const HeightFile& heights) {
+  const Result<std::vector<Camera>> cameras =
+      chooseCameras(arguments.cameras, boundsOf(heightsOf(heights), frameOf(heights)));
+  if (!cameras.ok()) return cameras.status();
+  return std::max(parallaxOf(*cameras), kLeastParallax);
+}
+
+Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
+                                         const Reference& inputs) {
+  tks_encode_options options = makeEncodeOptions();
+  options.bytes = arguments.bytes;
+  options.psnr = arguments.psnr;
+  options.lossless = arguments.lossless;
+  options.triangles = arguments.triangles;
+  options.threads = arguments.threads;
+  options.index = arguments.index;
+  if (!arguments.max_error.empty()) {
+    const Result<double> bound = parseLength(arguments.max_error, inputs.heights->unit);
+    if (!bound.ok()) return bound.status();
+    if (*bound == 0)
+      return Status(TKS_USAGE, "--max-error must be positive; --lossless keeps everything");
+    options.max_error = *bound;
+  }
+  if (!arguments.cameras.isDefault() && inputs.heights) {
+    const Result<double> seen = parallax(arguments, *inputs.heights);
+    if (!seen.ok()) return seen.status();
+    options.parallax = *seen;
+  }
+  return options;
+}
+
+const char* textOrUnknown(const std::string& text) {
+  return text.empty() ? nullptr : text.c_str();
+}
+
+tks_heights view(const HeightFile& file, double step) {
+  tks_heights heights = makeHeights();
+  heights.width = file.width;
+  heights.height = file.height;
+  heights.sample = file.sample;
+  heights.data = file.data.data();
+  heights.scale = file.scale;
+  heights.offset = file.offset;
+  heights.step = step;
+  heights.spacing_x = file.spacing_x;
+  heights.spacing_y = file.spacing_y;
+  heights.unit = textOrUnknown(file.unit);
+  heights.vertical_datum = textOrUnknown(file.vertical_datum);
+  heights.crs = textOrUnknown(file.crs);
+  return heights;
+}
+
+tks_image view(const ImageFile& file) {
+  tks_image image = makeImage();
+  image.width = file.width;
+  image.height = file.height;
+  image.channels = file.channels;
+  image.sample = file.sample;
+  image.data = file.data.data();
+  return image;
+}
+
+Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet) {
+  Result<tks_encode_options> options = encodeOptions(arguments, inputs);
+  if (!options.ok()) return options.status();
+  Progress progress("encoding", quiet);
+  options->progress = &Progress::report;
+  options->user = &progress;
+  const tks_heights heights =
+      inputs.heights ? view(*inputs.heights, arguments.step) : tks_heights{};
+  const tks_image image = inputs.image ? view(*inputs.image) : tks_image{};
+  Expected<Buffer> stream = tetrakis::encode(inputs.heights ? &heights : nullptr,
+                                             inputs.image ? &image : nullptr, *options);
+  if (!stream) return toStatus(stream.error());
+  return std::move(*stream);
+}
+
+/// One line about what was written.
+Result<std::string> summary(const std::string& name, std::span<const uint8_t> stream) {
+  const Expected<Decoder> decoder = Decoder::open(stream);
+  if (!decoder) return toStatus(decoder.error());
+  const tks_info& info = decoder->info();
+  return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
+         std::to_string(info.header_bytes) + ", geometry " + std::to_string(info.geometry_bytes) +
+         ", texture " + std::to_string(info.texture_bytes) + ")";
+}
+
+Status stageReport(const EncodeArguments& arguments, const Reference& inputs,
+                   std::span<const uint8_t> stream, Output& page) {
+  const std::string name = arguments.height.empty() ? arguments.texture : arguments.height;
+  const Result<Report> report =
+      makeReport(inputs, {std::filesystem::path(name).filename().string(), stream,
+                          arguments.triangles, arguments.cameras});
+  if (!report.ok()) return report.status();
+  const Result<std::string> html = renderPage(*report);
+  if (!html.ok()) return html.status();
+  return page.stage(std::as_bytes(std::span(*html)));
+}
+
+/// The outputs, planned before any work is done.
+struct EncodeOutputs {
+  Output stream;
+  std::optional<OutputFolder> report_folder;
+  std::optional<Output> report;
+};
+
+Result<EncodeOutputs> planOutputs(const EncodeArguments& arguments) {
+  Result<Output> stream = Output::plan(arguments.output, arguments.force, ".tks");
+  if (!stream.ok()) return stream.status();
+  EncodeOutputs outputs{std::move(*stream), std::nullopt, std::nullopt};
+  if (arguments.report.empty()) return outputs;
+  Result<OutputFolder> folder = OutputFolder::create(arguments.report);
+  if (!folder.ok()) return folder.status();
+  outputs.report_folder.emplace(std::move(*folder));
+  Result<Output> page =
+      Output::plan(outputs.report_folder->file("index.html"), arguments.force, ".html");
+  if (!page.ok()) return page.status();
+  outputs.report.emplace(std::move(*page));
+  return outputs;
+}
+
+Status encode(const EncodeArguments& arguments, bool quiet) {
+  if (Status status = checkArguments(arguments); !status.ok()) return status;
+  Result<EncodeOutputs> outputs = planOutputs(arguments);
+  if (!outputs.ok()) return outputs.status();
+  const Result<Reference> inputs = readInputs(arguments, quiet);
+  if (!inputs.ok()) return inputs.status();
+  const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet);
+  if (!stream.ok()) return stream.status();
+  const std::span<const uint8_t> bytes = stream->bytes();
+  if (Status status = outputs->stream.stage(std::as_bytes(bytes)); !status.ok()) return status;
+  if (outputs->report) {
+    if (Status status = stageReport(arguments, *inputs, bytes, *outputs->report); !status.ok())
+      return status;
+    if (Status status = outputs->report->commit(); !status.ok()) return status;
+  }
+  if (Status status = outputs->stream.commit(); !status.ok()) return status;
+  if (quiet) return Status();
+  const Result<std::string> line = summary(arguments.output, bytes);
+  if (line.ok()) std::fprintf(stderr, "%s\n", line->c_str());
+  return line.status();
+}
+
+void addInputs(CLI::App& verb, EncodeArguments& arguments) {
+  verb.add_option("HEIGHT", arguments.height,
+                  "Heights (.tif .png .exr .hgt .raw:WxH:TYPE); - is standard input")
+      ->type_name("");
+  verb.add_option("--texture", arguments.texture, "Texture over the same ground")
+      ->type_name("IMAGE");
+  verb.add_option("-o,--output", arguments.output, "Where to write; - is standard output")
+      ->required()
+      ->type_name("OUT.tks");
+  verb.add_option("--report", arguments.report, "Also write DIR/index.html: pictures and figures")
+      ->type_name("DIR");
+  addForce(verb, arguments.force);
+}
+
+void addTargets(CLI::App& verb, EncodeArguments& arguments) {
+  CLI::Option_group& target = *verb.add_option_group("Target", "What the stream has to reach");
+  addBytes(target, arguments.bytes, "At most so many bytes in all: 65536, 64k, 1M")
+      ->check(silent(CLI::PositiveNumber));
+  target.add_option("--psnr", arguments.psnr, "Heights and texture reach so many dB each")
+      ->check(silent(CLI::PositiveNumber))
+      ->type_name("dB");
+  target.add_option("--max-error", arguments.max_error, "Every height within that: 0.5, 0.5m, 2ft")
+      ->type_name("LENGTH");
+  target.add_flag("--lossless", arguments.lossless, "Everything comes back bit for bit");
+  target.require_option(1);
+}
+
+void addTuning(CLI::App& verb, EncodeArguments& arguments) {
+  addTriangles(verb, arguments.triangles, "Meshes will be drawn with at most so many triangles");
+  addCameraOptions(verb, arguments.cameras);
+  verb.add_option("--threads", arguments.threads, "Threads; the bytes never depend on it")
+      ->capture_default_str()
+      ->check(silent(CLI::Range(1u, 1024u)))
+      ->type_name("N");
+  verb.add_flag("--index", arguments.index, "Write the front index of all packets");
+}
+
+void addDescription(CLI::App& verb, EncodeArguments& arguments) {
+  verb.add_option("--scale", arguments.scale, "Height = sample * scale + offset")->type_name("X");
+  verb.add_option("--offset", arguments.offset, "See --scale")->type_name("X");
+  verb.add_option("--step", arguments.step, "Quantisation step in samples; else exact if possible")
+      ->check(silent(CLI::PositiveNumber))
+      ->type_name("X");
+  verb.add_option("--spacing", arguments.spacing, "Metres per sample: 30 or 30,25")
+      ->type_name("X[,Y]");
+  verb.add_option("--unit", arguments.unit, "Unit of the heights: m, ft, …")->type_name("UNIT");
+  verb.add_option("--vertical-datum", arguments.vertical_datum, "For example EGM2008")
+      ->type_name("NAME");
+  verb.add_option("--crs", arguments.crs, "Reference system: WKT or EPSG:code")->type_name("TEXT");
+}
+
+}  // namespace
+
+void addEncode(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<EncodeArguments>();
+  CLI::App& verb = *app.add_subcommand("encode", "Make a stream of heights, a texture or both");
+  addInputs(verb, *arguments);
+  addTargets(verb, *arguments);
+  addTuning(verb, *arguments);
+  addDescription(verb, *arguments);
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return encode(*arguments, line.quiet); };
+  });
+}
+
+}  // namespace tetrakis::tools

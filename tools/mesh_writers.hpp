@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mesh file formats, one function each. The mesh has been checked: sizes agree, indices are in
+// range.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.hpp"
+#include "tools/files.hpp"
+
+namespace tetrakis::tools {
+
+/// Binary glTF 2.0 in one piece, with smooth normals.
+Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh);
+
+/// Binary little-endian PLY; texture coordinates as s, t with t upwards.
+std::vector<std::byte> encodePly(const MeshFile& mesh);
+
+/// Wavefront OBJ beside its material library and texture: "name.obj", "name.mtl", "name.png".
+Status writeObj(const std::string& path, const MeshFile& mesh);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures through OpenImageIO (PNG through libspng), with the samples exactly as stored: no gamma,
+// no colour profile, no multiplication by alpha.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.hpp"
+#include "tools/file_bytes.hpp"
+
+namespace tetrakis::tools {
+
+/// Refused before anything is allocated: a few bytes can declare any size.
+inline constexpr uint64_t kMaxSamples = uint64_t{1} << 31;
+Status tooLarge(const std::string& name);
+
+/// An open picture file. Keep it until the samples are read.
+struct Raster {
+  InputFile file;
+  std::string name;                         ///< for messages
+  std::unique_ptr<OIIO::ImageInput> input;  ///< null for a PNG, which is decoded already
+  OIIO::ImageSpec spec;                     ///< what reading gives
+  int stored_bits = 0;                      ///< of one sample in the file; 0: as spec.format
+  bool palette = false;                     ///< expanded to RGB by reading
+  bool cmyk = false;                        ///< converted to RGB by reading
+  std::vector<std::byte> decoded{};         ///< samples of a PNG
+  bool is_tiff() const { return input && std::string_view(input->format_name()) == "tiff"; }
+};
+
+/// Opens the file (or standard input for "-") by its content, whatever it is called.
+Result<Raster> openRaster(const std::string& path);
+
+/// Hands over all samples, converted to `type`, interleaved. Call once. A PNG has its own type
+/// only.
+Result<std::vector<std::byte>> readSamples(Raster& raster, OIIO::TypeDesc type);
+
+/// The file content that `format` ("tif", "exr") gives to these samples of spec.format.
+Result<std::vector<std::byte>> encodeRaster(const std::string& format, OIIO::ImageSpec spec,
+                                            std::span<const std::byte> samples);
+
+}  // namespace tetrakis::tools

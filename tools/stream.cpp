@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Streams (.tks) as the verbs read them, and what they decode to as files hold it.
+#include "tools/stream.hpp"
+
+#include <utility>
+
+#include "tools/file_bytes.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+Status checkWhole(std::span<const uint8_t> bytes) {
+  Expected<Decoder> decoder = Decoder::open(bytes);
+  if (!decoder) return toStatus(decoder.error());
+  const Expected<void> verified = decoder->verify();
+  return verified ? Status() : toStatus(verified.error());
+}
+
+}  // namespace
+
+Status toStatus(const Error& error) {
+  return Status(error.code, error.message);
+}
+
+std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+}
+
+Result<OpenStream> openStream(const StreamSource& source) {
+  Result<std::vector<std::byte>> bytes = readBytes(source.path);
+  if (!bytes.ok()) return bytes.status();
+  if (source.strict)
+    if (Status status = checkWhole(octets(*bytes)); !status.ok()) return status;
+  if (source.bytes && *source.bytes < bytes->size()) bytes->resize(*source.bytes);
+  Expected<Decoder> decoder = Decoder::open(octets(*bytes));
+  if (!decoder) return toStatus(decoder.error());
+  return OpenStream{std::move(*bytes), std::move(*decoder)};
+}
+
+Result<HeightFile> decodeHeights(Decoder& decoder) {
+  const tks_info& info = decoder.info();
+  if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
+  Expected<std::vector<std::byte>> samples = decoder.heights();
+  if (!samples) return toStatus(samples.error());
+  HeightFile file;
+  file.width = info.width;
+  file.height = info.height;
+  file.sample = info.sample;
+  file.data = std::move(*samples);
+  file.scale = info.scale;
+  file.offset = info.offset;
+  file.spacing_x = info.spacing_x;
+  file.spacing_y = info.spacing_y;
+  file.unit = info.unit;
+  file.vertical_datum = info.vertical_datum;
+  file.crs = info.crs;
+  return file;
+}
+
+Result<ImageFile> decodeImage(Decoder& decoder) {
+  const tks_info& info = decoder.info();
+  if (!info.has_texture) return Status(TKS_USAGE, "the stream has no texture");
+  Expected<std::vector<std::byte>> texels = decoder.texture();
+  if (!texels) return toStatus(texels.error());
+  ImageFile file;
+  file.width = info.texture_width;
+  file.height = info.texture_height;
+  file.channels = info.texture_channels;
+  file.sample = info.texture_sample;
+  file.data = std::move(*texels);
+  return file;
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Streams (.tks) as the verbs read them, and what they decode to as files hold it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.hpp"
+#include "tetrakis/tetrakis.hpp"
+#include "tools/files.hpp"
+
+namespace tetrakis::tools {
+
+/// Which stream to open, and how much of it.
+struct StreamSource {
+  std::string path;               ///< "-": standard input
+  std::optional<uint64_t> bytes;  ///< cut after that many; nothing: all of it
+  bool strict = false;            ///< refuse a file that ends early or breaks the syntax anywhere
+};
+
+/// A stream in memory and its decoder. Move only.
+struct OpenStream {
+  std::vector<std::byte> bytes;
+  Decoder decoder;
+};
+
+Status toStatus(const Error& error);
+
+/// The same bytes under the type that the library takes.
+std::span<const uint8_t> octets(std::span<const std::byte> bytes);
+
+/// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
+Result<OpenStream> openStream(const StreamSource& source);
+
+/// Decoded heights with the metadata of the stream. TKS_USAGE if the stream has none.
+Result<HeightFile> decodeHeights(Decoder& decoder);
+
+/// Decoded texture. TKS_USAGE if the stream has none.
+Result<ImageFile> decodeImage(Decoder& decoder);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A square raster of numbers, as the steps of the sample terrain pass it on.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tools/synth_noise.hpp"
+
+namespace tetrakis::tools::synth {
+
+template <class T>
+class Raster {
+ public:
+  Raster() = default;
+  explicit Raster(uint32_t side, T value = T()) : side_(side), cells_(size_t{side} * side, value) {}
+
+  uint32_t side() const { return side_; }
+  size_t size() const { return cells_.size(); }
+  T& operator[](size_t cell) { return cells_[cell]; }
+  const T& operator[](size_t cell) const { return cells_[cell]; }
+  T& at(uint32_t x, uint32_t y) { return cells_[size_t{y} * side_ + x]; }
+  const T& at(uint32_t x, uint32_t y) const { return cells_[size_t{y} * side_ + x]; }
+
+  /// Nearest cell for coordinates beyond the border.
+  const T& clamped(int64_t x, int64_t y) const {
+    const int64_t last = int64_t{side_} - 1;
+    return at(static_cast<uint32_t>(std::clamp<int64_t>(x, 0, last)),
+              static_cast<uint32_t>(std::clamp<int64_t>(y, 0, last)));
+  }
+
+ private:
+  uint32_t side_ = 0;
+  std::vector<T> cells_;
+};
+
+using Grid = Raster<double>;
+
+/// Bilinear, the border continued.
+inline double sampleAt(const Grid& grid, Point p) {
+  const double fx = std::floor(p.x), fy = std::floor(p.y);
+  const int64_t x = static_cast<int64_t>(fx), y = static_cast<int64_t>(fy);
+  const double u = p.x - fx, v = p.y - fy;
+  return mix(mix(grid.clamped(x, y), grid.clamped(x + 1, y), u),
+             mix(grid.clamped(x, y + 1), grid.clamped(x + 1, y + 1), u), v);
+}
+
+/// Mean over (2 radius + 1) x (2 radius + 1) cells, the border continued.
+Grid boxBlur(const Grid& grid, uint32_t radius);
+
+}  // namespace tetrakis::tools::synth

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lengths as people type them. Foot definitions: international yard and pound agreement of 1959.
+#include "tools/units.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace tetrakis::tools {
+namespace {
+
+struct NamedLength {
+  std::string_view name;
+  double metres;
+};
+
+constexpr NamedLength kLengths[] = {
+    {"", 1},
+    {"m", 1},
+    {"metre", 1},
+    {"meter", 1},
+    {"metres", 1},
+    {"meters", 1},
+    {"cm", 0.01},
+    {"centimetre", 0.01},
+    {"mm", 0.001},
+    {"millimetre", 0.001},
+    {"km", 1000},
+    {"kilometre", 1000},
+    {"ft", 0.3048},
+    {"foot", 0.3048},
+    {"feet", 0.3048},
+    {"us-ft", 1200.0 / 3937},
+    {"US survey foot", 1200.0 / 3937},
+};
+constexpr std::string_view kSuffixes[] = {"m", "cm", "mm", "km", "ft"};
+
+/// Reads a finite number and moves `text` behind it.
+std::optional<double> takeNumber(std::string_view& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  text.remove_prefix(static_cast<size_t>(end - text.data()));
+  return value;
+}
+
+bool isSuffix(std::string_view text) {
+  for (const std::string_view suffix : kSuffixes)
+    if (text == suffix) return true;
+  return false;
+}
+
+}  // namespace
+
+std::optional<double> metresPerUnit(const std::string& unit) {
+  for (const NamedLength& length : kLengths)
+    if (unit == length.name) return length.metres;
+  return std::nullopt;
+}
+
+Result<double> parseLength(const std::string& text, const std::string& unit) {
+  std::string_view rest = text;
+  const std::optional<double> value = takeNumber(rest);
+  if (!value || *value < 0 || (!rest.empty() && !isSuffix(rest)))
+    return Status(TKS_USAGE, "'" + text + "' is not a length; write for example 0.5, 0.5m or 50cm");
+  if (rest.empty()) return *value;
+  const std::optional<double> metres = metresPerUnit(unit);
+  if (!metres)
+    return Status(TKS_USAGE, "'" + text + "' is a length, but the heights are in '" + unit +
+                                 "'; leave the suffix out");
+  return *value * *metresPerUnit(std::string(rest)) / *metres;
+}
+
+Result<std::array<double, 2>> parseSpacing(const std::string& text) {
+  std::string_view rest = text;
+  const std::optional<double> x = takeNumber(rest);
+  std::optional<double> y = x;
+  if (x && rest.starts_with(',')) {
+    rest.remove_prefix(1);
+    y = takeNumber(rest);
+  }
+  if (!x || !y || !rest.empty() || *x <= 0 || *y <= 0)
+    return Status(
+        TKS_USAGE,
+        "'" + text + "' is not a spacing; write metres per sample, for example 30 or 30,25");
+  return std::array<double, 2>{*x, *y};
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lengths as people type them: "0.5m", "30,25".
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "bitstream/status.hpp"
+
+namespace tetrakis::tools {
+
+/// Metres in one `unit` ("m", "cm", "mm", "km", "ft", "US survey foot" and their long names). An
+/// unknown unit ("") is taken for metres; nothing if the unit is no length.
+std::optional<double> metresPerUnit(const std::string& unit);
+
+/// A non-negative number with an optional suffix m, cm, mm, km or ft, converted to `unit`. Without
+/// a suffix the number is in `unit` already. TKS_USAGE if `text` is no such length, or if it has a
+/// suffix and `unit` is no length.
+Result<double> parseLength(const std::string& text, const std::string& unit);
+
+/// "S" or "X,Y": two positive numbers, metres per sample along rows and columns.
+Result<std::array<double, 2>> parseSpacing(const std::string& text);
+
+}  // namespace tetrakis::tools
