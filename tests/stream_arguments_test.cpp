@@ -122,6 +122,20 @@ TEST_F(Arguments, FloatHeightsMustBeFinite) {
   }
 }
 
+/// 2^26 steps do not hold both 1e-30 and 1e30: refused, never silently lossy.
+TEST_F(Arguments, LosslessNeedsAStepThatRestoresEverySample) {
+  Raster raster = make({Pattern::kRidges, 5, 5, 1, TKS_F32});
+  const float extremes[] = {1e-30f, 1e30f};
+  std::memcpy(raster.data.data(), extremes, sizeof extremes);
+  EXPECT_EQ(encodeWith([&](Call& c) { c.heights = raster.heights(); }), TKS_USAGE);
+  EXPECT_EQ(encodeWith([&](Call& c) {
+              c.heights = raster.heights();
+              c.options.lossless = 0;
+              c.options.max_error = 1e28;
+            }),
+            TKS_OK);
+}
+
 /// The message is cut to the caller's room and always ends with a zero.
 TEST_F(Arguments, MessageFitsItsBuffer) {
   const tks_encode_options options = lossless();

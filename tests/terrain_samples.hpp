@@ -18,7 +18,7 @@ enum class Pattern {
   kRidges,   ///< ridged multifractal: terrain, or the luma of an aerial photograph
   kSteps,    ///< terraces with vertical walls
   kChecker,  ///< the highest frequency, full range
-  kExtreme   ///< lowest and highest value of the type in random order
+  kExtreme   ///< noise over the whole range, half of it at the type's two ends
 };
 
 /// width * height * channels samples, row by row, interleaved, tightly packed, host byte order.
@@ -105,8 +105,10 @@ inline uint32_t patternValue(const Recipe& r, uint32_t x, uint32_t y, uint32_t c
       return (valueNoise(x, y, 4, r.seed + channel) >> 13) * 8191;
     case Pattern::kChecker:
       return ((x ^ y ^ channel) & 1u) * 65535;
-    case Pattern::kExtreme:
-      return (hash(x, y, r.seed + channel) & 1u) * 65535;
+    case Pattern::kExtreme: {
+      const uint32_t h = hash(x, y, r.seed + channel);
+      return h & 1u ? (h >> 1 & 1u) * 65535 : h >> 16;
+    }
   }
   return 0;
 }

@@ -116,13 +116,23 @@ TEST(Wavelet, RestoresLongAndOddShapes) {
 
 TEST(Wavelet, RestoresValuesThatWrapAround) {
   Random random(3);
+  // Up to the first doubled band nothing is lost to wrapping: lifting is invertible modulo 2^32.
+  for (uint32_t side = 1; side <= 16; ++side) {
+    const size_t count = size_t{side} * side;
+    EXPECT_TRUE(survivesWavelet(randomPlane(random, count, kLowest, kHighest), side, side));
+    EXPECT_TRUE(survivesWavelet(extremePlane(random, count, kLowest, kHighest), side, side));
+  }
+}
+
+TEST(Wavelet, AnyCoefficientsAreLegal) {
+  Random random(16);
   for (uint32_t width : {5u, 16u, 61u, 130u}) {
-    const size_t count = size_t{width} * 67;
-    // Without a doubled band nothing is lost to wrapping: lifting is invertible modulo 2^32.
-    EXPECT_TRUE(survivesWavelet(randomPlane(random, 13 * 13, kLowest, kHighest), 13, 13));
-    Plane plane = extremePlane(random, count, kLowest, kHighest);
-    inverseWavelet(plane, width, 67);  // any values are legal input
-    forwardWavelet(plane, width, 67);
+    const Plane coefficients = extremePlane(random, size_t{width} * 67, kLowest, kHighest);
+    Plane first = coefficients, second = coefficients;
+    inverseWavelet(first, width, 67);
+    inverseWavelet(second, width, 67);
+    EXPECT_EQ(first, second);
+    EXPECT_NE(first, coefficients);
   }
 }
 
@@ -184,10 +194,10 @@ TEST(Wavelet, FractionBitsRemoveRoundingNoise) {
 TEST(Wavelet, SixteenBitsWithFractionsDoNotOverflow) {
   Random random(6);
   const uint32_t side = 300;
-  // The strongest pattern of each band: its own synthesis signs, as far as random blocks find them.
+  // Components of 16-bit RGB reach 3 * 65535; random blocks of all sizes excite every band.
   for (uint32_t block : {1u, 2u, 5u, 16u, 64u, 300u}) {
     Plane samples(size_t{side} * side);
-    const Plane signs = extremePlane(random, samples.size(), -113500, 113500);  // 65535 sqrt 3
+    const Plane signs = extremePlane(random, samples.size(), -200000, 200000);
     for (uint32_t y = 0; y < side; ++y) {
       for (uint32_t x = 0; x < side; ++x) {
         samples[size_t{y} * side + x] = signs[size_t{y / block} * side + x / block];
@@ -195,10 +205,10 @@ TEST(Wavelet, SixteenBitsWithFractionsDoNotOverflow) {
     }
     Plane coefficients = samples;
     forwardWavelet(coefficients, side, side);
-    for (int32_t& v : coefficients) v *= 4;
+    for (int32_t& v : coefficients) v *= 2;
     inverseWavelet(coefficients, side, side);
     for (size_t i = 0; i < samples.size(); ++i) {
-      ASSERT_NEAR(coefficients[i] / 4.0, samples[i], 8) << block;
+      ASSERT_NEAR(coefficients[i] / 2.0, samples[i], 8) << block;
     }
   }
 }
@@ -311,7 +321,6 @@ TEST(Colour, ShearsRealiseEveryRotation) {
     for (size_t i = 0; i < 3; ++i) {
       // Rows at right angles: the inverse has their directions and the reciprocal lengths.
       EXPECT_NEAR(energies[i] * dot(matrix[i], matrix[i]), 1, 0.002);
-      EXPECT_NEAR(transform.norms[i], kNormSteps * std::log2(std::sqrt(energies[i])), 0.5);
     }
   }
 }
@@ -347,9 +356,9 @@ TEST(Colour, EnergiesInvertTheMatrix) {
   Random random(11);
   for (int trial = 0; trial < 100; ++trial) {
     ColourTransform transform = randomTransform(random);
-    for (int16_t& shear : transform.shears) shear = static_cast<int16_t>(shear / 16);
+    for (int16_t& shear : transform.shears) shear /= 16;
     const Matrix3 m = colourMatrix(transform);
-    // Columns of the inverse of a matrix of determinant 1: cross products of its rows.
+    // Columns of the inverse of a matrix of determinant +-1: cross products of its rows.
     const std::array<double, 3> energies = componentEnergies(transform);
     for (size_t i = 0; i < 3; ++i) {
       const auto &a = m[(i + 1) % 3], &b = m[(i + 2) % 3];
@@ -384,7 +393,7 @@ TEST(ColourFit, FindsTheAxesOfIndependentSources) {
     const Planes image = mixedImage(random, rotation, 128);
     const ColourTransform transform = image.fit(128, 128);
     const Matrix3 matrix = colourMatrix(transform);
-    EXPECT_GT(std::abs(dot(matrix[0], rotation[0])), 0.995);
+    EXPECT_GT(alignment(matrix[0], rotation[0]), 0.995);
     EXPECT_TRUE(survivesColour(transform, image));
   }
 }

@@ -31,7 +31,6 @@ struct ColourTransform {
   std::array<uint16_t, 4> centre{};  ///< subtracted from each channel
   uint8_t order = 0;                 ///< index into kChannelOrders, taken modulo 6
   std::array<int16_t, 6> shears{};   ///< in units of 2^-kShearFractionBits; all 0: identity
-  std::array<int8_t, 3> norms{};     ///< 16 log2 of the component's synthesis norm (norms.hpp)
 };
 
 /// Samples to components, in place. planes: 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGB, alpha)

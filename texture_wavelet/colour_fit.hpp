@@ -13,7 +13,7 @@ namespace tetrakis {
 /// of width * height samples of at most 16 bits, as in forwardColour.
 ColourTransform fitColour(std::span<const int32_t* const> planes, uint32_t width, uint32_t height);
 
-/// Sets order, shears and norms so that the components point along the rows of a rotation (an
+/// Sets order and shears so that the components point along the rows of a rotation (an
 /// orthogonal matrix), row 0 first, rows 1 and 2 in either order, by the smallest shears possible.
 void setRotation(ColourTransform& transform, const Matrix3& rotation);
 

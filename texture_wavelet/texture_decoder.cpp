@@ -14,7 +14,7 @@ namespace {
 /// rounding noise of their own (texture_wavelet/wavelet.hpp).
 int fractionBits(const TextureHeader& header, bool complete) {
   if (complete) return 0;
-  return header.sample == TKS_U8 ? 4 : 2;
+  return header.sample == TKS_U8 ? 4 : 1;
 }
 
 void scatter(const Band& band, const Subband& subband, int fraction_bits, uint32_t width, std::vector<int32_t>& plane) {

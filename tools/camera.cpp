@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "tools/render.hpp"
 #include "tools/vec3.hpp"
@@ -11,6 +12,7 @@ namespace tetrakis::tools {
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
+constexpr double kOverviewAngle = 25;  // degrees: narrow, so that far ground is not much smaller
 
 struct HalfAngles {
   double tan_x, tan_y;
@@ -33,35 +35,61 @@ std::array<Vec3, 8> cornersOf(const Bounds& bounds) {
   return corners;
 }
 
-/// Along one picture axis with half angle atan(t), a point (u, f) = (sideways, forward) is seen
-/// from (eu, ef) when |u - eu| <= t (f - ef), that is a <= eu - t ef and b <= -eu - t ef for the
-/// maxima a of u - t f and b of -u - t f. The foremost such eye has ef = -(a + b) / 2t, eu = (a -
-/// b) / 2; behind it the same eu stays centred.
-struct Fit {
-  double sideways, forward;
+/// Corners of a box as the points (u, f) = (sideways, forward) of one picture axis.
+class Extent {
+ public:
+  Extent(const std::array<Vec3, 8>& corners, const Vec3& axis, const Vec3& forward) {
+    for (size_t i = 0; i < corners.size(); ++i)
+      points_[i] = {dot(corners[i], axis), dot(corners[i], forward)};
+  }
+
+  /// A point is seen from (eu, ef) with half angle atan(t) when |u - eu| <= t (f - ef), that is
+  /// a <= eu - t ef and b <= -eu - t ef for the maxima a of u - t f and b of -u - t f. So the
+  /// foremost eye that sees all has ef = -(a + b) / 2t.
+  double foremost(double t) const {
+    double a = -HUGE_VAL, b = -HUGE_VAL;
+    for (const auto& [u, f] : points_) {
+      a = std::max(a, u - t * f);
+      b = std::max(b, -u - t * f);
+    }
+    return -(a + b) / (2 * t);
+  }
+
+  /// The eu from which, at ef, the picture leaves as much room on one side as on the other. Moving
+  /// the eye sideways moves all points the other way, so bisection finds it.
+  double centred(double ef) const {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const auto& [u, f] : points_) {
+      low = std::min(low, u);
+      high = std::max(high, u);
+    }
+    for (int i = 0; i < 60; ++i) {
+      const double eu = (low + high) / 2;
+      double above = -HUGE_VAL, below = -HUGE_VAL;
+      for (const auto& [u, f] : points_) {
+        above = std::max(above, (u - eu) / (f - ef));
+        below = std::max(below, (eu - u) / (f - ef));
+      }
+      (above > below ? low : high) = eu;
+    }
+    return (low + high) / 2;
+  }
+
+ private:
+  std::array<std::pair<double, double>, 8> points_;
 };
 
-Fit fit(const std::array<Vec3, 8>& corners, const Vec3& axis, const Vec3& forward, double t) {
-  double a = -HUGE_VAL, b = -HUGE_VAL;
-  for (const Vec3& corner : corners) {
-    const double u = dot(corner, axis), f = dot(corner, forward);
-    a = std::max(a, u - t * f);
-    b = std::max(b, -u - t * f);
-  }
-  return {(a - b) / 2, -(a + b) / (2 * t)};
-}
-
 /// Moves the camera, keeping its direction and its angle, to the nearest place that sees the whole
-/// box with a small margin.
+/// box with a small margin, in the middle of the picture.
 void frame(Camera& camera, const Bounds& bounds) {
   constexpr double kMargin = 0.97;  // share of the picture for the box
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
   const HalfAngles half = halfAngles(camera);
-  const std::array<Vec3, 8> corners = cornersOf(bounds);
-  const Fit x = fit(corners, axes.right, axes.forward, kMargin * half.tan_x);
-  const Fit y = fit(corners, axes.up, axes.forward, kMargin * half.tan_y);
-  const double forward = std::min(x.forward, y.forward);
-  camera.eye = add(add(scale(axes.right, x.sideways), scale(axes.up, y.sideways)),
+  const Extent x(cornersOf(bounds), axes.right, axes.forward);
+  const Extent y(cornersOf(bounds), axes.up, axes.forward);
+  const double forward =
+      std::min(x.foremost(kMargin * half.tan_x), y.foremost(kMargin * half.tan_y));
+  camera.eye = add(add(scale(axes.right, x.centred(forward)), scale(axes.up, y.centred(forward))),
                    scale(axes.forward, forward));
   const double depth = dot(centreOf(bounds), axes.forward) - forward;
   camera.target = add(camera.eye, scale(axes.forward, depth));
@@ -71,6 +99,7 @@ Camera obliqueView(const Bounds& bounds) {
   constexpr double kElevation = 35 * kRadian;
   Camera camera;
   camera.name = "oblique";
+  camera.fov_y = kOverviewAngle;
   camera.target = centreOf(bounds);
   camera.eye = add(camera.target, Vec3{0, std::sin(kElevation), std::cos(kElevation)});
   frame(camera, bounds);
@@ -80,6 +109,7 @@ Camera obliqueView(const Bounds& bounds) {
 Camera topView(const Bounds& bounds) {
   Camera camera;
   camera.name = "top";
+  camera.fov_y = kOverviewAngle;
   camera.up = {0, 0, -1};
   camera.target = centreOf(bounds);
   camera.eye = add(camera.target, Vec3{0, 1, 0});

@@ -169,8 +169,8 @@ typedef enum tks_mesh_kind {
 } tks_mesh_kind;
 
 /* A conforming 4-8 mesh. Vertex i lies on sample grid_index[i] (y * width + x) and has the height
- * height[i] in `unit`. Vertices come in insertion order, parents before children: the first vertices
- * of a finer mesh of the same surface are those of the coarser one. Triangles are counter-clockwise
+ * height[i] in `unit`. Vertices come in insertion order, parents before children; budget meshes of one
+ * surface are nested: the first vertices of the finer one are those of the coarser one. Triangles are counter-clockwise
  * seen from above with x to the right and y down the rows towards the viewer. */
 typedef struct tks_mesh {
   uint32_t vertex_count, triangle_count;

@@ -61,7 +61,9 @@ TEST(CppInterface, MeshesStayInsideTheGrid) {
     Expected<Mesh> made = decoder->budgetMesh(triangles);
     ASSERT_TRUE(made) << made.error().message;
     Mesh mesh = std::move(*made);
-    if (triangles > 0) EXPECT_LE(mesh.triangleCount(), triangles);
+    if (triangles > 0) {
+      EXPECT_LE(mesh.triangleCount(), triangles);
+    }
     EXPECT_EQ(mesh.triangles().size(), size_t{3} * mesh.triangleCount());
     EXPECT_EQ(mesh.heights().size(), mesh.gridIndices().size());
     for (const uint32_t vertex : mesh.triangles()) EXPECT_LT(vertex, mesh.vertexCount());
