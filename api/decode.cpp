@@ -72,12 +72,16 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
   const auto& geometry = decoder.parsed.header.geometry;
   if (!geometry) return Status(TKS_USAGE, "The stream holds no heights.");
   if (!decoder.geometry) {
-    DecodedGeometry decoded = decodeGeometry(decoder.payload.codewords[0], geometry->planes,
-                                             geometry->width, geometry->height);
-    dropFraction(decoded.heights, geometry->fraction_bits);
-    decoder.geometry = std::move(decoded);
+    decoder.geometry = decodeGeometry(decoder.payload.codewords[0], geometry->planes, geometry->width,
+                                      geometry->height);
   }
   return &*decoder.geometry;
+}
+
+SurfaceScale surfaceScale(const StreamHeader& header) {
+  const GeometryHeader& g = *header.geometry;
+  const double step = std::ldexp(g.step, -g.fraction_bits);
+  return {step * header.metadata.scale, g.base * header.metadata.scale + header.metadata.offset};
 }
 
 namespace {
@@ -88,7 +92,19 @@ Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
   const GeometryHeader& header = *decoder.parsed.header.geometry;
   const size_t wanted = (*decoded)->heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.sample));
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  fromSteps((*decoded)->heights, header, out);
+  std::vector<int32_t> steps = (*decoded)->heights;
+  dropFraction(steps, header.fraction_bits);
+  fromSteps(steps, header, out);
+  return {};
+}
+
+Status decodeSurface(tks_decoder& decoder, float* out, size_t count) {
+  Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
+  if (!decoded.ok()) return decoded.status();
+  const std::vector<int32_t>& heights = (*decoded)->heights;
+  if (count != heights.size() || out == nullptr) return wrongSize(heights.size() * sizeof(float), count * sizeof(float));
+  const SurfaceScale scale = surfaceScale(decoder.parsed.header);
+  for (size_t i = 0; i < count; ++i) out[i] = static_cast<float>(heights[i] * scale.scale + scale.offset);
   return {};
 }
 
@@ -227,6 +243,10 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
 
 tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes) {
   return tetrakis::keeping(decoder, [&] { return tetrakis::decodeHeights(*decoder, out, bytes); });
+}
+
+tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count) {
+  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeSurface(*decoder, out, count); });
 }
 
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes) {

@@ -14,13 +14,19 @@ struct tks_decoder {
   std::span<const uint8_t> data;  ///< the caller's
   tetrakis::ParsedHeader parsed;
   tetrakis::Demultiplexed payload;
-  std::optional<tetrakis::DecodedGeometry> geometry;  ///< decoded on first use, in whole steps
+  std::optional<tetrakis::DecodedGeometry> geometry;  ///< decoded on first use, with fraction bits
   std::string message;
 };
 
 namespace tetrakis {
 
-/// Heights in whole steps, decoded once. TKS_USAGE if the stream holds none.
+/// Heights in steps * 2^fraction_bits, decoded once. TKS_USAGE if the stream holds none.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
+
+/// Height in the unit = heights value * scale + offset.
+struct SurfaceScale {
+  double scale, offset;
+};
+SurfaceScale surfaceScale(const StreamHeader& header);
 
 }  // namespace tetrakis

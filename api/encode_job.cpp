@@ -151,7 +151,7 @@ Status EncodeJob::encodeLosslessGeometryIfItFits() {
   Geometry lossy = *geometry_;
   encodeGeometryWith(0);
   order();
-  if (geometry_->track.complete && everythingWithin(options_.bytes)) return {};
+  if (restoresEverything() && totalPayload() <= options_.bytes) return {};
   geometry_ = std::move(lossy);
   order();
   return {};
@@ -212,7 +212,7 @@ void EncodeJob::order() { packets_ = allocate({geometryCurve(), textureCurve()})
 StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const {
   StreamHeader header;
   header.payload_bytes = payload_bytes;
-  header.lossless = lossless && (!geometry_ || geometry_->steps.exact);
+  header.lossless = lossless;
   header.triangles = options_.triangles;
   if (geometry_) {
     GeometryHeader& g = header.geometry.emplace();
@@ -242,8 +242,15 @@ uint64_t EncodeJob::totalPayload() const {
   return total;
 }
 
-bool EncodeJob::everythingWithin(uint64_t payload) const {
-  return totalPayload() <= payload && (!geometry_ || geometry_->track.complete) && (!texture_ || texture_->track.complete);
+/// The packets hold both codewords to their last bit, and these restore everything.
+bool EncodeJob::restoresEverything() const {
+  std::array<uint64_t, kTracks> sent = {};
+  for (const Packet& packet : packets_) sent[static_cast<size_t>(packet.track)] = packet.end;
+  const auto whole = [](const EncodedTrack& track, uint64_t bytes) {
+    return track.complete && bytes == track.codeword.size();
+  };
+  return (!geometry_ || (geometry_->steps.exact && whole(geometry_->track, sent[0]))) &&
+         (!texture_ || whole(texture_->track, sent[1]));
 }
 
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {
@@ -261,7 +268,8 @@ Result<std::vector<uint8_t>> EncodeJob::assemble() const {
     room = options_.bytes - header_bytes;
   }
   const uint64_t payload_bytes = std::min(room, totalPayload());
-  std::vector<uint8_t> stream = writeHeader(makeHeader(payload_bytes, everythingWithin(room)));
+  const bool lossless = totalPayload() <= room && restoresEverything();
+  std::vector<uint8_t> stream = writeHeader(makeHeader(payload_bytes, lossless));
   const std::vector<uint8_t> payload = multiplex(packets_, codewords, payload_bytes);
   stream.insert(stream.end(), payload.begin(), payload.end());
   return stream;

@@ -58,7 +58,7 @@ class EncodeJob {
   StreamHeader makeHeader(uint64_t payload_bytes, bool lossless) const;
   Result<std::vector<uint8_t>> assemble() const;
   uint64_t totalPayload() const;
-  bool everythingWithin(uint64_t payload) const;
+  bool restoresEverything() const;
   Status report(double done) const;
 
   const tks_heights* heights_;

@@ -44,10 +44,9 @@ Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangl
   out.triangles = allocate<uint32_t>(mesh->triangles.size());
   std::memcpy(out.grid_index, mesh->vertices.data(), mesh->vertices.size() * sizeof(uint32_t));
   std::memcpy(out.triangles, mesh->triangles.data(), mesh->triangles.size() * sizeof(uint32_t));
-  const double scale = header.geometry->step * header.metadata.scale;
-  const double offset = header.geometry->base * header.metadata.scale + header.metadata.offset;
+  const SurfaceScale scale = surfaceScale(header);
   for (size_t i = 0; i < mesh->vertices.size(); ++i) {
-    out.height[i] = static_cast<float>((*geometry)->heights[mesh->vertices[i]] * scale + offset);
+    out.height[i] = static_cast<float>((*geometry)->heights[mesh->vertices[i]] * scale.scale + scale.offset);
   }
   return {};
 }

@@ -168,15 +168,29 @@ Raster mirrorTo(const Raster& raster, uint32_t width, uint32_t height) {
       [&](uint32_t j) { return mirror(top + j, raster.height); });
 }
 
-double meanSquaredError(const Raster& raster, const std::vector<uint16_t>& decoded) {
-  uint64_t sum = 0, count = 0;  // exact: 2^32 errors below 2^32 each
+namespace {
+
+template <class T>
+double meanSquare(const Raster& raster, const std::vector<T>& decoded) {
+  double sum = 0;
+  uint64_t count = 0;
   for (size_t i = 0; i < raster.samples.size(); ++i) {
     if (!raster.real.empty() && !raster.real[i / raster.channels]) continue;
-    const int64_t error = int64_t{raster.samples[i]} - decoded[i];
-    sum += static_cast<uint64_t>(error * error);
+    const double error = static_cast<double>(raster.samples[i]) - static_cast<double>(decoded[i]);
+    sum += error * error;
     ++count;
   }
-  return static_cast<double>(sum) / static_cast<double>(count);
+  return sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+double meanSquaredError(const Raster& raster, const std::vector<uint16_t>& decoded) {
+  return meanSquare(raster, decoded);
+}
+
+double meanSquaredError(const Raster& raster, const std::vector<float>& decoded) {
+  return meanSquare(raster, decoded);
 }
 
 }  // namespace tetrakis::bench

@@ -39,5 +39,6 @@ Raster mirrorTo(const Raster& raster, uint32_t width, uint32_t height);
 /// Mean squared error over the real samples of all channels, in squared sample steps.
 /// decoded: as many values as raster.samples.
 double meanSquaredError(const Raster& raster, const std::vector<uint16_t>& decoded);
+double meanSquaredError(const Raster& raster, const std::vector<float>& decoded);
 
 }  // namespace tetrakis::bench

@@ -2,6 +2,7 @@
 // Tetrakis through its C interface; see tetrakis_peer.hpp.
 #include "bench/tetrakis_peer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -39,6 +40,14 @@ Status decodeHeights(tks_decoder* decoder, const tks_info& info, std::vector<uin
   out.resize(size_t{info.width} * info.height);
   const tks_status code = tks_decode_heights(decoder, out.data(), out.size() * sizeof(out.front()));
   return code == TKS_OK ? Status() : Status(code, tks_message(decoder));
+}
+
+Status decodeSurface(tks_decoder* decoder, const tks_info& info, std::vector<float>& out) {
+  out.resize(size_t{info.width} * info.height);
+  const tks_status code = tks_decode_surface(decoder, out.data(), out.size());
+  if (code != TKS_OK) return {code, tks_message(decoder)};
+  for (float& height : out) height /= static_cast<float>(info.scale);
+  return {};
 }
 
 Status decodeImage(tks_decoder* decoder, const tks_info& info, std::vector<uint16_t>& out) {
@@ -94,6 +103,7 @@ Result<DecodedStream> decodeTetrakis(std::span<const uint8_t> prefix) {
   out.texture_bytes = info.texture_bytes;
   Status status;
   if (info.has_heights) status = decodeHeights(handle, info, out.heights);
+  if (status.ok() && info.has_heights) status = decodeSurface(handle, info, out.surface);
   if (status.ok() && info.has_texture) status = decodeImage(handle, info, out.image);
   if (!status.ok()) return status;
   return out;
@@ -103,29 +113,29 @@ Result<PeerCurves> TetrakisPeer::curves(const Raster& raster,
                                         const std::vector<uint64_t>& targets) const {
   const bool is_image = kind_ == RasterKind::kImage;
   const StreamSource source{is_image ? nullptr : &raster, is_image ? &raster : nullptr};
-  const auto stream = encodeTetrakis(source, 0);
+  // One lossless stream, and one lossy stream made for the highest rate below it and cut at all.
+  const auto lossless = encodeTetrakis(source, 0);
+  if (!lossless.ok()) return lossless.status();
+  const auto above = std::lower_bound(targets.begin(), targets.end(), lossless->size());
+  const auto stream = encodeTetrakis(source, above == targets.begin() ? targets.front() : *(above - 1));
   if (!stream.ok()) return stream.status();
-  const auto decodePrefix = [&](uint64_t bytes) -> Result<std::vector<uint16_t>> {
-    auto decoded = decodeTetrakis(std::span(*stream).first(bytes));
-    if (!decoded.ok()) return decoded.status();
-    return std::move(is_image ? decoded->image : decoded->heights);
-  };
 
   PeerCurves curves;
   std::vector<CodedPoint>& cuts = curves.settings.emplace_back();
   for (const uint64_t bytes : targets) {
-    if (bytes >= stream->size()) break;
-    const auto decoded = decodePrefix(bytes);
+    if (bytes > stream->size()) break;
+    const auto decoded = decodeTetrakis(std::span(*stream).first(bytes));
     if (decoded.status().code() == TKS_TRUNCATED) continue;
     if (!decoded.ok()) return decoded.status();
-    cuts.push_back({bytes, meanSquaredError(raster, *decoded)});
+    cuts.push_back({bytes, is_image ? meanSquaredError(raster, decoded->image)
+                                    : meanSquaredError(raster, decoded->surface)});
   }
-  const auto restored = decodePrefix(stream->size());
+  const auto restored = decodeTetrakis(*lossless);
   if (!restored.ok()) return restored.status();
-  if (*restored != raster.samples) {
+  if ((is_image ? restored->image : restored->heights) != raster.samples) {
     return Status(TKS_MISMATCH, "The lossless stream does not restore the samples.");
   }
-  curves.lossless_bytes = stream->size();
+  curves.lossless_bytes = lossless->size();
   return curves;
 }
 

@@ -26,6 +26,7 @@ Result<std::vector<uint8_t>> encodeTetrakis(const StreamSource& source, uint64_t
 /// A decoded prefix; a track that the stream lacks is empty.
 struct DecodedStream {
   std::vector<uint16_t> heights;
+  std::vector<float> surface;  ///< the heights between the steps, in sample steps
   std::vector<uint16_t> image;
   uint64_t geometry_bytes = 0, texture_bytes = 0;  ///< payload of either track in the prefix
 };

@@ -60,8 +60,9 @@ Result<std::vector<Vector>> readManifest(const std::string& directory) {
   const auto bytes = readFile(path);
   if (!bytes.ok()) return bytes.status();
   try {
+    const Json document = Json::parse(*bytes);
     std::vector<Vector> vectors;
-    for (const Json& json : Json::parse(*bytes).at("vectors")) vectors.push_back(vectorOf(json));
+    for (const Json& json : document.at("vectors")) vectors.push_back(vectorOf(json));
     return vectors;
   } catch (const nlohmann::json::exception& error) {
     return Status(TKS_CORRUPT, "'" + path + "' is not a manifest: " + error.what() + ".");

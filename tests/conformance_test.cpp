@@ -48,16 +48,22 @@ TEST_F(Vectors, AllPass) {
   EXPECT_GE(summary->passed, 12);
 }
 
-/// Every stream on disk is listed, every listed stream is small and comes from a case.
+/// Every stream on disk is listed, in the manifest and in the README, and small.
 TEST_F(Vectors, ManifestIsComplete) {
   const auto vectors = readManifest(kVectors);
   ASSERT_TRUE(vectors.ok()) << vectors.status().message();
+  const auto readme = readFile(std::string(kVectors) + "/../README.md");
+  ASSERT_TRUE(readme.ok());
+  const std::string table(readme->begin(), readme->end());
   std::set<std::string> listed{kManifestName};
   for (const Vector& vector : *vectors) {
     EXPECT_TRUE(listed.insert(vector.file).second) << vector.file << " is listed twice";
     EXPECT_LT(fs::file_size(fs::path(kVectors) / vector.file), 20000u);
-    EXPECT_FALSE(vector.purpose.empty());
-    EXPECT_FALSE(vector.cuts.empty());
+    ASSERT_FALSE(vector.cuts.empty());
+    const std::string row = "| `" + vector.name + "` | " +
+                            std::to_string(vector.cuts.back().bytes) + " | " + vector.purpose +
+                            " |";
+    EXPECT_NE(table.find(row), std::string::npos) << row;
   }
   for (const auto& entry : fs::directory_iterator(kVectors)) {
     EXPECT_TRUE(listed.contains(entry.path().filename())) << entry.path();

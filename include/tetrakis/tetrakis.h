@@ -157,6 +157,10 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 /* Writes width * height samples of info.sample; bytes must be their exact size. */
 tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes);
 
+/* Writes width * height heights in info.unit, one float each. Where a prefix says more than whole steps
+ * of the sample type can show, the heights lie between the steps: what a renderer should draw. */
+tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count);
+
 /* Writes texture_width * texture_height * texture_channels samples of info.texture_sample. */
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes);
 
