@@ -138,6 +138,7 @@ bool setLayout(TIFF* tiff, const HeightFile& heights, uint32_t rows_per_strip) {
          TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) &&
          TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, rows_per_strip) &&
          TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE) &&
+         TIFFSetField(tiff, TIFFTAG_ZIPQUALITY, 3) &&
          TIFFSetField(tiff, TIFFTAG_PREDICTOR,
                       is_float ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
 }

@@ -92,6 +92,8 @@ Result<std::vector<std::byte>> encodePng(const ImageFile& image) {
   header.bit_depth = image.sample == TKS_U8 ? 8 : 16;
   header.color_type = kColourTypes[image.channels - 1];
   int error = spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
+  // Fast deflate: decoded textures hold noise that more effort hardly shrinks.
+  if (!error) error = spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 2);
   if (!error) error = spng_set_ihdr(context.get(), &header);
   if (!error) {
     error = spng_encode_image(context.get(), image.data.data(), image.data.size(), SPNG_FMT_PNG,
