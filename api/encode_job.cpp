@@ -7,6 +7,7 @@
 #include <map>
 
 #include "api/samples.hpp"
+#include "codec/decimation.hpp"
 #include "codec/geometry_decoder.hpp"
 #include "codec/geometry_encoder.hpp"
 #include "ratecontrol/audit.hpp"
@@ -183,10 +184,23 @@ TrackCurve EncodeJob::geometryCurve() const {
   const std::vector<RatePoint> points =
       audit(geometry_->track, samples, budgeted(), [&](uint64_t bytes) { return geometrySquares(bytes); });
   const double step = geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
+  const double floor = meshFloor();
   const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
-  if (image_ == nullptr) return priced(points, mean_square, mean_square);
+  const auto useful = [&](double squares) { return std::max(mean_square(squares), floor); };
+  if (image_ == nullptr) return priced(points, mean_square, useful);
   const ScreenModel model(texels_, texelsPerMetre(step));
-  return priced(points, mean_square, [&](double squares) { return model.cost(mean_square(squares) * step * step); });
+  return priced(points, mean_square, [&](double squares) { return model.cost(useful(squares) * step * step); });
+}
+
+/// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes no
+/// longer help: a mesh of that many triangles is itself off by sixteen times as much, so that its
+/// RMSE would fall by 3 % at most. 0 without a budget.
+double EncodeJob::meshFloor() const {
+  if (options_.triangles == 0) return 0;
+  const Result<MeshSequence> sequence = decimate({heights_->width, heights_->height, geometry_->steps.steps});
+  if (!sequence.ok()) return 0;
+  const double squares = sequence->squaredError(sequence->bestPrefix(options_.triangles));
+  return squares / static_cast<double>(geometry_->steps.steps.size()) / 16;
 }
 
 /// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to be

@@ -42,6 +42,7 @@ class EncodeJob {
   TrackCurve geometryCurve() const;
   TrackCurve textureCurve() const;
   double texelsPerMetre(double step) const;
+  double meshFloor() const;
   std::vector<int32_t> decodedSteps(uint64_t bytes) const;
   Texels decodedTexels(uint64_t bytes) const;
   double geometrySquares(uint64_t bytes) const;

@@ -8,43 +8,67 @@ namespace tetrakis {
 
 namespace {
 
-constexpr uint32_t kPatchSide = 16;
+constexpr uint32_t kPatchSide = 16;    // cells of 2 x 2 texels
 constexpr uint32_t kMostPatches = 64;  // along one side: a statistic needs no more
 
-struct Moments {
-  double sum = 0, squares = 0, gradient = 0;
-  double count = 0;
+/// One channel, or the sum over a cell of 2 x 2 texels: what is moved on the screen is the decoded
+/// texture, and its finest octave is lost at the rates where the split between tracks matters.
+class Cells {
+ public:
+  explicit Cells(const Texels& texels) : texels_(texels) {}
+  uint32_t width() const { return texels_.width / 2; }
+  uint32_t height() const { return texels_.height / 2; }
+  double at(uint32_t x, uint32_t y, uint32_t channel) const {
+    const auto texel = [&](uint32_t u, uint32_t v) -> double {
+      return texels_.samples[(size_t{v} * texels_.width + u) * texels_.channels + channel];
+    };
+    return (texel(2 * x, 2 * y) + texel(2 * x + 1, 2 * y) + texel(2 * x, 2 * y + 1) + texel(2 * x + 1, 2 * y + 1)) / 4;
+  }
+
+ private:
+  const Texels& texels_;
 };
+
+/// Sums over the cells of a patch.
+struct Moments {
+  double sum = 0, squares = 0, gradient = 0, count = 0;
+
+  double variance() const { return count == 0 ? 0 : squares / count - (sum / count) * (sum / count); }
+  /// Mean squared gradient per texel; cells are two texels apart.
+  double meanGradient() const { return count == 0 ? 0 : gradient / count / 4; }
+};
+
+Moments momentsOf(const Cells& cells, uint32_t x0, uint32_t y0, uint32_t channel) {
+  Moments m;
+  for (uint32_t y = y0; y + 1 < std::min(cells.height(), y0 + kPatchSide); ++y) {
+    for (uint32_t x = x0; x + 1 < std::min(cells.width(), x0 + kPatchSide); ++x) {
+      const double here = cells.at(x, y, channel);
+      const double dx = cells.at(x + 1, y, channel) - here, dy = cells.at(x, y + 1, channel) - here;
+      m.sum += here;
+      m.squares += here * here;
+      m.gradient += dx * dx + dy * dy;
+      ++m.count;
+    }
+  }
+  return m;
+}
 
 }  // namespace
 
 ScreenModel::ScreenModel(const Texels& texture, double texels_per_height)
     : squared_parallax_(texels_per_height * texels_per_height) {
+  const Cells cells(texture);
   const uint32_t colours = texture.channels < 3 ? 1 : 3;
-  const uint32_t side = std::max(
-      kPatchSide, std::max(texture.width, texture.height) / kMostPatches);
-  for (uint32_t y0 = 0; y0 < texture.height; y0 += side) {
-    for (uint32_t x0 = 0; x0 < texture.width; x0 += side) {
-      double variance = 0, gradient = 0;
+  const uint32_t pitch = std::max(kPatchSide, std::max(cells.width(), cells.height()) / kMostPatches);
+  for (uint32_t y = 0; y < cells.height(); y += pitch) {
+    for (uint32_t x = 0; x < cells.width(); x += pitch) {
+      Patch patch{0, 0};
       for (uint32_t c = 0; c < colours; ++c) {
-        Moments m;
-        for (uint32_t y = y0; y + 1 < texture.height && y < y0 + kPatchSide; ++y) {
-          for (uint32_t x = x0; x + 1 < texture.width && x < x0 + kPatchSide; ++x) {
-            const auto at = [&](uint32_t u, uint32_t v) -> double {
-              return texture.samples[(size_t{v} * texture.width + u) * texture.channels + c];
-            };
-            const double here = at(x, y), dx = at(x + 1, y) - here, dy = at(x, y + 1) - here;
-            m.sum += here;
-            m.squares += here * here;
-            m.gradient += dx * dx + dy * dy;
-            ++m.count;
-          }
-        }
-        if (m.count == 0) continue;
-        variance += m.squares / m.count - (m.sum / m.count) * (m.sum / m.count);
-        gradient += m.gradient / m.count;
+        const Moments m = momentsOf(cells, x, y, c);
+        patch.variance += m.variance() / colours;
+        patch.gradient += m.meanGradient() / colours;
       }
-      patches_.push_back({variance / colours, gradient / colours});
+      patches_.push_back(patch);
     }
   }
 }
