@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture tracks: lossless ends, prefixes, limits, hostile input.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
+
+namespace tetrakis {
+namespace {
+
+/// Waves and noise; channels share most of their structure, as colours do.
+Texels makeTexels(uint32_t width, uint32_t height, uint32_t channels, int bits, uint32_t noise) {
+  std::mt19937 random(width * 31 + height * 7 + channels);
+  Texels texels{width, height, channels, bits, {}};
+  const double peak = (1 << bits) - 1;
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const double luma = 0.5 + 0.3 * std::sin(0.21 * x) * std::cos(0.13 * y);
+      for (uint32_t c = 0; c < channels; ++c) {
+        const double value = (luma + 0.05 * c) * peak + static_cast<double>(random() % (noise + 1));
+        texels.samples.push_back(static_cast<int32_t>(std::clamp(value, 0.0, peak)));
+      }
+    }
+  }
+  return texels;
+}
+
+double squaredError(const Texels& a, const Texels& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.samples.size(); ++i) sum += std::pow(a.samples[i] - b.samples[i], 2);
+  return sum;
+}
+
+TEST(TextureTrack, IsLosslessAtItsEnd) {
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 9u}, {2u, 2u}, {5u, 3u}, {17u, 31u}, {64u, 64u}, {3u, 300u}}) {
+    for (uint32_t channels = 1; channels <= 4; ++channels) {
+      for (const int bits : {8, 16}) {
+        const Texels texels = makeTexels(width, height, channels, bits, 40);
+        const EncodedTexture encoded = encodeTexture(texels, UINT64_MAX);
+        ASSERT_TRUE(encoded.track.complete);
+        EXPECT_EQ(decodeTexture(encoded.header, encoded.track.codeword).samples, texels.samples)
+            << width << " x " << height << " x " << channels << ", " << bits << " bits";
+      }
+    }
+  }
+}
+
+TEST(TextureTrack, FullRangeNoiseComesBack) {
+  std::mt19937 random(5);
+  for (const int bits : {8, 16}) {
+    Texels texels{40, 23, 4, bits, std::vector<int32_t>(40 * 23 * 4)};
+    for (int32_t& s : texels.samples) s = random() % 2 == 0 ? 0 : (1 << bits) - 1;
+    const EncodedTexture encoded = encodeTexture(texels, UINT64_MAX);
+    EXPECT_EQ(decodeTexture(encoded.header, encoded.track.codeword).samples, texels.samples);
+  }
+}
+
+TEST(TextureTrack, StatedDistortionIsCloseToTheRealOne) {
+  const Texels texels = makeTexels(160, 120, 3, 8, 30);
+  const EncodedTexture encoded = encodeTexture(texels, UINT64_MAX);
+  const auto& points = encoded.track.points;
+  for (size_t i = 4; i < points.size(); i += 11) {
+    if (points[i].distortion < 4 * static_cast<double>(texels.samples.size())) break;  // rounding noise
+    const Texels decoded = decodeTexture(encoded.header, std::span(encoded.track.codeword).first(points[i].bytes));
+    const double ratio = squaredError(texels, decoded) / points[i].distortion;
+    EXPECT_GT(ratio, 0.6) << i;
+    EXPECT_LT(ratio, 1.5) << i;
+  }
+}
+
+TEST(TextureTrack, StopsSoonAfterItsLimitWithTheSameBytes) {
+  const Texels texels = makeTexels(90, 70, 3, 8, 60);
+  const EncodedTexture full = encodeTexture(texels, UINT64_MAX), cut = encodeTexture(texels, 3000);
+  ASSERT_FALSE(cut.track.complete);
+  ASSERT_GE(cut.track.codeword.size(), 3000u);
+  EXPECT_TRUE(std::equal(cut.track.codeword.begin(), cut.track.codeword.begin() + 3000, full.track.codeword.begin()));
+}
+
+TEST(TextureTrack, GreyInRgbCostsLittleMoreThanGrey) {
+  const Texels grey = makeTexels(128, 128, 1, 8, 20);
+  Texels colour{128, 128, 3, 8, {}};
+  for (int32_t s : grey.samples) colour.samples.insert(colour.samples.end(), 3, s);
+  const double ratio = static_cast<double>(encodeTexture(colour, UINT64_MAX).track.codeword.size()) /
+                       static_cast<double>(encodeTexture(grey, UINT64_MAX).track.codeword.size());
+  EXPECT_LT(ratio, 1.02);
+}
+
+TEST(TextureTrack, AnyBytesAndHeadersDecodeIntoRange) {
+  std::mt19937 random(6);
+  for (int run = 0; run < 60; ++run) {
+    TextureHeader header;
+    header.width = static_cast<uint32_t>(1 + random() % 40);
+    header.height = static_cast<uint32_t>(1 + random() % 40);
+    header.channels = static_cast<uint8_t>(1 + random() % 4);
+    header.sample = random() % 2 == 0 ? TKS_U8 : TKS_U16;
+    header.planes = static_cast<uint8_t>(random() % 31);
+    header.colour_order = static_cast<uint8_t>(random() % 6);
+    for (int64_t& shear : header.colour_shears) shear = static_cast<int64_t>(random() % 65535) - 32767;
+    for (int64_t& priority : header.priority) priority = static_cast<int64_t>(random() % 257) - 128;
+    std::vector<uint8_t> bytes(random() % 400);
+    for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
+    const Texels texels = decodeTexture(header, bytes);
+    for (int32_t s : texels.samples) ASSERT_EQ(s >> texels.bits, 0);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis
