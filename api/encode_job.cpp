@@ -256,15 +256,12 @@ uint64_t EncodeJob::totalPayload() const {
   return total;
 }
 
-/// The packets hold both codewords to their last bit, and these restore everything.
+/// The last packet of either track states that nothing is left, or there was nothing to send.
 bool EncodeJob::restoresEverything() const {
-  std::array<uint64_t, kTracks> sent = {};
-  for (const Packet& packet : packets_) sent[static_cast<size_t>(packet.track)] = packet.end;
-  const auto whole = [](const EncodedTrack& track, uint64_t bytes) {
-    return track.complete && bytes == track.codeword.size();
-  };
-  return (!geometry_ || (geometry_->steps.exact && whole(geometry_->track, sent[0]))) &&
-         (!texture_ || whole(texture_->track, sent[1]));
+  std::array<bool, kTracks> exact = {!geometry_ || geometry_->track.points.front().distortion == 0,
+                                     !texture_ || texture_->track.points.front().distortion == 0};
+  for (const Packet& packet : packets_) exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
+  return exact[0] && exact[1] && (!geometry_ || geometry_->steps.exact);
 }
 
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {

@@ -48,9 +48,13 @@ class EncodingIo {
     if (distortion_ < best_) best_ = distortion_;
     dips_ |= distortion_ > kDip * best_;
   }
-  void start(double energy) { distortion_ = best_ = energy; }
-  /// The point reached now; asks about dips since the last call.
-  RatePoint point() { return {decidedBytes(), distortion_, std::exchange(dips_, false)}; }
+  void start(double energy) {
+    distortion_ = best_ = energy;
+    least_ = energy * 1e-12;
+  }
+  /// The point reached now, with the dips since the last call. Only the end of a track is exact: the
+  /// sums here are not.
+  RatePoint point() { return {decidedBytes(), std::max(distortion_, least_), std::exchange(dips_, false)}; }
   uint64_t decidedBytes() const { return encoder_.decidedBytes(); }
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
@@ -68,7 +72,7 @@ class EncodingIo {
   }
 
   RangeEncoder encoder_;
-  double distortion_ = 0, best_ = 0;
+  double distortion_ = 0, best_ = 0, least_ = 0;
   bool dips_ = false;
   const BandShape* shape_ = nullptr;
   const BandSource* source_ = nullptr;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference decoder: a second decoder, slow and plain, written from docs/FORMAT.md alone. It
+// shares no code with the library, so that a stream on which both agree means what the text says.
+// "FORMAT n" in its comments names the section that a function implements.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tetrakis::reference {
+
+/// What the bytes are. Everything but kDone comes without samples.
+enum class Outcome {
+  kDone,
+  kTruncated,    ///< the header is not complete
+  kCorrupt,      ///< breaks the syntax of the header or of a packet head
+  kUnsupported,  ///< another version or profile
+  kTooLarge      ///< a component of more than kMaxSamples samples
+};
+
+/// Heights, or texels times channels, that this decoder takes on.
+inline constexpr uint64_t kMaxSamples = uint64_t{1} << 22;
+
+/// Samples are rows from the top, channels interleaved, little endian, of the type in the header.
+/// A component that the stream does not announce stays empty.
+struct Decoded {
+  Outcome outcome = Outcome::kDone;
+  std::optional<std::vector<uint8_t>> heights;
+  std::optional<std::vector<uint8_t>> texture;
+};
+
+/// Decodes the first bytes of a stream: all of them, or any prefix. Safe on any input.
+Decoded decode(std::span<const uint8_t> prefix);
+
+}  // namespace tetrakis::reference

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: binary range decoder with the tail rule, and adaptive decisions
+// (docs/FORMAT.md, section 4).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace tetrakis::reference {
+
+class RangeDecoder {
+ public:
+  explicit RangeDecoder(std::span<const uint8_t> codeword) : codeword_(codeword) {
+    for (int i = 0; i < 4; ++i) shiftIn();
+  }
+
+  /// `zero` is P(0) in units of 2^-16. Nothing: the missing bytes decide, the track ends here.
+  std::optional<int> decode(uint32_t zero) {
+    const auto bound = static_cast<uint32_t>((uint64_t{range_} * zero) >> 16);
+    if (code_ < bound && bound <= uint64_t{code_} + slack_) return std::nullopt;
+    const int bit = code_ >= bound;
+    if (bit) {
+      code_ -= bound;
+      range_ -= bound;
+    } else {
+      range_ = bound;
+    }
+    while (range_ < 1u << 24) {
+      range_ <<= 8;
+      shiftIn();
+    }
+    return bit;
+  }
+
+ private:
+  void shiftIn() {
+    const bool missing = next_ >= codeword_.size();
+    code_ = code_ << 8 | (missing ? 0u : codeword_[next_]);
+    slack_ = slack_ << 8 | (missing ? 255u : 0u);
+    ++next_;
+  }
+
+  std::span<const uint8_t> codeword_;
+  size_t next_ = 0;
+  uint32_t code_ = 0, slack_ = 0, range_ = 0xFFFFFFFFu;
+};
+
+/// FORMAT 4, "Adaptive decision".
+class Model {
+ public:
+  std::optional<int> decode(RangeDecoder& decoder) {
+    const int zero = std::clamp((fast_ + slow_) >> 1, 24, 65512);
+    const std::optional<int> bit = decoder.decode(static_cast<uint32_t>(zero));
+    if (!bit) return bit;
+    const int target = *bit ? 0 : 0xFFFF;
+    fast_ += (target - fast_) >> std::min(rate_, 5);
+    slow_ += (target - slow_) >> rate_;
+    ++seen_;
+    if (rate_ < 8 && seen_ >= 1 << rate_) ++rate_;
+    return bit;
+  }
+
+ private:
+  int fast_ = 0x8000, slow_ = 0x8000, rate_ = 1;
+  int64_t seen_ = 0;
+};
+
+}  // namespace tetrakis::reference

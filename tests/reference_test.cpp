@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library against the reference decoder, which was written from docs/FORMAT.md alone: for every
+// prefix of every stream, whole or damaged, both give the same bytes or both refuse.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "conformance/reference_decoder.hpp"
+#include "tests/header_seal.hpp"
+#include "tests/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+tks_status statusOf(reference::Outcome outcome) {
+  switch (outcome) {
+    case reference::Outcome::kDone:
+      return TKS_OK;
+    case reference::Outcome::kTruncated:
+      return TKS_TRUNCATED;
+    case reference::Outcome::kCorrupt:
+      return TKS_CORRUPT;
+    case reference::Outcome::kUnsupported:
+      return TKS_UNSUPPORTED;
+    case reference::Outcome::kTooLarge:
+      return TKS_LIMIT;
+  }
+  return TKS_USAGE;
+}
+
+/// The byte where two rasters part; their size if they do not.
+size_t firstDifference(const std::optional<Bytes>& expected, const std::vector<std::byte>& actual) {
+  if (!expected) return 0;
+  const auto same = [](uint8_t a, std::byte b) { return a == std::to_integer<uint8_t>(b); };
+  return static_cast<size_t>(
+      std::mismatch(expected->begin(), expected->end(), actual.begin(), actual.end(), same).first -
+      expected->begin());
+}
+
+/// Both decoders on the same bytes.
+void expectAgreement(Prefix prefix) {
+  tks_limits limits = {};
+  limits.size = sizeof limits;
+  limits.max_samples = limits.max_texels = reference::kMaxSamples;
+  const reference::Decoded decoded = reference::decode(prefix);
+  Stream stream(prefix, &limits);
+  ASSERT_EQ(stream.status(), statusOf(decoded.outcome)) << stream.message();
+  if (stream.status() != TKS_OK) return;
+  ASSERT_EQ(decoded.heights.has_value(), stream.info().has_heights != 0);
+  ASSERT_EQ(decoded.texture.has_value(), stream.info().has_texture != 0);
+  const std::vector<std::byte> heights = stream.heights(), texture = stream.texture();
+  ASSERT_EQ(decoded.heights ? decoded.heights->size() : 0, heights.size());
+  ASSERT_EQ(decoded.texture ? decoded.texture->size() : 0, texture.size());
+  ASSERT_EQ(firstDifference(decoded.heights, heights), heights.size()) << "heights";
+  ASSERT_EQ(firstDifference(decoded.texture, texture), texture.size()) << "texture";
+}
+
+void expectAgreementOnPrefixes(const Bytes& stream, size_t most = 40) {
+  const size_t stride = std::max<size_t>(1, stream.size() / most);
+  for (size_t n = 0; n <= stream.size(); n += stride) {
+    SCOPED_TRACE("prefix of " + std::to_string(n) + " of " + std::to_string(stream.size()));
+    expectAgreement(Prefix(stream).first(n));
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+  expectAgreement(stream);
+}
+
+/// Encodes both ways and compares prefixes.
+void expectAgreementOn(const Raster* heights, const Raster* image, uint64_t bytes = 0) {
+  const Bytes stream = encode(heights, image, bytes == 0 ? lossless() : budget(bytes));
+  ASSERT_FALSE(stream.empty());
+  expectAgreementOnPrefixes(stream);
+}
+
+std::string nameOf(const samples::Recipe& r) {
+  return std::to_string(r.width) + "x" + std::to_string(r.height) + " pattern " +
+         std::to_string(static_cast<int>(r.pattern)) + " type " + std::to_string(r.sample) +
+         " channels " + std::to_string(r.channels);
+}
+
+constexpr Pattern kPatterns[] = {Pattern::kFlat,  Pattern::kRamp,    Pattern::kRidges,
+                                 Pattern::kSteps, Pattern::kChecker, Pattern::kExtreme};
+
+TEST(Reference, AgreesOnEveryByteOfASmallJointStream) {
+  const Raster heights = make({Pattern::kRidges, 19, 14, 1, TKS_I16, 3});
+  const Raster image = make({Pattern::kRidges, 11, 13, 3, TKS_U8, 4});
+  const Bytes stream = encode(&heights, &image, lossless());
+  expectAgreementOnPrefixes(stream, stream.size());
+}
+
+TEST(Reference, AgreesOnHeightsOfAllTypesAndPatterns) {
+  for (const Pattern pattern : kPatterns) {
+    for (const tks_sample sample : {TKS_U8, TKS_I8, TKS_U16, TKS_I16, TKS_U32, TKS_I32, TKS_F32}) {
+      const samples::Recipe recipe{pattern, 21, 18, 1, sample, 5};
+      SCOPED_TRACE(nameOf(recipe));
+      const Raster heights = make(recipe);
+      const bool exact = pattern != Pattern::kExtreme || tks_sample_bytes(sample) < 4;
+      expectAgreementOn(&heights, nullptr, exact ? 0 : 1000);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+// 65 x 9 and 129 x 2 have blocks without a coefficient, 5 x 70 a forest of root squares.
+TEST(Reference, AgreesOnHeightsOfAllShapes) {
+  constexpr uint32_t kSizes[][2] = {{2, 2},  {3, 17}, {2, 9},   {9, 2},   {3, 3},  {40, 33},
+                                    {5, 70}, {70, 5}, {129, 2}, {2, 129}, {65, 9}, {64, 64}};
+  for (const auto& size : kSizes) {
+    for (const Pattern pattern : {Pattern::kRidges, Pattern::kExtreme}) {
+      const samples::Recipe recipe{pattern, size[0], size[1], 1, TKS_U16, 6};
+      SCOPED_TRACE(nameOf(recipe));
+      const Raster heights = make(recipe);
+      expectAgreementOn(&heights, nullptr);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+// A narrow range and a budget make the encoder work between the integers (fraction_bits > 0).
+TEST(Reference, AgreesOnFractionsOfSteps) {
+  for (const tks_sample sample : {TKS_U8, TKS_I16, TKS_F32}) {
+    Raster heights = make({Pattern::kRidges, 40, 33, 1, sample, 7});
+    for (size_t i = 0; i < heights.data.size() && sample == TKS_I16; i += 2) {
+      heights.data[i] = heights.data[i + 1];  // keep the high byte: -128 ... 127
+      heights.data[i + 1] =
+          std::byte{std::to_integer<int>(heights.data[i]) > 127 ? uint8_t{255} : uint8_t{0}};
+    }
+    for (const uint64_t bytes : {200, 400, 700}) {
+      SCOPED_TRACE(bytes);
+      expectAgreementOn(&heights, nullptr, bytes);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Reference, AgreesOnTexturesOfAllKinds) {
+  for (const Pattern pattern : kPatterns) {
+    for (uint32_t channels = 1; channels <= 4; ++channels) {
+      for (const tks_sample sample : {TKS_U8, TKS_U16}) {
+        const samples::Recipe recipe{pattern, 23, 19, channels, sample, 8};
+        SCOPED_TRACE(nameOf(recipe));
+        const Raster image = make(recipe);
+        expectAgreementOn(nullptr, &image);
+        expectAgreementOn(nullptr, &image, 400);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(Reference, AgreesOnTexturesOfAllShapes) {
+  constexpr uint32_t kSizes[][2] = {{1, 1},   {1, 40}, {40, 1},  {4, 4},   {5, 4},
+                                    {3, 100}, {5, 5},  {66, 70}, {130, 9}, {200, 3}};
+  for (const auto& size : kSizes) {
+    for (const uint32_t channels : {1u, 3u}) {
+      const samples::Recipe recipe{Pattern::kRidges, size[0], size[1], channels, TKS_U8, 9};
+      SCOPED_TRACE(nameOf(recipe));
+      const Raster image = make(recipe);
+      expectAgreementOn(nullptr, &image);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Reference, AgreesOnJointStreamsWithMetadataAndIndex) {
+  const Raster heights = make({Pattern::kRidges, 40, 33, 1, TKS_U16, 10});
+  const Raster image = make({Pattern::kRidges, 48, 40, 3, TKS_U8, 11});
+  tks_heights h = heights.heights();
+  h.scale = 0.25;
+  h.offset = -100;
+  h.unit = "m";
+  h.crs = "EPSG:25832";
+  const tks_image i = image.image();
+  tks_encode_options options = budget(1800);
+  options.index = 1;
+  tks_buffer buffer = {};
+  char message[256] = "";
+  ASSERT_EQ(tks_encode(&h, &i, &options, &buffer, message, sizeof message), TKS_OK) << message;
+  const Bytes stream(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  expectAgreementOnPrefixes(stream, 100);
+}
+
+/// Streams whose payload is damaged: any bytes are a codeword, so the samples have to agree.
+TEST(Reference, AgreesOnDamagedPayloads) {
+  const Raster heights = make({Pattern::kExtreme, 18, 11, 1, TKS_I32, 12});
+  const Raster image = make({Pattern::kRidges, 20, 9, 4, TKS_U16, 13});
+  const Bytes good = encode(&heights, &image, lossless());
+  Stream stream(good);
+  ASSERT_EQ(stream.status(), TKS_OK);
+  const size_t start = stream.info().header_bytes;
+  for (uint32_t trial = 0; trial < 300; ++trial) {
+    Bytes damaged = good;
+    for (uint32_t k = 0; k <= trial % 4; ++k) {
+      const uint32_t h = samples::hash(trial, k, 14);
+      damaged[start + h % (damaged.size() - start)] = static_cast<uint8_t>(h >> 24);
+    }
+    SCOPED_TRACE(trial);
+    expectAgreement(damaged);
+    if (HasFatalFailure()) return;
+  }
+}
+
+/// One packet of `codeword` behind the header of a stream whose payload may be that long.
+Bytes withCodeword(const Bytes& stream, size_t start, const Bytes& codeword) {
+  Bytes out(stream.begin(), stream.begin() + static_cast<ptrdiff_t>(start));
+  for (size_t head = codeword.size() << 2 | (stream[start] & 1);; head >>= 7) {
+    out.push_back(static_cast<uint8_t>(head < 128 ? head : head % 128 + 128));
+    if (head < 128) break;
+  }
+  out.push_back(0);
+  out.insert(out.end(), codeword.begin(), codeword.end());
+  out.resize(std::min(out.size(), stream.size()));
+  return out;
+}
+
+// Noise, and constant bytes: FF starts a codeword that lies at the end of the range.
+TEST(Reference, AgreesOnArbitraryCodewords) {
+  const Raster heights = make({Pattern::kExtreme, 33, 20, 1, TKS_I32, 15});
+  const Raster image = make({Pattern::kExtreme, 33, 20, 3, TKS_U16, 16});
+  for (const bool geometry : {true, false}) {
+    const Bytes good =
+        encode(geometry ? &heights : nullptr, geometry ? nullptr : &image, lossless());
+    Stream stream(good);
+    ASSERT_EQ(stream.status(), TKS_OK);
+    for (uint32_t trial = 0; trial < 60; ++trial) {
+      Bytes codeword(8 + samples::hash(trial, 1, 17) % 2000);
+      for (size_t i = 0; i < codeword.size(); ++i) {
+        const bool noise = trial >= 6 && i >= 4 * (trial % 3);
+        const uint32_t constant = trial < 6 ? 51 * trial : 255;
+        codeword[i] = static_cast<uint8_t>(
+            noise ? samples::hash(static_cast<uint32_t>(i), trial, 18) >> 24 : constant);
+      }
+      SCOPED_TRACE(trial);
+      expectAgreement(withCodeword(good, stream.info().header_bytes, codeword));
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+// Any value in any byte of the header, under a right checksum: both read the same samples from it,
+// or both refuse for the same reason.
+TEST(Reference, AgreesOnDamagedHeaders) {
+  const Raster heights = make({Pattern::kRidges, 9, 7, 1, TKS_I16, 19});
+  const Raster image = make({Pattern::kRidges, 6, 9, 3, TKS_U8, 20});
+  tks_encode_options options = lossless();
+  options.index = 1;
+  const Bytes good = encode(&heights, &image, options);
+  Stream stream(good);
+  ASSERT_EQ(stream.status(), TKS_OK);
+  for (size_t at = 0; at < stream.info().header_bytes; ++at) {
+    for (const int value : {0, 1, 2, 3, 4, 7, 127, 128, 255, good[at] + 1, good[at] - 1}) {
+      Bytes damaged = good;
+      damaged[at] = static_cast<uint8_t>(value);
+      sealHeader(damaged);
+      SCOPED_TRACE("byte " + std::to_string(at) + " := " + std::to_string(value));
+      expectAgreement(damaged);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Reference, AgreesOnTheConformanceVectors) {
+  size_t vectors = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TETRAKIS_VECTORS)) {
+    if (entry.path().extension() != ".tks") continue;
+    SCOPED_TRACE(entry.path().filename());
+    std::ifstream file(entry.path(), std::ios::binary);
+    const Bytes stream{std::istreambuf_iterator<char>(file), {}};
+    expectAgreementOnPrefixes(stream, 8);
+    if (HasFatalFailure()) return;
+    ++vectors;
+  }
+  EXPECT_GT(vectors, 0u);
+}
+
+}  // namespace
+}  // namespace tetrakis::test
