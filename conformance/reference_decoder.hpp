@@ -18,10 +18,10 @@ enum class Outcome {
   kTruncated,    ///< the header is not complete
   kCorrupt,      ///< breaks the syntax of the header or of a packet head
   kUnsupported,  ///< another version or profile
-  kTooLarge      ///< a component of more than kMaxSamples samples
+  kTooLarge      ///< a component of more samples or texels than the caller takes
 };
 
-/// Heights, or texels times channels, that this decoder takes on.
+/// Samples, or texels, that a component may have unless the caller says otherwise.
 inline constexpr uint64_t kMaxSamples = uint64_t{1} << 22;
 
 /// Samples are rows from the top, channels interleaved, little endian, of the type in the header.
@@ -33,6 +33,6 @@ struct Decoded {
 };
 
 /// Decodes the first bytes of a stream: all of them, or any prefix. Safe on any input.
-Decoded decode(std::span<const uint8_t> prefix);
+Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples = kMaxSamples);
 
 }  // namespace tetrakis::reference

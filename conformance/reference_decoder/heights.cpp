@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
-#include "conformance/reference_decoder/components.hpp"
+#include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/track.hpp"
 
 namespace tetrakis::reference {
@@ -150,7 +149,7 @@ void synthesise(Grid& grid, const LatticeBand& band) {
   for (int y = 0; y < grid.height; y += coarse) {
     for (int x = 0; x < grid.width; x += coarse) {
       if (band.shape == kMidpoints && (x / s + y / s) % 2 != 0) continue;
-      const int64_t change = roundShift(sumNeighbours(grid, taps, x, y).sum, 10);
+      const int64_t change = (sumNeighbours(grid, taps, x, y).sum + 512) >> 10;
       grid.at(x, y) = wrap(grid.at(x, y) - change);
     }
   }
@@ -180,38 +179,17 @@ Grid reconstruct(const GeometryHeader& header, Lattice& lattice) {
   return grid;
 }
 
-void append(std::vector<uint8_t>& out, uint32_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<uint8_t>(value >> (8 * i)));
-}
-
-template <class T>
-uint32_t toInteger(double height) {
-  using Limits = std::numeric_limits<T>;
-  const double clamped = std::clamp<double>(std::round(height), Limits::min(), Limits::max());
-  return static_cast<uint32_t>(static_cast<T>(clamped));
-}
-
-/// FORMAT 7, "Samples".
-void appendSample(std::vector<uint8_t>& out, const GeometryHeader& header, int32_t v) {
+/// FORMAT 7, "Samples": the bits of one.
+uint32_t sampleOf(const GeometryHeader& header, int32_t v) {
+  constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
+  constexpr double kLargest[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
   const int f = header.fractionBits;
   const int32_t q = f == 0 ? v : wrap(v + (int64_t{1} << (f - 1))) >> f;
-  const double height = header.base + q * header.step;
-  switch (header.sample) {
-    case kU8:
-      return append(out, toInteger<uint8_t>(height), 1);
-    case kI8:
-      return append(out, toInteger<int8_t>(height), 1);
-    case kU16:
-      return append(out, toInteger<uint16_t>(height), 2);
-    case kI16:
-      return append(out, toInteger<int16_t>(height), 2);
-    case kU32:
-      return append(out, toInteger<uint32_t>(height), 4);
-    case kI32:
-      return append(out, toInteger<int32_t>(height), 4);
-    default:
-      return append(out, std::bit_cast<uint32_t>(static_cast<float>(height)), 4);
-  }
+  const double sample = header.base + q * header.step;
+  if (header.sample == kF32) return std::bit_cast<uint32_t>(static_cast<float>(sample));
+  const double clamped =
+      std::clamp(std::round(sample), kLeast[header.sample], kLargest[header.sample]);
+  return static_cast<uint32_t>(static_cast<int64_t>(clamped));
 }
 
 }  // namespace
@@ -222,7 +200,13 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header,
   decodeTrack(codeword, header.planes, lattice.bands);
   const Grid grid = reconstruct(header, lattice);
   std::vector<uint8_t> samples;
-  for (const int32_t v : grid.values) appendSample(samples, header, v);
+  constexpr int kBytes[] = {1, 1, 2, 2, 4, 4, 4};
+  for (const int32_t v : grid.values) {
+    const uint32_t sample = sampleOf(header, v);
+    for (int i = 0; i < kBytes[header.sample]; ++i) {
+      samples.push_back(static_cast<uint8_t>(sample >> (8 * i)));
+    }
+  }
   return samples;
 }
 

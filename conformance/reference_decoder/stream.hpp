@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: header fields and the two codewords (docs/FORMAT.md, sections 2 and 3).
+// Reference decoder: header fields and the two codewords (docs/FORMAT.md, sections 2 and 3), and
+// what sections 7 and 8 make of them.
 #pragma once
 
 #include <array>
@@ -26,6 +27,7 @@ struct TextureHeader {
   std::array<int, 6> shear = {};
 };
 
+/// What a prefix of a stream holds.
 struct Stream {
   Outcome outcome = Outcome::kDone;
   std::optional<GeometryHeader> geometry;
@@ -33,7 +35,15 @@ struct Stream {
   std::array<std::vector<uint8_t>, 2> codewords;  ///< by track: 0 geometry, 1 texture
 };
 
-/// Splits a prefix of a stream into what its header says and the bytes of its tracks.
-Stream readStream(std::span<const uint8_t> prefix);
+/// "Arithmetic on samples and coefficients wraps modulo 2^32" (FORMAT, notation).
+constexpr int32_t wrap(int64_t value) {
+  return static_cast<int32_t>(static_cast<uint32_t>(value));
+}
+
+/// Samples of the header's type, little endian (FORMAT 7).
+std::vector<uint8_t> decodeHeights(const GeometryHeader& header, std::span<const uint8_t> codeword);
+
+/// Samples of the header's type, channels interleaved, little endian (FORMAT 8).
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
 
 }  // namespace tetrakis::reference

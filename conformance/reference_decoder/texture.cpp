@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "conformance/reference_decoder/components.hpp"
+#include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/track.hpp"
 
 namespace tetrakis::reference {
@@ -64,7 +64,7 @@ int logNormOf(const Place& place, const std::vector<Level>& levels, int priority
                            738, 866, 994, 1122, 1250, 1378, 1506};
   int norm = 0;
   if (place.level > 0) {
-    const Level& level = levels[static_cast<size_t>(place.level) - 1];
+    const Level& level = levels[place.level - 1];
     norm = (highInX(place.orientation) ? kHigh : kLow)[level.splitsX] +
            (highInY(place.orientation) ? kHigh : kLow)[level.splitsY];
   }
@@ -84,13 +84,12 @@ int modelClassOf(const Place& place, int channels) {
 Band makeBand(const Place& place, const Subbands& subbands, const TextureHeader& header) {
   int width = header.width, height = header.height;
   if (place.level > 0) {
-    const Level& level = subbands.levels[static_cast<size_t>(place.level) - 1];
+    const Level& level = subbands.levels[place.level - 1];
     width = highInX(place.orientation) ? level.width - level.lowWidth : level.lowWidth;
     height = highInY(place.orientation) ? level.height - level.lowHeight : level.lowHeight;
   }
   Band band(height, width, width, false);
-  band.logNorm =
-      logNormOf(place, subbands.levels, header.priority[static_cast<size_t>(place.component)]);
+  band.logNorm = logNormOf(place, subbands.levels, header.priority[place.component]);
   band.modelClass = modelClassOf(place, header.channels);
   return band;
 }
@@ -151,23 +150,22 @@ void synthesise(std::vector<int32_t>& x) {
   const int n = static_cast<int>(x.size());
   const std::vector<int32_t> parts = x;
   for (int i = 0; i < n; ++i) {
-    x[static_cast<size_t>(i)] = parts[static_cast<size_t>(i % 2 == 0 ? i / 2 : n - n / 2 + i / 2)];
+    x[i] = parts[static_cast<size_t>(i % 2 == 0 ? i / 2 : n - n / 2 + i / 2)];
   }
   const auto lift = [&x](int i, std::array<int64_t, 3> weights) {
     int64_t sum = 0;
     for (int k = 0; k < 3; ++k) {
       const int reach = 2 * k + 1;
-      sum += weights[static_cast<size_t>(k)] *
-             (int64_t{mirrored(x, i - reach)} + mirrored(x, i + reach));
+      sum += weights[k] * (int64_t{mirrored(x, i - reach)} + mirrored(x, i + reach));
     }
     return wrap(sum + 128) >> 8;
   };
   for (int i = 0; i < n; i += 2) {
-    int32_t& even = x[static_cast<size_t>(i)];
+    int32_t& even = x[i];
     even = wrap(int64_t{even} - lift(i, {78, -20, 6}));
   }
   for (int i = 1; i < n; i += 2) {
-    int32_t& odd = x[static_cast<size_t>(i)];
+    int32_t& odd = x[i];
     odd = wrap(int64_t{odd} + lift(i, {147, -28, 9}));
   }
 }
@@ -175,7 +173,7 @@ void synthesise(std::vector<int32_t>& x) {
 /// Reads `count` values from `first` on, `stride` apart, restores the signal, puts it back.
 void synthesiseLine(Plane& plane, size_t first, size_t stride, int count) {
   std::vector<int32_t> line;
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+  for (int i = 0; i < count; ++i) {
     line.push_back(plane.values[first + i * stride]);
   }
   synthesise(line);
@@ -191,9 +189,9 @@ void synthesiseLevel(Plane& plane, const Level& level, int number) {
       }
     }
   }
-  const auto width = static_cast<size_t>(plane.width);
+  const auto width = plane.width;
   for (int x = 0; x < level.width && level.lowHeight < level.height; ++x) {
-    synthesiseLine(plane, static_cast<size_t>(x), width, level.height);
+    synthesiseLine(plane, x, width, level.height);
   }
   for (int y = 0; y < level.height && level.lowWidth < level.width; ++y) {
     synthesiseLine(plane, static_cast<size_t>(y) * width, 1, level.width);
@@ -207,7 +205,7 @@ Plane reconstruct(const TextureHeader& header, Subbands& subbands, int component
     const Place& place = subbands.places[i];
     if (place.component != component) continue;
     Level origin = {};
-    if (place.orientation != kLL) origin = subbands.levels[static_cast<size_t>(place.level) - 1];
+    if (place.orientation != kLL) origin = subbands.levels[place.level - 1];
     const int left = highInX(place.orientation) ? origin.lowWidth : 0;
     const int top = highInY(place.orientation) ? origin.lowHeight : 0;
     Band& band = subbands.bands[i];
@@ -241,7 +239,7 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
   if (header.channels >= 3) {
     unshear(header.shear, planes);
     for (size_t i = 0; i < 3; ++i) {
-      channels[kOrders[static_cast<size_t>(header.colourOrder)][i]] = planes[i];
+      channels[kOrders[header.colourOrder][i]] = planes[i];
     }
   }
   const int32_t largest = header.sample == kU8 ? 255 : 65535;

@@ -20,7 +20,8 @@ struct Models {
 };
 
 struct Pass {
-  int key, plane, band;
+  int key, plane;
+  size_t band;
   Kind kind;
 };
 
@@ -29,10 +30,10 @@ std::vector<Pass> orderPasses(int planes, const std::vector<Band>& bands) {
   std::vector<Pass> passes;
   for (size_t b = 0; b < bands.size(); ++b) {
     for (int p = 0; p < planes && !bands[b].empty(); ++p) {
-      const int key = 16 * p + bands[b].logNorm, band = static_cast<int>(b);
-      passes.push_back({key, p, band, kLikely});
-      passes.push_back({key - 10, p, band, kRefine});
-      passes.push_back({key - 6, p, band, kRest});
+      const int key = 16 * p + bands[b].logNorm;
+      passes.push_back({key, p, b, kLikely});
+      passes.push_back({key - 10, p, b, kRefine});
+      passes.push_back({key - 6, p, b, kRest});
     }
   }
   std::sort(passes.begin(), passes.end(), [](const Pass& x, const Pass& y) {
@@ -70,70 +71,48 @@ int activity(const Neighbours& n, int p) {
   return level;
 }
 
-/// Decodes one track. Its functions return false when the track ends.
+/// Decodes one track. Its functions return false, or nothing, when the track ends.
 class TrackDecoder {
  public:
   TrackDecoder(std::span<const uint8_t> codeword, std::vector<Band>& bands)
-      : decoder_(codeword), bands_(bands), bandMarked_(bands.size()), blockMarked_(bands.size()) {
-    for (size_t b = 0; b < bands.size(); ++b) {
-      blockMarked_[b].resize(static_cast<size_t>(blockRows(bands[b]) * blockColumns(bands[b])));
-    }
-  }
+      : decoder_(codeword), bands_(bands) {}
 
   /// FORMAT 6, "Band", and the order of blocks.
   bool run(const Pass& pass) {
-    const auto b = static_cast<size_t>(pass.band);
-    const Band& band = bands_[b];
-    if (!bandMarked_[b]) {
+    Band& band = bands_[pass.band];
+    if (!band.marked) {
       if (pass.kind != kRest) return true;
       const std::optional<int> answer = models_[band.modelClass].band.decode(decoder_);
-      if (!answer) return false;
-      if (*answer == 0) return true;
-      bandMarked_[b] = true;
+      if (!answer || *answer == 0) return answer.has_value();
+      band.marked = true;
     }
-    for (int blockRow = 0; blockRow < blockRows(band); ++blockRow) {
-      for (int blockColumn = 0; blockColumn < blockColumns(band); ++blockColumn) {
-        if (!runBlock(pass, blockRow, blockColumn)) return false;
+    for (int row = 0; row < band.blockRows(); ++row) {
+      for (int column = 0; column < band.blockColumns(); ++column) {
+        if (!runBlock(pass, band, row, column)) return false;
       }
     }
     return true;
   }
 
  private:
-  static int blockRows(const Band& band) { return (band.rows + 7) / 8; }
-  static int blockColumns(const Band& band) {
-    return (std::max(band.columns[0], band.columns[1]) + 31) / 32;
-  }
-
-  bool marked(int b, int blockRow, int blockColumn) const {
-    const Band& band = bands_[static_cast<size_t>(b)];
-    if (blockRow < 0 || blockRow >= blockRows(band)) return false;
-    if (blockColumn < 0 || blockColumn >= blockColumns(band)) return false;
-    return blockMarked_[static_cast<size_t>(b)]
-                       [static_cast<size_t>(blockRow * blockColumns(band) + blockColumn)];
-  }
-
   /// FORMAT 6, "Block": whether one of its coefficients becomes significant.
-  std::optional<int> decodeBlock(int b, int blockRow, int blockColumn) {
-    if (blockMarked_[static_cast<size_t>(b)].size() == 1) return 1;
-    const int n = marked(b, blockRow, blockColumn - 1) + marked(b, blockRow, blockColumn + 1) +
-                  marked(b, blockRow - 1, blockColumn) + marked(b, blockRow + 1, blockColumn);
-    return models_[bands_[static_cast<size_t>(b)].modelClass].block[n].decode(decoder_);
+  std::optional<int> decodeBlock(const Band& band, int row, int column) {
+    if (band.blocks.size() == 1) return 1;
+    const int n = band.blockMarked(row, column - 1) + band.blockMarked(row, column + 1) +
+                  band.blockMarked(row - 1, column) + band.blockMarked(row + 1, column);
+    return models_[band.modelClass].block[n].decode(decoder_);
   }
 
-  bool runBlock(const Pass& pass, int blockRow, int blockColumn) {
-    const auto b = static_cast<size_t>(pass.band);
-    Band& band = bands_[b];
-    if (!marked(pass.band, blockRow, blockColumn)) {
+  bool runBlock(const Pass& pass, Band& band, int row, int column) {
+    if (!band.blockMarked(row, column)) {
       if (pass.kind != kRest) return true;
-      const std::optional<int> answer = decodeBlock(pass.band, blockRow, blockColumn);
-      if (!answer) return false;
-      if (*answer == 0) return true;
-      blockMarked_[b][static_cast<size_t>(blockRow * blockColumns(band) + blockColumn)] = true;
+      const std::optional<int> answer = decodeBlock(band, row, column);
+      if (!answer || *answer == 0) return answer.has_value();
+      band.blocks[row * band.blockColumns() + column] = true;
     }
-    for (int r = 8 * blockRow; r < std::min(8 * blockRow + 8, band.rows); ++r) {
-      const int end = std::min(32 * blockColumn + 32, band.columnsOf(r));
-      for (int a = 32 * blockColumn; a < end; ++a) {
+    for (int r = 8 * row; r < std::min(8 * row + 8, band.rows); ++r) {
+      const int end = std::min(32 * column + 32, band.columnsOf(r));
+      for (int a = 32 * column; a < end; ++a) {
         if (!visit(pass, band, r, a)) return false;
       }
     }
@@ -186,8 +165,6 @@ class TrackDecoder {
 
   RangeDecoder decoder_;
   std::vector<Band>& bands_;
-  std::vector<bool> bandMarked_;
-  std::vector<std::vector<bool>> blockMarked_;
   std::map<int, Models> models_;  ///< by class
 };
 
@@ -202,8 +179,8 @@ int32_t Coefficient::value() const {
 
 Band::Band(int rowCount, int evenColumns, int oddColumns, bool isStaggered)
     : rows(rowCount), columns{evenColumns, oddColumns}, staggered(isStaggered) {
-  coefficients.resize(static_cast<size_t>(rows) *
-                      static_cast<size_t>(std::max(evenColumns, oddColumns)));
+  coefficients.resize(size_t(rows) * size_t(widest()));
+  blocks.resize(size_t(blockRows()) * size_t(blockColumns()));
 }
 
 bool Band::empty() const {
@@ -211,13 +188,17 @@ bool Band::empty() const {
 }
 
 Coefficient& Band::at(int r, int a) {
-  const auto stride = static_cast<size_t>(std::max(columns[0], columns[1]));
-  return coefficients[static_cast<size_t>(r) * stride + static_cast<size_t>(a)];
+  return coefficients[size_t(r) * widest() + a];
 }
 
 Coefficient Band::get(int r, int a) const {
   if (r < 0 || r >= rows || a < 0 || a >= columnsOf(r)) return {};
-  return const_cast<Band*>(this)->at(r, a);
+  return coefficients[size_t(r) * widest() + a];
+}
+
+bool Band::blockMarked(int row, int column) const {
+  if (row < 0 || row >= blockRows() || column < 0 || column >= blockColumns()) return false;
+  return blocks[row * blockColumns() + column];
 }
 
 bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band>& bands) {

@@ -3,6 +3,7 @@
 // sections 4 to 6).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -25,10 +26,15 @@ struct Band {
   Band(int rowCount, int evenColumns, int oddColumns, bool isStaggered);
 
   bool empty() const;
-  int columnsOf(int r) const { return columns[static_cast<size_t>(r % 2)]; }
+  int columnsOf(int r) const { return columns[r % 2]; }
+  int widest() const { return std::max(columns[0], columns[1]); }
+  int blockRows() const { return (rows + 7) / 8; }
+  int blockColumns() const { return (widest() + 31) / 32; }
   Coefficient& at(int r, int a);
   /// The coefficient in row r, column a; outside the band one that is insignificant.
   Coefficient get(int r, int a) const;
+  /// Whether the block holds a significant coefficient; outside the band none does.
+  bool blockMarked(int row, int column) const;
 
   int rows;
   std::array<int, 2> columns;
@@ -37,7 +43,9 @@ struct Band {
   int modelClass = 0;
   /// The hint for row r, column a, from the bands of the track; none: 0.
   std::function<uint32_t(const std::vector<Band>&, int r, int a)> hint;
-  std::vector<Coefficient> coefficients;  ///< rows of max(columns)
+  std::vector<Coefficient> coefficients;  ///< rows of widest()
+  bool marked = false;                    ///< holds a significant coefficient
+  std::vector<bool> blocks;               ///< likewise each block, row by row
 };
 
 /// Runs all passes over the bands. Returns whether every decision counted (FORMAT 4, tail rule).
