@@ -26,7 +26,9 @@ Status exceeds(const char* what, uint64_t value, uint64_t limit) {
 }
 
 Status checkLimits(const StreamHeader& header, const tks_limits* limits) {
-  const auto or_default = [](uint64_t given, uint64_t fallback) { return given != 0 ? given : fallback; };
+  const auto or_default = [](uint64_t given, uint64_t fallback) {
+    return given != 0 ? given : fallback;
+  };
   const uint64_t most_samples = or_default(limits ? limits->max_samples : 0, kDefaultSamples);
   const uint64_t most_texels = or_default(limits ? limits->max_texels : 0, kDefaultSamples);
   const uint64_t most_memory = or_default(limits ? limits->max_memory : 0, kDefaultMemory);
@@ -41,7 +43,10 @@ Status checkLimits(const StreamHeader& header, const tks_limits* limits) {
     if (texels > most_texels) return exceeds("texels", texels, most_texels);
     memory = std::max(memory, texels * header.texture->channels * kBytesPerTexel);
   }
-  if (memory > most_memory) return exceeds("samples in need of bytes of memory:", memory, most_memory);
+  if (memory > most_memory) {
+    return {TKS_LIMIT, "Decoding takes about " + std::to_string(memory) +
+                           " bytes of memory; the limit is " + std::to_string(most_memory) + "."};
+  }
   return {};
 }
 
@@ -53,9 +58,11 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   const StreamHeader& header = decoder.parsed.header;
   if (Status status = checkLimits(header, limits); !status.ok()) return status;
   const size_t start = decoder.parsed.bytes;
-  const auto available = static_cast<size_t>(std::min<uint64_t>(data.size() - start, header.payload_bytes));
-  Result<Demultiplexed> payload = demultiplex(data.subspan(start, available), start,
-                                              {header.geometry.has_value(), header.texture.has_value()});
+  const auto available =
+      static_cast<size_t>(std::min<uint64_t>(data.size() - start, header.payload_bytes));
+  Result<Demultiplexed> payload =
+      demultiplex(data.subspan(start, available), start,
+                  {header.geometry.has_value(), header.texture.has_value()});
   if (!payload.ok()) return payload.status();
   decoder.payload = std::move(*payload);
   return {};
@@ -72,8 +79,8 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
   const auto& geometry = decoder.parsed.header.geometry;
   if (!geometry) return Status(TKS_USAGE, "The stream holds no heights.");
   if (!decoder.geometry) {
-    decoder.geometry = decodeGeometry(decoder.payload.codewords[0], geometry->planes, geometry->width,
-                                      geometry->height);
+    decoder.geometry = decodeGeometry(decoder.payload.codewords[0], geometry->planes,
+                                      geometry->width, geometry->height);
   }
   return &*decoder.geometry;
 }
@@ -90,7 +97,8 @@ Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
   Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
   if (!decoded.ok()) return decoded.status();
   const GeometryHeader& header = *decoder.parsed.header.geometry;
-  const size_t wanted = (*decoded)->heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.sample));
+  const size_t wanted =
+      (*decoded)->heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.sample));
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
   std::vector<int32_t> steps = (*decoded)->heights;
   dropFraction(steps, header.fraction_bits);
@@ -102,9 +110,11 @@ Status decodeSurface(tks_decoder& decoder, float* out, size_t count) {
   Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
   if (!decoded.ok()) return decoded.status();
   const std::vector<int32_t>& heights = (*decoded)->heights;
-  if (count != heights.size() || out == nullptr) return wrongSize(heights.size() * sizeof(float), count * sizeof(float));
+  if (count != heights.size() || out == nullptr)
+    return wrongSize(heights.size() * sizeof(float), count * sizeof(float));
   const SurfaceScale scale = surfaceScale(decoder.parsed.header);
-  for (size_t i = 0; i < count; ++i) out[i] = static_cast<float>(heights[i] * scale.scale + scale.offset);
+  for (size_t i = 0; i < count; ++i)
+    out[i] = static_cast<float>(heights[i] * scale.scale + scale.offset);
   return {};
 }
 
@@ -112,7 +122,8 @@ Status decodeTexels(tks_decoder& decoder, void* out, size_t bytes) {
   const auto& header = decoder.parsed.header.texture;
   if (!header) return {TKS_USAGE, "The stream holds no texture."};
   const auto sample = static_cast<tks_sample>(header->sample);
-  const size_t wanted = size_t{header->width} * header->height * header->channels * tks_sample_bytes(sample);
+  const size_t wanted =
+      size_t{header->width} * header->height * header->channels * tks_sample_bytes(sample);
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
   const Texels texels = decodeTexture(*header, decoder.payload.codewords[1]);
   withSampleType(sample, [&](auto type) {
@@ -126,8 +137,8 @@ Status verify(const tks_decoder& decoder) {
   const StreamHeader& header = decoder.parsed.header;
   const uint64_t total = decoder.parsed.bytes + header.payload_bytes;
   if (decoder.data.size() < total) {
-    return {TKS_TRUNCATED, "The stream ends at byte " + std::to_string(decoder.data.size()) + " of " +
-                               std::to_string(total) + "."};
+    return {TKS_TRUNCATED, "The stream ends at byte " + std::to_string(decoder.data.size()) +
+                               " of " + std::to_string(total) + "."};
   }
   if (decoder.data.size() > total) {
     return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - total) +
@@ -145,7 +156,8 @@ void fillQuality(const tks_decoder& decoder, tks_info& info) {
   if (const auto quality = decoder.payload.quality[1]; quality && header.texture) {
     const double peak = header.texture->sample == TKS_U8 ? 255 : 65535;
     const double rmse = rmseOf(*quality);
-    info.texture_psnr = rmse == 0 ? std::numeric_limits<double>::infinity() : 20 * std::log10(peak / rmse);
+    info.texture_psnr =
+        rmse == 0 ? std::numeric_limits<double>::infinity() : 20 * std::log10(peak / rmse);
   }
 }
 
@@ -231,9 +243,13 @@ tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, 
   return tetrakis::report(status, message, message_size);
 }
 
-void tks_close(tks_decoder* decoder) { delete decoder; }
+void tks_close(tks_decoder* decoder) {
+  delete decoder;
+}
 
-const char* tks_message(const tks_decoder* decoder) { return decoder ? decoder->message.c_str() : ""; }
+const char* tks_message(const tks_decoder* decoder) {
+  return decoder ? decoder->message.c_str() : "";
+}
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
   if (decoder == nullptr || info == nullptr || info->size != sizeof(tks_info)) return TKS_USAGE;

@@ -12,10 +12,13 @@ namespace tetrakis {
 
 namespace {
 
-Status misuse(const std::string& sentence) { return {TKS_USAGE, sentence}; }
+Status misuse(const std::string& sentence) {
+  return {TKS_USAGE, sentence};
+}
 
 Status checkHeights(const tks_heights& h) {
-  if (h.size != sizeof(tks_heights) || h.data == nullptr) return misuse("The heights are not filled in.");
+  if (h.size != sizeof(tks_heights) || h.data == nullptr)
+    return misuse("The heights are not filled in.");
   if (tks_sample_bytes(h.sample) == 0) return misuse("The heights have an unknown sample type.");
   if (h.width < 2 || h.height < 2 || h.width > kMaxSide || h.height > kMaxSide) {
     return misuse("Heights of " + std::to_string(h.width) + " x " + std::to_string(h.height) +
@@ -32,8 +35,10 @@ Status checkHeights(const tks_heights& h) {
 }
 
 Status checkImage(const tks_image& i) {
-  if (i.size != sizeof(tks_image) || i.data == nullptr) return misuse("The texture is not filled in.");
-  if (i.sample != TKS_U8 && i.sample != TKS_U16) return misuse("A texture has 8 or 16 bits a sample.");
+  if (i.size != sizeof(tks_image) || i.data == nullptr)
+    return misuse("The texture is not filled in.");
+  if (i.sample != TKS_U8 && i.sample != TKS_U16)
+    return misuse("A texture has 8 or 16 bits a sample.");
   if (i.channels < 1 || i.channels > 4) return misuse("A texture has 1 to 4 channels.");
   if (i.width < 1 || i.height < 1 || i.width > kMaxTextureSide || i.height > kMaxTextureSide) {
     return misuse("A texture of " + std::to_string(i.width) + " x " + std::to_string(i.height) +
@@ -43,20 +48,24 @@ Status checkImage(const tks_image& i) {
 }
 
 Status checkOptions(const tks_encode_options& o, bool has_heights) {
-  if (o.size != sizeof(tks_encode_options)) return misuse("The encoding options are not filled in.");
+  if (o.size != sizeof(tks_encode_options))
+    return misuse("The encoding options are not filled in.");
   const int targets = (o.bytes != 0) + (o.psnr != 0) + (o.max_error != 0) + (o.lossless != 0);
   if (targets != 1) return misuse("Give exactly one of bytes, psnr, max-error and lossless.");
   if (!std::isfinite(o.psnr) || o.psnr < 0 || !std::isfinite(o.max_error) || o.max_error < 0) {
     return misuse("The quality target must be a positive number.");
   }
   if (o.max_error > 0 && !has_heights) return misuse("A maximum error needs heights.");
-  if (!std::isfinite(o.parallax) || o.parallax < 0) return misuse("The parallax must not be negative.");
+  if (!std::isfinite(o.parallax) || o.parallax < 0)
+    return misuse("The parallax must not be negative.");
   return {};
 }
 
-Status checkArguments(const tks_heights* heights, const tks_image* image, const tks_encode_options* options) {
+Status checkArguments(const tks_heights* heights, const tks_image* image,
+                      const tks_encode_options* options) {
   if (options == nullptr) return misuse("The encoding options are missing.");
-  if (heights == nullptr && image == nullptr) return misuse("There is nothing to encode: give heights or a texture.");
+  if (heights == nullptr && image == nullptr)
+    return misuse("There is nothing to encode: give heights or a texture.");
   if (Status status = checkOptions(*options, heights != nullptr); !status.ok()) return status;
   if (heights != nullptr) {
     if (Status status = checkHeights(*heights); !status.ok()) return status;
@@ -64,7 +73,8 @@ Status checkArguments(const tks_heights* heights, const tks_image* image, const 
   return image != nullptr ? checkImage(*image) : Status();
 }
 
-Status encode(const tks_heights* heights, const tks_image* image, const tks_encode_options* options, tks_buffer* out) {
+Status encode(const tks_heights* heights, const tks_image* image, const tks_encode_options* options,
+              tks_buffer* out) {
   if (Status status = checkArguments(heights, image, options); !status.ok()) return status;
   Result<std::vector<uint8_t>> stream = EncodeJob(heights, image, *options).run();
   if (!stream.ok()) return stream.status();
@@ -79,11 +89,13 @@ Status encode(const tks_heights* heights, const tks_image* image, const tks_enco
 
 }  // namespace tetrakis
 
-tks_status tks_encode(const tks_heights* heights, const tks_image* image, const tks_encode_options* options,
-                      tks_buffer* out, char* message, size_t message_size) {
+tks_status tks_encode(const tks_heights* heights, const tks_image* image,
+                      const tks_encode_options* options, tks_buffer* out, char* message,
+                      size_t message_size) {
   if (out == nullptr) return TKS_USAGE;
   *out = {nullptr, 0};
-  const tetrakis::Status status = tetrakis::guarded([&] { return tetrakis::encode(heights, image, options, out); });
+  const tetrakis::Status status =
+      tetrakis::guarded([&] { return tetrakis::encode(heights, image, options, out); });
   return tetrakis::report(status, message, message_size);
 }
 

@@ -28,7 +28,8 @@ Texels toTexels(const tks_image& image) {
   withSampleType(image.sample, [&](auto type) {
     const auto* from = static_cast<const decltype(type)*>(image.data);
     texels.samples.resize(count);
-    std::transform(from, from + count, texels.samples.begin(), [](auto v) { return static_cast<int32_t>(v); });
+    std::transform(from, from + count, texels.samples.begin(),
+                   [](auto v) { return static_cast<int32_t>(v); });
   });
   return texels;
 }
@@ -58,12 +59,17 @@ TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost co
 
 double metresPerUnit(const char* unit) {
   const std::string name = unit ? unit : "";
-  return name == "ft" ? 0.3048 : name == "cm" ? 0.01 : name == "mm" ? 0.001 : name == "km" ? 1000 : 1;
+  return name == "ft"   ? 0.3048
+         : name == "cm" ? 0.01
+         : name == "mm" ? 0.001
+         : name == "km" ? 1000
+                        : 1;
 }
 
 }  // namespace
 
-EncodeJob::EncodeJob(const tks_heights* heights, const tks_image* image, const tks_encode_options& options)
+EncodeJob::EncodeJob(const tks_heights* heights, const tks_image* image,
+                     const tks_encode_options& options)
     : heights_(heights), image_(image), options_(options) {}
 
 Result<std::vector<uint8_t>> EncodeJob::run() {
@@ -89,12 +95,14 @@ Status EncodeJob::report(double done) const {
 Status EncodeJob::quantise() {
   if (image_ != nullptr) texels_ = toTexels(*image_);
   if (heights_ == nullptr) return {};
-  const double finest_useful = options_.max_error > 0 ? options_.max_error / std::abs(heights_->scale) / 16 : 0;
+  const double finest_useful =
+      options_.max_error > 0 ? options_.max_error / std::abs(heights_->scale) / 16 : 0;
   Result<HeightSteps> steps = toSteps(*heights_, heights_->step, finest_useful);
   if (!steps.ok()) return steps.status();
   if (options_.lossless && !steps->exact) {
-    return {TKS_USAGE,
-            "No uniform step restores these heights bit for bit; use --max-error instead of lossless."};
+    return {
+        TKS_USAGE,
+        "No uniform step restores these heights bit for bit; use --max-error instead of lossless."};
   }
   geometry_.emplace();
   geometry_->steps = std::move(*steps);
@@ -115,12 +123,15 @@ void EncodeJob::encodeGeometryWith(int fraction_bits) {
   std::vector<int32_t> scaled = geometry_->steps.steps;
   for (int32_t& q : scaled) q *= 1 << fraction_bits;
   geometry_->track = encodeGeometry(scaled, heights_->width, heights_->height, trackLimit());
-  for (RatePoint& point : geometry_->track.points) point.distortion *= std::exp2(-2 * fraction_bits);
+  for (RatePoint& point : geometry_->track.points)
+    point.distortion *= std::exp2(-2 * fraction_bits);
 }
 
-/// Bytes of a track worth coding. Beyond the budget, because the slopes of the last packets within it
-/// depend on the points that follow, and the order must not depend on the budget.
-uint64_t EncodeJob::trackLimit() const { return options_.bytes != 0 ? 2 * options_.bytes + 4096 : UINT64_MAX; }
+/// Bytes of a track worth coding. Beyond the budget, because the slopes of the last packets within
+/// it depend on the points that follow, and the order must not depend on the budget.
+uint64_t EncodeJob::trackLimit() const {
+  return options_.bytes != 0 ? 2 * options_.bytes + 4096 : UINT64_MAX;
+}
 
 Status EncodeJob::encodeTracks() {
   const bool parallel = options_.threads > 1 && geometry_ && image_ != nullptr;
@@ -135,11 +146,12 @@ Status EncodeJob::encodeTracks() {
   return report(0.8);
 }
 
-/// Where a byte budget nearly reaches the heights' last step, whole units may reach it: they are the
-/// cheaper way to lossless.
+/// Where a byte budget nearly reaches the heights' last step, whole units may reach it: they are
+/// the cheaper way to lossless.
 Status EncodeJob::encodeLosslessGeometryIfItFits() {
   constexpr double kNearlyExact = 0.6;  // RMSE in steps at which losslessness is in reach
-  if (!geometry_ || options_.bytes == 0 || geometry_->fraction_bits == 0 || !geometry_->steps.exact) return {};
+  if (!geometry_ || options_.bytes == 0 || geometry_->fraction_bits == 0 || !geometry_->steps.exact)
+    return {};
   uint64_t room = options_.bytes;
   double rmse = rmseOf(255);
   for (const Packet& packet : packets_) {
@@ -159,8 +171,9 @@ Status EncodeJob::encodeLosslessGeometryIfItFits() {
 }
 
 std::vector<int32_t> EncodeJob::decodedSteps(uint64_t bytes) const {
-  DecodedGeometry decoded = decodeGeometry(std::span(geometry_->track.codeword).first(bytes), geometry_->track.planes,
-                                           heights_->width, heights_->height);
+  DecodedGeometry decoded =
+      decodeGeometry(std::span(geometry_->track.codeword).first(bytes), geometry_->track.planes,
+                     heights_->width, heights_->height);
   dropFraction(decoded.heights, geometry_->fraction_bits);
   return std::move(decoded.heights);
 }
@@ -182,29 +195,33 @@ TrackCurve EncodeJob::geometryCurve() const {
   if (!geometry_) return {};
   const uint64_t samples = geometry_->steps.steps.size();
   const std::vector<RatePoint> points =
-      audit(geometry_->track, samples, budgeted(), [&](uint64_t bytes) { return geometrySquares(bytes); });
-  const double step = geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
+      audit(geometry_->track, samples, budgeted(),
+            [&](uint64_t bytes) { return geometrySquares(bytes); });
+  const double step =
+      geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
   const double floor = meshFloor();
   const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
   const auto useful = [&](double squares) { return std::max(mean_square(squares), floor); };
   if (image_ == nullptr) return priced(points, mean_square, useful);
   const ScreenModel model(texels_, texelsPerMetre(step));
-  return priced(points, mean_square, [&](double squares) { return model.cost(useful(squares) * step * step); });
+  return priced(points, mean_square,
+                [&](double squares) { return model.cost(useful(squares) * step * step); });
 }
 
-/// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes no
-/// longer help: a mesh of that many triangles is itself off by sixteen times as much, so that its
-/// RMSE would fall by 3 % at most. 0 without a budget.
+/// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes
+/// no longer help: a mesh of that many triangles is itself off by sixteen times as much, so that
+/// its RMSE would fall by 3 % at most. 0 without a budget.
 double EncodeJob::meshFloor() const {
   if (options_.triangles == 0) return 0;
-  const Result<MeshSequence> sequence = decimate({heights_->width, heights_->height, geometry_->steps.steps});
+  const Result<MeshSequence> sequence =
+      decimate({heights_->width, heights_->height, geometry_->steps.steps});
   if (!sequence.ok()) return 0;
   const double squares = sequence->squaredError(sequence->bestPrefix(options_.triangles));
   return squares / static_cast<double>(geometry_->steps.steps.size()) / 16;
 }
 
-/// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to be
-/// ten times as wide as it is high.
+/// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to
+/// be ten times as wide as it is high.
 double EncodeJob::texelsPerMetre(double step) const {
   const double relief = std::exp2(geometry_->steps.range_bits) * step;
   const double side = std::max(heights_->width, heights_->height) - 1;
@@ -217,11 +234,14 @@ TrackCurve EncodeJob::textureCurve() const {
   if (!texture_) return {};
   const uint64_t samples = texels_.samples.size();
   const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
-  return priced(audit(texture_->track, samples, budgeted(), [&](uint64_t bytes) { return textureSquares(bytes); }),
+  return priced(audit(texture_->track, samples, budgeted(),
+                      [&](uint64_t bytes) { return textureSquares(bytes); }),
                 mean_square, mean_square);
 }
 
-void EncodeJob::order() { packets_ = allocate({geometryCurve(), textureCurve()}); }
+void EncodeJob::order() {
+  packets_ = allocate({geometryCurve(), textureCurve()});
+}
 
 StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const {
   StreamHeader header;
@@ -240,8 +260,9 @@ StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const 
     g.step = geometry_->steps.step;
     g.max_error = options_.max_error > 0 ? options_.max_error : header.lossless ? 0 : -1;
     const auto text = [](const char* s) { return std::string(s ? s : ""); };
-    header.metadata = {heights_->scale, heights_->offset, heights_->spacing_x, heights_->spacing_y,
-                       text(heights_->unit), text(heights_->vertical_datum), text(heights_->crs)};
+    header.metadata = {heights_->scale,     heights_->offset,     heights_->spacing_x,
+                       heights_->spacing_y, text(heights_->unit), text(heights_->vertical_datum),
+                       text(heights_->crs)};
   }
   if (texture_) header.texture = texture_->header;
   if (options_.index != 0) {
@@ -260,7 +281,8 @@ uint64_t EncodeJob::totalPayload() const {
 bool EncodeJob::restoresEverything() const {
   std::array<bool, kTracks> exact = {!geometry_ || geometry_->track.points.front().distortion == 0,
                                      !texture_ || texture_->track.points.front().distortion == 0};
-  for (const Packet& packet : packets_) exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
+  for (const Packet& packet : packets_)
+    exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
   return exact[0] && exact[1] && (!geometry_ || geometry_->steps.exact);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality targets of an encoding: how many bytes of each track --psnr and --max-error need, found by
-// decoding what would be sent.
+// Quality targets of an encoding: how many bytes of each track --psnr and --max-error need, found
+// by decoding what would be sent.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,8 @@ struct HeightErrors {
 };
 
 /// Decoded samples against the input's, as a reader of the stream will see them.
-HeightErrors measure(const tks_heights& original, const GeometryHeader& header, const std::vector<int32_t>& steps) {
+HeightErrors measure(const tks_heights& original, const GeometryHeader& header,
+                     const std::vector<int32_t>& steps) {
   return withSampleType(original.sample, [&](auto type) {
     using T = decltype(type);
     std::vector<T> decoded(steps.size());
@@ -26,7 +27,8 @@ HeightErrors measure(const tks_heights& original, const GeometryHeader& header, 
     HeightErrors errors;
     errors.range = static_cast<double>(*high) - static_cast<double>(*low);
     for (size_t i = 0; i < steps.size(); ++i) {
-      const double error = std::abs(static_cast<double>(decoded[i]) - static_cast<double>(truth[i]));
+      const double error =
+          std::abs(static_cast<double>(decoded[i]) - static_cast<double>(truth[i]));
       errors.mean_square += error * error / static_cast<double>(steps.size());
       errors.largest = std::max(errors.largest, error);
     }
@@ -34,7 +36,9 @@ HeightErrors measure(const tks_heights& original, const GeometryHeader& header, 
   });
 }
 
-double worstMeanSquare(double peak, double psnr) { return peak * peak / std::pow(10, psnr / 10); }
+double worstMeanSquare(double peak, double psnr) {
+  return peak * peak / std::pow(10, psnr / 10);
+}
 
 /// Ends of a track's packets, from none on.
 std::vector<uint64_t> endsOf(const std::vector<Packet>& packets, TrackId track) {
@@ -45,8 +49,8 @@ std::vector<uint64_t> endsOf(const std::vector<Packet>& packets, TrackId track) 
   return ends;
 }
 
-/// The first of the ends that `meets` accepts, by bisection (quality rises with bytes); the last one
-/// if none does.
+/// The first of the ends that `meets` accepts, by bisection (quality rises with bytes); the last
+/// one if none does.
 template <class Meets>
 uint64_t first(const std::vector<uint64_t>& ends, Meets meets) {
   size_t low = 0, high = ends.size() - 1;
@@ -67,30 +71,37 @@ bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
   const StreamHeader header = makeHeader(0, false);
   const GeometryHeader& g = *header.geometry;
   const HeightErrors errors = measure(*heights_, g, decodedSteps(bytes));
-  if (options_.max_error > 0) return errors.largest * std::abs(heights_->scale) <= options_.max_error;
+  if (options_.max_error > 0)
+    return errors.largest * std::abs(heights_->scale) <= options_.max_error;
   return errors.mean_square <= worstMeanSquare(errors.range, options_.psnr);
 }
 
 bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
   const double peak = (1 << texels_.bits) - 1;
-  return textureSquares(bytes) / static_cast<double>(texels_.samples.size()) <= worstMeanSquare(peak, options_.psnr);
+  return textureSquares(bytes) / static_cast<double>(texels_.samples.size()) <=
+         worstMeanSquare(peak, options_.psnr);
 }
 
 Result<uint64_t> EncodeJob::geometryNeed() const {
-  const uint64_t need = first(endsOf(packets_, TrackId::kGeometry), [&](uint64_t bytes) { return geometryMeetsTarget(bytes); });
+  const uint64_t need = first(endsOf(packets_, TrackId::kGeometry),
+                              [&](uint64_t bytes) { return geometryMeetsTarget(bytes); });
   if (!geometryMeetsTarget(need)) {
-    return Status(TKS_USAGE,
-                  options_.max_error > 0
-                      ? "The maximum error is below what the step of these heights allows; give a smaller step."
-                      : "This PSNR is above what the step of the heights allows; give a smaller step.");
+    return Status(
+        TKS_USAGE,
+        options_.max_error > 0
+            ? "The maximum error is below what the step of these heights allows; give a smaller "
+              "step."
+            : "This PSNR is above what the step of the heights allows; give a smaller step.");
   }
   return need;
 }
 
-/// Without a target of its own the texture gets what the order puts before the last geometry packet.
+/// Without a target of its own the texture gets what the order puts before the last geometry
+/// packet.
 uint64_t EncodeJob::textureNeed(const Needs& so_far) const {
   if (options_.psnr > 0 || !geometry_) {
-    return first(endsOf(packets_, TrackId::kTexture), [&](uint64_t bytes) { return textureMeetsTarget(bytes); });
+    return first(endsOf(packets_, TrackId::kTexture),
+                 [&](uint64_t bytes) { return textureMeetsTarget(bytes); });
   }
   uint64_t need = 0;
   for (const Packet& packet : packets_) {

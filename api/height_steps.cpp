@@ -54,7 +54,8 @@ class Stepper {
       out.steps[i] = quantise(out, i);
       out.exact &= same(restore<T>(out.base, step, out.steps[i]), samples_[i]);
     }
-    out.range_bits = std::bit_width(static_cast<uint32_t>(std::min(range_ / step, kMostSteps)) + 1u);
+    out.range_bits =
+        std::bit_width(static_cast<uint32_t>(std::min(range_ / step, kMostSteps)) + 1u);
     return out;
   }
 
@@ -108,7 +109,9 @@ int lowestBit(const float* samples, size_t count) {
   return lowest == std::numeric_limits<int>::max() ? 0 : lowest;
 }
 
-double powerOfTwoBelow(double x) { return std::exp2(std::floor(std::log2(x))); }
+double powerOfTwoBelow(double x) {
+  return std::exp2(std::floor(std::log2(x)));
+}
 
 double lossyStep(double range, double finest_useful) {
   double step = powerOfTwoBelow(range / kLossySteps) * 2;
@@ -127,7 +130,8 @@ Status checkFinite(const tks_heights& heights) {
   return {};
 }
 
-double chooseFloatStep(const Stepper<float>& stepper, const tks_heights& heights, double finest_useful) {
+double chooseFloatStep(const Stepper<float>& stepper, const tks_heights& heights,
+                       double finest_useful) {
   if (stepper.range() == 0) return 1;
   for (const double step : {1.0, 0.1, 0.01, 0.001}) {
     if (stepper.fits(step) && stepper.restores(step)) return step;
@@ -146,7 +150,8 @@ Result<HeightSteps> toSteps(const tks_heights& heights, double wanted_step, doub
   }
   return withSampleType(heights.sample, [&](auto type) -> Result<HeightSteps> {
     using T = decltype(type);
-    const Stepper<T> stepper(static_cast<const T*>(heights.data), size_t{heights.width} * heights.height);
+    const Stepper<T> stepper(static_cast<const T*>(heights.data),
+                             size_t{heights.width} * heights.height);
     double step = wanted_step;
     if (step <= 0) {
       if constexpr (std::is_floating_point_v<T>) {
@@ -165,8 +170,10 @@ Result<HeightSteps> toSteps(const tks_heights& heights, double wanted_step, doub
       }
     }
     if (!stepper.fits(step)) {
-      return Status(TKS_USAGE, "A step of " + std::to_string(step) +
-                                   " divides the range of the heights into more than 2^26 parts; give a larger one.");
+      return Status(
+          TKS_USAGE,
+          "A step of " + std::to_string(step) +
+              " divides the range of the heights into more than 2^26 parts; give a larger one.");
     }
     return stepper.with(step);
   });
@@ -176,7 +183,8 @@ void fromSteps(const std::vector<int32_t>& steps, const GeometryHeader& header, 
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     T* samples = static_cast<T*>(out);
-    for (size_t i = 0; i < steps.size(); ++i) samples[i] = restore<T>(header.base, header.step, steps[i]);
+    for (size_t i = 0; i < steps.size(); ++i)
+      samples[i] = restore<T>(header.base, header.step, steps[i]);
   });
 }
 

@@ -12,8 +12,8 @@ namespace tetrakis {
 
 namespace {
 
-Result<LatticeMesh> makeMesh(const DecodedGeometry& geometry, const GeometryHeader& header, tks_mesh_kind kind,
-                             uint32_t max_triangles) {
+Result<LatticeMesh> makeMesh(const DecodedGeometry& geometry, const GeometryHeader& header,
+                             tks_mesh_kind kind, uint32_t max_triangles) {
   Result<Lattice> lattice = Lattice::make(header.width, header.height);
   if (!lattice.ok()) return lattice.status();
   if (kind == TKS_MESH_CODED) return codedMesh(*lattice, geometry.significant);
@@ -31,7 +31,8 @@ T* allocate(size_t count) {
 }
 
 Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles, tks_mesh& out) {
-  if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET) return {TKS_USAGE, "Unknown kind of mesh."};
+  if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET)
+    return {TKS_USAGE, "Unknown kind of mesh."};
   Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
   if (!geometry.ok()) return geometry.status();
   const StreamHeader& header = decoder.parsed.header;
@@ -46,7 +47,8 @@ Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangl
   std::memcpy(out.triangles, mesh->triangles.data(), mesh->triangles.size() * sizeof(uint32_t));
   const SurfaceScale scale = surfaceScale(header);
   for (size_t i = 0; i < mesh->vertices.size(); ++i) {
-    out.height[i] = static_cast<float>((*geometry)->heights[mesh->vertices[i]] * scale.scale + scale.offset);
+    out.height[i] =
+        static_cast<float>((*geometry)->heights[mesh->vertices[i]] * scale.scale + scale.offset);
   }
   return {};
 }
@@ -55,7 +57,8 @@ Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangl
 
 }  // namespace tetrakis
 
-tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles, tks_mesh* out) {
+tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                           tks_mesh* out) {
   if (decoder == nullptr || out == nullptr) return TKS_USAGE;
   *out = {};
   const tetrakis::Status status =

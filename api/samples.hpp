@@ -12,13 +12,20 @@ namespace tetrakis {
 template <class F>
 auto withSampleType(tks_sample sample, F&& f) {
   switch (sample) {
-    case TKS_U8: return f(uint8_t{});
-    case TKS_I8: return f(int8_t{});
-    case TKS_U16: return f(uint16_t{});
-    case TKS_I16: return f(int16_t{});
-    case TKS_U32: return f(uint32_t{});
-    case TKS_I32: return f(int32_t{});
-    case TKS_F32: break;
+    case TKS_U8:
+      return f(uint8_t{});
+    case TKS_I8:
+      return f(int8_t{});
+    case TKS_U16:
+      return f(uint16_t{});
+    case TKS_I16:
+      return f(int16_t{});
+    case TKS_U32:
+      return f(uint32_t{});
+    case TKS_I32:
+      return f(int32_t{});
+    case TKS_F32:
+      break;
   }
   return f(float{});
 }

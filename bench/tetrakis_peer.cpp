@@ -117,7 +117,8 @@ Result<PeerCurves> TetrakisPeer::curves(const Raster& raster,
   const auto lossless = encodeTetrakis(source, 0);
   if (!lossless.ok()) return lossless.status();
   const auto above = std::lower_bound(targets.begin(), targets.end(), lossless->size());
-  const auto stream = encodeTetrakis(source, above == targets.begin() ? targets.front() : *(above - 1));
+  const auto stream =
+      encodeTetrakis(source, above == targets.begin() ? targets.front() : *(above - 1));
   if (!stream.ok()) return stream.status();
 
   PeerCurves curves;

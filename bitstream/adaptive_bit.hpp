@@ -11,10 +11,10 @@ namespace tetrakis {
 
 class AdaptiveBit {
  public:
-  static constexpr int kPrecision = 16;       ///< probabilities are multiples of 2^-16
-  static constexpr int kFastRate = 5;         ///< final step of the fast estimate: 2^-4
-  static constexpr int kSlowRate = 8;         ///< final step of the slow estimate: 2^-7
-  static constexpr uint32_t kFloor = 24;      ///< no decision is more certain than 1 - 24/65536
+  static constexpr int kPrecision = 16;   ///< probabilities are multiples of 2^-16
+  static constexpr int kFastRate = 5;     ///< final step of the fast estimate: 2^-4
+  static constexpr int kSlowRate = 8;     ///< final step of the slow estimate: 2^-7
+  static constexpr uint32_t kFloor = 24;  ///< no decision is more certain than 1 - 24/65536
 
   /// P(bit = 0) in units of 2^-16, in [kFloor, 65536 - kFloor].
   uint32_t zero() const {
@@ -32,7 +32,7 @@ class AdaptiveBit {
  private:
   uint16_t fast_ = 0x8000;
   uint16_t slow_ = 0x8000;
-  uint8_t rate_ = 1;  ///< current shift of the slow estimate
+  uint8_t rate_ = 1;   ///< current shift of the slow estimate
   uint16_t seen_ = 0;  ///< symbols seen while rate_ still grows (wraps harmlessly afterwards)
 };
 

@@ -52,19 +52,19 @@ struct Band {
     return sign[cell] * static_cast<int32_t>(middle(magnitude[cell], plane[cell]));
   }
 
-  /// Reconstruction point of a magnitude known down to bit-plane `known`. A little below the middle,
-  /// because densities fall; exact at plane 0.
+  /// Reconstruction point of a magnitude known down to bit-plane `known`. A little below the
+  /// middle, because densities fall; exact at plane 0.
   static uint32_t middle(uint32_t magnitude, int known) {
     return magnitude == 0 ? 0 : magnitude + (((uint32_t{1} << known) * 7) >> 4);
   }
 
   BandShape shape;
-  uint32_t block_columns;               ///< blocks in a row of blocks
-  std::vector<uint32_t> magnitude;      ///< known bits, unknown ones zero
-  std::vector<int8_t> sign;             ///< -1, 0 while insignificant, 1
-  std::vector<uint8_t> plane;           ///< lowest known bit-plane of each coefficient
-  std::vector<uint8_t> block_nonzero;   ///< the block holds a significant coefficient
-  bool nonzero = false;                 ///< the band holds a significant coefficient
+  uint32_t block_columns;              ///< blocks in a row of blocks
+  std::vector<uint32_t> magnitude;     ///< known bits, unknown ones zero
+  std::vector<int8_t> sign;            ///< -1, 0 while insignificant, 1
+  std::vector<uint8_t> plane;          ///< lowest known bit-plane of each coefficient
+  std::vector<uint8_t> block_nonzero;  ///< the block holds a significant coefficient
+  bool nonzero = false;                ///< the band holds a significant coefficient
 };
 
 }  // namespace tetrakis

@@ -44,8 +44,8 @@ class FieldWriter {
   std::vector<uint8_t> bytes;
 };
 
-/// Takes fields off a byte string; the first failure sticks. Every field is checked against the range
-/// that visit() states, so a structure read without failure is valid field by field.
+/// Takes fields off a byte string; the first failure sticks. Every field is checked against the
+/// range that visit() states, so a structure read without failure is valid field by field.
 class FieldReader {
  public:
   explicit FieldReader(std::span<const uint8_t> bytes, size_t origin = 0)
@@ -64,7 +64,8 @@ class FieldReader {
     const auto signed_raw = static_cast<int64_t>((raw >> 1) ^ (~(raw & 1) + 1));
     if (!ok()) return;
     if (signed_raw < -largest || signed_raw > largest) {
-      fail(name, "is " + std::to_string(signed_raw) + ", at most +-" + std::to_string(largest) + " is allowed");
+      fail(name, "is " + std::to_string(signed_raw) + ", at most +-" + std::to_string(largest) +
+                     " is allowed");
     } else {
       value = signed_raw;
     }

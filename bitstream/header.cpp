@@ -25,9 +25,9 @@ uint32_t crc32(std::span<const uint8_t> bytes) {
 /// The body: which parts there are, then the parts.
 template <class V>
 void visitBody(V& v, StreamHeader& header) {
-  uint8_t parts = static_cast<uint8_t>((header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
-                                       (header.metadata.isDefault() ? 0 : kMetadata) |
-                                       (header.index.empty() ? 0 : kIndex));
+  uint8_t parts = static_cast<uint8_t>(
+      (header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
+      (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex));
   v.u8("parts", parts, 1, kAllParts);
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
   v.u8("lossless", header.lossless, 0, 1);
@@ -131,7 +131,8 @@ Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
   if (size_reader.starved()) return needMore(bytes.size() + 1);
   if (!size_reader.ok()) return size_reader.status();
   if (body_bytes > kMaxHeaderBytes) {
-    return Status(TKS_CORRUPT, "Corrupt stream: the header claims " + std::to_string(body_bytes) + " bytes.");
+    return Status(TKS_CORRUPT,
+                  "Corrupt stream: the header claims " + std::to_string(body_bytes) + " bytes.");
   }
   const size_t body_start = kFixedBytes + size_reader.position();
   const size_t crc_start = body_start + body_bytes;

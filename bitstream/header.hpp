@@ -18,8 +18,8 @@ namespace tetrakis {
 inline constexpr std::array<uint8_t, 4> kMagic = {'T', 'K', 'S', 0x1a};
 inline constexpr uint8_t kFormatVersion = 1;
 inline constexpr uint8_t kMainProfile = 0;
-inline constexpr uint32_t kMaxSide = 1u << 20;          ///< samples in a row or column of heights
-inline constexpr uint32_t kMaxTextureSide = 1u << 15;   ///< texels in a row or column
+inline constexpr uint32_t kMaxSide = 1u << 20;         ///< samples in a row or column of heights
+inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or column
 inline constexpr int kMaxFractionBits = 8;
 inline constexpr uint32_t kMaxHeaderBytes = 1u << 20;
 
@@ -29,9 +29,9 @@ struct GeometryHeader {
   uint8_t sample = 0;         ///< tks_sample of the input and of the decoded output
   uint8_t fraction_bits = 0;  ///< the transform works on heights * 2^fraction_bits
   uint8_t planes = 0;
-  uint8_t exact = 0;          ///< the steps restore every input sample
+  uint8_t exact = 0;  ///< the steps restore every input sample
   double base = 0, step = 1;
-  double max_error = -1;      ///< guaranteed for the complete stream, in the unit; < 0: not stated
+  double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
 
   template <class V>
   void visit(V& v) {
@@ -51,12 +51,12 @@ struct GeometryHeader {
 struct TextureHeader {
   uint32_t width = 0, height = 0;
   uint8_t channels = 0;
-  uint8_t sample = 0;       ///< TKS_U8 or TKS_U16
+  uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
   uint8_t colour_order = 0;
-  std::array<int64_t, 6> colour_shears{};     ///< read and written where there are 3 channels or more
-  std::array<uint16_t, 4> centre{};           ///< one per channel
-  std::array<int64_t, 4> priority{};          ///< 16 log2 of each component's weight, for the pass order
+  std::array<int64_t, 6> colour_shears{};  ///< read and written where there are 3 channels or more
+  std::array<uint16_t, 4> centre{};        ///< one per channel
+  std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
 
   template <class V>
   void visit(V& v) {
@@ -126,7 +126,8 @@ struct ParsedHeader {
   size_t bytes = 0;  ///< header bytes: the payload starts here
 };
 
-/// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT, TKS_UNSUPPORTED.
+/// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT,
+/// TKS_UNSUPPORTED.
 Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);
 
 }  // namespace tetrakis

@@ -13,7 +13,9 @@ uint8_t qualityOf(double rmse) {
   return static_cast<uint8_t>(std::clamp(std::ceil(8 * std::log2(rmse)) + 64, 1.0, 255.0));
 }
 
-double rmseOf(uint8_t quality) { return quality == 0 ? 0.0 : std::exp2((quality - 64) / 8.0); }
+double rmseOf(uint8_t quality) {
+  return quality == 0 ? 0.0 : std::exp2((quality - 64) / 8.0);
+}
 
 size_t overheadOf(const Packet& packet) {
   FieldWriter writer;
@@ -51,7 +53,8 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
     const size_t track = head & 1;
     const uint64_t length = head >> 2;
     if (length == 0 || !present[track]) {
-      return Status(TKS_CORRUPT, "Corrupt stream: the packet at byte " + std::to_string(origin + at) +
+      return Status(TKS_CORRUPT, "Corrupt stream: the packet at byte " +
+                                     std::to_string(origin + at) +
                                      " is empty or of a track that the header does not announce.");
     }
     at += reader.position();
@@ -61,7 +64,8 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
     const size_t available = complete ? static_cast<size_t>(length) : payload.size() - at;
     if (complete || !whole) {
       const auto from = payload.begin() + static_cast<ptrdiff_t>(at);
-      out.codewords[track].insert(out.codewords[track].end(), from, from + static_cast<ptrdiff_t>(available));
+      out.codewords[track].insert(out.codewords[track].end(), from,
+                                  from + static_cast<ptrdiff_t>(available));
     }
     if (complete) out.quality[track] = quality;
     at += available;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets and the multiplexer (docs/FORMAT.md, section 3). A packet is a run of bytes of one track's
-// codeword:
+// Packets and the multiplexer (docs/FORMAT.md, section 3). A packet is a run of bytes of one
+// track's codeword:
 //
 //   head     varint   length << 2 | whole << 1 | track     length >= 1
 //   quality  u8       error of the track after the packet: RMSE = 2^((quality - 64) / 8), 0 exact
@@ -52,8 +52,8 @@ struct Demultiplexed {
   uint64_t packets = 0;                                 ///< begun
 };
 
-/// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that no
-/// encoder writes. `present[t]`: the header announces track t.
+/// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that
+/// no encoder writes. `present[t]`: the header announces track t.
 Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
                                   const std::array<bool, kTracks>& present);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embedded bit-plane coding of one band: the three passes of a plane (after EBCOT, D. Taubman 2000),
-// with contexts from local magnitude sums (after F. Auli-Llinas 2011) and from a hint of the expected
-// magnitude given by coarser bands or other components. Blocks without a significant coefficient cost
-// one decision a plane and no work.
+// Embedded bit-plane coding of one band: the three passes of a plane (after EBCOT, D. Taubman
+// 2000), with contexts from local magnitude sums (after F. Auli-Llinas 2011) and from a hint of the
+// expected magnitude given by coarser bands or other components. Blocks without a significant
+// coefficient cost one decision a plane and no work.
 //
 //   likely   significance where a neighbour is significant (steepest slope)
 //   refine   next bit of every coefficient that was significant before this plane
@@ -11,9 +11,9 @@
 // The passes are written once. Io is the encoder's or the decoder's side of a decision:
 //   bool magnitudeBit(AdaptiveBit&, size_t cell, int plane)   bit `plane` of the magnitude
 //   bool signBit(AdaptiveBit&, size_t cell, bool flip)        negative, xor flip
-//   bool blockBit(AdaptiveBit&, const CellRange&, int plane)  a magnitude in the range reaches 2^plane
-//   bool stopped()                                            the last decision did not count
-//   void learned(const Band&, size_t cell, uint32_t magnitude_before, int plane_before)
+//   bool blockBit(AdaptiveBit&, const CellRange&, int plane)  a magnitude in the range reaches
+//   2^plane bool stopped()                                            the last decision did not
+//   count void learned(const Band&, size_t cell, uint32_t magnitude_before, int plane_before)
 #pragma once
 
 #include <algorithm>
@@ -75,7 +75,13 @@ class PlanePass {
 
  private:
   static constexpr int localClass(uint32_t sum) {
-    return sum < 5 ? static_cast<int>(sum) : sum < 7 ? 5 : sum < 10 ? 6 : sum < 14 ? 7 : sum < 20 ? 8 : sum < 30 ? 9 : 10;
+    return sum < 5    ? static_cast<int>(sum)
+           : sum < 7  ? 5
+           : sum < 10 ? 6
+           : sum < 14 ? 7
+           : sum < 20 ? 8
+           : sum < 30 ? 9
+                      : 10;
   }
 
   bool bandBecomesNonzero() {
@@ -101,9 +107,15 @@ class PlanePass {
       const uint32_t end = std::min(range.column_end, band_.shape.columns[row % 2]);
       if (range.column >= end) continue;
       switch (kind) {
-        case PassKind::kLikely: significanceRow<true>(row, range.column, end); break;
-        case PassKind::kRefine: refinementRow(row, range.column, end); break;
-        case PassKind::kRest: significanceRow<false>(row, range.column, end); break;
+        case PassKind::kLikely:
+          significanceRow<true>(row, range.column, end);
+          break;
+        case PassKind::kRefine:
+          refinementRow(row, range.column, end);
+          break;
+        case PassKind::kRest:
+          significanceRow<false>(row, range.column, end);
+          break;
       }
     }
   }
@@ -137,7 +149,8 @@ class PlanePass {
       if (band_.magnitude[cell] != 0 || band_.plane[cell] <= plane_) continue;
       const int local = localClass(localSum(cell, n));
       if (kLikelyOnly && local == 0) continue;
-      const int hint = std::min<int>(std::bit_width(hints[cell - first] >> plane_), BandModels::kHint - 1);
+      const int hint =
+          std::min<int>(std::bit_width(hints[cell - first] >> plane_), BandModels::kHint - 1);
       const bool bit = io_.magnitudeBit(models_.significance[local][hint], cell, plane_);
       if (io_.stopped()) return;
       if (bit && !becomeSignificant(cell, n)) return;

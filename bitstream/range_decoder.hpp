@@ -14,7 +14,8 @@ namespace tetrakis {
 /// Safe on any input; reads at most bytes.size() bytes; stops for good at the first undecided bit.
 class RangeDecoder {
  public:
-  explicit RangeDecoder(std::span<const uint8_t> bytes) : next_(bytes.data()), end_(next_ + bytes.size()) {
+  explicit RangeDecoder(std::span<const uint8_t> bytes)
+      : next_(bytes.data()), end_(next_ + bytes.size()) {
     for (int i = 0; i < 4; ++i) shiftIn();
   }
 
@@ -33,7 +34,8 @@ class RangeDecoder {
 
  private:
   bool split(uint32_t zero) {
-    const uint32_t bound = static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
+    const uint32_t bound =
+        static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
     const bool bit = code_ >= bound;
     if (slack_ != 0 && (exhausted_ || (!bit && uint64_t{code_} + slack_ >= bound))) {
       exhausted_ = true;
@@ -65,9 +67,9 @@ class RangeDecoder {
   static constexpr uint32_t kRenormalise = 1u << 24;
   const uint8_t* next_;
   const uint8_t* end_;
-  uint32_t code_ = 0;       ///< offset inside the interval, missing bytes read as zeros
+  uint32_t code_ = 0;  ///< offset inside the interval, missing bytes read as zeros
   uint32_t range_ = 0xffffffff;
-  uint32_t slack_ = 0;      ///< what missing bytes could add to code_ if they were all ones
+  uint32_t slack_ = 0;  ///< what missing bytes could add to code_ if they were all ones
   bool exhausted_ = false;
 };
 

@@ -30,7 +30,8 @@ class RangeEncoder {
 
  private:
   void split(uint32_t zero, bool bit) {
-    const uint32_t bound = static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
+    const uint32_t bound =
+        static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
     if (bit) {
       low_ += bound;
       range_ -= bound;
@@ -45,12 +46,12 @@ class RangeEncoder {
   void shiftLow();
 
   static constexpr uint32_t kRenormalise = 1u << 24;
-  uint64_t low_ = 0;        ///< low end of the interval; bit 32 is a carry into the bytes before
+  uint64_t low_ = 0;  ///< low end of the interval; bit 32 is a carry into the bytes before
   uint32_t range_ = 0xffffffff;
-  uint64_t shifts_ = 0;     ///< renormalisations so far
-  uint8_t cache_ = 0;       ///< last byte not yet written: a carry may still change it
-  uint64_t pending_ = 0;    ///< bytes of 0xff behind cache_, waiting for a carry
-  bool started_ = false;    ///< cache_ holds a byte
+  uint64_t shifts_ = 0;   ///< renormalisations so far
+  uint8_t cache_ = 0;     ///< last byte not yet written: a carry may still change it
+  uint64_t pending_ = 0;  ///< bytes of 0xff behind cache_, waiting for a carry
+  bool started_ = false;  ///< cache_ holds a byte
   std::vector<uint8_t> bytes_;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A track: the bands of one component (geometry, or texture) of one region, coded into one codeword.
-// The order of its passes follows from the norms of the bands alone, so it costs no bits, and each
-// pass improves the surface or image by about the same factor as its neighbours in the order.
+// A track: the bands of one component (geometry, or texture) of one region, coded into one
+// codeword. The order of its passes follows from the norms of the bands alone, so it costs no bits,
+// and each pass improves the surface or image by about the same factor as its neighbours in the
+// order.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 
 namespace tetrakis {
 
-/// Runs the passes of `plan` over `codeword` until its bytes decide nothing more. Safe on any bytes:
-/// work is bounded by planes * coefficients, memory by the plan.
+/// Runs the passes of `plan` over `codeword` until its bytes decide nothing more. Safe on any
+/// bytes: work is bounded by planes * coefficients, memory by the plan.
 TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes, const HintFactory& factory,
                        std::span<const uint8_t> codeword);
 

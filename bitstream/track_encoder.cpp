@@ -12,9 +12,13 @@ namespace tetrakis {
 
 namespace {
 
-uint32_t magnitudeOf(int32_t value) { return static_cast<uint32_t>(std::abs(value)); }
+uint32_t magnitudeOf(int32_t value) {
+  return static_cast<uint32_t>(std::abs(value));
+}
 
-double squared(double x) { return x * x; }
+double squared(double x) {
+  return x * x;
+}
 
 /// The encoder's side of PlanePass: answers every decision from the true coefficients, codes the
 /// answer, and keeps the account of the squared error.
@@ -42,7 +46,8 @@ class EncodingIo {
   bool stopped() const { return false; }
   void learned(const Band& band, size_t cell, uint32_t magnitude_before, int plane_before) {
     const double truth = magnitudeOf(source_->values[cell]);
-    const double before = truth - Band::middle(magnitude_before, magnitude_before ? plane_before : 0);
+    const double before =
+        truth - Band::middle(magnitude_before, magnitude_before ? plane_before : 0);
     const double after = truth - Band::middle(band.magnitude[cell], band.plane[cell]);
     distortion_ += source_->weight * (squared(after) - squared(before));
     if (distortion_ < best_) best_ = distortion_;
@@ -52,14 +57,17 @@ class EncodingIo {
     distortion_ = best_ = energy;
     least_ = energy * 1e-12;
   }
-  /// The point reached now, with the dips since the last call. Only the end of a track is exact: the
-  /// sums here are not.
-  RatePoint point() { return {decidedBytes(), std::max(distortion_, least_), std::exchange(dips_, false)}; }
+  /// The point reached now, with the dips since the last call. Only the end of a track is exact:
+  /// the sums here are not.
+  RatePoint point() {
+    return {decidedBytes(), std::max(distortion_, least_), std::exchange(dips_, false)};
+  }
   uint64_t decidedBytes() const { return encoder_.decidedBytes(); }
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
  private:
-  static constexpr double kDip = 1.0015;  ///< 0.0065 dB: well inside the 0.03 dB that a prefix may fall
+  static constexpr double kDip =
+      1.0015;  ///< 0.0065 dB: well inside the 0.03 dB that a prefix may fall
 
   bool reaches(const CellRange& range, int plane) const {
     for (uint32_t row = range.row; row < range.row_end; ++row) {
@@ -96,7 +104,8 @@ double energyOf(const std::vector<BandSource>& sources) {
   return energy;
 }
 
-/// Drops what is no improvement: a later point with no more bytes or no less distortion wins or loses.
+/// Drops what is no improvement: a later point with no more bytes or no less distortion wins or
+/// loses.
 void append(std::vector<RatePoint>& points, RatePoint point) {
   if (point.distortion >= points.back().distortion) {
     points.back().dips |= point.dips;
@@ -136,7 +145,8 @@ EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<Ba
   RatePoint last = track.points.back();
   last.bytes = track.codeword.size();
   if (track.complete) last.distortion = 0;
-  while (track.points.size() > 1 && track.points.back().bytes >= last.bytes) track.points.pop_back();
+  while (track.points.size() > 1 && track.points.back().bytes >= last.bytes)
+    track.points.pop_back();
   if (last.bytes > 0) track.points.push_back(last);
   return track;
 }

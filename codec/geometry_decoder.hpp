@@ -9,8 +9,8 @@
 namespace tetrakis {
 
 struct DecodedGeometry {
-  std::vector<int32_t> heights;       ///< width * height, row by row
-  std::vector<uint8_t> significant;   ///< 1 where the vertex has a non-zero coefficient
+  std::vector<int32_t> heights;      ///< width * height, row by row
+  std::vector<uint8_t> significant;  ///< 1 where the vertex has a non-zero coefficient
 };
 
 /// codeword: any prefix of a geometry track with `planes` bit-planes (0..30). Safe on any bytes.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a height field becomes bands: one band per level of the 4-8 lattice, and the hints that a level
-// takes from the level before it. Shared by encoder and decoder.
+// How a height field becomes bands: one band per level of the 4-8 lattice, and the hints that a
+// level takes from the level before it. Shared by encoder and decoder.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The levels of the 4-8 lattice over a W x H grid, as the lifting transform sees them.
 //
-// One 4-8 subdivision of squares of side 2s (s = 2^(depth-1) ... 1) inserts two levels (thesis 3.2):
+// One 4-8 subdivision of squares of side 2s (s = 2^(depth-1) ... 1) inserts two levels
+// (thesis 3.2):
 //
 //   v---.---v      v  corners: the vertices of coarser levels, at multiples of 2s
 //   |       |      c  square centres (odd level),  at odd multiples of s in x and y
@@ -29,7 +30,9 @@ struct Level {
   uint32_t step = 1;  ///< s for centres and midpoints, 2^depth for roots
   BandShape shape;
 
-  uint32_t y(uint32_t row) const { return kind == LevelKind::kCentres ? (2 * row + 1) * step : row * step; }
+  uint32_t y(uint32_t row) const {
+    return kind == LevelKind::kCentres ? (2 * row + 1) * step : row * step;
+  }
   uint32_t firstX(uint32_t row) const {
     if (kind == LevelKind::kRoots) return 0;
     return kind == LevelKind::kCentres || row % 2 == 0 ? step : 0;

@@ -12,7 +12,9 @@ namespace {
 constexpr int kPredictShift = 9;  // weights sum to 2^9
 constexpr int kUpdateShift = 10;  // the update takes half of them
 
-int64_t roundedShift(int64_t sum, int shift) { return (sum + (int64_t{1} << (shift - 1))) >> shift; }
+int64_t roundedShift(int64_t sum, int shift) {
+  return (sum + (int64_t{1} << (shift - 1))) >> shift;
+}
 
 int64_t roundedQuotient(int64_t sum, int64_t divisor) {
   const int64_t shifted = 2 * sum + divisor, whole = 2 * divisor;
@@ -23,7 +25,10 @@ int64_t roundedQuotient(int64_t sum, int64_t divisor) {
 class Step {
  public:
   Step(std::span<int32_t> values, uint32_t width, uint32_t height, const Level& level)
-      : values_(values), width_(width), height_(height), level_(level),
+      : values_(values),
+        width_(width),
+        height_(height),
+        level_(level),
         stencil_(stencilOf(level.kind, level.step, width)) {}
 
   /// x_new -+= prediction from the coarser vertices.

@@ -12,7 +12,8 @@ namespace tetrakis {
 
 struct Stencil {
   static constexpr std::array<int, 4> kRingSize = {4, 8, 4, 8};
-  static constexpr std::array<int, 4> kRingWeight = {174, -27, 2, 3};  ///< sums to 512 over all taps
+  static constexpr std::array<int, 4> kRingWeight = {174, -27, 2,
+                                                     3};  ///< sums to 512 over all taps
   static constexpr int kTaps = 24;
 
   std::array<int, kTaps> dx, dy;        ///< grid offsets, ring after ring
@@ -20,8 +21,8 @@ struct Stencil {
   int reach = 0;                        ///< largest |dx| or |dy|
 };
 
-/// Midpoints have their nearest neighbours along the axes; centres along the diagonals, which is the
-/// same pattern turned by 45 degrees and enlarged by sqrt 2.
+/// Midpoints have their nearest neighbours along the axes; centres along the diagonals, which is
+/// the same pattern turned by 45 degrees and enlarged by sqrt 2.
 inline Stencil stencilOf(LevelKind kind, uint32_t step, uint32_t width) {
   constexpr std::array<std::array<int, 2>, 6> kAxis = {
       {{1, 0}, {2, 1}, {1, 2}, {3, 0}, {3, 2}, {2, 3}}};

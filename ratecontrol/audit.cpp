@@ -46,13 +46,15 @@ class Correction {
       const RatePoint& point = points[(points.size() - 1) * (i + 1) / (measurements + 1)];
       if (point.distortion <= 0) continue;
       const double measured = measure(point.bytes);
-      if (measured > 0) knots_.push_back({std::log(point.distortion), std::log(measured / point.distortion)});
+      if (measured > 0)
+        knots_.push_back({std::log(point.distortion), std::log(measured / point.distortion)});
     }
   }
   double operator()(double distortion) const {
     if (distortion <= 0 || knots_.empty()) return distortion;
     const double x = std::log(distortion);  // knots fall in x
-    const auto after = std::find_if(knots_.begin(), knots_.end(), [&](const Knot& k) { return k.x < x; });
+    const auto after =
+        std::find_if(knots_.begin(), knots_.end(), [&](const Knot& k) { return k.x < x; });
     if (after == knots_.begin()) return distortion * std::exp(knots_.front().ratio);
     if (after == knots_.end()) return distortion * std::exp(knots_.back().ratio);
     const Knot &a = *(after - 1), &b = *after;
@@ -68,7 +70,8 @@ class Correction {
 
 }  // namespace
 
-std::vector<RatePoint> audit(const EncodedTrack& track, uint64_t samples, bool budgeted, const Measure& measure) {
+std::vector<RatePoint> audit(const EncodedTrack& track, uint64_t samples, bool budgeted,
+                             const Measure& measure) {
   if (samples <= kTinySamples) return measureEveryByte(track.codeword.size(), measure);
   std::vector<RatePoint> corrected = track.points;
   if (samples <= kSmallSamples) {

@@ -9,7 +9,8 @@ namespace {
 
 /// b lies on or above the chord from a to c.
 bool above(const RatePoint& a, const RatePoint& b, const RatePoint& c) {
-  const auto ab = static_cast<double>(b.bytes - a.bytes), ac = static_cast<double>(c.bytes - a.bytes);
+  const auto ab = static_cast<double>(b.bytes - a.bytes),
+             ac = static_cast<double>(c.bytes - a.bytes);
   return (a.distortion - b.distortion) * ac <= (a.distortion - c.distortion) * ab;
 }
 
@@ -30,7 +31,8 @@ std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growt
     dips |= hull[i].dips;
     if (!sparse.empty() && i + 1 < hull.size()) {
       const uint64_t from = sparse.back().bytes;
-      const auto least = std::max<uint64_t>(kLeastPacket, static_cast<uint64_t>(growth * static_cast<double>(from)));
+      const auto least = std::max<uint64_t>(
+          kLeastPacket, static_cast<uint64_t>(growth * static_cast<double>(from)));
       if (hull[i].bytes - from < least) continue;
     }
     sparse.push_back(hull[i]);

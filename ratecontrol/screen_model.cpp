@@ -22,7 +22,9 @@ class Cells {
     const auto texel = [&](uint32_t u, uint32_t v) -> double {
       return texels_.samples[(size_t{v} * texels_.width + u) * texels_.channels + channel];
     };
-    return (texel(2 * x, 2 * y) + texel(2 * x + 1, 2 * y) + texel(2 * x, 2 * y + 1) + texel(2 * x + 1, 2 * y + 1)) / 4;
+    return (texel(2 * x, 2 * y) + texel(2 * x + 1, 2 * y) + texel(2 * x, 2 * y + 1) +
+            texel(2 * x + 1, 2 * y + 1)) /
+           4;
   }
 
  private:
@@ -33,7 +35,9 @@ class Cells {
 struct Moments {
   double sum = 0, squares = 0, gradient = 0, count = 0;
 
-  double variance() const { return count == 0 ? 0 : squares / count - (sum / count) * (sum / count); }
+  double variance() const {
+    return count == 0 ? 0 : squares / count - (sum / count) * (sum / count);
+  }
   /// Mean squared gradient per texel; cells are two texels apart.
   double meanGradient() const { return count == 0 ? 0 : gradient / count / 4; }
 };
@@ -59,7 +63,8 @@ ScreenModel::ScreenModel(const Texels& texture, double texels_per_height)
     : squared_parallax_(texels_per_height * texels_per_height) {
   const Cells cells(texture);
   const uint32_t colours = texture.channels < 3 ? 1 : 3;
-  const uint32_t pitch = std::max(kPatchSide, std::max(cells.width(), cells.height()) / kMostPatches);
+  const uint32_t pitch =
+      std::max(kPatchSide, std::max(cells.width(), cells.height()) / kMostPatches);
   for (uint32_t y = 0; y < cells.height(); y += pitch) {
     for (uint32_t x = 0; x < cells.width(); x += pitch) {
       Patch patch{0, 0};

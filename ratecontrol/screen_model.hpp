@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modelled distortion engine (thesis 6.1 and 6.2, without rendering): what an error of the heights
-// costs in the picture, in the units of the texture's squared error.
+// The modelled distortion engine (thesis 6.1 and 6.2, without rendering): what an error of the
+// heights costs in the picture, in the units of the texture's squared error.
 //
 // Seen at an angle, a height error dz moves the texture by delta = s dz texels (s: parallax). A
 // texture of local variance v and mean squared gradient g changes by about g delta^2 / 2 (mean over

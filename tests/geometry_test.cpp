@@ -17,8 +17,9 @@ struct Size {
   uint32_t width, height;
 };
 
-const std::vector<Size> kSizes = {{2, 2},  {2, 3},   {3, 2},   {2, 9},     {3, 17},   {5, 5},  {8, 8},
-                                  {17, 31}, {33, 65}, {1, 1},  {3, 1000}, {300, 200}, {127, 64}};
+const std::vector<Size> kSizes = {{2, 2},    {2, 3},     {3, 2},   {2, 9},   {3, 17},
+                                  {5, 5},    {8, 8},     {17, 31}, {33, 65}, {1, 1},
+                                  {3, 1000}, {300, 200}, {127, 64}};
 
 std::vector<int32_t> randomHeights(const Size& size, int32_t bound, uint32_t seed) {
   std::mt19937 random(seed);
@@ -78,10 +79,13 @@ TEST(Lifting, ConstantsHaveNoDetails) {
 TEST(Lifting, PredictsQuinticsInTheInterior) {
   constexpr uint32_t kSide = 65;
   std::vector<int32_t> values(kSide * kSide);
-  const auto quintic = [](double x, double y) { return std::pow(x, 5) - 3 * x * x * y * y * y + 40 * x * y; };
+  const auto quintic = [](double x, double y) {
+    return std::pow(x, 5) - 3 * x * x * y * y * y + 40 * x * y;
+  };
   for (uint32_t y = 0; y < kSide; ++y) {
     for (uint32_t x = 0; x < kSide; ++x) {
-      values[y * kSide + x] = static_cast<int32_t>(std::lround(quintic(0.5 * x - 16, 0.5 * y - 16)));
+      values[y * kSide + x] =
+          static_cast<int32_t>(std::lround(quintic(0.5 * x - 16, 0.5 * y - 16)));
     }
   }
   forwardLifting(values, kSide, kSide);
@@ -114,7 +118,8 @@ TEST(GeometryTrack, IsLosslessAtItsEnd) {
       const std::vector<int32_t> heights = randomHeights(size, bound, 2);
       const EncodedTrack track = encodeGeometry(heights, size.width, size.height, UINT64_MAX);
       ASSERT_TRUE(track.complete);
-      EXPECT_EQ(decodeGeometry(track.codeword, track.planes, size.width, size.height).heights, heights);
+      EXPECT_EQ(decodeGeometry(track.codeword, track.planes, size.width, size.height).heights,
+                heights);
     }
   }
 }
@@ -135,15 +140,17 @@ TEST(GeometryTrack, StatedDistortionIsCloseToTheRealOne) {
   std::vector<int32_t> heights(size_t{size.width} * size.height);
   for (uint32_t y = 0; y < size.height; ++y) {
     for (uint32_t x = 0; x < size.width; ++x) {
-      heights[size_t{y} * size.width + x] =
-          static_cast<int32_t>(1e6 * (std::sin(0.13 * x) + std::sin(0.09 * y + 0.03 * x) + std::sin(0.011 * x * y)));
+      heights[size_t{y} * size.width + x] = static_cast<int32_t>(
+          1e6 * (std::sin(0.13 * x) + std::sin(0.09 * y + 0.03 * x) + std::sin(0.011 * x * y)));
     }
   }
   const EncodedTrack track = encodeGeometry(heights, size.width, size.height, UINT64_MAX);
   for (size_t i = 5; i + 1 < track.points.size(); i += 9) {
-    if (track.points[i].distortion < 100.0 * static_cast<double>(heights.size())) break;  // rounding noise
-    const auto decoded = decodeGeometry(std::span(track.codeword).first(track.points[i].bytes), track.planes,
-                                        size.width, size.height).heights;
+    if (track.points[i].distortion < 100.0 * static_cast<double>(heights.size()))
+      break;  // rounding noise
+    const auto decoded = decodeGeometry(std::span(track.codeword).first(track.points[i].bytes),
+                                        track.planes, size.width, size.height)
+                             .heights;
     double squares = 0;
     for (size_t k = 0; k < heights.size(); ++k) squares += std::pow(decoded[k] - heights[k], 2);
     const double ratio = squares / track.points[i].distortion;

@@ -32,11 +32,13 @@ TEST(Hull, IsConvexAndBelowEveryPoint) {
   ASSERT_GE(hull.size(), 3u);
   EXPECT_EQ(hull.front().bytes, points.front().bytes);
   EXPECT_EQ(hull.back().bytes, points.back().bytes);
-  for (size_t i = 2; i < hull.size(); ++i) EXPECT_LE(slope(hull[i - 1], hull[i]), slope(hull[i - 2], hull[i - 1]));
+  for (size_t i = 2; i < hull.size(); ++i)
+    EXPECT_LE(slope(hull[i - 1], hull[i]), slope(hull[i - 2], hull[i - 1]));
   for (const RatePoint& point : points) {
     size_t i = 1;
     while (hull[i].bytes < point.bytes) ++i;
-    const double chord = hull[i].distortion + slope(hull[i - 1], hull[i]) * static_cast<double>(hull[i].bytes - point.bytes);
+    const double chord = hull[i].distortion + slope(hull[i - 1], hull[i]) *
+                                                  static_cast<double>(hull[i].bytes - point.bytes);
     EXPECT_GE(point.distortion, chord - 1e-9);
   }
 }
@@ -49,9 +51,11 @@ TEST(Hull, KeepsPacketsApartAndDipsAlive) {
   for (size_t i = 1; i < hull.size(); ++i) {
     if (i + 1 < hull.size()) {
       EXPECT_GE(hull[i].bytes - hull[i - 1].bytes, kLeastPacket);
-      EXPECT_GE(static_cast<double>(hull[i].bytes - hull[i - 1].bytes), 0.1 * static_cast<double>(hull[i - 1].bytes) - 1);
+      EXPECT_GE(static_cast<double>(hull[i].bytes - hull[i - 1].bytes),
+                0.1 * static_cast<double>(hull[i - 1].bytes) - 1);
     }
-    if (hull[i].dips) dips = hull[i - 1].bytes < points[31].bytes && points[31].bytes <= hull[i].bytes;
+    if (hull[i].dips)
+      dips = hull[i - 1].bytes < points[31].bytes && points[31].bytes <= hull[i].bytes;
   }
   EXPECT_TRUE(dips);
 }
@@ -75,7 +79,8 @@ double leftAfter(const std::array<TrackCurve, kTracks>& curves, uint64_t first, 
 }
 
 TEST(Allocation, NoSplitOfAnyPrefixIsBetter) {
-  const std::array<TrackCurve, kTracks> curves = {curveOf(bumpyCurve(70, 9)), curveOf(bumpyCurve(130, 40))};
+  const std::array<TrackCurve, kTracks> curves = {curveOf(bumpyCurve(70, 9)),
+                                                  curveOf(bumpyCurve(130, 40))};
   std::array<uint64_t, kTracks> sent = {};
   for (const Packet& packet : allocate(curves)) {
     const auto track = static_cast<size_t>(packet.track);
@@ -83,7 +88,8 @@ TEST(Allocation, NoSplitOfAnyPrefixIsBetter) {
     sent[track] = packet.end;
     const uint64_t total = sent[0] + sent[1];
     const double ours = leftAfter(curves, sent[0], sent[1]);
-    for (uint64_t first = 0; first <= std::min<uint64_t>(total, curves[0].points.back().bytes); first += 10) {
+    for (uint64_t first = 0; first <= std::min<uint64_t>(total, curves[0].points.back().bytes);
+         first += 10) {
       if (total - first > curves[1].points.back().bytes) continue;
       EXPECT_LE(ours, leftAfter(curves, first, total - first) + 1e-9);
     }
@@ -116,7 +122,8 @@ TEST(Audit, LargeTracksAreCorrectedOnlyWithoutABudget) {
 
 Texels stripes(uint32_t period) {
   Texels texels{64, 64, 1, 8, std::vector<int32_t>(64 * 64)};
-  for (uint32_t i = 0; i < 64 * 64; ++i) texels.samples[i] = (i % 64) / (period / 2) % 2 == 0 ? 60 : 180;
+  for (uint32_t i = 0; i < 64 * 64; ++i)
+    texels.samples[i] = (i % 64) / (period / 2) % 2 == 0 ? 60 : 180;
   return texels;
 }
 

@@ -36,7 +36,8 @@ double squaredError(const Texels& a, const Texels& b) {
 }
 
 TEST(TextureTrack, IsLosslessAtItsEnd) {
-  for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 9u}, {2u, 2u}, {5u, 3u}, {17u, 31u}, {64u, 64u}, {3u, 300u}}) {
+  for (const auto& [width, height] :
+       {std::pair{1u, 1u}, {1u, 9u}, {2u, 2u}, {5u, 3u}, {17u, 31u}, {64u, 64u}, {3u, 300u}}) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       for (const int bits : {8, 16}) {
         const Texels texels = makeTexels(width, height, channels, bits, 40);
@@ -64,8 +65,10 @@ TEST(TextureTrack, StatedDistortionIsCloseToTheRealOne) {
   const EncodedTexture encoded = encodeTexture(texels, UINT64_MAX);
   const auto& points = encoded.track.points;
   for (size_t i = 4; i < points.size(); i += 11) {
-    if (points[i].distortion < 4 * static_cast<double>(texels.samples.size())) break;  // rounding noise
-    const Texels decoded = decodeTexture(encoded.header, std::span(encoded.track.codeword).first(points[i].bytes));
+    if (points[i].distortion < 4 * static_cast<double>(texels.samples.size()))
+      break;  // rounding noise
+    const Texels decoded =
+        decodeTexture(encoded.header, std::span(encoded.track.codeword).first(points[i].bytes));
     const double ratio = squaredError(texels, decoded) / points[i].distortion;
     EXPECT_GT(ratio, 0.6) << i;
     EXPECT_LT(ratio, 1.5) << i;
@@ -77,15 +80,17 @@ TEST(TextureTrack, StopsSoonAfterItsLimitWithTheSameBytes) {
   const EncodedTexture full = encodeTexture(texels, UINT64_MAX), cut = encodeTexture(texels, 3000);
   ASSERT_FALSE(cut.track.complete);
   ASSERT_GE(cut.track.codeword.size(), 3000u);
-  EXPECT_TRUE(std::equal(cut.track.codeword.begin(), cut.track.codeword.begin() + 3000, full.track.codeword.begin()));
+  EXPECT_TRUE(std::equal(cut.track.codeword.begin(), cut.track.codeword.begin() + 3000,
+                         full.track.codeword.begin()));
 }
 
 TEST(TextureTrack, GreyInRgbCostsLittleMoreThanGrey) {
   const Texels grey = makeTexels(128, 128, 1, 8, 20);
   Texels colour{128, 128, 3, 8, {}};
   for (int32_t s : grey.samples) colour.samples.insert(colour.samples.end(), 3, s);
-  const double ratio = static_cast<double>(encodeTexture(colour, UINT64_MAX).track.codeword.size()) /
-                       static_cast<double>(encodeTexture(grey, UINT64_MAX).track.codeword.size());
+  const double ratio =
+      static_cast<double>(encodeTexture(colour, UINT64_MAX).track.codeword.size()) /
+      static_cast<double>(encodeTexture(grey, UINT64_MAX).track.codeword.size());
   EXPECT_LT(ratio, 1.02);
 }
 
@@ -99,7 +104,8 @@ TEST(TextureTrack, AnyBytesAndHeadersDecodeIntoRange) {
     header.sample = random() % 2 == 0 ? TKS_U8 : TKS_U16;
     header.planes = static_cast<uint8_t>(random() % 31);
     header.colour_order = static_cast<uint8_t>(random() % 6);
-    for (int64_t& shear : header.colour_shears) shear = static_cast<int64_t>(random() % 65535) - 32767;
+    for (int64_t& shear : header.colour_shears)
+      shear = static_cast<int64_t>(random() % 65535) - 32767;
     for (int64_t& priority : header.priority) priority = static_cast<int64_t>(random() % 257) - 128;
     std::vector<uint8_t> bytes(random() % 400);
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());

@@ -7,8 +7,8 @@
 
 namespace tetrakis {
 
-/// width * height * channels integers, interleaved, row by row. channels: 1 grey, 2 grey+alpha, 3 RGB,
-/// 4 RGBA. bits: 8 or 16, samples are in [0, 2^bits).
+/// width * height * channels integers, interleaved, row by row. channels: 1 grey, 2 grey+alpha, 3
+/// RGB, 4 RGBA. bits: 8 or 16, samples are in [0, 2^bits).
 struct Texels {
   uint32_t width = 0, height = 0, channels = 0;
   int bits = 8;

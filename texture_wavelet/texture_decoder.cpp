@@ -10,20 +10,22 @@ namespace tetrakis {
 
 namespace {
 
-/// Binary places that an incomplete track is reconstructed with, so that the inverse transforms add no
-/// rounding noise of their own (texture_wavelet/wavelet.hpp).
+/// Binary places that an incomplete track is reconstructed with, so that the inverse transforms add
+/// no rounding noise of their own (texture_wavelet/wavelet.hpp).
 int fractionBits(const TextureHeader& header, bool complete) {
   if (complete) return 0;
   return header.sample == TKS_U8 ? 4 : 1;
 }
 
-void scatter(const Band& band, const Subband& subband, int fraction_bits, uint32_t width, std::vector<int32_t>& plane) {
+void scatter(const Band& band, const Subband& subband, int fraction_bits, uint32_t width,
+             std::vector<int32_t>& plane) {
   if (!band.nonzero) return;
   for (uint32_t row = 0; row < subband.height; ++row) {
     const size_t first = band.shape.cell(row, 0);
     int32_t* to = plane.data() + size_t{subband.y + row} * width + subband.x;
     for (uint32_t column = 0; column < subband.width; ++column) {
-      to[column] = static_cast<int32_t>(static_cast<uint32_t>(band.value(first + column)) << fraction_bits);
+      to[column] =
+          static_cast<int32_t>(static_cast<uint32_t>(band.value(first + column)) << fraction_bits);
     }
   }
 }
@@ -48,7 +50,8 @@ Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codew
   for (uint32_t c = 0; c < header.channels; ++c) {
     planes[c].assign(count, 0);
     for (size_t b = 0; b < plan.bandsPerComponent(); ++b) {
-      scatter(state.bands[c * plan.bandsPerComponent() + b], plan.subbands()[b], fraction_bits, header.width, planes[c]);
+      scatter(state.bands[c * plan.bandsPerComponent() + b], plan.subbands()[b], fraction_bits,
+              header.width, planes[c]);
     }
     inverseWavelet(planes[c], header.width, header.height);
     pointers.push_back(planes[c].data());

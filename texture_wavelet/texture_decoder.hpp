@@ -10,7 +10,8 @@
 
 namespace tetrakis {
 
-/// codeword: any prefix of a texture track. Safe on any bytes and any header that readHeader accepts.
+/// codeword: any prefix of a texture track. Safe on any bytes and any header that readHeader
+/// accepts.
 Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
 
 }  // namespace tetrakis

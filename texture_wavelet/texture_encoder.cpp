@@ -18,22 +18,26 @@ Planes separate(const Texels& texels) {
   const size_t count = size_t{texels.width} * texels.height;
   Planes planes(texels.channels, std::vector<int32_t>(count));
   for (size_t i = 0; i < count; ++i) {
-    for (uint32_t c = 0; c < texels.channels; ++c) planes[c][i] = texels.samples[i * texels.channels + c];
+    for (uint32_t c = 0; c < texels.channels; ++c)
+      planes[c][i] = texels.samples[i * texels.channels + c];
   }
   return planes;
 }
 
-BandSource gather(const std::vector<int32_t>& plane, uint32_t width, const Subband& subband, const BandShape& shape) {
+BandSource gather(const std::vector<int32_t>& plane, uint32_t width, const Subband& subband,
+                  const BandShape& shape) {
   BandSource source;
   source.values.assign(shape.cells(), 0);
   for (uint32_t row = 0; row < subband.height; ++row) {
     const int32_t* from = plane.data() + size_t{subband.y + row} * width + subband.x;
-    std::copy(from, from + subband.width, source.values.begin() + static_cast<ptrdiff_t>(shape.cell(row, 0)));
+    std::copy(from, from + subband.width,
+              source.values.begin() + static_cast<ptrdiff_t>(shape.cell(row, 0)));
   }
   return source;
 }
 
-TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour, const std::vector<double>& energies) {
+TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
+                         const std::vector<double>& energies) {
   TextureHeader header;
   header.width = texels.width;
   header.height = texels.height;
@@ -76,7 +80,8 @@ EncodedTexture encodeTexture(const Texels& texels, uint64_t limit) {
   for (uint32_t c = 0; c < texels.channels; ++c) {
     forwardWavelet(planes[c], texels.width, texels.height);
     for (const Subband& subband : plan.subbands()) {
-      BandSource source = gather(planes[c], texels.width, subband, plan.bands()[sources.size()].shape);
+      BandSource source =
+          gather(planes[c], texels.width, subband, plan.bands()[sources.size()].shape);
       source.weight = normOf(subband) * normOf(subband) * energies[c];
       sources.push_back(std::move(source));
     }

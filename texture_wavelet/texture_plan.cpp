@@ -13,7 +13,8 @@ namespace {
 /// the component before; either may be missing.
 class SubbandHints : public HintSource {
  public:
-  SubbandHints(const Band* parent, const Band* component) : parent_(parent), component_(component) {}
+  SubbandHints(const Band* parent, const Band* component)
+      : parent_(parent), component_(component) {}
   void fill(uint32_t row, uint32_t column, uint32_t count, uint32_t* hints) const override {
     std::fill_n(hints, count, 0u);
     if (parent_ != nullptr) addParent(row, column, count, hints);
@@ -46,7 +47,8 @@ uint32_t modelsOf(const Subband& subband, uint32_t component, uint32_t channels)
 
 }  // namespace
 
-TexturePlan::TexturePlan(const TextureHeader& header) : subbands_(subbandsOf(header.width, header.height)) {
+TexturePlan::TexturePlan(const TextureHeader& header)
+    : subbands_(subbandsOf(header.width, header.height)) {
   for (uint32_t c = 0; c < header.channels; ++c) {
     for (const Subband& subband : subbands_) {
       const BandShape shape{subband.height, {subband.width, subband.width}, false};
@@ -59,7 +61,8 @@ TexturePlan::TexturePlan(const TextureHeader& header) : subbands_(subbandsOf(hea
 std::unique_ptr<HintSource> TexturePlan::hints(const TrackState& state, uint32_t band) const {
   const size_t index = band % subbands_.size();
   const Band* parent = index >= 4 ? &state.bands[band - 3] : nullptr;
-  const Band* component = band >= subbands_.size() ? &state.bands[band - subbands_.size()] : nullptr;
+  const Band* component =
+      band >= subbands_.size() ? &state.bands[band - subbands_.size()] : nullptr;
   return std::make_unique<SubbandHints>(parent, component);
 }
 

@@ -59,15 +59,15 @@ Neighbours neighboursOf(const Band& band, int r, int a) {
           {c(r, a - 1), c(r, a + 1), c(r - 2, a), c(r + 2, a)}};
 }
 
-/// FORMAT 6: L(S).
+/// FORMAT 6: L(S), "S modulo 2^32".
 int activity(const Neighbours& n, int p) {
-  uint64_t sum = 0;
-  for (const Coefficient& c : n.near) sum += 2 * uint64_t{c.magnitude >> p};
+  uint32_t sum = 0;
+  for (const Coefficient& c : n.near) sum += 2 * (c.magnitude >> p);
   for (const Coefficient& c : n.far) sum += c.magnitude >> p;
   if (sum < 5) return static_cast<int>(sum);
-  constexpr uint64_t kLast[] = {6, 9, 13, 19, 29};
+  constexpr uint32_t kLast[] = {6, 9, 13, 19, 29};
   int level = 5;
-  for (const uint64_t last : kLast) level += sum > last;
+  for (const uint32_t last : kLast) level += sum > last;
   return level;
 }
 

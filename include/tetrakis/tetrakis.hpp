@@ -163,6 +163,14 @@ class Decoder {
     return samples;
   }
 
+  /// width * height heights in info().unit, also between the steps of the sample type: for drawing.
+  Expected<std::vector<float>> surface() {
+    std::vector<float> heights(size_t{info_.width} * info_.height);
+    const tks_status status = tks_decode_surface(decoder_.get(), heights.data(), heights.size());
+    if (status != TKS_OK) return error(status);
+    return heights;
+  }
+
   /// texture_width * texture_height * texture_channels samples of info().texture_sample.
   Expected<std::vector<std::byte>> texture() {
     std::vector<std::byte> texels(size_t{info_.texture_width} * info_.texture_height *
