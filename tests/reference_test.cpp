@@ -59,7 +59,7 @@ void expectAgreement(Prefix prefix) {
   ASSERT_EQ(firstDifference(decoded.texture, texture), texture.size()) << "texture";
 }
 
-void expectAgreementOnPrefixes(const Bytes& stream, size_t most = 30) {
+void expectAgreementOnPrefixes(const Bytes& stream, size_t most = 24) {
   const size_t stride = std::max<size_t>(1, stream.size() / most);
   for (size_t n = 0; n <= stream.size(); n += stride) {
     SCOPED_TRACE("prefix of " + std::to_string(n) + " of " + std::to_string(stream.size()));
@@ -107,8 +107,8 @@ TEST(Reference, AgreesOnHeightsOfAllTypesAndPatterns) {
 
 // 65 x 9 and 129 x 2 have blocks without a coefficient, 5 x 70 a forest of root squares.
 TEST(Reference, AgreesOnHeightsOfAllShapes) {
-  constexpr uint32_t kSizes[][2] = {{2, 2},  {3, 17}, {2, 9},   {9, 2},   {3, 3},  {40, 33},
-                                    {5, 70}, {70, 5}, {129, 2}, {2, 129}, {65, 9}, {70, 20}};
+  constexpr uint32_t kSizes[][2] = {{2, 2},  {3, 17}, {2, 9},   {9, 2},   {3, 3}, {40, 33},
+                                    {5, 70}, {70, 5}, {129, 2}, {2, 129}, {65, 9}};
   for (const auto& size : kSizes) {
     const samples::Recipe recipe{Pattern::kRidges, size[0], size[1], 1, TKS_I16, 6};
     SCOPED_TRACE(nameOf(recipe));
@@ -148,7 +148,7 @@ TEST(Reference, AgreesOnTexturesOfAllKinds) {
   for (const Pattern pattern : kPatterns) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       for (const tks_sample sample : {TKS_U8, TKS_U16}) {
-        const samples::Recipe recipe{pattern, 11, 9, channels, sample, 8};
+        const samples::Recipe recipe{pattern, 10, 7, channels, sample, 8};
         SCOPED_TRACE(nameOf(recipe));
         const Raster image = make(recipe);
         expectAgreementOn(nullptr, &image);
