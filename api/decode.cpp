@@ -144,6 +144,13 @@ Status verify(const tks_decoder& decoder) {
     return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - total) +
                              " bytes follow its end at byte " + std::to_string(total) + "."};
   }
+  // The encoder may cut the payload to a budget; the index then runs ahead of the packets.
+  const auto& index = header.index;
+  const auto& heads = decoder.payload.heads;
+  if (!index.empty() &&
+      (heads.size() > index.size() || !std::equal(heads.begin(), heads.end(), index.begin()))) {
+    return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
+  }
   return {};
 }
 
@@ -171,7 +178,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.header_bytes = decoder.parsed.bytes;
   info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
   info.available_bytes = decoder.data.size();
-  info.packets = decoder.payload.packets;
+  info.packets = decoder.payload.heads.size();
   info.geometry_bytes = decoder.payload.codewords[0].size();
   info.texture_bytes = decoder.payload.codewords[1].size();
   info.has_heights = header.geometry.has_value();

@@ -82,6 +82,7 @@ Result<std::vector<uint8_t>> EncodeJob::run() {
   Result<Needs> wanted = needs();
   if (!wanted.ok()) return wanted.status();
   keepNeeded(*wanted);
+  keepWithinBudget();
   Result<std::vector<uint8_t>> stream = assemble();
   if (Status status = report(1); !status.ok()) return status;
   return stream;
@@ -269,6 +270,17 @@ StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const 
     for (const Packet& packet : packets_) header.index.push_back({packet.head(), packet.quality});
   }
   return header;
+}
+
+/// Packets that begin behind the budget are not sent, and no index need list them.
+void EncodeJob::keepWithinBudget() {
+  if (!budgeted()) return;
+  uint64_t begin = 0;
+  size_t kept = 0;
+  for (; kept < packets_.size() && begin < options_.bytes; ++kept) {
+    begin += overheadOf(packets_[kept]) + packets_[kept].end - packets_[kept].begin;
+  }
+  packets_.resize(kept);
 }
 
 uint64_t EncodeJob::totalPayload() const {

@@ -58,6 +58,7 @@ class EncodeJob {
 
   StreamHeader makeHeader(uint64_t payload_bytes, bool lossless) const;
   Result<std::vector<uint8_t>> assemble() const;
+  void keepWithinBudget();
   uint64_t totalPayload() const;
   bool restoresEverything() const;
   Status report(double done) const;

@@ -46,7 +46,7 @@ void visitBody(V& v, StreamHeader& header) {
     uint64_t count = header.index.size();
     v.varint("packets", count, 1, kMaxHeaderBytes / 2);
     header.index.resize(v.ok() ? count : 0);
-    for (IndexEntry& entry : header.index) {
+    for (PacketHead& entry : header.index) {
       v.varint("index_head", entry.head, 0, UINT64_MAX);
       v.u8("index_quality", entry.quality, 0, 255);
       if (!v.ok()) break;

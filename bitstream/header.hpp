@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bitstream/fields.hpp"
+#include "bitstream/packet.hpp"
 #include "bitstream/status.hpp"
 
 namespace tetrakis {
@@ -96,12 +97,6 @@ struct Metadata {
   }
 };
 
-/// One entry of the front index: a packet's head, ahead of time.
-struct IndexEntry {
-  uint64_t head = 0;  ///< as in the packet (bitstream/packet.hpp)
-  uint8_t quality = 0;
-};
-
 struct StreamHeader {
   uint8_t version = kFormatVersion;
   uint8_t profile = kMainProfile;
@@ -112,7 +107,7 @@ struct StreamHeader {
   std::optional<GeometryHeader> geometry;
   std::optional<TextureHeader> texture;
   Metadata metadata;
-  std::vector<IndexEntry> index;
+  std::vector<PacketHead> index;  ///< the heads of all packets, ahead of time
 };
 
 /// Smallest n such that neither component has more than 4^(n + 8) samples.

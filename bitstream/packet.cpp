@@ -58,7 +58,7 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
                                      " is empty or of a track that the header does not announce.");
     }
     at += reader.position();
-    ++out.packets;
+    out.heads.push_back({head, quality});
     const bool complete = length <= payload.size() - at;
     const bool whole = (head & 2) != 0;
     const size_t available = complete ? static_cast<size_t>(length) : payload.size() - at;

@@ -46,10 +46,17 @@ std::vector<uint8_t> multiplex(std::span<const Packet> packets,
                                const std::array<std::span<const uint8_t>, kTracks>& codewords,
                                uint64_t limit);
 
+/// What stands before a packet's payload; the front index repeats it.
+struct PacketHead {
+  uint64_t head = 0;
+  uint8_t quality = 0;
+  bool operator==(const PacketHead&) const = default;
+};
+
 struct Demultiplexed {
   std::array<std::vector<uint8_t>, kTracks> codewords;  ///< what is available of each track
   std::array<std::optional<uint8_t>, kTracks> quality;  ///< of the last complete packet of each
-  uint64_t packets = 0;                                 ///< begun
+  std::vector<PacketHead> heads;                        ///< of every packet begun
 };
 
 /// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that
