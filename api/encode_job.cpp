@@ -162,7 +162,7 @@ Status EncodeJob::encodeLosslessGeometryIfItFits() {
     if (packet.track == TrackId::kGeometry) rmse = rmseOf(packet.quality);
   }
   if (rmse > kNearlyExact) return {};
-  Geometry lossy = *geometry_;
+  EncodedHeights lossy = *geometry_;
   encodeGeometryWith(0);
   order();
   if (restoresEverything() && totalPayload() <= options_.bytes) return {};

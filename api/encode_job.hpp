@@ -13,6 +13,13 @@
 
 namespace tetrakis {
 
+/// The heights in steps, and their track.
+struct EncodedHeights {
+  HeightSteps steps;
+  int fraction_bits = 0;
+  EncodedTrack track;
+};
+
 class EncodeJob {
  public:
   /// The arguments have passed checkArguments() and outlive the job.
@@ -22,11 +29,6 @@ class EncodeJob {
   Result<std::vector<uint8_t>> run();
 
  private:
-  struct Geometry {
-    HeightSteps steps;
-    int fraction_bits = 0;
-    EncodedTrack track;
-  };
   /// How much of each track the target wants, in bytes of its codeword.
   using Needs = std::array<uint64_t, kTracks>;
 
@@ -66,7 +68,7 @@ class EncodeJob {
   const tks_heights* heights_;
   const tks_image* image_;
   const tks_encode_options& options_;
-  std::optional<Geometry> geometry_;
+  std::optional<EncodedHeights> geometry_;
   Texels texels_;
   std::optional<EncodedTexture> texture_;
   std::vector<Packet> packets_;

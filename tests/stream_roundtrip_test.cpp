@@ -146,5 +146,26 @@ TEST(StreamRoundTrip, IndexedStreamDecodesTheSame) {
   EXPECT_TRUE(stream.texture() == image.data);
 }
 
+TEST(StreamRoundTrip, VerifyHoldsTheIndexAgainstThePackets) {
+  const Raster heights = make({Pattern::kRidges, 33, 29, 1, TKS_I16});
+  tks_encode_options options = lossless();
+  options.index = 1;
+  for (const uint64_t budget : {0, 400}) {
+    options.bytes = budget;
+    options.lossless = budget == 0;
+    Bytes bytes = encode(&heights, nullptr, options);
+    size_t quality = 0;
+    {
+      Stream stream(bytes);
+      EXPECT_EQ(tks_verify(stream.get()), TKS_OK) << tks_message(stream.get());
+      quality = static_cast<size_t>(stream.info().header_bytes);
+    }
+    while (bytes[quality] >= 0x80) ++quality;  // the head's varint
+    bytes[quality + 1] ^= 1;
+    Stream tampered(bytes);
+    EXPECT_EQ(tks_verify(tampered.get()), TKS_CORRUPT) << budget;
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test
