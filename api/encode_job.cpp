@@ -131,7 +131,9 @@ void EncodeJob::encodeGeometryWith(int fraction_bits) {
 /// Bytes of a track worth coding. Beyond the budget, because the slopes of the last packets within
 /// it depend on the points that follow, and the order must not depend on the budget.
 uint64_t EncodeJob::trackLimit() const {
-  return options_.bytes != 0 ? 2 * options_.bytes + 4096 : UINT64_MAX;
+  constexpr uint64_t kMargin = 4096;
+  const bool bounded = budgeted() && options_.bytes < UINT64_MAX / 4;
+  return bounded ? 2 * options_.bytes + kMargin : UINT64_MAX;
 }
 
 Status EncodeJob::encodeTracks() {

@@ -44,10 +44,13 @@ TEST(StreamRate, BudgetIsObeyedAndUsed) {
 TEST(StreamRate, AmpleBudgetIsLossless) {
   const Raster heights = make({Pattern::kRidges, 33, 20, 1, TKS_I16});
   const Raster image = make({Pattern::kRidges, 30, 31, 3, TKS_U8});
-  const Bytes bytes = encode(&heights, &image, budget(1 << 20));
-  Stream stream(bytes);
-  EXPECT_TRUE(stream.heights() == heights.data);
-  EXPECT_TRUE(stream.texture() == image.data);
+  for (const uint64_t ample : {uint64_t{1} << 20, (uint64_t{1} << 63) + 7, UINT64_MAX}) {
+    const Bytes bytes = encode(&heights, &image, budget(ample));
+    Stream stream(bytes);
+    EXPECT_TRUE(stream.info().lossless);
+    EXPECT_TRUE(stream.heights() == heights.data);
+    EXPECT_TRUE(stream.texture() == image.data);
+  }
 }
 
 /// The smaller stream is a prefix of the larger one, behind the header.
