@@ -1,39 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive model of one binary decision: the mean of a fast and a slow exponential estimate
-// (two-rate counters as in PAQ and VVC's CABAC), both starting with the 1/n rule so that the first
-// few symbols already count.
+// Adaptive model of one binary decision: a running mean that follows the 1/n rule at first and
+// becomes an exponential mean of about 2^8 decisions (after M. Mahoney's PAQ state counters).
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace tetrakis {
 
+/// Share of the n-th decision in the mean of an AdaptiveBit: 1 / (n + 2), in units of 2^-15.
+inline constexpr auto kDecisionShare = [] {
+  std::array<int32_t, 256> table{};
+  for (int32_t n = 0; n < 256; ++n)
+    table[static_cast<size_t>(n)] = (32768 + (n + 2) / 2) / (n + 2);
+  return table;
+}();
+
 class AdaptiveBit {
  public:
   static constexpr int kPrecision = 16;   ///< probabilities are multiples of 2^-16
-  static constexpr int kFastRate = 5;     ///< final step of the fast estimate: 2^-4
-  static constexpr int kSlowRate = 8;     ///< final step of the slow estimate: 2^-7
+  static constexpr uint32_t kLimit = 255; ///< decisions after which the mean forgets
   static constexpr uint32_t kFloor = 24;  ///< no decision is more certain than 1 - 24/65536
 
   /// P(bit = 0) in units of 2^-16, in [kFloor, 65536 - kFloor].
   uint32_t zero() const {
-    const uint32_t mean = (uint32_t{fast_} + slow_) >> 1;
-    return std::clamp(mean, kFloor, (1u << kPrecision) - kFloor);
+    return std::clamp<uint32_t>(zero_, kFloor, (1u << kPrecision) - kFloor);
   }
 
   void update(bool bit) {
-    const int target = bit ? 0 : 0xffff;
-    fast_ = static_cast<uint16_t>(fast_ + ((target - fast_) >> std::min<int>(rate_, kFastRate)));
-    slow_ = static_cast<uint16_t>(slow_ + ((target - slow_) >> rate_));
-    if (++seen_ >= (1 << rate_) && rate_ < kSlowRate) ++rate_;
+    const int32_t target = bit ? 0 : 0xffff;
+    zero_ = static_cast<uint16_t>(zero_ + (((target - zero_) * kDecisionShare[seen_]) >> 15));
+    seen_ = static_cast<uint16_t>(seen_ + (seen_ < kLimit));
   }
 
  private:
-  uint16_t fast_ = 0x8000;
-  uint16_t slow_ = 0x8000;
-  uint8_t rate_ = 1;   ///< current shift of the slow estimate
-  uint16_t seen_ = 0;  ///< symbols seen while rate_ still grows (wraps harmlessly afterwards)
+  uint16_t zero_ = 0x8000;
+  uint16_t seen_ = 0;  ///< decisions so far, up to kLimit
 };
 
 }  // namespace tetrakis

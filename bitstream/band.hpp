@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is known of one band of transform coefficients while its bit-planes arrive.
 //
-// A band is a rectangular array, or a quincunx one whose odd rows are shifted by half a column:
-//
-//   rectangular            quincunx (even row a at x = 2a + 1, odd row a at x = 2a)
-//     NW  N  NE               N2
-//      W  .  E             NW    NE        near: NW NE SW SE (distance 1)
-//     SW  S  SE           W   .    E       far:  W E N2 S2   (distance sqrt 2)
-//   near: W E N S          SW    SE
-//   far:  the diagonals       S2
-//
-// Structure of arrays with a margin of zeros, so that neighbours need no bounds checks.
+// Structure of arrays with a margin of zeros, so that neighbours need no bounds checks. Sets of
+// coefficients (significant, visited in this plane) are bit maps, one word for each 32 columns: a
+// pass finds its coefficients by word operations and skips the others.
 #pragma once
 
 #include <array>
@@ -20,51 +13,70 @@
 
 namespace tetrakis {
 
-struct BandShape {
-  uint32_t rows = 0;
-  std::array<uint32_t, 2> columns{};  ///< in even and in odd rows
-  bool staggered = false;             ///< quincunx rows
+/// Direction of a band's detail; LL has none.
+enum class Orientation : uint8_t { kLL, kHL, kLH, kHH };
 
-  uint32_t stride() const { return (columns[0] > columns[1] ? columns[0] : columns[1]) + 2; }
-  size_t cells() const { return size_t{rows + 4} * stride(); }
-  size_t cell(uint32_t row, uint32_t column) const {
-    return size_t{row + 2} * stride() + column + 1;
+struct BandShape {
+  uint32_t rows = 0, columns = 0;
+
+  bool empty() const { return rows == 0 || columns == 0; }
+  uint32_t words() const { return (columns + 31) / 32; }      ///< of a row of a bit map
+  uint32_t wordStride() const { return words() + 2; }
+  size_t wordCells() const { return size_t{rows + 2} * wordStride(); }
+  size_t word(uint32_t row, uint32_t index) const {
+    return size_t{row + 1} * wordStride() + index + 1;
   }
-  bool empty() const { return rows == 0 || (columns[0] == 0 && (rows == 1 || columns[1] == 0)); }
+  /// Rows are padded to whole words and a margin of one cell.
+  uint32_t stride() const { return 32 * words() + 2; }
+  size_t cells() const { return size_t{rows + 2} * stride(); }
+  size_t cell(uint32_t row, uint32_t column) const {
+    return size_t{row + 1} * stride() + column + 1;
+  }
+  /// The columns of a word that exist.
+  uint32_t valid(uint32_t index) const {
+    const uint32_t left = columns - 32 * index;
+    return left >= 32 ? ~uint32_t{0} : (uint32_t{1} << left) - 1;
+  }
 };
 
-/// Cell offsets of a coefficient's neighbours. near[0..1] and near[2..3] are opposite pairs.
+/// Neighbours of a cell. near[0..1] lie along the direction in which the band is high (the rows of
+/// HL, the columns of LH), near[2..3] across it: coefficients of both bands then look alike.
 struct Neighbours {
   std::array<ptrdiff_t, 4> near;
-  std::array<ptrdiff_t, 4> far;
+  std::array<ptrdiff_t, 4> far;  ///< the diagonals
+
+  Neighbours(const BandShape& shape, Orientation orientation) {
+    const auto row = static_cast<ptrdiff_t>(shape.stride());
+    const ptrdiff_t along = orientation == Orientation::kLH ? row : 1, across = row + 1 - along;
+    near = {-along, along, -across, across};
+    far = {-row - 1, row + 1, -row + 1, row - 1};
+  }
 };
 
-Neighbours neighboursOf(const BandShape& shape, uint32_t row);
-
 struct Band {
-  static constexpr uint32_t kBlockRows = 8, kBlockColumns = 32;
-  static constexpr uint8_t kUnknown = 32;  ///< plane of a coefficient nothing is known of
+  static constexpr uint32_t kBlockRows = 8;  ///< blocks are one word wide
 
-  explicit Band(const BandShape& band_shape);
+  Band() = default;
+  Band(const BandShape& band_shape, Orientation band_orientation);
 
-  /// Coefficient at a cell: the middle of its known interval, 0 while insignificant.
-  int32_t value(size_t cell) const {
-    return sign[cell] * static_cast<int32_t>(middle(magnitude[cell], plane[cell]));
-  }
+  uint32_t blockRows() const { return (shape.rows + kBlockRows - 1) / kBlockRows; }
+  uint8_t& block(uint32_t y, uint32_t x) { return block_nonzero[size_t{y} * shape.words() + x]; }
 
-  /// Reconstruction point of a magnitude known down to bit-plane `known`. A little below the
-  /// middle, because densities fall; exact at plane 0.
-  static uint32_t middle(uint32_t magnitude, int known) {
-    return magnitude == 0 ? 0 : magnitude + (((uint32_t{1} << known) * 7) >> 4);
+  /// Lowest bit-plane known of the coefficient at a row and column.
+  int knownPlane(uint32_t row, uint32_t column) const {
+    return plane + 1 - static_cast<int>((visited[shape.word(row, column / 32)] >> column % 32) & 1);
   }
 
   BandShape shape;
-  uint32_t block_columns;              ///< blocks in a row of blocks
-  std::vector<uint32_t> magnitude;     ///< known bits, unknown ones zero
-  std::vector<int8_t> sign;            ///< -1, 0 while insignificant, 1
-  std::vector<uint8_t> plane;          ///< lowest known bit-plane of each coefficient
-  std::vector<uint8_t> block_nonzero;  ///< the block holds a significant coefficient
-  bool nonzero = false;                ///< the band holds a significant coefficient
+  Orientation orientation = Orientation::kLL;
+  int plane = 31;        ///< bit-plane of the last pass; nothing is known below
+  bool nonzero = false;  ///< the band holds a significant coefficient
+  std::vector<uint32_t> magnitude;    ///< known bits, unknown ones zero
+  std::vector<uint16_t> scaled;       ///< magnitude >> plane, held below 2^15
+  std::vector<int8_t> sign;           ///< -1, 0 while insignificant, 1
+  std::vector<uint32_t> significant;  ///< bit map: magnitude is not zero
+  std::vector<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known
+  std::vector<uint8_t> block_nonzero; ///< the block holds a significant coefficient
 };
 
 }  // namespace tetrakis

@@ -24,27 +24,41 @@ inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or c
 inline constexpr int kMaxFractionBits = 8;
 inline constexpr uint32_t kMaxHeaderBytes = 1u << 20;
 
+/// Which wavelet: wavelet/wavelet.hpp.
+struct WaveletHeader {
+  std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
+  uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
+  uint8_t wide = 0;                  ///< sums need 64 bits
+
+  template <class V>
+  void visit(V& v) {
+    for (uint8_t& filter : filters) v.u8("filter", filter, 0, 3);
+    v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
+    v.u8("wide", wide, 0, 1);
+  }
+};
+
 /// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
 struct GeometryHeader {
   uint32_t width = 0, height = 0;
   uint8_t sample = 0;         ///< tks_sample of the input and of the decoded output
-  uint8_t fraction_bits = 0;  ///< the transform works on heights * 2^fraction_bits
   uint8_t planes = 0;
   uint8_t exact = 0;  ///< the steps restore every input sample
   double base = 0, step = 1;
   double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
+  WaveletHeader wavelet;
 
   template <class V>
   void visit(V& v) {
     v.varint("geometry_width", width, 2, kMaxSide);
     v.varint("geometry_height", height, 2, kMaxSide);
     v.u8("geometry_sample", sample, 0, TKS_F32);
-    v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
     v.u8("geometry_planes", planes, 0, 30);
     v.u8("exact", exact, 0, 1);
     v.f64("base", base);
     v.f64("step", step);
     v.f64("max_error", max_error);
+    wavelet.visit(v);
   }
 };
 
@@ -58,6 +72,7 @@ struct TextureHeader {
   std::array<int64_t, 6> colour_shears{};  ///< read and written where there are 3 channels or more
   std::array<uint16_t, 4> centre{};        ///< one per channel
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
+  WaveletHeader wavelet;
 
   template <class V>
   void visit(V& v) {
@@ -66,6 +81,7 @@ struct TextureHeader {
     v.u8("channels", channels, 1, 4);
     v.u8("texture_sample", sample, 0, TKS_U16);
     v.u8("texture_planes", planes, 0, 30);
+    wavelet.visit(v);
     for (size_t c = 0; c < channels && v.ok(); ++c) {
       v.varint("centre", centre[c], 0, 0xffff);
       v.zigzag("priority", priority[c], kMaxPriority);

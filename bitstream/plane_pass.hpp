@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Embedded bit-plane coding of one band: the three passes of a plane (after EBCOT, D. Taubman
 // 2000), with contexts from local magnitude sums (after F. Auli-Llinas 2011) and from a hint of the
-// expected magnitude given by coarser bands or other components. Blocks without a significant
-// coefficient cost one decision a plane and no work.
+// expected magnitude given by the parent band and by another component. Blocks without a
+// significant coefficient cost one decision a plane and no work.
 //
 //   likely   significance where a neighbour is significant (steepest slope)
-//   refine   next bit of every coefficient that was significant before this plane
 //   rest     significance everywhere else, empty blocks first asked as a whole
+//   refine   next bit of every coefficient that was significant before this plane
 //
 // The passes are written once. Io is the encoder's or the decoder's side of a decision:
 //   bool magnitudeBit(AdaptiveBit&, size_t cell, int plane)   bit `plane` of the magnitude
 //   bool signBit(AdaptiveBit&, size_t cell, bool flip)        negative, xor flip
-//   bool blockBit(AdaptiveBit&, const CellRange&, int plane)  a magnitude in the range reaches
-//   2^plane bool stopped()                                            the last decision did not
-//   count void learned(const Band&, size_t cell, uint32_t magnitude_before, int plane_before)
+//   bool blockBit(AdaptiveBit&, uint32_t y, uint32_t x, int plane)   a magnitude of the block
+//                                                                    reaches 2^plane
+//   bool bandBit(AdaptiveBit&, int plane)                     a magnitude of the band does
+//   bool stopped()                                            the last decision did not count
+//   void learned(size_t cell, uint32_t before, uint32_t after, int plane)   known bits of a
+//                                                                           magnitude
 #pragma once
 
 #include <algorithm>
@@ -38,35 +41,36 @@ struct BandModels {
   AdaptiveBit band;
 };
 
-/// Expected magnitudes, four times enlarged, of `count` coefficients of a row.
-class HintSource {
- public:
-  virtual ~HintSource() = default;
-  virtual void fill(uint32_t row, uint32_t column, uint32_t count, uint32_t* hints) const = 0;
-};
+/// Class of a sum of the neighbours' magnitudes: 2 * near + far, in units of 2^plane.
+inline int localClass(uint32_t sum) {
+  constexpr std::array<uint8_t, 31> kClasses = {0, 1, 2, 3, 4, 5, 5, 6, 6, 6, 7, 7, 7, 7, 8, 8,
+                                                8, 8, 8, 8, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 10};
+  return kClasses[std::min(sum, 30u)];
+}
 
-/// A rectangle of a band: rows [row, row_end), columns [column, column_end) as far as rows reach.
-struct CellRange {
-  uint32_t row, row_end, column, column_end;
-};
-
-enum class PassKind : uint8_t { kLikely = 0, kRefine = 1, kRest = 2 };
+enum class PassKind : uint8_t { kLikely = 0, kRest = 1, kRefine = 2 };
 
 template <class Io>
 class PlanePass {
  public:
-  PlanePass(Band& band, BandModels& models, const HintSource& hints, Io& io)
-      : band_(band), models_(models), hints_(hints), io_(io) {}
+  /// parent, component: bands that hint at the magnitudes of this one; may be null.
+  PlanePass(Band& band, BandModels& models, const Band* parent, const Band* component, Io& io)
+      : band_(band),
+        models_(models),
+        parent_(parent),
+        component_(component),
+        io_(io),
+        neighbours_(band.shape, band.orientation) {}
 
   /// Codes one pass of bit-plane `plane` (0..30). Returns early once io.stopped().
   void run(PassKind kind, int plane) {
     plane_ = plane;
+    if (kind == PassKind::kLikely) beginPlane();
     if (!band_.nonzero) {
       if (kind != PassKind::kRest || !bandBecomesNonzero()) return;
     }
-    const uint32_t block_rows = (band_.shape.rows + Band::kBlockRows - 1) / Band::kBlockRows;
-    for (uint32_t y = 0; y < block_rows; ++y) {
-      for (uint32_t x = 0; x < band_.block_columns; ++x) {
+    for (uint32_t y = 0; y < band_.blockRows(); ++y) {
+      for (uint32_t x = 0; x < band_.shape.words(); ++x) {
         block(kind, y, x);
         if (io_.stopped()) return;
       }
@@ -74,54 +78,56 @@ class PlanePass {
   }
 
  private:
-  static constexpr int localClass(uint32_t sum) {
-    return sum < 5    ? static_cast<int>(sum)
-           : sum < 7  ? 5
-           : sum < 10 ? 6
-           : sum < 14 ? 7
-           : sum < 20 ? 8
-           : sum < 30 ? 9
-                      : 10;
+  using Sums = std::array<uint16_t, 33>;  // the last one is never used, only added to
+
+  void beginPlane() {
+    band_.plane = plane_;
+    if (!band_.nonzero) return;
+    std::fill(band_.visited.begin(), band_.visited.end(), 0);
+    for (uint16_t& s : band_.scaled) s = static_cast<uint16_t>(s < 0x4000 ? 2 * s : s);
   }
 
   bool bandBecomesNonzero() {
-    const CellRange all{0, band_.shape.rows, 0, band_.shape.stride() - 2};
-    const bool bit = io_.blockBit(models_.band, all, plane_);
+    const bool bit = io_.bandBit(models_.band, plane_);
     band_.nonzero = bit && !io_.stopped();
     return band_.nonzero;
   }
 
   void block(PassKind kind, uint32_t y, uint32_t x) {
-    uint8_t& nonzero = band_.block_nonzero[size_t{y} * band_.block_columns + x];
-    const CellRange range{y * Band::kBlockRows,
-                          std::min((y + 1) * Band::kBlockRows, band_.shape.rows),
-                          x * Band::kBlockColumns, (x + 1) * Band::kBlockColumns};
+    uint8_t& nonzero = band_.block(y, x);
+    const uint32_t begin = y * Band::kBlockRows,
+                   end = std::min(begin + Band::kBlockRows, band_.shape.rows);
     if (!nonzero) {
       if (kind != PassKind::kRest) return;
       const bool bit = band_.block_nonzero.size() == 1 ||
-                       io_.blockBit(models_.block[blockContext(y, x)], range, plane_);
-      if (!bit || io_.stopped()) return;
+                       io_.blockBit(models_.block[blockContext(y, x)], y, x, plane_);
+      if (io_.stopped()) return;
+      if (!bit) return markVisited(begin, end, x);
       nonzero = 1;
     }
-    for (uint32_t row = range.row; row < range.row_end && !io_.stopped(); ++row) {
-      const uint32_t end = std::min(range.column_end, band_.shape.columns[row % 2]);
-      if (range.column >= end) continue;
+    for (uint32_t row = begin; row < end && !io_.stopped(); ++row) {
       switch (kind) {
         case PassKind::kLikely:
-          significanceRow<true>(row, range.column, end);
-          break;
-        case PassKind::kRefine:
-          refinementRow(row, range.column, end);
+          significanceRow<true>(row, x);
           break;
         case PassKind::kRest:
-          significanceRow<false>(row, range.column, end);
+          significanceRow<false>(row, x);
+          break;
+        case PassKind::kRefine:
+          refinementRow(row, x);
           break;
       }
     }
   }
 
+  void markVisited(uint32_t begin, uint32_t end, uint32_t x) {
+    for (uint32_t row = begin; row < end; ++row) {
+      band_.visited[band_.shape.word(row, x)] = ~uint32_t{0};
+    }
+  }
+
   int blockContext(uint32_t y, uint32_t x) const {
-    const uint32_t columns = band_.block_columns;
+    const uint32_t columns = band_.shape.words();
     const auto at = [&](uint32_t by, uint32_t bx) -> int {
       const size_t i = size_t{by} * columns + bx;
       return bx < columns && i < band_.block_nonzero.size() ? band_.block_nonzero[i] : 0;
@@ -129,73 +135,114 @@ class PlanePass {
     return at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
   }
 
-  /// 2 (near) + 1 (far) weighted sum of the neighbours' known magnitudes, in units of 2^plane.
-  uint32_t localSum(size_t cell, const Neighbours& n) const {
-    const uint32_t* m = band_.magnitude.data() + cell;
-    const uint32_t near = (m[n.near[0]] >> plane_) + (m[n.near[1]] >> plane_) +
-                          (m[n.near[2]] >> plane_) + (m[n.near[3]] >> plane_);
-    const uint32_t far = (m[n.far[0]] >> plane_) + (m[n.far[1]] >> plane_) +
-                         (m[n.far[2]] >> plane_) + (m[n.far[3]] >> plane_);
-    return 2 * near + far;
+  /// The columns of a word that have a significant neighbour. Significant ones themselves may or
+  /// may not be among them.
+  uint32_t nearSignificant(size_t word) const {
+    const uint32_t stride = band_.shape.wordStride();
+    const uint32_t* s = band_.significant.data() + word;
+    const auto any = [&](ptrdiff_t i) { return s[i - stride] | s[i] | s[i + stride]; };
+    const uint32_t here = any(0);
+    return here | here << 1 | here >> 1 | any(-1) >> 31 | any(1) << 31;
   }
 
-  template <bool kLikelyOnly>
-  void significanceRow(uint32_t row, uint32_t column, uint32_t end) {
-    std::array<uint32_t, Band::kBlockColumns> hints;
-    hints_.fill(row, column, end - column, hints.data());
-    const Neighbours n = neighboursOf(band_.shape, row);
-    const size_t first = band_.shape.cell(row, column);
-    for (size_t cell = first; cell < first + (end - column); ++cell) {
-      if (band_.magnitude[cell] != 0 || band_.plane[cell] <= plane_) continue;
-      const int local = localClass(localSum(cell, n));
-      if (kLikelyOnly && local == 0) continue;
-      const int hint =
-          std::min<int>(std::bit_width(hints[cell - first] >> plane_), BandModels::kHint - 1);
-      const bool bit = io_.magnitudeBit(models_.significance[local][hint], cell, plane_);
-      if (io_.stopped()) return;
-      if (bit && !becomeSignificant(cell, n)) return;
-      band_.plane[cell] = static_cast<uint8_t>(plane_);
+  /// 2 (near) + 1 (far) weighted sums of the known magnitudes around 32 cells, in units of 2^plane.
+  void localSums(size_t first, Sums& sums) const {
+    const ptrdiff_t row = band_.shape.stride();
+    const uint16_t* here = band_.scaled.data() + first;
+    const uint16_t *above = here - row, *below = here + row;
+    for (ptrdiff_t i = 0; i < 32; ++i) {
+      const int near = here[i - 1] + here[i + 1] + above[i] + below[i];
+      const int far = above[i - 1] + above[i + 1] + below[i - 1] + below[i + 1];
+      const int sum = 2 * near + far;
+      sums[static_cast<size_t>(i)] = static_cast<uint16_t>(std::min(sum, 0x7fff));
     }
   }
 
-  bool becomeSignificant(size_t cell, const Neighbours& n) {
+  /// Expected magnitude: the parent's (same place, one level coarser) and that of the same place in
+  /// another component, doubled, in units of 2^plane.
+  int hintClass(uint32_t row, uint32_t column) const {
+    uint32_t hint = 0;
+    if (parent_ != nullptr) hint += parent_->magnitude[parent_->shape.cell(row / 2, column / 2)];
+    if (component_ != nullptr) hint += component_->magnitude[component_->shape.cell(row, column)];
+    return std::min<int>(std::bit_width((2 * hint) >> plane_), BandModels::kHint - 1);
+  }
+
+  template <bool kLikelyOnly>
+  void significanceRow(uint32_t row, uint32_t x) {
+    const size_t word = band_.shape.word(row, x);
+    const uint32_t free =
+        ~band_.significant[word] & ~band_.visited[word] & band_.shape.valid(x);
+    uint32_t todo = kLikelyOnly ? free & nearSignificant(word) : free;
+    if (todo == 0) return;
+    const size_t first = band_.shape.cell(row, 32 * x);
+    Sums sums;
+    localSums(first, sums);
+    uint32_t visited = band_.visited[word];
+    while (todo != 0) {
+      const auto i = static_cast<uint32_t>(std::countr_zero(todo));
+      todo &= todo - 1;
+      const int local = localClass(sums[i]), hint = hintClass(row, 32 * x + i);
+      const bool bit = io_.magnitudeBit(models_.significance[local][hint], first + i, plane_);
+      if (io_.stopped() || (bit && !becomeSignificant(word, i, first + i))) break;
+      visited |= uint32_t{1} << i;
+      if (bit) {
+        sums[i + 1] = static_cast<uint16_t>(sums[i + 1] + 2);
+        if (kLikelyOnly) todo |= free & (uint32_t{2} << i);
+      }
+    }
+    band_.visited[word] = visited;
+  }
+
+  bool becomeSignificant(size_t word, uint32_t bit, size_t cell) {
     const int8_t* s = band_.sign.data() + cell;
-    int context = 3 * std::clamp(s[n.near[0]] + s[n.near[1]], -1, 1) +
-                  std::clamp(s[n.near[2]] + s[n.near[3]], -1, 1);
+    const auto& near = neighbours_.near;
+    int context = 3 * std::clamp(s[near[0]] + s[near[1]], -1, 1) +
+                  std::clamp(s[near[2]] + s[near[3]], -1, 1);
     const bool flip = context < 0;
     if (flip) context = -context;
     const bool negative = io_.signBit(models_.sign[context], cell, flip);
     if (io_.stopped()) return false;
     band_.magnitude[cell] = uint32_t{1} << plane_;
+    band_.scaled[cell] = 1;
     band_.sign[cell] = negative ? -1 : 1;
-    const int before = band_.plane[cell];
-    band_.plane[cell] = static_cast<uint8_t>(plane_);
-    io_.learned(band_, cell, 0, before);
+    band_.significant[word] |= uint32_t{1} << bit;
+    io_.learned(cell, 0, uint32_t{1} << plane_, plane_);
     return true;
   }
 
-  void refinementRow(uint32_t row, uint32_t column, uint32_t end) {
-    const Neighbours n = neighboursOf(band_.shape, row);
-    const size_t first = band_.shape.cell(row, column);
-    for (size_t cell = first; cell < first + (end - column); ++cell) {
-      const uint32_t magnitude = band_.magnitude[cell];
-      if (magnitude == 0 || band_.plane[cell] <= plane_) continue;
-      const uint32_t known = magnitude >> (plane_ + 1);
-      const int local = localClass(localSum(cell, n));
+  void refinementRow(uint32_t row, uint32_t x) {
+    const size_t word = band_.shape.word(row, x);
+    uint32_t todo = band_.significant[word] & ~band_.visited[word];
+    if (todo == 0) return;
+    const size_t first = band_.shape.cell(row, 32 * x);
+    Sums sums;
+    localSums(first, sums);
+    uint32_t visited = band_.visited[word];
+    while (todo != 0) {
+      const auto i = static_cast<uint32_t>(std::countr_zero(todo));
+      todo &= todo - 1;
+      const size_t cell = first + i;
+      const uint32_t known = band_.scaled[cell] / 2;
+      const int local = localClass(sums[i]);
       const int context = known == 1 ? local / 2 : known < 4 ? 6 + (local > 6) : 8;
       const bool bit = io_.magnitudeBit(models_.refinement[context], cell, plane_);
-      if (io_.stopped()) return;
-      const int before = band_.plane[cell];
-      band_.magnitude[cell] |= uint32_t{bit} << plane_;
-      band_.plane[cell] = static_cast<uint8_t>(plane_);
-      io_.learned(band_, cell, magnitude, before);
+      if (io_.stopped()) break;
+      visited |= uint32_t{1} << i;
+      const uint32_t before = band_.magnitude[cell], after = before | uint32_t{bit} << plane_;
+      band_.magnitude[cell] = after;
+      band_.scaled[cell] = static_cast<uint16_t>(band_.scaled[cell] | uint16_t{bit});
+      sums[i + 1] = static_cast<uint16_t>(sums[i + 1] + 2 * bit);
+      io_.learned(cell, before, after, plane_);
     }
+    band_.visited[word] = visited;
   }
 
   Band& band_;
   BandModels& models_;
-  const HintSource& hints_;
+  const Band* parent_;
+  const Band* component_;
   Io& io_;
+  Neighbours neighbours_;
   int plane_ = 0;
 };
 

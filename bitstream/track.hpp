@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A track: the bands of one component (geometry, or texture) of one region, coded into one
-// codeword. The order of its passes follows from the norms of the bands alone, so it costs no bits,
-// and each pass improves the surface or image by about the same factor as its neighbours in the
-// order.
+// A track: the bands of one component (geometry, or texture), coded into one codeword. The order of
+// its passes follows from the norms of the bands alone, so it costs no bits, and each pass improves
+// the surface or image by about the same factor as its neighbours in the order.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "bitstream/band.hpp"
@@ -16,9 +14,14 @@ namespace tetrakis {
 
 /// One band of a track, as its owner (codec/, texture_wavelet/) describes it.
 struct BandPlan {
+  static constexpr int kNone = -1;
+
   BandShape shape;
-  int log_norm = 0;     ///< 16 * log2 of the L2 norm of the band's synthesis functions, rounded
-  uint32_t models = 0;  ///< index of the BandModels that the band uses
+  Orientation orientation = Orientation::kLL;
+  int log_norm = 0;       ///< 16 * log2 of the L2 norm of the band's synthesis functions, rounded
+  uint32_t models = 0;    ///< index of the BandModels that the band uses
+  int parent = kNone;     ///< the band of the same orientation one level coarser
+  int component = kNone;  ///< the same band of another component
 };
 
 /// Bit-planes a coefficient may have: magnitudes stay below 2^30.
@@ -35,17 +38,20 @@ std::vector<Pass> schedule(const std::vector<BandPlan>& plan, int planes);
 
 /// Bands and contexts: the state that encoder and decoder build in step.
 struct TrackState {
-  explicit TrackState(const std::vector<BandPlan>& plan);
+  TrackState(const std::vector<BandPlan>& plan, int planes);
+
+  /// Runs one pass of the plan that the state was made from.
+  template <class Io>
+  void run(const std::vector<BandPlan>& plan, const Pass& pass, Io& io) {
+    const BandPlan& band = plan[pass.band];
+    const auto at = [&](int i) { return i < 0 ? nullptr : &bands[static_cast<size_t>(i)]; };
+    PlanePass<Io>(bands[pass.band], models[band.models], at(band.parent), at(band.component), io)
+        .run(pass.kind, pass.plane);
+  }
+
   std::vector<Band> bands;
   std::vector<BandModels> models;
   bool complete = false;  ///< every pass has been decoded: the coefficients are exact
-};
-
-/// Makes the hint source of each band; it may look at every band of the state.
-class HintFactory {
- public:
-  virtual ~HintFactory() = default;
-  virtual std::unique_ptr<HintSource> hints(const TrackState& state, uint32_t band) const = 0;
 };
 
 }  // namespace tetrakis

@@ -13,9 +13,10 @@ class DecodingIo {
   explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
   bool magnitudeBit(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
   bool signBit(AdaptiveBit& model, size_t, bool flip) { return decoder_.decode(model) != flip; }
-  bool blockBit(AdaptiveBit& model, const CellRange&, int) { return decoder_.decode(model); }
+  bool blockBit(AdaptiveBit& model, uint32_t, uint32_t, int) { return decoder_.decode(model); }
+  bool bandBit(AdaptiveBit& model, int) { return decoder_.decode(model); }
   bool stopped() const { return decoder_.exhausted(); }
-  void learned(const Band&, size_t, uint32_t, int) {}
+  void learned(size_t, uint32_t, uint32_t, int) {}
 
  private:
   RangeDecoder decoder_;
@@ -23,16 +24,12 @@ class DecodingIo {
 
 }  // namespace
 
-TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes, const HintFactory& factory,
+TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
                        std::span<const uint8_t> codeword) {
-  TrackState state(plan);
-  std::vector<std::unique_ptr<HintSource>> hints;
-  for (uint32_t band = 0; band < plan.size(); ++band) hints.push_back(factory.hints(state, band));
+  TrackState state(plan, planes);
   DecodingIo io(codeword);
   for (const Pass& pass : schedule(plan, planes)) {
-    PlanePass<DecodingIo>(state.bands[pass.band], state.models[plan[pass.band].models],
-                          *hints[pass.band], io)
-        .run(pass.kind, pass.plane);
+    state.run(plan, pass, io);
     if (io.stopped()) return state;
   }
   state.complete = true;

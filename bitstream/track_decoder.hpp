@@ -12,7 +12,7 @@ namespace tetrakis {
 
 /// Runs the passes of `plan` over `codeword` until its bytes decide nothing more. Safe on any
 /// bytes: work is bounded by planes * coefficients, memory by the plan.
-TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes, const HintFactory& factory,
+TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
                        std::span<const uint8_t> codeword);
 
 }  // namespace tetrakis

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bitstream/range_encoder.hpp"
+#include "bitstream/reconstruction.hpp"
 
 namespace tetrakis {
 
@@ -20,36 +21,58 @@ double squared(double x) {
   return x * x;
 }
 
+/// Which bit-planes of a block, and of a band, hold a bit of some magnitude.
+struct Occupancy {
+  Occupancy(const BandShape& shape, const std::vector<int32_t>& values)
+      : blocks(size_t{(shape.rows + Band::kBlockRows - 1) / Band::kBlockRows} * shape.words(), 0) {
+    for (uint32_t row = 0; row < shape.rows; ++row) {
+      const int32_t* from = values.data() + shape.cell(row, 0);
+      uint32_t* to = blocks.data() + size_t{row / Band::kBlockRows} * shape.words();
+      for (uint32_t column = 0; column < shape.columns; ++column) {
+        to[column / 32] |= magnitudeOf(from[column]);
+      }
+    }
+    for (uint32_t block : blocks) band |= block;
+  }
+  std::vector<uint32_t> blocks;
+  uint32_t band = 0;
+};
+
 /// The encoder's side of PlanePass: answers every decision from the true coefficients, codes the
 /// answer, and keeps the account of the squared error.
 class EncodingIo {
  public:
-  void select(const BandShape& shape, const BandSource& source) {
-    shape_ = &shape;
-    source_ = &source;
+  void select(const BandShape& shape, const BandSource& source, const Occupancy& occupancy) {
+    words_ = shape.words();
+    values_ = source.values.data();
+    weight_ = source.weight;
+    occupancy_ = &occupancy;
   }
   bool magnitudeBit(AdaptiveBit& model, size_t cell, int plane) {
-    const bool bit = (magnitudeOf(source_->values[cell]) >> plane) & 1;
+    const bool bit = (magnitudeOf(values_[cell]) >> plane) & 1;
     encoder_.encode(model, bit);
     return bit;
   }
   bool signBit(AdaptiveBit& model, size_t cell, bool flip) {
-    const bool negative = source_->values[cell] < 0;
+    const bool negative = values_[cell] < 0;
     encoder_.encode(model, negative != flip);
     return negative;
   }
-  bool blockBit(AdaptiveBit& model, const CellRange& range, int plane) {
-    const bool bit = reaches(range, plane);
+  bool blockBit(AdaptiveBit& model, uint32_t y, uint32_t x, int plane) {
+    const bool bit = occupancy_->blocks[size_t{y} * words_ + x] >> plane != 0;
+    encoder_.encode(model, bit);
+    return bit;
+  }
+  bool bandBit(AdaptiveBit& model, int plane) {
+    const bool bit = occupancy_->band >> plane != 0;
     encoder_.encode(model, bit);
     return bit;
   }
   bool stopped() const { return false; }
-  void learned(const Band& band, size_t cell, uint32_t magnitude_before, int plane_before) {
-    const double truth = magnitudeOf(source_->values[cell]);
-    const double before =
-        truth - Band::middle(magnitude_before, magnitude_before ? plane_before : 0);
-    const double after = truth - Band::middle(band.magnitude[cell], band.plane[cell]);
-    distortion_ += source_->weight * (squared(after) - squared(before));
+  void learned(size_t cell, uint32_t before, uint32_t after, int plane) {
+    const double truth = magnitudeOf(values_[cell]);
+    distortion_ += weight_ * (squared(truth - typicalMagnitude(after, plane)) -
+                              squared(truth - typicalMagnitude(before, plane + 1)));
     if (distortion_ < best_) best_ = distortion_;
     dips_ |= distortion_ > kDip * best_;
   }
@@ -69,28 +92,18 @@ class EncodingIo {
   static constexpr double kDip =
       1.0015;  ///< 0.0065 dB: well inside the 0.03 dB that a prefix may fall
 
-  bool reaches(const CellRange& range, int plane) const {
-    for (uint32_t row = range.row; row < range.row_end; ++row) {
-      const uint32_t end = std::min(range.column_end, shape_->columns[row % 2]);
-      for (uint32_t column = range.column; column < end; ++column) {
-        if (magnitudeOf(source_->values[shape_->cell(row, column)]) >> plane) return true;
-      }
-    }
-    return false;
-  }
-
   RangeEncoder encoder_;
   double distortion_ = 0, best_ = 0, least_ = 0;
   bool dips_ = false;
-  const BandShape* shape_ = nullptr;
-  const BandSource* source_ = nullptr;
+  uint32_t words_ = 0;
+  const int32_t* values_ = nullptr;
+  double weight_ = 1;
+  const Occupancy* occupancy_ = nullptr;
 };
 
-int planesOf(const std::vector<BandSource>& sources) {
+int planesOf(const std::vector<Occupancy>& occupancy) {
   uint32_t all = 0;
-  for (const BandSource& source : sources) {
-    for (int32_t value : source.values) all |= magnitudeOf(value);
-  }
+  for (const Occupancy& o : occupancy) all |= o.band;
   return std::bit_width(all);
 }
 
@@ -121,20 +134,19 @@ void append(std::vector<RatePoint>& points, RatePoint point) {
 }  // namespace
 
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
-                         const HintFactory& factory, uint64_t limit) {
+                         uint64_t limit) {
+  std::vector<Occupancy> occupancy;
+  occupancy.reserve(plan.size());
+  for (size_t i = 0; i < plan.size(); ++i) occupancy.emplace_back(plan[i].shape, sources[i].values);
   EncodedTrack track;
-  track.planes = planesOf(sources);
-  TrackState state(plan);
-  std::vector<std::unique_ptr<HintSource>> hints;
-  for (uint32_t band = 0; band < plan.size(); ++band) hints.push_back(factory.hints(state, band));
+  track.planes = planesOf(occupancy);
+  TrackState state(plan, track.planes);
   EncodingIo io;
   io.start(energyOf(sources));
   track.points.push_back({0, energyOf(sources)});
   for (const Pass& pass : schedule(plan, track.planes)) {
-    io.select(plan[pass.band].shape, sources[pass.band]);
-    PlanePass<EncodingIo>(state.bands[pass.band], state.models[plan[pass.band].models],
-                          *hints[pass.band], io)
-        .run(pass.kind, pass.plane);
+    io.select(plan[pass.band].shape, sources[pass.band], occupancy[pass.band]);
+    state.run(plan, pass, io);
     append(track.points, io.point());
     if (io.decidedBytes() > limit) {
       track.complete = false;

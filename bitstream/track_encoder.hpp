@@ -35,6 +35,6 @@ struct BandSource {
 
 /// sources[i] belongs to plan[i]. Stops after the pass in which the codeword passes `limit` bytes.
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
-                         const HintFactory& factory, uint64_t limit);
+                         uint64_t limit);
 
 }  // namespace tetrakis

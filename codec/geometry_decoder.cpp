@@ -1,48 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry_decoder.hpp"
 
+#include <utility>
+
+#include "bitstream/reconstruction.hpp"
 #include "bitstream/track_decoder.hpp"
-#include "codec/geometry_plan.hpp"
-#include "codec/lifting.hpp"
+#include "wavelet/band_plan.hpp"
+#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
 
-namespace {
-
-void scatter(const Band& band, const Level& level, uint32_t width, DecodedGeometry& out) {
-  if (!band.nonzero) return;
-  for (uint32_t row = 0; row < level.shape.rows; ++row) {
-    size_t at = size_t{level.y(row)} * width + level.firstX(row);
-    const size_t first = level.shape.cell(row, 0);
-    for (uint32_t column = 0; column < level.shape.columns[row % 2]; ++column) {
-      const int32_t value = band.value(first + column);
-      out.heights[at] = value;
-      out.significant[at] = value != 0;
-      at += level.pitch();
-    }
+DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword) {
+  const WaveletSpec spec = specOf(header.wavelet);
+  const PlaneLayout layout(spec, header.width, header.height);
+  const TrackState state = decodeTrack(layout.plan(0, 0, 0), header.planes, codeword);
+  DecodedGeometry out;
+  out.fraction_bits = outputFractionBits(header.wavelet, header.planes, state.complete);
+  out.heights.assign(size_t{header.width} * header.height, 0);
+  std::vector<int32_t> values;
+  for (size_t i = 0; i < layout.size(); ++i) {
+    reconstruct(state.bands[i], out.fraction_bits - header.wavelet.fraction_bits, values);
+    scatter(values, layout.subbands()[i], out.heights, header.width);
   }
-}
-
-}  // namespace
-
-DecodedGeometry decodeGeometry(std::span<const uint8_t> codeword, int planes, uint32_t width,
-                               uint32_t height) {
-  const size_t samples = size_t{width} * height;
-  DecodedGeometry out{std::vector<int32_t>(samples, 0), std::vector<uint8_t>(samples, 0)};
-  const GeometryPlan plan(width, height);
-  const TrackState state = decodeTrack(plan.bands(), planes, plan, codeword);
-  for (size_t i = 0; i < plan.levels().size(); ++i) {
-    scatter(state.bands[i], plan.levels()[i], width, out);
-  }
-  inverseLifting(out.heights, width, height);
+  inverseWavelet(spec, out.heights, header.width, header.height);
   return out;
 }
 
-void dropFraction(std::vector<int32_t>& heights, int bits) {
-  if (bits == 0) return;
-  for (int32_t& h : heights) {
-    h = static_cast<int32_t>((int64_t{h} + (int64_t{1} << (bits - 1))) >> bits);
+std::vector<int32_t> wholeSteps(DecodedGeometry decoded) {
+  const int bits = decoded.fraction_bits;
+  if (bits > 0) {
+    for (int32_t& h : decoded.heights) {
+      h = static_cast<int32_t>((int64_t{h} + (int64_t{1} << (bits - 1))) >> bits);
+    }
   }
+  return std::move(decoded.heights);
 }
 
 }  // namespace tetrakis

@@ -6,18 +6,20 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/header.hpp"
+
 namespace tetrakis {
 
 struct DecodedGeometry {
-  std::vector<int32_t> heights;      ///< width * height, row by row
-  std::vector<uint8_t> significant;  ///< 1 where the vertex has a non-zero coefficient
+  std::vector<int32_t> heights;  ///< width * height, row by row, in units of 2^-fraction_bits steps
+  int fraction_bits = 0;
 };
 
-/// codeword: any prefix of a geometry track with `planes` bit-planes (0..30). Safe on any bytes.
-DecodedGeometry decodeGeometry(std::span<const uint8_t> codeword, int planes, uint32_t width,
-                               uint32_t height);
+/// codeword: any prefix of a geometry track. Safe on any bytes and any header that readHeader
+/// accepts.
+DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword);
 
-/// Drops the fraction bits of heights (GeometryHeader::fraction_bits), rounding half up.
-void dropFraction(std::vector<int32_t>& heights, int bits);
+/// Heights in whole steps, rounding half up.
+std::vector<int32_t> wholeSteps(DecodedGeometry decoded);
 
 }  // namespace tetrakis

@@ -3,37 +3,26 @@
 
 #include <cmath>
 
-#include "codec/geometry_plan.hpp"
-#include "codec/lifting.hpp"
+#include "wavelet/band_plan.hpp"
+#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
 
-namespace {
-
-BandSource gather(std::span<const int32_t> coefficients, uint32_t width, const Level& level) {
-  BandSource source;
-  source.values.assign(level.shape.cells(), 0);
-  source.weight = std::exp2(logNormOf(level) / 8.0);
-  for (uint32_t row = 0; row < level.shape.rows; ++row) {
-    const int32_t* from = coefficients.data() + size_t{level.y(row)} * width + level.firstX(row);
-    int32_t* to = source.values.data() + level.shape.cell(row, 0);
-    for (uint32_t column = 0; column < level.shape.columns[row % 2]; ++column) {
-      to[column] = from[size_t{column} * level.pitch()];
-    }
-  }
-  return source;
-}
-
-}  // namespace
-
 EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height,
-                            uint64_t limit) {
-  std::vector<int32_t> coefficients(heights.begin(), heights.end());
-  forwardLifting(coefficients, width, height);
-  const GeometryPlan plan(width, height);
+                            const WaveletHeader& wavelet, uint64_t limit) {
+  std::vector<int32_t> plane(heights.begin(), heights.end());
+  for (int32_t& h : plane) {
+    h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
+  }
+  const WaveletSpec spec = specOf(wavelet);
+  forwardWavelet(spec, plane, width, height);
+  const PlaneLayout layout(spec, width, height);
+  const double unit = std::exp2(-2 * wavelet.fraction_bits);
   std::vector<BandSource> sources;
-  for (const Level& level : plan.levels()) sources.push_back(gather(coefficients, width, level));
-  return encodeTrack(plan.bands(), sources, plan, limit);
+  for (size_t i = 0; i < layout.size(); ++i) {
+    sources.push_back({gather(plane, width, layout.subbands()[i]), layout.energy(i) * unit});
+  }
+  return encodeTrack(layout.plan(0, 0, 0), sources, limit);
 }
 
 }  // namespace tetrakis

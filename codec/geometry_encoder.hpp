@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <span>
 
+#include "bitstream/header.hpp"
 #include "bitstream/track_encoder.hpp"
 
 namespace tetrakis {
 
-/// heights: width * height integers, |height| < 2^27. Distortion is in squared height units, summed
-/// over the samples. A complete track is lossless; coding stops soon after `limit` bytes.
+/// heights: width * height integers. wavelet: from chooseWavelet(). Distortion is in squared height
+/// units, summed over the samples. Coding stops soon after `limit` bytes.
 EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height,
-                            uint64_t limit);
+                            const WaveletHeader& wavelet, uint64_t limit);
 
 }  // namespace tetrakis

@@ -73,6 +73,12 @@ void addCentre(int32_t* plane, size_t count, uint32_t centre) {
   }
 }
 
+void addFraction(int32_t* plane, size_t count, int fraction_bits) {
+  for (size_t i = 0; i < count; ++i) {
+    plane[i] = static_cast<int32_t>(static_cast<uint32_t>(plane[i]) << fraction_bits);
+  }
+}
+
 void dropFraction(int32_t* plane, size_t count, int fraction_bits) {
   const uint32_t half = (1u << fraction_bits) >> 1;
   for (size_t i = 0; i < count; ++i) {
@@ -82,11 +88,12 @@ void dropFraction(int32_t* plane, size_t count, int fraction_bits) {
 
 }  // namespace
 
-void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes,
-                   size_t count) {
+void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
+                   int fraction_bits) {
   assert(planes.size() >= 1 && planes.size() <= transform.centre.size());
   for (size_t p = 0; p < planes.size(); ++p) {
     addCentre(planes[p], count, -uint32_t{transform.centre[p]});
+    if (fraction_bits > 0) addFraction(planes[p], count, fraction_bits);
   }
   if (planes.size() < 3) return;
   const auto& order = orderOf(transform);

@@ -35,10 +35,11 @@ struct ColourTransform {
 
 /// Samples to components, in place. planes: 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGB, alpha)
 /// distinct planes of `count` values. Only RGB is sheared, every plane is centred.
-/// Exactly undone by inverseColour with fraction_bits 0. Arithmetic wraps modulo 2^32; transforms
-/// of fitColour and RGB of at most 16 bits stay clear of it.
-void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes,
-                   size_t count);
+/// The components come with fraction_bits (0 to 8) binary places. Exactly undone by inverseColour
+/// with as many. Arithmetic wraps modulo 2^32; transforms of fitColour and RGB of at most 18 bits
+/// with the fraction stay clear of it.
+void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
+                   int fraction_bits);
 
 /// Components to samples, in place. The components carry fraction_bits (0 to 8) binary places,
 /// which are rounded off after the shears: lossy reconstructions gain by them (wavelet.hpp).

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "texture_wavelet/colour_fit.hpp"
-#include "texture_wavelet/norms.hpp"
 #include "texture_wavelet/texture_plan.hpp"
+#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
 
@@ -24,25 +24,14 @@ Planes separate(const Texels& texels) {
   return planes;
 }
 
-BandSource gather(const std::vector<int32_t>& plane, uint32_t width, const Subband& subband,
-                  const BandShape& shape) {
-  BandSource source;
-  source.values.assign(shape.cells(), 0);
-  for (uint32_t row = 0; row < subband.height; ++row) {
-    const int32_t* from = plane.data() + size_t{subband.y + row} * width + subband.x;
-    std::copy(from, from + subband.width,
-              source.values.begin() + static_cast<ptrdiff_t>(shape.cell(row, 0)));
-  }
-  return source;
-}
-
 TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
-                         const std::vector<double>& energies) {
+                         const WaveletHeader& wavelet, const std::vector<double>& energies) {
   TextureHeader header;
   header.width = texels.width;
   header.height = texels.height;
   header.channels = static_cast<uint8_t>(texels.channels);
   header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
+  header.wavelet = wavelet;
   header.centre = colour.centre;
   header.colour_order = colour.order;
   for (size_t i = 0; i < colour.shears.size(); ++i) header.colour_shears[i] = colour.shears[i];
@@ -65,29 +54,29 @@ std::vector<double> energiesOf(const Texels& texels, const ColourTransform& colo
 
 }  // namespace
 
-EncodedTexture encodeTexture(const Texels& texels, uint64_t limit) {
+EncodedTexture encodeTexture(const Texels& texels, const WaveletHeader& wavelet, uint64_t limit) {
   Planes planes = separate(texels);
   std::vector<int32_t*> pointers;
   for (std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
   const size_t count = size_t{texels.width} * texels.height;
   const ColourTransform colour =
       fitColour({pointers.data(), pointers.size()}, texels.width, texels.height);
-  forwardColour(colour, pointers, count);
+  forwardColour(colour, pointers, count, wavelet.fraction_bits);
   const std::vector<double> energies = energiesOf(texels, colour);
-  EncodedTexture encoded{makeHeader(texels, colour, energies), {}};
+  EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};
   const TexturePlan plan(encoded.header);
+  const PlaneLayout& layout = plan.layout();
+  const double unit = std::exp2(-2 * wavelet.fraction_bits);
   std::vector<BandSource> sources;
   for (uint32_t c = 0; c < texels.channels; ++c) {
-    forwardWavelet(planes[c], texels.width, texels.height);
-    for (const Subband& subband : plan.subbands()) {
-      BandSource source =
-          gather(planes[c], texels.width, subband, plan.bands()[sources.size()].shape);
-      source.weight = normOf(subband) * normOf(subband) * energies[c];
-      sources.push_back(std::move(source));
+    forwardWavelet(specOf(wavelet), planes[c], texels.width, texels.height);
+    for (size_t i = 0; i < layout.size(); ++i) {
+      sources.push_back({gather(planes[c], texels.width, layout.subbands()[i]),
+                         layout.energy(i) * energies[c] * unit});
     }
     planes[c] = {};
   }
-  encoded.track = encodeTrack(plan.bands(), sources, plan, limit);
+  encoded.track = encodeTrack(plan.bands(), sources, limit);
   encoded.header.planes = static_cast<uint8_t>(encoded.track.planes);
   return encoded;
 }

@@ -15,7 +15,7 @@ struct EncodedTexture {
   EncodedTrack track;  ///< distortion: squared error summed over all samples of all channels
 };
 
-/// A complete track is lossless; coding stops soon after `limit` bytes.
-EncodedTexture encodeTexture(const Texels& texels, uint64_t limit);
+/// Coding stops soon after `limit` bytes. A complete track without fraction bits is lossless.
+EncodedTexture encodeTexture(const Texels& texels, const WaveletHeader& wavelet, uint64_t limit);
 
 }  // namespace tetrakis

@@ -1,30 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an image becomes bands: the subbands of every component, and the hints that a subband takes
-// from its parent band and from the component before it. Shared by encoder and decoder.
+// How an image becomes bands: the subbands of every component. Each component hints at the
+// magnitudes of the next. Shared by encoder and decoder.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "bitstream/header.hpp"
-#include "bitstream/track.hpp"
 #include "texture_wavelet/colour.hpp"
-#include "texture_wavelet/wavelet.hpp"
+#include "wavelet/band_plan.hpp"
 
 namespace tetrakis {
 
-class TexturePlan : public HintFactory {
+class TexturePlan {
  public:
   explicit TexturePlan(const TextureHeader& header);
 
-  /// Bands of component c are bandsPerComponent() * c onwards, in the order of subbands().
+  /// Bands of component c are layout().size() * c onwards, in the order of layout().subbands().
   const std::vector<BandPlan>& bands() const { return bands_; }
-  const std::vector<Subband>& subbands() const { return subbands_; }
-  size_t bandsPerComponent() const { return subbands_.size(); }
-  std::unique_ptr<HintSource> hints(const TrackState& state, uint32_t band) const override;
+  const PlaneLayout& layout() const { return layout_; }
 
  private:
-  std::vector<Subband> subbands_;
+  PlaneLayout layout_;
   std::vector<BandPlan> bands_;
 };
 

@@ -1,3 +1,3 @@
 tks_room(tks_texture_transform
-  SOURCES colour.cpp norms.cpp wavelet.cpp
-  USES tks_bitstream)
+  SOURCES colour.cpp
+  USES tks_wavelet)

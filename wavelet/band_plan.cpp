@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wavelet/band_plan.hpp"
+
+#include <algorithm>
+
+namespace tetrakis {
+
+namespace {
+
+constexpr size_t kBandsPerLevel = 3;
+
+/// The finest levels hold most coefficients and get contexts of their own.
+uint32_t modelsOf(const Subband& subband) {
+  const auto scale = static_cast<uint32_t>(std::clamp(subband.level, 1, 3) - 1);
+  return scale * 4 + static_cast<uint32_t>(subband.orientation);
+}
+
+}  // namespace
+
+BandShape shapeOf(const Subband& subband) {
+  return {subband.height, subband.width};
+}
+
+PlaneLayout::PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height)
+    : width_(width),
+      height_(height),
+      subbands_(subbandsOf(width, height)),
+      norms_(spec, subbands_.front().level) {}
+
+std::vector<BandPlan> PlaneLayout::plan(int first, int priority, uint32_t models) const {
+  std::vector<BandPlan> bands;
+  for (size_t i = 0; i < subbands_.size(); ++i) {
+    const Subband& subband = subbands_[i];
+    BandPlan band;
+    band.shape = shapeOf(subband);
+    band.orientation = subband.orientation;
+    band.log_norm = norms_.log16(subband) + priority;
+    band.models = models + modelsOf(subband);
+    const bool has_parent = i > kBandsPerLevel && !shapeOf(subbands_[i - kBandsPerLevel]).empty();
+    if (has_parent) band.parent = first + static_cast<int>(i - kBandsPerLevel);
+    bands.push_back(band);
+  }
+  return bands;
+}
+
+std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width,
+                            const Subband& subband) {
+  const BandShape shape = shapeOf(subband);
+  std::vector<int32_t> values(shape.cells(), 0);
+  for (uint32_t row = 0; row < subband.height; ++row) {
+    const int32_t* from = plane.data() + size_t{subband.y + row} * width + subband.x;
+    std::copy_n(from, subband.width, values.data() + shape.cell(row, 0));
+  }
+  return values;
+}
+
+void scatter(std::span<const int32_t> values, const Subband& subband, std::span<int32_t> plane,
+             uint32_t width) {
+  for (uint32_t row = 0; row < subband.height; ++row) {
+    std::copy_n(values.data() + size_t{row} * subband.width, subband.width,
+                plane.data() + size_t{subband.y + row} * width + subband.x);
+  }
+}
+
+}  // namespace tetrakis

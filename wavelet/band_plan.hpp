@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a transformed plane becomes the bands of a track, and back.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/track.hpp"
+#include "wavelet/norms.hpp"
+#include "wavelet/subbands.hpp"
+
+namespace tetrakis {
+
+/// Classes of contexts that the bands of one plane use: three scales times four orientations.
+inline constexpr uint32_t kPlaneModels = 12;
+
+/// The subbands of planes of one size under one transform.
+class PlaneLayout {
+ public:
+  PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height);
+
+  /// One entry for each subband, in coding order. The indices of parents count from `first`, the
+  /// place that the first entry will have in the plan of the track.
+  /// priority: added to every log_norm; models: class of contexts of the first band.
+  std::vector<BandPlan> plan(int first, int priority, uint32_t models) const;
+
+  const std::vector<Subband>& subbands() const { return subbands_; }
+  size_t size() const { return subbands_.size(); }
+  /// Squared error of the plane for a unit squared error of one of the subband's coefficients.
+  double energy(size_t subband) const { return norms_.energy(subbands_[subband]); }
+
+ private:
+  uint32_t width_, height_;
+  std::vector<Subband> subbands_;
+  SynthesisNorms norms_;
+};
+
+BandShape shapeOf(const Subband& subband);
+
+/// The subband's coefficients in the cell layout of its shape.
+std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband);
+
+/// Puts the subband's coefficients, row by row, into the plane.
+void scatter(std::span<const int32_t> values, const Subband& subband, std::span<int32_t> plane,
+             uint32_t width);
+
+}  // namespace tetrakis

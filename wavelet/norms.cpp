@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measured: an impulse goes through the one-dimensional synthesis.
+#include "wavelet/norms.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace tetrakis {
+
+namespace {
+
+constexpr int64_t kImpulse = int64_t{1} << 20;
+/// Beyond so many splits a further one only stretches the function: a factor of sqrt 2.
+constexpr int kMeasuredLevels = 10;
+
+/// A signal that is zero outside [origin, origin + values.size()).
+struct Signal {
+  ptrdiff_t origin = 0;
+  std::vector<int64_t> values;
+
+  int64_t at(ptrdiff_t i) const {
+    const ptrdiff_t k = i - origin;
+    return k >= 0 && k < static_cast<ptrdiff_t>(values.size()) ? values[static_cast<size_t>(k)] : 0;
+  }
+};
+
+/// One inverse lifting step; the support of the target grows by the reach of the step.
+void undo(const LiftingStep& step, bool predicts, const Signal& source, Signal& target) {
+  if (source.values.empty()) return;
+  const auto reach = static_cast<ptrdiff_t>(step.pairs);
+  const ptrdiff_t shift = predicts ? 0 : -1;  // the pair nearest to target i: i + shift, i + shift + 1
+  const ptrdiff_t source_end = source.origin + static_cast<ptrdiff_t>(source.values.size());
+  ptrdiff_t begin = source.origin - reach - shift, end = source_end + reach - 1 - shift;
+  if (!target.values.empty()) {
+    begin = std::min(begin, target.origin);
+    end = std::max(end, target.origin + static_cast<ptrdiff_t>(target.values.size()));
+  }
+  Signal result{begin, std::vector<int64_t>(static_cast<size_t>(end - begin))};
+  for (ptrdiff_t i = begin; i < end; ++i) {
+    int64_t sum = int64_t{1} << (kWeightBits - 1);
+    for (ptrdiff_t k = 0; k < reach; ++k) {
+      sum += step.weights[static_cast<size_t>(k)] *
+             (source.at(i + shift - k) + source.at(i + shift + 1 + k));
+    }
+    result.values[static_cast<size_t>(i - begin)] = target.at(i) - (sum >> kWeightBits);
+  }
+  target = std::move(result);
+}
+
+/// One level of synthesis.
+Signal merge(FilterId filter, Signal low, Signal high) {
+  const auto steps = liftingSteps(filter);
+  for (size_t i = steps.size(); i-- > 0;) {
+    if (i % 2 == 0) {
+      undo(steps[i], true, low, high);
+    } else {
+      undo(steps[i], false, high, low);
+    }
+  }
+  const auto end = [](const Signal& s) { return s.origin + static_cast<ptrdiff_t>(s.values.size()); };
+  const ptrdiff_t first = std::min(low.origin, high.origin), last = std::max(end(low), end(high));
+  Signal merged{2 * first, std::vector<int64_t>(static_cast<size_t>(2 * (last - first)))};
+  for (ptrdiff_t i = first; i < last; ++i) {
+    merged.values[static_cast<size_t>(2 * (i - first))] = low.at(i);
+    merged.values[static_cast<size_t>(2 * (i - first) + 1)] = high.at(i);
+  }
+  return merged;
+}
+
+/// 256 log2(x), rounded down: squaring doubles the logarithm, whose bits come off one by one.
+int log2Fine(uint64_t x) {
+  const int whole = std::bit_width(x) - 1;
+  uint64_t mantissa = whole > 31 ? x >> (whole - 31) : x << (31 - whole);  // in [2^31, 2^32)
+  int result = whole;
+  for (int bit = 0; bit < 8; ++bit) {
+    mantissa = (mantissa * mantissa) >> 31;
+    const bool carry = mantissa >> 32;
+    result = 2 * result + carry;
+    mantissa >>= carry;
+  }
+  return result;
+}
+
+/// 256 log2 of the norm of a unit coefficient of the low or high band after `splits` splits.
+int measure(const WaveletSpec& spec, bool high, int splits) {
+  Signal signal{0, {kImpulse}};
+  for (int level = splits; level >= 1; --level) {
+    const bool first = high && level == splits;
+    signal = merge(spec.filter(level), first ? Signal{} : signal, first ? signal : Signal{});
+  }
+  uint64_t energy = 0;  // at most 2^10 samples of about 2^40
+  for (int64_t value : signal.values) energy += static_cast<uint64_t>(value * value);
+  constexpr int kImpulseLog = 2 * 20 * 256;
+  return (log2Fine(energy) - kImpulseLog) >> 1;
+}
+
+}  // namespace
+
+SynthesisNorms::SynthesisNorms(const WaveletSpec& spec, int levels) : doubled_(spec.doubled) {
+  for (int i = 1; i <= levels; ++i) {
+    const auto at = static_cast<size_t>(i);
+    low_[at] = i <= kMeasuredLevels ? measure(spec, false, i) : low_[at - 1] + kFineSteps / 2;
+    high_[at] = i <= kMeasuredLevels ? measure(spec, true, i) : high_[at - 1] + kFineSteps / 2;
+  }
+}
+
+int SynthesisNorms::fine(const Subband& band) const {
+  const bool high_x = band.orientation == Orientation::kHL || band.orientation == Orientation::kHH;
+  const bool high_y = band.orientation == Orientation::kLH || band.orientation == Orientation::kHH;
+  int norm = (high_x ? high_ : low_)[static_cast<size_t>(band.splits_x)] +
+             (high_y ? high_ : low_)[static_cast<size_t>(band.splits_y)];
+  if (!doubled_) return norm;
+  // A detail band is made from the low band of the level before, LL is itself a low band.
+  const int doubled_up_to = band.orientation == Orientation::kLL ? band.level : band.level - 1;
+  for (int level : kDoubledLevels) norm -= level <= doubled_up_to ? kFineSteps : 0;
+  return norm;
+}
+
+double SynthesisNorms::energy(const Subband& band) const {
+  return std::exp2(2.0 * fine(band) / kFineSteps);
+}
+
+}  // namespace tetrakis

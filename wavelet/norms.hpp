@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much an error in a wavelet coefficient hurts: the L2 norm of its synthesis function.
+#pragma once
+
+#include <array>
+
+#include "wavelet/wavelet.hpp"
+
+namespace tetrakis {
+
+/// The norms of a transform. It is separable, so a band's norm is the product of two norms of the
+/// one-dimensional synthesis, over the factor of two for each doubling of the low band. Integer
+/// only: the order of the bit-planes depends on them.
+class SynthesisNorms {
+ public:
+  /// levels: the most splits that will be asked for. The work doubles with each.
+  SynthesisNorms(const WaveletSpec& spec, int levels);
+
+  /// 16 log2 of the band's norm, rounded.
+  int log16(const Subband& band) const { return (fine(band) + 8) >> 4; }
+
+  /// The band's squared norm, for rate-distortion weights.
+  double energy(const Subband& band) const;
+
+ private:
+  static constexpr int kFineSteps = 256;
+  using Table = std::array<int, kMaxLevels + 1>;
+
+  int fine(const Subband& band) const;
+
+  bool doubled_;
+  Table low_{}, high_{};  ///< kFineSteps log2 of the norm after so many splits
+};
+
+}  // namespace tetrakis

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rectangles that a dyadic wavelet leaves in the plane (Mallat's layout). Level 1 splits the
+// plane, level l + 1 splits the low band of level l, which lies in the upper left corner:
+//
+//   LL HL     HL: high along the rows (x), low along the columns (y)
+//   LH HH
+//
+// Of a height field, every coefficient belongs to one vertex of the 4-8 lattice: HH to the centres
+// of its squares, HL and LH to the midpoints of their sides.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/band.hpp"
+
+namespace tetrakis {
+
+/// Sides of so many samples or fewer are not split; then HL or LH, and HH, are empty.
+inline constexpr uint32_t kSmallestSide = 4;
+inline constexpr int kMaxLevels = 19;  ///< enough for sides up to 2^21
+
+struct Extent {
+  uint32_t width, height;
+};
+
+/// Sizes of the low bands: [0] the plane, [l] after level l.
+std::vector<Extent> lowExtents(uint32_t width, uint32_t height);
+
+/// One rectangle of coefficients.
+struct Subband {
+  int level = 0;  ///< kLL: the number of levels
+  Orientation orientation = Orientation::kLL;
+  uint32_t x = 0, y = 0, width = 0, height = 0;
+  int splits_x = 0, splits_y = 0;  ///< how often each direction was split down to here
+};
+
+/// LL, then HL, LH and HH of the coarsest level, and so on to level 1: 3 * levels + 1 bands, some
+/// of them empty. Together they tile the plane.
+std::vector<Subband> subbandsOf(uint32_t width, uint32_t height);
+
+}  // namespace tetrakis

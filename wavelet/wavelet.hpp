@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reversible separable integer wavelet of a plane, for heights and for the components of a texture.
+//
+// Rounding noise enters at every level, and that of the coarse levels spreads over the whole plane.
+// Planes that carry fraction bits do not hear it. For planes without (lossless ones) the low band
+// is doubled after the levels of kDoubledLevels, which lifts it out of the noise: streams cut short
+// gain, lossless ones pay 0.9 %.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "wavelet/lifting_filter.hpp"
+#include "wavelet/subbands.hpp"
+
+namespace tetrakis {
+
+inline constexpr std::array<int, 2> kDoubledLevels = {3, 4};
+
+/// Which transform: stands in the stream header.
+struct WaveletSpec {
+  static constexpr size_t kChoices = 3;
+  std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
+  bool doubled = false;  ///< the low band is doubled after each of kDoubledLevels
+  bool wide = false;     ///< 64-bit sums: for samples of more than 20 bits
+
+  FilterId filter(int level) const {
+    return filters[level < static_cast<int>(kChoices) ? static_cast<size_t>(level - 1)
+                                                      : kChoices - 1];
+  }
+};
+
+/// In place, row by row: width * height samples to coefficients. Exactly undone by inverseWavelet
+/// of the same spec.
+void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
+                    uint32_t height);
+
+/// Coefficients to samples. Defined for all values.
+void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
+                    uint32_t height);
+
+}  // namespace tetrakis

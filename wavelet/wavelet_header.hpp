@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a stream header says about the wavelet, as the transform needs it.
+#pragma once
+
+#include <algorithm>
+
+#include "bitstream/header.hpp"
+#include "wavelet/wavelet.hpp"
+
+namespace tetrakis {
+
+inline WaveletSpec specOf(const WaveletHeader& header) {
+  WaveletSpec spec;
+  std::transform(header.filters.begin(), header.filters.end(), spec.filters.begin(),
+                 [](uint8_t id) { return static_cast<FilterId>(id); });
+  spec.doubled = header.fraction_bits == 0;
+  spec.wide = header.wide != 0;
+  return spec;
+}
+
+/// Binary places that coefficients of a track with `planes` bit-planes are reconstructed with. Those
+/// of the header; where there are none and the track is incomplete, as many as fit, so that the
+/// inverse transforms add no rounding noise of their own.
+inline int outputFractionBits(const WaveletHeader& header, int planes, bool complete) {
+  if (header.fraction_bits > 0 || complete) return header.fraction_bits;
+  return std::clamp(19 - planes, 0, 4);
+}
+
+}  // namespace tetrakis
