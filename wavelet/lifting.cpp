@@ -10,17 +10,18 @@ namespace {
 /// target[j] += or -= the rounded weighted sum of pairs about source[j] and source[j + lanes].
 template <class Sum, size_t kPairs, bool kAdd>
 void lift(int32_t* __restrict target, const int32_t* __restrict source, const int16_t* weights,
-          ptrdiff_t values, ptrdiff_t lanes) {
+          int shift, ptrdiff_t values, ptrdiff_t lanes) {
   using Unsigned = std::make_unsigned_t<Sum>;
   const auto pair = [&](ptrdiff_t a, ptrdiff_t b) {
     return static_cast<Unsigned>(Sum{source[a]}) + static_cast<Unsigned>(Sum{source[b]});
   };
+  const Unsigned half = Unsigned{1} << (shift - 1);
   for (ptrdiff_t j = 0; j < values; ++j) {
-    Unsigned sum = Unsigned{1} << (kWeightBits - 1);
+    Unsigned sum = half;
     for (ptrdiff_t k = 0; k < static_cast<ptrdiff_t>(kPairs); ++k) {
       sum += static_cast<Unsigned>(Sum{weights[k]}) * pair(j - k * lanes, j + (k + 1) * lanes);
     }
-    const auto change = static_cast<uint32_t>(static_cast<Sum>(sum) >> kWeightBits);
+    const auto change = static_cast<uint32_t>(static_cast<Sum>(sum) >> shift);
     const auto value = static_cast<uint32_t>(target[j]);
     target[j] = static_cast<int32_t>(kAdd ? value + change : value - change);
   }
@@ -54,7 +55,7 @@ void LiftingLine::mirrorHigh(ptrdiff_t reach) {
 }
 
 template <class Sum, bool kAdd>
-void LiftingLine::step(const LiftingStep& step, bool predicts) {
+void LiftingLine::step(const LiftingStep& step, int shift, bool predicts) {
   const auto reach = static_cast<ptrdiff_t>(step.pairs);
   predicts ? mirrorLow(reach) : mirrorHigh(reach);
   int32_t* target = predicts ? high(0) : low(0);
@@ -63,27 +64,31 @@ void LiftingLine::step(const LiftingStep& step, bool predicts) {
   const int16_t* weights = step.weights.data();
   switch (step.pairs) {
     case 1:
-      return lift<Sum, 1, kAdd>(target, source, weights, values, lanes_);
+      return lift<Sum, 1, kAdd>(target, source, weights, shift, values, lanes_);
+    case 2:
+      return lift<Sum, 2, kAdd>(target, source, weights, shift, values, lanes_);
     case 3:
-      return lift<Sum, 3, kAdd>(target, source, weights, values, lanes_);
+      return lift<Sum, 3, kAdd>(target, source, weights, shift, values, lanes_);
     default:
-      return lift<Sum, kMaxPairs, kAdd>(target, source, weights, values, lanes_);
+      return lift<Sum, kMaxPairs, kAdd>(target, source, weights, shift, values, lanes_);
   }
 }
 
-void LiftingLine::analyse(FilterId filter, bool wide) {
-  bool predicts = true;
-  for (const LiftingStep& s : liftingSteps(filter)) {
-    wide ? step<int64_t, true>(s, predicts) : step<int32_t, true>(s, predicts);
-    predicts = !predicts;
-  }
-}
-
-void LiftingLine::synthesise(FilterId filter, bool wide) {
-  const auto steps = liftingSteps(filter);
-  for (size_t i = steps.size(); i-- > 0;) {
+void LiftingLine::analyse(FilterId id, bool wide) {
+  const LiftingFilter filter = liftingFilter(id);
+  for (size_t i = 0; i < filter.steps.size(); ++i) {
     const bool predicts = i % 2 == 0;
-    wide ? step<int64_t, false>(steps[i], predicts) : step<int32_t, false>(steps[i], predicts);
+    wide ? step<int64_t, true>(filter.steps[i], filter.shift, predicts)
+         : step<int32_t, true>(filter.steps[i], filter.shift, predicts);
+  }
+}
+
+void LiftingLine::synthesise(FilterId id, bool wide) {
+  const LiftingFilter filter = liftingFilter(id);
+  for (size_t i = filter.steps.size(); i-- > 0;) {
+    const bool predicts = i % 2 == 0;
+    wide ? step<int64_t, false>(filter.steps[i], filter.shift, predicts)
+         : step<int32_t, false>(filter.steps[i], filter.shift, predicts);
   }
 }
 

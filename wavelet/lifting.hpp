@@ -35,14 +35,14 @@ class LiftingLine {
 
   /// Samples to coefficients and back, in place; signals of two samples or more, mirrored about
   /// their first and last. Sums are exact if wide, else they wrap modulo 2^32.
-  void analyse(FilterId filter, bool wide);
-  void synthesise(FilterId filter, bool wide);
+  void analyse(FilterId id, bool wide);
+  void synthesise(FilterId id, bool wide);
 
  private:
   static constexpr ptrdiff_t kMargin = kMaxPairs;  // mirrored elements on either side
 
   template <class Sum, bool kAdd>
-  void step(const LiftingStep& step, bool predicts);
+  void step(const LiftingStep& step, int shift, bool predicts);
   void mirrorLow(ptrdiff_t reach);
   void mirrorHigh(ptrdiff_t reach);
 

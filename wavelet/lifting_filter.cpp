@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The weights. Except for kOrthogonal the predictions keep constants out of the high band exactly
-// (they sum to -128), so flat ground costs nothing.
+// The weights. Every filter keeps constants out of its high band: predictions of two-step filters sum
+// to -1 exactly, and the sums A, B, C of the first three of four steps are chosen among multiples of
+// 2^-12 so that 1 + 2 A + 2 C (1 + 2 B (1 + 2 A)) is below 10^-7. Flat ground then costs nothing.
 #include "wavelet/lifting_filter.hpp"
 
 namespace tetrakis {
@@ -13,10 +14,10 @@ constexpr std::array<LiftingStep, 2> kShortSteps = {{{1, {-128}}, {1, {64}}}};
 /// Fitted to the rate of ten aerial images at 0.02 to 3 bits a sample.
 constexpr std::array<LiftingStep, 2> kSixTapSteps = {{{3, {-147, 28, -9}}, {3, {78, -20, 6}}}};
 
-/// 9/7 (Cohen, Daubechies, Feauveau) without its scaling: nearly orthogonal, best for images at low
-/// rates.
+/// 9/7 (Cohen, Daubechies, Feauveau) without its scaling, with a second pair of taps in each step:
+/// nearly orthogonal, best for images at low rates. Fitted to the rate of aerial images.
 constexpr std::array<LiftingStep, 4> kOrthogonalSteps = {
-    {{1, {-406}}, {1, {-14}}, {1, {226}}, {1, {114}}}};
+    {{2, {-6493, 41}}, {2, {-218, 20}}, {2, {3605, 41}}, {2, {1858, -205}}}};
 
 /// Ten taps, close to an ideal half-band filter: terrain models are sampled finely.
 constexpr std::array<LiftingStep, 2> kLongSteps = {
@@ -24,18 +25,22 @@ constexpr std::array<LiftingStep, 2> kLongSteps = {
 
 }  // namespace
 
-std::span<const LiftingStep> liftingSteps(FilterId id) {
+LiftingFilter liftingFilter(FilterId id) {
   switch (id) {
     case FilterId::kShort:
-      return kShortSteps;
+      return {8, kShortSteps};
     case FilterId::kSixTap:
-      return kSixTapSteps;
+      return {8, kSixTapSteps};
     case FilterId::kOrthogonal:
-      return kOrthogonalSteps;
+      return {12, kOrthogonalSteps};
     case FilterId::kLong:
       break;
   }
-  return kLongSteps;
+  return {8, kLongSteps};
+}
+
+int widestSamples(FilterId id) {
+  return id == FilterId::kOrthogonal ? 16 : 20;
 }
 
 }  // namespace tetrakis

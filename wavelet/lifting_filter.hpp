@@ -3,8 +3,8 @@
 // 1996; integer form: A. R. Calderbank et al., 1998). Steps alternate between predicting the odd
 // samples from the even ones and updating the even ones from the odd ones:
 //
-//   predict   odd[i]  += round(sum_k w_k (even[i - k] + even[i + 1 + k]) / 256)
-//   update    even[i] += round(sum_k w_k (odd[i - 1 - k] + odd[i + k]) / 256)
+//   predict   odd[i]  += round(sum_k w_k (even[i - k] + even[i + 1 + k]) / 2^shift)
+//   update    even[i] += round(sum_k w_k (odd[i - 1 - k] + odd[i + k]) / 2^shift)
 //
 // What the steps leave is low = even, high = odd. Rounding is half up, so every filter is exactly
 // reversible.
@@ -20,15 +20,21 @@ namespace tetrakis {
 enum class FilterId : uint8_t { kShort = 0, kSixTap = 1, kOrthogonal = 2, kLong = 3 };
 inline constexpr int kFilters = 4;
 
-inline constexpr int kWeightBits = 8;
 inline constexpr size_t kMaxPairs = 5;
 
 struct LiftingStep {
-  size_t pairs;                               ///< weights in use
-  std::array<int16_t, kMaxPairs> weights{};  ///< of neighbour pairs, nearest first, in 1/256
+  size_t pairs;                              ///< weights in use
+  std::array<int16_t, kMaxPairs> weights{};  ///< of neighbour pairs, nearest first
 };
 
-/// The steps of a filter in analysis order; the first predicts.
-std::span<const LiftingStep> liftingSteps(FilterId id);
+struct LiftingFilter {
+  int shift;                           ///< weights are in units of 2^-shift
+  std::span<const LiftingStep> steps;  ///< in analysis order; the first predicts
+};
+
+LiftingFilter liftingFilter(FilterId id);
+
+/// Samples of more bits need 64-bit sums.
+int widestSamples(FilterId id);
 
 }  // namespace tetrakis

@@ -28,37 +28,34 @@ struct Signal {
 };
 
 /// One inverse lifting step; the support of the target grows by the reach of the step.
-void undo(const LiftingStep& step, bool predicts, const Signal& source, Signal& target) {
+void undo(const LiftingStep& step, int shift, bool predicts, const Signal& source, Signal& target) {
   if (source.values.empty()) return;
   const auto reach = static_cast<ptrdiff_t>(step.pairs);
-  const ptrdiff_t shift = predicts ? 0 : -1;  // the pair nearest to target i: i + shift, i + shift + 1
+  const ptrdiff_t left = predicts ? 0 : -1;  // the pair nearest to target i: i + left, i + left + 1
   const ptrdiff_t source_end = source.origin + static_cast<ptrdiff_t>(source.values.size());
-  ptrdiff_t begin = source.origin - reach - shift, end = source_end + reach - 1 - shift;
+  ptrdiff_t begin = source.origin - reach - left, end = source_end + reach - 1 - left;
   if (!target.values.empty()) {
     begin = std::min(begin, target.origin);
     end = std::max(end, target.origin + static_cast<ptrdiff_t>(target.values.size()));
   }
   Signal result{begin, std::vector<int64_t>(static_cast<size_t>(end - begin))};
   for (ptrdiff_t i = begin; i < end; ++i) {
-    int64_t sum = int64_t{1} << (kWeightBits - 1);
+    int64_t sum = int64_t{1} << (shift - 1);
     for (ptrdiff_t k = 0; k < reach; ++k) {
       sum += step.weights[static_cast<size_t>(k)] *
-             (source.at(i + shift - k) + source.at(i + shift + 1 + k));
+             (source.at(i + left - k) + source.at(i + left + 1 + k));
     }
-    result.values[static_cast<size_t>(i - begin)] = target.at(i) - (sum >> kWeightBits);
+    result.values[static_cast<size_t>(i - begin)] = target.at(i) - (sum >> shift);
   }
   target = std::move(result);
 }
 
 /// One level of synthesis.
-Signal merge(FilterId filter, Signal low, Signal high) {
-  const auto steps = liftingSteps(filter);
-  for (size_t i = steps.size(); i-- > 0;) {
-    if (i % 2 == 0) {
-      undo(steps[i], true, low, high);
-    } else {
-      undo(steps[i], false, high, low);
-    }
+Signal merge(FilterId id, Signal low, Signal high) {
+  const LiftingFilter filter = liftingFilter(id);
+  for (size_t i = filter.steps.size(); i-- > 0;) {
+    const bool predicts = i % 2 == 0;
+    undo(filter.steps[i], filter.shift, predicts, predicts ? low : high, predicts ? high : low);
   }
   const auto end = [](const Signal& s) { return s.origin + static_cast<ptrdiff_t>(s.values.size()); };
   const ptrdiff_t first = std::min(low.origin, high.origin), last = std::max(end(low), end(high));
