@@ -62,9 +62,14 @@ struct Band {
   uint32_t blockRows() const { return (shape.rows + kBlockRows - 1) / kBlockRows; }
   uint8_t& block(uint32_t y, uint32_t x) { return block_nonzero[size_t{y} * shape.words() + x]; }
 
-  /// Lowest bit-plane known of the coefficient at a row and column.
-  int knownPlane(uint32_t row, uint32_t column) const {
-    return plane + 1 - static_cast<int>((visited[shape.word(row, column / 32)] >> column % 32) & 1);
+  /// The columns of a word that have a significant neighbour. Significant ones themselves may or
+  /// may not be among them.
+  uint32_t nearSignificant(size_t word) const {
+    const uint32_t stride = shape.wordStride();
+    const uint32_t* s = significant.data() + word;
+    const auto any = [&](ptrdiff_t i) { return s[i - stride] | s[i] | s[i + stride]; };
+    const uint32_t here = any(0);
+    return here | here << 1 | here >> 1 | any(-1) >> 31 | any(1) << 31;
   }
 
   BandShape shape;

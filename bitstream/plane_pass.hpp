@@ -135,16 +135,6 @@ class PlanePass {
     return at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
   }
 
-  /// The columns of a word that have a significant neighbour. Significant ones themselves may or
-  /// may not be among them.
-  uint32_t nearSignificant(size_t word) const {
-    const uint32_t stride = band_.shape.wordStride();
-    const uint32_t* s = band_.significant.data() + word;
-    const auto any = [&](ptrdiff_t i) { return s[i - stride] | s[i] | s[i + stride]; };
-    const uint32_t here = any(0);
-    return here | here << 1 | here >> 1 | any(-1) >> 31 | any(1) << 31;
-  }
-
   /// 2 (near) + 1 (far) weighted sums of the known magnitudes around 32 cells, in units of 2^plane.
   void localSums(size_t first, Sums& sums) const {
     const ptrdiff_t row = band_.shape.stride();
@@ -172,7 +162,7 @@ class PlanePass {
     const size_t word = band_.shape.word(row, x);
     const uint32_t free =
         ~band_.significant[word] & ~band_.visited[word] & band_.shape.valid(x);
-    uint32_t todo = kLikelyOnly ? free & nearSignificant(word) : free;
+    uint32_t todo = kLikelyOnly ? free & band_.nearSignificant(word) : free;
     if (todo == 0) return;
     const size_t first = band_.shape.cell(row, 32 * x);
     Sums sums;

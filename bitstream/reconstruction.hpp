@@ -6,15 +6,35 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "bitstream/band.hpp"
 
 namespace tetrakis {
 
-/// The band's coefficients, rows * columns, row by row, in units of 2^-fraction_bits (0 to 8).
-/// Coefficients known to the last bit come out exactly, times 2^fraction_bits.
-void reconstruct(const Band& band, int fraction_bits, std::vector<int32_t>& values);
+/// Reads the coefficients of a band.
+class Reconstruction {
+ public:
+  /// Coefficients come in units of 2^-fraction_bits (0 to 8); those known to the last bit exactly.
+  Reconstruction(const Band& band, int fraction_bits);
+
+  /// All columns of a row.
+  void row(uint32_t row, int32_t* values) const;
+
+ private:
+  struct SignWeights {
+    int along, across, diagonal;
+  };
+  static SignWeights weightsOf(Orientation orientation);
+
+  int32_t significant(size_t cell, int plane) const;
+  int32_t insignificant(size_t cell, int plane) const;
+  int32_t fraction(int sixtyfourths, int plane) const;
+
+  const Band& band_;
+  int fraction_bits_;
+  Neighbours neighbours_;
+  SignWeights weights_;
+};
 
 /// Reconstruction point of a magnitude known down to bit-plane `plane`, not knowing its
 /// neighbours: what the encoder counts its distortion with.

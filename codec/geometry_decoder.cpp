@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "bitstream/reconstruction.hpp"
 #include "bitstream/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -17,10 +16,9 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uin
   DecodedGeometry out;
   out.fraction_bits = outputFractionBits(header.wavelet, header.planes, state.complete);
   out.heights.assign(size_t{header.width} * header.height, 0);
-  std::vector<int32_t> values;
   for (size_t i = 0; i < layout.size(); ++i) {
-    reconstruct(state.bands[i], out.fraction_bits - header.wavelet.fraction_bits, values);
-    scatter(values, layout.subbands()[i], out.heights, header.width);
+    scatter(state.bands[i], out.fraction_bits - header.wavelet.fraction_bits, layout.subbands()[i],
+            out.heights, header.width);
   }
   inverseWavelet(spec, out.heights, header.width, header.height);
   return out;

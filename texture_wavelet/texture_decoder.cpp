@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "bitstream/reconstruction.hpp"
 #include "bitstream/track_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -30,13 +29,11 @@ Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codew
   const int fraction_bits = outputFractionBits(header.wavelet, header.planes, state.complete);
   std::vector<std::vector<int32_t>> planes(header.channels);
   std::vector<int32_t*> pointers;
-  std::vector<int32_t> values;
   for (uint32_t c = 0; c < header.channels; ++c) {
     planes[c].assign(count, 0);
     for (size_t i = 0; i < layout.size(); ++i) {
-      reconstruct(state.bands[c * layout.size() + i], fraction_bits - header.wavelet.fraction_bits,
-                  values);
-      scatter(values, layout.subbands()[i], planes[c], header.width);
+      scatter(state.bands[c * layout.size() + i], fraction_bits - header.wavelet.fraction_bits,
+              layout.subbands()[i], planes[c], header.width);
     }
     inverseWavelet(specOf(header.wavelet), planes[c], header.width, header.height);
     pointers.push_back(planes[c].data());

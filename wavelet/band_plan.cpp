@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "bitstream/reconstruction.hpp"
+
 namespace tetrakis {
 
 namespace {
@@ -48,17 +50,17 @@ std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width,
   const BandShape shape = shapeOf(subband);
   std::vector<int32_t> values(shape.cells(), 0);
   for (uint32_t row = 0; row < subband.height; ++row) {
-    const int32_t* from = plane.data() + size_t{subband.y + row} * width + subband.x;
+    const int32_t* from = plane.data() + size_t{subband.planeRow(row)} * width + subband.x;
     std::copy_n(from, subband.width, values.data() + shape.cell(row, 0));
   }
   return values;
 }
 
-void scatter(std::span<const int32_t> values, const Subband& subband, std::span<int32_t> plane,
+void scatter(const Band& band, int fraction_bits, const Subband& subband, std::span<int32_t> plane,
              uint32_t width) {
+  const Reconstruction values(band, fraction_bits);
   for (uint32_t row = 0; row < subband.height; ++row) {
-    std::copy_n(values.data() + size_t{row} * subband.width, subband.width,
-                plane.data() + size_t{subband.y + row} * width + subband.x);
+    values.row(row, plane.data() + size_t{subband.planeRow(row)} * width + subband.x);
   }
 }
 

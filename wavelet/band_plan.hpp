@@ -41,8 +41,9 @@ BandShape shapeOf(const Subband& subband);
 /// The subband's coefficients in the cell layout of its shape.
 std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband);
 
-/// Puts the subband's coefficients, row by row, into the plane.
-void scatter(std::span<const int32_t> values, const Subband& subband, std::span<int32_t> plane,
+/// Puts what is known of the subband's coefficients into the plane, with `fraction_bits` binary
+/// places more than they were coded with.
+void scatter(const Band& band, int fraction_bits, const Subband& subband, std::span<int32_t> plane,
              uint32_t width);
 
 }  // namespace tetrakis

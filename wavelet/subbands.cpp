@@ -35,14 +35,15 @@ std::vector<Subband> subbandsOf(uint32_t width, uint32_t height) {
     splits_x += low.width < whole.width;
     splits_y += low.height < whole.height;
     const uint32_t high_width = whole.width - low.width, high_height = whole.height - low.height;
-    bands.push_back({level, Orientation::kHH, low.width, low.height, high_width, high_height,
-                     splits_x, splits_y});
-    bands.push_back(
-        {level, Orientation::kLH, 0, low.height, low.width, high_height, splits_x, splits_y});
-    bands.push_back(
-        {level, Orientation::kHL, low.width, 0, high_width, low.height, splits_x, splits_y});
+    const uint32_t high_y = uint32_t{1} << std::max(splits_y - 1, 0);
+    const auto add = [&](Orientation orientation, uint32_t w, uint32_t h, uint32_t x, uint32_t y) {
+      bands.push_back({level, orientation, w, h, x, y, splits_x, splits_y});
+    };
+    add(Orientation::kHH, high_width, high_height, low.width, high_y);
+    add(Orientation::kLH, low.width, high_height, 0, high_y);
+    add(Orientation::kHL, high_width, low.height, low.width, 0);
   }
-  bands.push_back({levels, Orientation::kLL, 0, 0, extents.back().width, extents.back().height,
+  bands.push_back({levels, Orientation::kLL, extents.back().width, extents.back().height, 0, 0,
                    splits_x, splits_y});
   std::reverse(bands.begin(), bands.end());
   return bands;

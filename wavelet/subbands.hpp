@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rectangles that a dyadic wavelet leaves in the plane (Mallat's layout). Level 1 splits the
-// plane, level l + 1 splits the low band of level l, which lies in the upper left corner:
+// The bands that a dyadic wavelet leaves in the plane. Level 1 splits the plane, level l + 1 splits
+// the low band of level l. Rows stay in place (the low band of level l has every 2^l-th row), which
+// spares columns all copying; within a row the low half lies before the high half.
 //
-//   LL HL     HL: high along the rows (x), low along the columns (y)
-//   LH HH
+//   HL: high along the rows (x), low along the columns (y);  LH: the other way;  HH: high in both
 //
 // Of a height field, every coefficient belongs to one vertex of the 4-8 lattice: HH to the centres
 // of its squares, HL and LH to the midpoints of their sides.
@@ -27,16 +27,20 @@ struct Extent {
 /// Sizes of the low bands: [0] the plane, [l] after level l.
 std::vector<Extent> lowExtents(uint32_t width, uint32_t height);
 
-/// One rectangle of coefficients.
+/// One band of coefficients in the plane.
 struct Subband {
   int level = 0;  ///< kLL: the number of levels
   Orientation orientation = Orientation::kLL;
-  uint32_t x = 0, y = 0, width = 0, height = 0;
+  uint32_t width = 0, height = 0;
+  uint32_t x = 0, y = 0;           ///< column and row of the first coefficient
   int splits_x = 0, splits_y = 0;  ///< how often each direction was split down to here
+
+  /// Row of the plane that a row of the band lies in.
+  uint32_t planeRow(uint32_t row) const { return y + (row << splits_y); }
 };
 
 /// LL, then HL, LH and HH of the coarsest level, and so on to level 1: 3 * levels + 1 bands, some
-/// of them empty. Together they tile the plane.
+/// of them empty. Together they fill the plane.
 std::vector<Subband> subbandsOf(uint32_t width, uint32_t height);
 
 }  // namespace tetrakis

@@ -31,7 +31,7 @@ struct WaveletSpec {
   }
 };
 
-/// In place, row by row: width * height samples to coefficients. Exactly undone by inverseWavelet
+/// In place: width * height samples to coefficients, laid out as subbandsOf() says. Exactly undone by inverseWavelet
 /// of the same spec.
 void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
                     uint32_t height);
