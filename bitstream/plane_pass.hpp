@@ -5,7 +5,8 @@
 // significant coefficient cost one decision a plane and no work.
 //
 //   likely   significance where a neighbour is significant (steepest slope)
-//   rest     significance everywhere else, empty blocks first asked as a whole
+//   rest     significance everywhere else; empty blocks are first asked as a whole, and so are
+//            four columns in a row without a significant neighbour
 //   refine   next bit of every coefficient that was significant before this plane
 //
 // The passes are written once. Io is the encoder's or the decoder's side of a decision:
@@ -14,6 +15,9 @@
 //   bool blockBit(AdaptiveBit&, uint32_t y, uint32_t x, int plane)   a magnitude of the block
 //                                                                    reaches 2^plane
 //   bool bandBit(AdaptiveBit&, int plane)                     a magnitude of the band does
+//   bool groupBit(AdaptiveBit&, size_t cell, int plane)       one of four cells does
+//   bool placeBit(AdaptiveBit&, size_t cell, uint32_t bit, int plane)   bit of the place of the
+//                                                                       first of four that does
 //   bool stopped()                                            the last decision did not count
 //   void learned(size_t cell, uint32_t before, uint32_t after, int plane)   known bits of a
 //                                                                           magnitude
@@ -35,6 +39,8 @@ struct BandModels {
   static constexpr int kLocal = 11;  ///< classes of the neighbours' magnitude sum
   static constexpr int kHint = 8;    ///< classes of the hint
   std::array<std::array<AdaptiveBit, kHint>, kLocal> significance;
+  std::array<AdaptiveBit, kHint> group;    ///< one of four quiet neighbours becomes significant
+  std::array<AdaptiveBit, 3> group_place;  ///< the first that does: high bit, low bits
   std::array<AdaptiveBit, 9> refinement;
   std::array<AdaptiveBit, 5> sign;
   std::array<AdaptiveBit, 5> block;
@@ -84,7 +90,14 @@ class PlanePass {
     band_.plane = plane_;
     if (!band_.nonzero) return;
     std::fill(band_.visited.begin(), band_.visited.end(), 0);
-    for (uint16_t& s : band_.scaled) s = static_cast<uint16_t>(s < 0x4000 ? 2 * s : s);
+    for (uint32_t row = 0; row < band_.shape.rows; ++row) {
+      for (uint32_t x = 0; x < band_.shape.words(); ++x) {
+        if (band_.significant[band_.shape.word(row, x)] == 0) continue;
+        uint16_t* scaled = band_.scaled.data() + band_.shape.cell(row, 32 * x);
+        for (uint32_t i = 0; i < 32; ++i)
+          scaled[i] = static_cast<uint16_t>(scaled[i] < 0x4000 ? 2 * scaled[i] : scaled[i]);
+      }
+    }
   }
 
   bool bandBecomesNonzero() {
@@ -157,33 +170,85 @@ class PlanePass {
     return std::min<int>(std::bit_width((2 * hint) >> plane_), BandModels::kHint - 1);
   }
 
+  /// One row of 32 columns while significance is coded.
+  struct Row {
+    uint32_t row, column;  ///< of the first cell
+    size_t word, first;    ///< indices of the word and of the first cell
+    uint32_t todo;         ///< columns still to be coded
+    uint32_t near;         ///< columns with a significant neighbour
+    uint32_t visited;
+    Sums sums;
+  };
+
   template <bool kLikelyOnly>
   void significanceRow(uint32_t row, uint32_t x) {
-    const size_t word = band_.shape.word(row, x);
-    const uint32_t free =
-        ~band_.significant[word] & ~band_.visited[word] & band_.shape.valid(x);
-    uint32_t todo = kLikelyOnly ? free & band_.nearSignificant(word) : free;
-    if (todo == 0) return;
-    const size_t first = band_.shape.cell(row, 32 * x);
-    Sums sums;
-    localSums(first, sums);
-    uint32_t visited = band_.visited[word];
-    while (todo != 0) {
-      const auto i = static_cast<uint32_t>(std::countr_zero(todo));
-      todo &= todo - 1;
-      const int local = localClass(sums[i]), hint = hintClass(row, 32 * x + i);
-      const bool bit = io_.magnitudeBit(models_.significance[local][hint], first + i, plane_);
-      if (io_.stopped() || (bit && !becomeSignificant(word, i, first + i))) break;
-      visited |= uint32_t{1} << i;
-      if (bit) {
-        sums[i + 1] = static_cast<uint16_t>(sums[i + 1] + 2);
-        if (kLikelyOnly) todo |= free & (uint32_t{2} << i);
+    Row r;
+    r.word = band_.shape.word(row, x);
+    r.visited = band_.visited[r.word];
+    const uint32_t free = ~band_.significant[r.word] & ~r.visited & band_.shape.valid(x);
+    if (free == 0) return;
+    r.near = band_.nearSignificant(r.word);
+    r.todo = kLikelyOnly ? free & r.near : free;
+    if (r.todo == 0) return;
+    r.row = row;
+    r.column = 32 * x;
+    r.first = band_.shape.cell(row, 32 * x);
+    localSums(r.first, r.sums);
+    while (r.todo != 0) {
+      const auto i = static_cast<uint32_t>(std::countr_zero(r.todo));
+      if (!kLikelyOnly && isQuietGroup(r, i)) {
+        if (!quietGroup(r, i)) break;
+        continue;
       }
+      r.todo &= r.todo - 1;
+      const int local = localClass(r.sums[i]), hint = hintClass(row, r.column + i);
+      const bool bit = io_.magnitudeBit(models_.significance[local][hint], r.first + i, plane_);
+      if (io_.stopped() || (bit && !becomeSignificant(r, i))) break;
+      r.visited |= uint32_t{1} << i;
+      if (kLikelyOnly && bit) r.todo |= free & (uint32_t{2} << i);
     }
-    band_.visited[word] = visited;
+    band_.visited[r.word] = r.visited;
   }
 
-  bool becomeSignificant(size_t word, uint32_t bit, size_t cell) {
+  static bool isQuietGroup(const Row& r, uint32_t i) {
+    return i % 4 == 0 && ((r.todo >> i) & 15) == 15 && ((r.near >> i) & 15) == 0;
+  }
+
+  /// Four columns from i on: whether any becomes significant, and which is the first.
+  bool quietGroup(Row& r, uint32_t i) {
+    const size_t cell = r.first + i;
+    uint32_t done = 4;  // columns that are settled
+    const bool any = io_.groupBit(models_.group[groupHint(r.row, r.column + i)], cell, plane_);
+    if (io_.stopped()) return false;
+    if (any) {
+      const bool high = io_.placeBit(models_.group_place[0], cell, 1, plane_);
+      if (io_.stopped()) return false;
+      const bool low = io_.placeBit(models_.group_place[1 + high], cell, 0, plane_);
+      if (io_.stopped()) return false;
+      done = 2 * high + low + 1;
+      if (!becomeSignificant(r, i + done - 1)) return false;
+    }
+    const uint32_t settled = ((uint32_t{1} << done) - 1) << i;
+    r.visited |= settled;
+    r.todo &= ~settled;
+    return true;
+  }
+
+  int groupHint(uint32_t row, uint32_t column) const {
+    uint32_t hint = 0;
+    if (parent_ != nullptr) {
+      const uint32_t* m = parent_->magnitude.data() + parent_->shape.cell(row / 2, column / 2);
+      hint |= m[0] | m[1];
+    }
+    if (component_ != nullptr) {
+      const uint32_t* m = component_->magnitude.data() + component_->shape.cell(row, column);
+      hint |= m[0] | m[1] | m[2] | m[3];
+    }
+    return std::min<int>(std::bit_width((2 * hint) >> plane_), BandModels::kHint - 1);
+  }
+
+  bool becomeSignificant(Row& r, uint32_t i) {
+    const size_t cell = r.first + i;
     const int8_t* s = band_.sign.data() + cell;
     const auto& near = neighbours_.near;
     int context = 3 * std::clamp(s[near[0]] + s[near[1]], -1, 1) +
@@ -195,7 +260,9 @@ class PlanePass {
     band_.magnitude[cell] = uint32_t{1} << plane_;
     band_.scaled[cell] = 1;
     band_.sign[cell] = negative ? -1 : 1;
-    band_.significant[word] |= uint32_t{1} << bit;
+    band_.significant[r.word] |= uint32_t{1} << i;
+    r.near |= uint32_t{2} << i;
+    r.sums[i + 1] = static_cast<uint16_t>(r.sums[i + 1] + 2);
     io_.learned(cell, 0, uint32_t{1} << plane_, plane_);
     return true;
   }

@@ -14,6 +14,8 @@ class DecodingIo {
   bool magnitudeBit(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
   bool signBit(AdaptiveBit& model, size_t, bool flip) { return decoder_.decode(model) != flip; }
   bool blockBit(AdaptiveBit& model, uint32_t, uint32_t, int) { return decoder_.decode(model); }
+  bool groupBit(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
+  bool placeBit(AdaptiveBit& model, size_t, uint32_t, int) { return decoder_.decode(model); }
   bool bandBit(AdaptiveBit& model, int) { return decoder_.decode(model); }
   bool stopped() const { return decoder_.exhausted(); }
   void learned(size_t, uint32_t, uint32_t, int) {}

@@ -63,6 +63,16 @@ class EncodingIo {
     encoder_.encode(model, bit);
     return bit;
   }
+  bool groupBit(AdaptiveBit& model, size_t cell, int plane) {
+    const bool bit = firstOfFour(cell, plane) < 4;
+    encoder_.encode(model, bit);
+    return bit;
+  }
+  bool placeBit(AdaptiveBit& model, size_t cell, uint32_t place_bit, int plane) {
+    const bool bit = (firstOfFour(cell, plane) >> place_bit) & 1;
+    encoder_.encode(model, bit);
+    return bit;
+  }
   bool bandBit(AdaptiveBit& model, int plane) {
     const bool bit = occupancy_->band >> plane != 0;
     encoder_.encode(model, bit);
@@ -91,6 +101,13 @@ class EncodingIo {
  private:
   static constexpr double kDip =
       1.0015;  ///< 0.0065 dB: well inside the 0.03 dB that a prefix may fall
+
+  /// 4 if none of the four reaches 2^plane.
+  uint32_t firstOfFour(size_t cell, int plane) const {
+    uint32_t i = 0;
+    while (i < 4 && magnitudeOf(values_[cell + i]) >> plane == 0) ++i;
+    return i;
+  }
 
   RangeEncoder encoder_;
   double distortion_ = 0, best_ = 0, least_ = 0;
