@@ -6,11 +6,11 @@ namespace tetrakis {
 Band::Band(const BandShape& band_shape, Orientation band_orientation)
     : shape(band_shape),
       orientation(band_orientation),
-      magnitude(shape.cells(), 0),
-      scaled(shape.cells(), 0),
-      sign(shape.cells(), 0),
-      significant(shape.wordCells(), 0),
-      visited(shape.wordCells(), 0),
-      block_nonzero(size_t{blockRows()} * shape.words(), 0) {}
+      magnitude(shape.cells()),
+      scaled(shape.cells()),
+      sign(shape.cells()),
+      significant(shape.wordCells()),
+      visited(shape.wordCells()),
+      block_nonzero(size_t{blockRows()} * shape.words()) {}
 
 }  // namespace tetrakis

@@ -9,7 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "bitstream/zeroed_array.hpp"
 
 namespace tetrakis {
 
@@ -76,12 +77,12 @@ struct Band {
   Orientation orientation = Orientation::kLL;
   int plane = 31;        ///< bit-plane of the last pass; nothing is known below
   bool nonzero = false;  ///< the band holds a significant coefficient
-  std::vector<uint32_t> magnitude;    ///< known bits, unknown ones zero
-  std::vector<uint16_t> scaled;       ///< magnitude >> plane, held below 2^15
-  std::vector<int8_t> sign;           ///< -1, 0 while insignificant, 1
-  std::vector<uint32_t> significant;  ///< bit map: magnitude is not zero
-  std::vector<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known
-  std::vector<uint8_t> block_nonzero; ///< the block holds a significant coefficient
+  ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
+  ZeroedArray<uint16_t> scaled;       ///< magnitude >> plane, held below 2^15
+  ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1
+  ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
+  ZeroedArray<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known
+  ZeroedArray<uint8_t> block_nonzero; ///< the block holds a significant coefficient
 };
 
 }  // namespace tetrakis

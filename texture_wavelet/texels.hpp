@@ -12,7 +12,7 @@ namespace tetrakis {
 struct Texels {
   uint32_t width = 0, height = 0, channels = 0;
   int bits = 8;
-  std::vector<int32_t> samples;
+  std::vector<uint16_t> samples;
 };
 
 }  // namespace tetrakis

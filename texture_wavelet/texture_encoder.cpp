@@ -52,16 +52,30 @@ std::vector<double> energiesOf(const Texels& texels, const ColourTransform& colo
   return energies;
 }
 
+/// Samples that go through the colour transform together: few enough for the cache.
+constexpr size_t kChunk = 2048;
+
+void transformColours(const ColourTransform& colour, int fraction_bits, Planes& planes) {
+  const size_t count = planes.front().size();
+  std::vector<int32_t*> chunk(planes.size());
+  for (size_t first = 0; first < count; first += kChunk) {
+    for (size_t c = 0; c < planes.size(); ++c) chunk[c] = planes[c].data() + first;
+    forwardColour(colour, chunk, std::min(kChunk, count - first), fraction_bits);
+  }
+}
+
+ColourTransform fitColours(const Planes& planes, const Texels& texels) {
+  std::vector<const int32_t*> pointers;
+  for (const std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
+  return fitColour(pointers, texels.width, texels.height);
+}
+
 }  // namespace
 
 EncodedTexture encodeTexture(const Texels& texels, const WaveletHeader& wavelet, uint64_t limit) {
   Planes planes = separate(texels);
-  std::vector<int32_t*> pointers;
-  for (std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
-  const size_t count = size_t{texels.width} * texels.height;
-  const ColourTransform colour =
-      fitColour({pointers.data(), pointers.size()}, texels.width, texels.height);
-  forwardColour(colour, pointers, count, wavelet.fraction_bits);
+  const ColourTransform colour = fitColours(planes, texels);
+  transformColours(colour, wavelet.fraction_bits, planes);
   const std::vector<double> energies = energiesOf(texels, colour);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};
   const TexturePlan plan(encoded.header);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fixed-size array of zeros that the operating system need not touch before it is used: bands in
+// which nothing happens cost address space alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+namespace tetrakis {
+
+template <class T>
+class ZeroedArray {
+  static_assert(std::is_trivial_v<T>);
+
+ public:
+  ZeroedArray() = default;
+  /// Throws std::bad_alloc.
+  explicit ZeroedArray(size_t size)
+      : size_(size), data_(static_cast<T*>(std::calloc(size > 0 ? size : 1, sizeof(T)))) {
+    if (data_ == nullptr) throw std::bad_alloc();
+  }
+
+  size_t size() const { return size_; }
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  T& operator[](size_t i) { return data_.get()[i]; }
+  const T& operator[](size_t i) const { return data_.get()[i]; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+
+ private:
+  struct Free {
+    void operator()(T* p) const { std::free(p); }
+  };
+  size_t size_ = 0;
+  std::unique_ptr<T[], Free> data_;
+};
+
+}  // namespace tetrakis
