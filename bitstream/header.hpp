@@ -28,13 +28,13 @@ inline constexpr uint32_t kMaxHeaderBytes = 1u << 20;
 struct WaveletHeader {
   std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
   uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
-  uint8_t wide = 0;                  ///< sums need 64 bits
+  uint8_t bits = 0;                  ///< of a sample with its fraction: how wide sums must be
 
   template <class V>
   void visit(V& v) {
     for (uint8_t& filter : filters) v.u8("filter", filter, 0, 3);
     v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
-    v.u8("wide", wide, 0, 1);
+    v.u8("sample_bits", bits, 0, 32);
   }
 };
 

@@ -62,12 +62,13 @@ void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t 
   for (size_t l = 1; l < bands.size(); ++l) {
     const LowBand &whole = bands[l - 1], &low = bands[l];
     const FilterId filter = spec.filter(static_cast<int>(l));
+    const bool wide = spec.wide(static_cast<int>(l));
     if (low.extent.width < whole.extent.width) {
       for (uint32_t y = 0; y < whole.extent.height; ++y)
-        lifting.analyse(whole.row(y).data(), whole.extent.width, filter, spec.wide);
+        lifting.analyse(whole.row(y).data(), whole.extent.width, filter, wide);
     }
     if (low.extent.height < whole.extent.height)
-      liftColumns(whole.rows(), filter, Direction::kAnalysis, spec.wide);
+      liftColumns(whole.rows(), filter, Direction::kAnalysis, wide);
     if (isDoubled(spec, l)) doubleValues(low);
   }
 }
@@ -80,12 +81,13 @@ void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t 
   for (size_t l = bands.size() - 1; l >= 1; --l) {
     const LowBand &whole = bands[l - 1], &low = bands[l];
     const FilterId filter = spec.filter(static_cast<int>(l));
+    const bool wide = spec.wide(static_cast<int>(l));
     if (isDoubled(spec, l)) halveValues(low);
     if (low.extent.height < whole.extent.height)
-      liftColumns(whole.rows(), filter, Direction::kSynthesis, spec.wide);
+      liftColumns(whole.rows(), filter, Direction::kSynthesis, wide);
     if (low.extent.width < whole.extent.width) {
       for (uint32_t y = 0; y < whole.extent.height; ++y)
-        lifting.synthesise(whole.row(y).data(), whole.extent.width, filter, spec.wide);
+        lifting.synthesise(whole.row(y).data(), whole.extent.width, filter, wide);
     }
   }
 }

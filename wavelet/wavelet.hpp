@@ -23,8 +23,10 @@ struct WaveletSpec {
   static constexpr size_t kChoices = 3;
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
   bool doubled = false;  ///< the low band is doubled after each of kDoubledLevels
-  bool wide = false;     ///< 64-bit sums: for samples of more than 20 bits
+  int bits = 0;          ///< of a sample, fraction included
 
+  /// Sums of this level are of 64 bits.
+  bool wide(int level) const { return bits > widestSamples(filter(level)); }
   FilterId filter(int level) const {
     return filters[level < static_cast<int>(kChoices) ? static_cast<size_t>(level - 1)
                                                       : kChoices - 1];

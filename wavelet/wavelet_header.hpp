@@ -14,7 +14,7 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   std::transform(header.filters.begin(), header.filters.end(), spec.filters.begin(),
                  [](uint8_t id) { return static_cast<FilterId>(id); });
   spec.doubled = header.fraction_bits == 0;
-  spec.wide = header.wide != 0;
+  spec.bits = header.bits;
   return spec;
 }
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which filters suit a plane. Encoder only: the choice stands in the stream header.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/header.hpp"
+
+namespace tetrakis {
+
+/// What a plane is coded for.
+enum class Purpose : uint8_t {
+  kLossless,  ///< the last bit: no fraction bits
+  kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
+};
+
+/// plane: width * height samples of `bits` bits. Filters are tried on the middle of the plane and
+/// compared by an estimate of the bits that their coefficients take.
+WaveletHeader chooseWavelet(std::span<const int32_t> plane, uint32_t width, uint32_t height,
+                            int bits, Purpose purpose);
+
+}  // namespace tetrakis
