@@ -12,6 +12,7 @@
 #include <span>
 
 #include "wavelet/lifting_filter.hpp"
+#include "wavelet/masked_lifting.hpp"
 #include "wavelet/subbands.hpp"
 
 namespace tetrakis {
@@ -34,12 +35,12 @@ struct WaveletSpec {
 };
 
 /// In place: width * height samples to coefficients, laid out as subbandsOf() says. Exactly undone by inverseWavelet
-/// of the same spec.
+/// of the same spec and validity. Voids are left alone.
 void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height);
+                    uint32_t height, Validity valid = {});
 
 /// Coefficients to samples. Defined for all values.
 void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height);
+                    uint32_t height, Validity valid = {});
 
 }  // namespace tetrakis
