@@ -22,7 +22,12 @@ class AdaptiveBit {
  public:
   static constexpr int kPrecision = 16;   ///< probabilities are multiples of 2^-16
   static constexpr uint32_t kLimit = 255; ///< decisions after which the mean forgets
+  static constexpr uint16_t kTrust = 20;
   static constexpr uint32_t kFloor = 24;  ///< no decision is more certain than 1 - 24/65536
+
+  AdaptiveBit() = default;
+  /// zero: initial P(bit = 0) in 1/256, trusted like kTrust decisions.
+  explicit AdaptiveBit(uint8_t zero) : zero_(static_cast<uint16_t>(zero << 8)), seen_(kTrust) {}
 
   /// P(bit = 0) in units of 2^-16, in [kFloor, 65536 - kFloor].
   uint32_t zero() const {

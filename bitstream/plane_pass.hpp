@@ -29,30 +29,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "bitstream/adaptive_bit.hpp"
 #include "bitstream/band.hpp"
+#include "bitstream/band_models.hpp"
 
 namespace tetrakis {
-
-/// Contexts shared by the bands of one class.
-struct BandModels {
-  static constexpr int kLocal = 11;  ///< classes of the neighbours' magnitude sum
-  static constexpr int kHint = 8;    ///< classes of the hint
-  std::array<std::array<AdaptiveBit, kHint>, kLocal> significance;
-  std::array<AdaptiveBit, kHint> group;    ///< one of four quiet neighbours becomes significant
-  std::array<AdaptiveBit, 3> group_place;  ///< the first that does: high bit, low bits
-  std::array<AdaptiveBit, 9> refinement;
-  std::array<AdaptiveBit, 5> sign;
-  std::array<AdaptiveBit, 5> block;
-  AdaptiveBit band;
-};
-
-/// Class of a sum of the neighbours' magnitudes: 2 * near + far, in units of 2^plane.
-inline int localClass(uint32_t sum) {
-  constexpr std::array<uint8_t, 31> kClasses = {0, 1, 2, 3, 4, 5, 5, 6, 6, 6, 7, 7, 7, 7, 8, 8,
-                                                8, 8, 8, 8, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 10};
-  return kClasses[std::min(sum, 30u)];
-}
 
 enum class PassKind : uint8_t { kLikely = 0, kRest = 1, kRefine = 2 };
 

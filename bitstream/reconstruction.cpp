@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-#include "bitstream/plane_pass.hpp"
+#include "bitstream/band_models.hpp"
 
 namespace tetrakis {
 

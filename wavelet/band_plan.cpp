@@ -11,10 +11,12 @@ namespace {
 
 constexpr size_t kBandsPerLevel = 3;
 
-/// The finest levels hold most coefficients and get contexts of their own.
+/// The finest levels hold most coefficients and get contexts of their own. Orientations share theirs:
+/// neighbours are named along and across the direction of the band, so that all look alike.
 uint32_t modelsOf(const Subband& subband) {
-  const auto scale = static_cast<uint32_t>(std::clamp(subband.level, 1, 3) - 1);
-  return scale * 4 + static_cast<uint32_t>(subband.orientation);
+  constexpr int kOwnLevels = kPlaneModels - 1;
+  if (subband.orientation == Orientation::kLL) return kOwnLevels;
+  return static_cast<uint32_t>(std::clamp(subband.level, 1, kOwnLevels) - 1);
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 
 namespace tetrakis {
 
-/// Classes of contexts that the bands of one plane use: three scales times four orientations.
-inline constexpr uint32_t kPlaneModels = 12;
+/// Classes of contexts that the bands of one plane use: levels 1, 2, 3, all coarser ones, and LL.
+inline constexpr uint32_t kPlaneModels = 5;
 
 /// The subbands of planes of one size under one transform.
 class PlaneLayout {

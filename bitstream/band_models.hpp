@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contexts of one class of bands. They start from means over terrain and aerial images, which saves
+// what a small stream would otherwise spend on learning them: 2 to 10 % at 0.1 bits a sample of
+// 257 x 257.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "bitstream/adaptive_bit.hpp"
+
+namespace tetrakis {
+
+struct BandModels {
+  static constexpr int kLocal = 11;  ///< classes of the neighbours' magnitude sum
+  static constexpr int kHint = 8;    ///< classes of the hint
+
+  BandModels();
+
+  std::array<std::array<AdaptiveBit, kHint>, kLocal> significance;
+  std::array<AdaptiveBit, kHint> group;    ///< one of four quiet neighbours becomes significant
+  std::array<AdaptiveBit, 3> group_place;  ///< the first that does: high bit, low bits
+  std::array<AdaptiveBit, 9> refinement;
+  std::array<AdaptiveBit, 5> sign;
+  std::array<AdaptiveBit, 5> block;
+  AdaptiveBit band;
+};
+
+/// Class of a sum of the neighbours' magnitudes: 2 * near + far, in units of 2^plane.
+inline int localClass(uint32_t sum) {
+  constexpr std::array<uint8_t, 31> kClasses = {0, 1, 2, 3, 4, 5, 5, 6, 6, 6, 7, 7, 7, 7, 8, 8,
+                                                8, 8, 8, 8, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 10};
+  return kClasses[std::min(sum, 30u)];
+}
+
+}  // namespace tetrakis
