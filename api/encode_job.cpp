@@ -7,9 +7,11 @@
 #include <map>
 
 #include "api/samples.hpp"
+#include "codec/corrections_encoder.hpp"
 #include "codec/decimation.hpp"
 #include "codec/geometry_decoder.hpp"
 #include "codec/geometry_encoder.hpp"
+#include "codec/validity_encoder.hpp"
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/hull.hpp"
 #include "ratecontrol/screen_model.hpp"
@@ -43,14 +45,32 @@ double squaredDistance(const std::vector<int32_t>& a, const std::vector<int32_t>
   return sum;
 }
 
-/// The hull of a track in the common distortion, with the RMSE that each packet states.
+/// Raises the first point so that the first `opening` bytes are worth the most of all: what they
+/// hold, the rest needs.
+void favour(std::vector<RatePoint>& points, uint64_t opening) {
+  double steepest = 0;
+  const auto opened = std::find_if(points.begin(), points.end(),
+                                   [&](const RatePoint& p) { return p.bytes >= opening; });
+  if (opened == points.begin() || opened == points.end()) return;
+  for (auto p = opened + 1; p != points.end(); ++p) {
+    const auto bytes = static_cast<double>(p->bytes - opened->bytes);
+    steepest = std::max(steepest, (opened->distortion - p->distortion) / bytes);
+  }
+  const double worth = 1.01 * steepest * static_cast<double>(opened->bytes);
+  points.front().distortion = std::max(points.front().distortion, opened->distortion + worth);
+}
+
+/// The hull of a track in the common distortion, with the RMSE that each packet states. opening:
+/// bytes that come first whatever they cost.
 template <class MeanSquare, class Cost>
-TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost cost) {
+TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost cost,
+                  uint64_t opening = 0) {
   std::map<uint64_t, double> rmse;
   for (RatePoint& point : points) {
     rmse[point.bytes] = std::sqrt(mean_square(point.distortion));
     point.distortion = cost(point.distortion);
   }
+  favour(points, opening);
   TrackCurve curve;
   curve.points = lowerHull(points, kPacketGrowth);
   for (const RatePoint& point : curve.points) curve.rmse.push_back(rmse[point.bytes]);
@@ -96,18 +116,45 @@ Status EncodeJob::report(double done) const {
 Status EncodeJob::quantise() {
   if (image_ != nullptr) texels_ = toTexels(*image_);
   if (heights_ == nullptr) return {};
-  const double finest_useful =
-      options_.max_error > 0 ? options_.max_error / std::abs(heights_->scale) / 16 : 0;
-  Result<HeightSteps> steps = toSteps(*heights_, heights_->step, finest_useful);
-  if (!steps.ok()) return steps.status();
-  if (options_.lossless && !steps->exact) {
-    return {
-        TKS_USAGE,
-        "No uniform step restores these heights bit for bit; use --max-error instead of lossless."};
+  const double error = options_.max_error / std::abs(heights_->scale);
+  bool restore = options_.lossless != 0;
+  Result<HeightSteps> steps = toSteps(*heights_, {heights_->step, restore, error});
+  if (steps.ok() && error > 0 && errorsOf(*heights_, *steps).largest > error) {
+    if (heights_->step > 0) {
+      return {TKS_USAGE,
+              "The maximum error is below what the step of these heights allows; give a smaller "
+              "step."};
+    }
+    restore = true;
+    steps = toSteps(*heights_, {0, restore, 0});
   }
+  if (!steps.ok()) return steps.status();
   geometry_.emplace();
   geometry_->steps = std::move(*steps);
+  encodeSideLayers(restore && !geometry_->steps.exact);
   return {};
+}
+
+/// The layers that do not depend on the coefficients: validity, and corrections of the samples.
+void EncodeJob::encodeSideLayers(bool restore_samples) {
+  EncodedHeights& g = *geometry_;
+  const bool infinite_integer = heights_->sample != TKS_F32 && !std::isfinite(heights_->nodata);
+  g.layers.has_nodata =
+      heights_->has_nodata != 0 && !std::isnan(heights_->nodata) && !infinite_integer;
+  if (g.layers.has_nodata) g.layers.nodata = heights_->nodata + 0.0;  // -0 equals 0: one of them
+  if (!g.steps.valid.empty()) {
+    g.validity = encodeValidity(g.steps.valid, heights_->width, heights_->height);
+    g.layers.validity_bytes = g.validity.size();
+  }
+  if (!restore_samples) return;
+  g.layers.corrections = CorrectionKind::kSamples;
+  const StreamHeader header = makeHeader(0, false);
+  const std::vector<uint8_t> hints = sampleHints(g.steps.steps, *header.geometry);
+  g.corrections = encodeCorrections(sampleCorrections(*heights_, g.steps),
+                                    {heights_->width, heights_->height, g.steps.valid, hints});
+  constexpr double kSomething = 1e-200;  // -0 for 0 is no distance, but not exact
+  g.left =
+      std::max(errorsOf(*heights_, g.steps).squares / (g.steps.step * g.steps.step), kSomething);
 }
 
 /// Every lifting step rounds to whole units; on coarse steps that noise is heard long before the
@@ -116,16 +163,45 @@ int EncodeJob::lossyFractionBits() const {
   const HeightSteps& steps = geometry_->steps;
   const double finest = steps.step * std::abs(heights_->scale);
   if (options_.lossless || (options_.max_error > 0 && options_.max_error < 2 * finest)) return 0;
+  if (geometry_->layers.corrections == CorrectionKind::kSamples) return 0;
   return std::clamp(20 - steps.range_bits, 0, 4);
 }
 
 void EncodeJob::encodeGeometryWith(int fraction_bits) {
   geometry_->fraction_bits = fraction_bits;
+  joinLayers(encodeCoefficients(fraction_bits));
+}
+
+EncodedTrack EncodeJob::encodeCoefficients(int fraction_bits) const {
   std::vector<int32_t> scaled = geometry_->steps.steps;
   for (int32_t& q : scaled) q *= 1 << fraction_bits;
-  geometry_->track = encodeGeometry(scaled, heights_->width, heights_->height, trackLimit());
-  for (RatePoint& point : geometry_->track.points)
-    point.distortion *= std::exp2(-2 * fraction_bits);
+  EncodedTrack track = encodeGeometry(scaled, heights_->width, heights_->height, trackLimit(),
+                                      geometry_->steps.valid);
+  for (RatePoint& point : track.points) point.distortion *= std::exp2(-2 * fraction_bits);
+  return track;
+}
+
+/// Validity before the coefficients, corrections of the samples behind them.
+void EncodeJob::joinLayers(const EncodedTrack& coefficients) {
+  EncodedHeights& g = *geometry_;
+  EncodedTrack& track = g.track;
+  track = coefficients;
+  if (g.validity.empty() && g.corrections.empty() && g.left == 0) return;
+  track.codeword = g.validity;
+  track.codeword.insert(track.codeword.end(), coefficients.codeword.begin(),
+                        coefficients.codeword.end());
+  g.layers.coefficient_bytes = g.corrections.empty() ? 0 : coefficients.codeword.size();
+  track.codeword.insert(track.codeword.end(), g.corrections.begin(), g.corrections.end());
+  for (RatePoint& point : track.points) {
+    point.bytes += g.validity.size();
+    point.distortion += g.left;
+  }
+  if (!g.validity.empty()) {
+    const auto voids = static_cast<double>(g.steps.steps.size() - g.steps.validCount());
+    const double unknown = track.points.front().distortion + voids * g.validityWorth();
+    track.points.insert(track.points.begin(), {0, unknown});
+  }
+  if (!g.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
 }
 
 /// Bytes of a track worth coding. Beyond the budget, because the slopes of the last packets within
@@ -144,6 +220,7 @@ Status EncodeJob::encodeTracks() {
     texture = std::async(parallel ? std::launch::async : std::launch::deferred, encode_texture);
   }
   if (geometry_) encodeGeometryWith(lossyFractionBits());
+  if (options_.max_error > 0) boundHeights();
   if (Status status = report(0.4); !status.ok()) return status;
   if (texture.valid()) texture_ = texture.get();
   return report(0.8);
@@ -173,21 +250,31 @@ Status EncodeJob::encodeLosslessGeometryIfItFits() {
   return {};
 }
 
-std::vector<int32_t> EncodeJob::decodedSteps(uint64_t bytes) const {
-  DecodedGeometry decoded =
-      decodeGeometry(std::span(geometry_->track.codeword).first(bytes), geometry_->track.planes,
-                     heights_->width, heights_->height);
-  dropFraction(decoded.heights, geometry_->fraction_bits);
-  return std::move(decoded.heights);
+DecodedHeights EncodeJob::decodedHeights(uint64_t bytes) const {
+  const StreamHeader header = makeHeader(0, false);
+  return decodeLayers(std::span(geometry_->track.codeword).first(bytes), *header.geometry,
+                      header.layers);
 }
 
 Texels EncodeJob::decodedTexels(uint64_t bytes) const {
   return decodeTexture(texture_->header, std::span(texture_->track.codeword).first(bytes));
 }
 
-/// Sum of squared errors in steps.
+/// Sum of squared errors in steps, voids that are not known among them.
 double EncodeJob::geometrySquares(uint64_t bytes) const {
-  return squaredDistance(decodedSteps(bytes), geometry_->steps.steps);
+  const EncodedHeights& g = *geometry_;
+  DecodedGeometry decoded = decodedHeights(bytes).geometry;
+  dropFraction(decoded.heights, g.fraction_bits);
+  const bool restored =
+      g.layers.corrections == CorrectionKind::kSamples && bytes == g.track.codeword.size();
+  double squares = restored ? 0 : g.left;
+  if (g.validity.empty()) return squares + squaredDistance(decoded.heights, g.steps.steps);
+  for (size_t i = 0; i < decoded.valid.size(); ++i) {
+    const double difference = static_cast<double>(decoded.heights[i]) - g.steps.steps[i];
+    const bool known = decoded.valid[i] == g.steps.valid[i];
+    squares += known ? difference * difference : g.validityWorth();
+  }
+  return squares;
 }
 
 double EncodeJob::textureSquares(uint64_t bytes) const {
@@ -196,19 +283,20 @@ double EncodeJob::textureSquares(uint64_t bytes) const {
 
 TrackCurve EncodeJob::geometryCurve() const {
   if (!geometry_) return {};
-  const uint64_t samples = geometry_->steps.steps.size();
+  const auto samples = std::max<size_t>(geometry_->steps.validCount(), 1);
   const std::vector<RatePoint> points =
-      audit(geometry_->track, samples, budgeted(),
+      audit(geometry_->track, geometry_->steps.steps.size(), budgeted(),
             [&](uint64_t bytes) { return geometrySquares(bytes); });
   const double step =
       geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
   const double floor = meshFloor();
   const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
   const auto useful = [&](double squares) { return std::max(mean_square(squares), floor); };
-  if (image_ == nullptr) return priced(points, mean_square, useful);
+  const uint64_t opening = geometry_->validity.size();
+  if (image_ == nullptr) return priced(points, mean_square, useful, opening);
   const ScreenModel model(texels_, texelsPerMetre(step));
-  return priced(points, mean_square,
-                [&](double squares) { return model.cost(useful(squares) * step * step); });
+  const auto seen = [&](double squares) { return model.cost(useful(squares) * step * step); };
+  return priced(points, mean_square, seen, opening);
 }
 
 /// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes
@@ -220,7 +308,7 @@ double EncodeJob::meshFloor() const {
       decimate({heights_->width, heights_->height, geometry_->steps.steps});
   if (!sequence.ok()) return 0;
   const double squares = sequence->squaredError(sequence->bestPrefix(options_.triangles));
-  return squares / static_cast<double>(geometry_->steps.steps.size()) / 16;
+  return squares / static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1)) / 16;
 }
 
 /// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to
@@ -262,6 +350,7 @@ StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const 
     g.base = geometry_->steps.base;
     g.step = geometry_->steps.step;
     g.max_error = options_.max_error > 0 ? options_.max_error : header.lossless ? 0 : -1;
+    header.layers = geometry_->layers;
     const auto text = [](const char* s) { return std::string(s ? s : ""); };
     header.metadata = {heights_->scale,     heights_->offset,     heights_->spacing_x,
                        heights_->spacing_y, text(heights_->unit), text(heights_->vertical_datum),
@@ -297,7 +386,9 @@ bool EncodeJob::restoresEverything() const {
                                      !texture_ || texture_->track.points.front().distortion == 0};
   for (const Packet& packet : packets_)
     exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
-  return exact[0] && exact[1] && (!geometry_ || geometry_->steps.exact);
+  const bool restored = !geometry_ || geometry_->steps.exact ||
+                        geometry_->layers.corrections == CorrectionKind::kSamples;
+  return exact[0] && exact[1] && restored;
 }
 
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {

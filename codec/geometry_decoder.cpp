@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry_decoder.hpp"
 
+#include <utility>
+
 #include "bitstream/track_decoder.hpp"
 #include "codec/geometry_plan.hpp"
 #include "codec/lifting.hpp"
@@ -23,18 +25,29 @@ void scatter(const Band& band, const Level& level, uint32_t width, DecodedGeomet
   }
 }
 
+/// Coefficients of void vertices mean nothing.
+void clearVoids(DecodedGeometry& geometry) {
+  for (size_t i = 0; i < geometry.valid.size(); ++i) {
+    if (geometry.valid[i]) continue;
+    geometry.heights[i] = 0;
+    geometry.significant[i] = 0;
+  }
+}
+
 }  // namespace
 
 DecodedGeometry decodeGeometry(std::span<const uint8_t> codeword, int planes, uint32_t width,
-                               uint32_t height) {
+                               uint32_t height, std::vector<uint8_t> valid) {
   const size_t samples = size_t{width} * height;
-  DecodedGeometry out{std::vector<int32_t>(samples, 0), std::vector<uint8_t>(samples, 0)};
+  DecodedGeometry out{std::vector<int32_t>(samples, 0), std::vector<uint8_t>(samples, 0),
+                      std::move(valid)};
   const GeometryPlan plan(width, height);
   const TrackState state = decodeTrack(plan.bands(), planes, plan, codeword);
   for (size_t i = 0; i < plan.levels().size(); ++i) {
     scatter(state.bands[i], plan.levels()[i], width, out);
   }
-  inverseLifting(out.heights, width, height);
+  clearVoids(out);
+  inverseLifting({out.heights, width, height, out.valid});
   return out;
 }
 

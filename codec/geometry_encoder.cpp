@@ -27,9 +27,10 @@ BandSource gather(std::span<const int32_t> coefficients, uint32_t width, const L
 }  // namespace
 
 EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height,
-                            uint64_t limit) {
+                            uint64_t limit, std::span<const uint8_t> valid) {
   std::vector<int32_t> coefficients(heights.begin(), heights.end());
-  forwardLifting(coefficients, width, height);
+  for (size_t i = 0; i < valid.size(); ++i) coefficients[i] *= valid[i];
+  forwardLifting({coefficients, width, height, valid});
   const GeometryPlan plan(width, height);
   std::vector<BandSource> sources;
   for (const Level& level : plan.levels()) sources.push_back(gather(coefficients, width, level));

@@ -2,6 +2,7 @@
 #include "codec/lifting.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "codec/stencil.hpp"
 
@@ -24,12 +25,13 @@ int64_t roundedQuotient(int64_t sum, int64_t divisor) {
 /// One lifting step: the targets of a row run through their stencil.
 class Step {
  public:
-  Step(std::span<int32_t> values, uint32_t width, uint32_t height, const Level& level)
-      : values_(values),
-        width_(width),
-        height_(height),
+  Step(const LiftedGrid& grid, const Level& level)
+      : values_(grid.values),
+        valid_(grid.valid.empty() ? nullptr : grid.valid.data()),
+        width_(grid.width),
+        height_(grid.height),
         level_(level),
-        stencil_(stencilOf(level.kind, level.step, width)) {}
+        stencil_(stencilOf(level.kind, level.step, grid.width)) {}
 
   /// x_new -+= prediction from the coarser vertices.
   template <int kSign>
@@ -56,14 +58,14 @@ class Step {
   template <int kSign, bool kPredict>
   void targets(uint32_t y, uint32_t first_x) {
     const uint32_t pitch = 2 * level_.step, reach = static_cast<uint32_t>(stencil_.reach);
-    const bool interior_row = y >= reach && y + reach < height_;
+    const bool interior_row = y >= reach && y + reach < height_ && valid_ == nullptr;
     for (uint32_t x = first_x; x < width_; x += pitch) {
       if (interior_row && x >= reach && x + reach < width_) {
         const uint32_t end = width_ - reach;
         for (; x < end; x += pitch) apply<kSign>(x, y, inside<kPredict>(x, y));
         x -= pitch;
-      } else {
-        apply<kSign>(x, y, atBorder<kPredict>(x, y));
+      } else if (valid_ == nullptr || valid_[size_t{y} * width_ + x]) {
+        apply<kSign>(x, y, whereSomeAreMissing<kPredict>(x, y));
       }
     }
   }
@@ -88,31 +90,43 @@ class Step {
   }
 
   template <bool kPredict>
-  int64_t atBorder(uint32_t x, uint32_t y) const {
+  int64_t whereSomeAreMissing(uint32_t x, uint32_t y) const {
     int64_t sum = 0, weights = 0;
+    std::optional<int64_t> nearest;  // mean of the first ring that has anyone
     int tap = 0;
     for (size_t ring = 0; ring < Stencil::kRingSize.size(); ++ring) {
+      int64_t ring_sum = 0, there = 0;
       for (int i = 0; i < Stencil::kRingSize[ring]; ++i, ++tap) {
-        const int64_t nx = mirrored(x, stencil_.dx[tap], width_);
-        const int64_t ny = mirrored(y, stencil_.dy[tap], height_);
-        if (nx < 0 || ny < 0) continue;
-        sum += Stencil::kRingWeight[ring] *
-               int64_t{values_[static_cast<size_t>(ny) * width_ + static_cast<size_t>(nx)]};
-        weights += Stencil::kRingWeight[ring];
+        const int64_t neighbour = present(x, y, stencil_.dx[tap], stencil_.dy[tap]);
+        if (neighbour < 0) continue;
+        ring_sum += values_[static_cast<size_t>(neighbour)];
+        ++there;
       }
+      if (there > 0 && !nearest) nearest = roundedQuotient(ring_sum, there);
+      sum += Stencil::kRingWeight[ring] * ring_sum;
+      weights += Stencil::kRingWeight[ring] * there;
     }
     if (!kPredict) return roundedShift(sum, kUpdateShift);
+    if (valid_ != nullptr && weights != Stencil::kWeightSum) return nearest.value_or(0);
     return weights > 0 ? roundedQuotient(sum, weights) : 0;
   }
 
-  /// at + offset, or at - offset if that is outside [0, size), or -1 if both are.
-  static int64_t mirrored(uint32_t at, int offset, uint32_t size) {
-    const int64_t direct = int64_t{at} + offset, image = int64_t{at} - offset;
-    if (direct >= 0 && direct < size) return direct;
-    return image >= 0 && image < size ? image : -1;
+  /// The neighbour at an offset, mirrored at the border; where that is void the opposite one; -1
+  /// where neither is there.
+  int64_t present(uint32_t x, uint32_t y, int dx, int dy) const {
+    const int64_t neighbour = inGrid(x, y, dx, dy);
+    if (valid_ == nullptr || neighbour < 0 || valid_[neighbour]) return neighbour;
+    const int64_t opposite = inGrid(x, y, -dx, -dy);
+    return opposite >= 0 && valid_[opposite] ? opposite : -1;
+  }
+
+  int64_t inGrid(uint32_t x, uint32_t y, int dx, int dy) const {
+    const int64_t nx = mirrored(x, dx, width_), ny = mirrored(y, dy, height_);
+    return nx < 0 || ny < 0 ? -1 : ny * width_ + nx;
   }
 
   std::span<int32_t> values_;
+  const uint8_t* valid_;  ///< null where all are
   uint32_t width_, height_;
   const Level& level_;
   Stencil stencil_;
@@ -120,19 +134,19 @@ class Step {
 
 }  // namespace
 
-void forwardLifting(std::span<int32_t> values, uint32_t width, uint32_t height) {
-  const std::vector<Level> levels = levelsOf(width, height);
+void forwardLifting(const LiftedGrid& grid) {
+  const std::vector<Level> levels = levelsOf(grid.width, grid.height);
   for (size_t i = levels.size() - 1; i > 0; --i) {
-    Step step(values, width, height, levels[i]);
+    Step step(grid, levels[i]);
     step.predict<-1>();
     step.update<1>();
   }
 }
 
-void inverseLifting(std::span<int32_t> values, uint32_t width, uint32_t height) {
-  const std::vector<Level> levels = levelsOf(width, height);
+void inverseLifting(const LiftedGrid& grid) {
+  const std::vector<Level> levels = levelsOf(grid.width, grid.height);
   for (size_t i = 1; i < levels.size(); ++i) {
-    Step step(values, width, height, levels[i]);
+    Step step(grid, levels[i]);
     step.update<-1>();
     step.predict<1>();
   }

@@ -12,14 +12,22 @@ namespace tetrakis {
 
 struct Stencil {
   static constexpr std::array<int, 4> kRingSize = {4, 8, 4, 8};
-  static constexpr std::array<int, 4> kRingWeight = {174, -27, 2,
-                                                     3};  ///< sums to 512 over all taps
+  static constexpr std::array<int, 4> kRingWeight = {174, -27, 2, 3};  ///< of each tap of a ring
+  static constexpr int kWeightSum = 512;                               ///< over all taps
   static constexpr int kTaps = 24;
 
   std::array<int, kTaps> dx, dy;        ///< grid offsets, ring after ring
   std::array<ptrdiff_t, kTaps> linear;  ///< the same offsets in a row-major grid
   int reach = 0;                        ///< largest |dx| or |dy|
 };
+
+/// at + offset, or its mirror image at - offset where that is outside [0, size), or -1 where both
+/// are.
+inline int64_t mirrored(uint32_t at, int offset, uint32_t size) {
+  const int64_t direct = int64_t{at} + offset, image = int64_t{at} - offset;
+  if (direct >= 0 && direct < size) return direct;
+  return image >= 0 && image < size ? image : -1;
+}
 
 /// Midpoints have their nearest neighbours along the axes; centres along the diagonals, which is
 /// the same pattern turned by 45 degrees and enlarged by sqrt 2.
