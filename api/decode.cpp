@@ -18,6 +18,7 @@ constexpr uint64_t kDefaultSamples = uint64_t{1} << 28;
 constexpr uint64_t kDefaultMemory = uint64_t{8} << 30;
 // Working memory: coefficients and band state of one track, and the output.
 constexpr uint64_t kBytesPerHeight = 24;
+constexpr uint64_t kBytesPerLayer = 6;   // validity or corrections, with their hints
 constexpr uint64_t kBytesPerTexel = 24;  // per channel
 
 Status exceeds(const char* what, uint64_t value, uint64_t limit) {
@@ -36,7 +37,9 @@ Status checkLimits(const StreamHeader& header, const tks_limits* limits) {
   if (header.geometry) {
     const uint64_t samples = uint64_t{header.geometry->width} * header.geometry->height;
     if (samples > most_samples) return exceeds("height samples", samples, most_samples);
-    memory = std::max(memory, samples * kBytesPerHeight);
+    const uint64_t layers =
+        (header.layers.validity_bytes > 0) + (header.layers.corrections != CorrectionKind::kNone);
+    memory = std::max(memory, samples * (kBytesPerHeight + layers * kBytesPerLayer));
   }
   if (header.texture) {
     const uint64_t texels = uint64_t{header.texture->width} * header.texture->height;
@@ -75,46 +78,68 @@ Status wrongSize(uint64_t wanted, uint64_t given) {
 
 }  // namespace
 
-Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
-  const auto& geometry = decoder.parsed.header.geometry;
-  if (!geometry) return Status(TKS_USAGE, "The stream holds no heights.");
-  if (!decoder.geometry) {
-    decoder.geometry = decodeGeometry(decoder.payload.codewords[0], geometry->planes,
-                                      geometry->width, geometry->height);
+Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
+  const StreamHeader& header = decoder.parsed.header;
+  if (!header.geometry) return Status(TKS_USAGE, "The stream holds no heights.");
+  if (!decoder.heights) {
+    decoder.heights = decodeLayers(decoder.payload.codewords[0], *header.geometry, header.layers);
   }
-  return &*decoder.geometry;
+  return &*decoder.heights;
 }
 
-SurfaceScale surfaceScale(const StreamHeader& header) {
+Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
+  const Result<const DecodedHeights*> heights = decodedHeights(decoder);
+  if (!heights.ok()) return heights.status();
+  return &(*heights)->geometry;
+}
+
+SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry) {
   const GeometryHeader& g = *header.geometry;
-  const double step = std::ldexp(g.step, -g.fraction_bits);
+  const double step = std::ldexp(g.step, -geometry.fraction_bits);
   return {step * header.metadata.scale, g.base * header.metadata.scale + header.metadata.offset};
 }
 
 namespace {
 
 Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
-  Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
+  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
   if (!decoded.ok()) return decoded.status();
-  const GeometryHeader& header = *decoder.parsed.header.geometry;
+  const StreamHeader& header = decoder.parsed.header;
+  const DecodedGeometry& geometry = (*decoded)->geometry;
   const size_t wanted =
-      (*decoded)->heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.sample));
+      geometry.heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample));
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  std::vector<int32_t> steps = (*decoded)->heights;
-  dropFraction(steps, header.fraction_bits);
-  fromSteps(steps, header, out);
+  fromSteps(wholeSteps(geometry), *header.geometry, header.layers, {geometry.valid, (*decoded)->corrections}, out);
   return {};
 }
 
 Status decodeSurface(tks_decoder& decoder, float* out, size_t count) {
-  Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
+  const Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
   if (!decoded.ok()) return decoded.status();
   const std::vector<int32_t>& heights = (*decoded)->heights;
+  const std::vector<uint8_t>& valid = (*decoded)->valid;
   if (count != heights.size() || out == nullptr)
     return wrongSize(heights.size() * sizeof(float), count * sizeof(float));
-  const SurfaceScale scale = surfaceScale(decoder.parsed.header);
+  const SurfaceScale scale = surfaceScale(decoder.parsed.header, **decoded);
   for (size_t i = 0; i < count; ++i)
     out[i] = static_cast<float>(heights[i] * scale.scale + scale.offset);
+  for (size_t i = 0; i < valid.size(); ++i) {
+    if (!valid[i]) out[i] = std::numeric_limits<float>::quiet_NaN();
+  }
+  return {};
+}
+
+Status decodeValidity(tks_decoder& decoder, uint8_t* out, size_t count) {
+  const Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
+  if (!decoded.ok()) return decoded.status();
+  const std::vector<uint8_t>& valid = (*decoded)->valid;
+  const size_t wanted = (*decoded)->heights.size();
+  if (count != wanted || out == nullptr) return wrongSize(wanted, count);
+  if (valid.empty()) {
+    std::fill_n(out, count, uint8_t{1});
+  } else {
+    std::copy(valid.begin(), valid.end(), out);
+  }
   return {};
 }
 
@@ -195,6 +220,9 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.step = g.step;
     info.exact_steps = g.exact;
     info.max_error = g.max_error;
+    info.has_voids = header.layers.validity_bytes > 0;
+    info.has_nodata = header.layers.has_nodata;
+    info.nodata = header.layers.nodata;
   }
   if (header.texture) {
     info.texture_width = header.texture->width;
@@ -270,6 +298,10 @@ tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes) {
 
 tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count) {
   return tetrakis::keeping(decoder, [&] { return tetrakis::decodeSurface(*decoder, out, count); });
+}
+
+tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count) {
+  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeValidity(*decoder, out, count); });
 }
 
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes) {

@@ -6,27 +6,30 @@
 #include <span>
 #include <string>
 
+#include "api/height_layers.hpp"
 #include "bitstream/header.hpp"
 #include "bitstream/packet.hpp"
-#include "codec/geometry_decoder.hpp"
 
 struct tks_decoder {
   std::span<const uint8_t> data;  ///< the caller's
   tetrakis::ParsedHeader parsed;
   tetrakis::Demultiplexed payload;
-  std::optional<tetrakis::DecodedGeometry> geometry;  ///< decoded on first use, with fraction bits
+  std::optional<tetrakis::DecodedHeights> heights;  ///< decoded on first use
   std::string message;
 };
 
 namespace tetrakis {
 
-/// Heights in steps * 2^fraction_bits, decoded once. TKS_USAGE if the stream holds none.
+/// Decoded once. TKS_USAGE if the stream holds none.
+Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
+
+/// Of these, the heights between the steps.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 
 /// Height in the unit = heights value * scale + offset.
 struct SurfaceScale {
   double scale, offset;
 };
-SurfaceScale surfaceScale(const StreamHeader& header);
+SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry);
 
 }  // namespace tetrakis

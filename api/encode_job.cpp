@@ -7,9 +7,11 @@
 #include <map>
 
 #include "api/samples.hpp"
+#include "codec/corrections_encoder.hpp"
 #include "codec/decimation.hpp"
 #include "codec/geometry_decoder.hpp"
 #include "codec/geometry_encoder.hpp"
+#include "codec/validity_encoder.hpp"
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/hull.hpp"
 #include "ratecontrol/screen_model.hpp"
@@ -29,12 +31,13 @@ Texels toTexels(const tks_image& image) {
     const auto* from = static_cast<const decltype(type)*>(image.data);
     texels.samples.resize(count);
     std::transform(from, from + count, texels.samples.begin(),
-                   [](auto v) { return static_cast<int32_t>(v); });
+                   [](auto v) { return static_cast<uint16_t>(v); });
   });
   return texels;
 }
 
-double squaredDistance(const std::vector<int32_t>& a, const std::vector<int32_t>& b) {
+template <class T>
+double squaredDistance(const std::vector<T>& a, const std::vector<T>& b) {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) {
     const double difference = static_cast<double>(a[i]) - b[i];
@@ -43,14 +46,32 @@ double squaredDistance(const std::vector<int32_t>& a, const std::vector<int32_t>
   return sum;
 }
 
-/// The hull of a track in the common distortion, with the RMSE that each packet states.
+/// Raises the first point so that the first `opening` bytes are worth the most of all: what they
+/// hold, the rest needs.
+void favour(std::vector<RatePoint>& points, uint64_t opening) {
+  double steepest = 0;
+  const auto opened = std::find_if(points.begin(), points.end(),
+                                   [&](const RatePoint& p) { return p.bytes >= opening; });
+  if (opened == points.begin() || opened == points.end()) return;
+  for (auto p = opened + 1; p != points.end(); ++p) {
+    const auto bytes = static_cast<double>(p->bytes - opened->bytes);
+    steepest = std::max(steepest, (opened->distortion - p->distortion) / bytes);
+  }
+  const double worth = 1.01 * steepest * static_cast<double>(opened->bytes);
+  points.front().distortion = std::max(points.front().distortion, opened->distortion + worth);
+}
+
+/// The hull of a track in the common distortion, with the RMSE that each packet states. opening:
+/// bytes that come first whatever they cost.
 template <class MeanSquare, class Cost>
-TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost cost) {
+TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost cost,
+                  uint64_t opening = 0) {
   std::map<uint64_t, double> rmse;
   for (RatePoint& point : points) {
     rmse[point.bytes] = std::sqrt(mean_square(point.distortion));
     point.distortion = cost(point.distortion);
   }
+  favour(points, opening);
   TrackCurve curve;
   curve.points = lowerHull(points, kPacketGrowth);
   for (const RatePoint& point : curve.points) curve.rmse.push_back(rmse[point.bytes]);
@@ -77,7 +98,7 @@ Result<std::vector<uint8_t>> EncodeJob::run() {
   if (Status status = quantise(); !status.ok()) return status;
   if (Status status = encodeTracks(); !status.ok()) return status;
   order();
-  if (Status status = encodeLosslessGeometryIfItFits(); !status.ok()) return status;
+  encodeLosslessIfItFits();
   if (Status status = report(0.9); !status.ok()) return status;
   Result<Needs> wanted = needs();
   if (!wanted.ok()) return wanted.status();
@@ -96,36 +117,93 @@ Status EncodeJob::report(double done) const {
 Status EncodeJob::quantise() {
   if (image_ != nullptr) texels_ = toTexels(*image_);
   if (heights_ == nullptr) return {};
-  const double finest_useful =
-      options_.max_error > 0 ? options_.max_error / std::abs(heights_->scale) / 16 : 0;
-  Result<HeightSteps> steps = toSteps(*heights_, heights_->step, finest_useful);
-  if (!steps.ok()) return steps.status();
-  if (options_.lossless && !steps->exact) {
-    return {
-        TKS_USAGE,
-        "No uniform step restores these heights bit for bit; use --max-error instead of lossless."};
+  const double error = options_.max_error / std::abs(heights_->scale);
+  bool restore = options_.lossless != 0;
+  Result<HeightSteps> steps = toSteps(*heights_, {heights_->step, restore, error});
+  if (steps.ok() && error > 0 && errorsOf(*heights_, *steps).largest > error) {
+    if (heights_->step > 0) {
+      return {TKS_USAGE,
+              "The maximum error is below what the step of these heights allows; give a smaller "
+              "step."};
+    }
+    restore = true;
+    steps = toSteps(*heights_, {0, restore, 0});
   }
+  if (!steps.ok()) return steps.status();
   geometry_.emplace();
   geometry_->steps = std::move(*steps);
+  encodeSideLayers(restore && !geometry_->steps.exact);
   return {};
 }
 
-/// Every lifting step rounds to whole units; on coarse steps that noise is heard long before the
-/// stream is lossless. Four more bits make it negligible; heights with many bits need none.
-int EncodeJob::lossyFractionBits() const {
-  const HeightSteps& steps = geometry_->steps;
-  const double finest = steps.step * std::abs(heights_->scale);
-  if (options_.lossless || (options_.max_error > 0 && options_.max_error < 2 * finest)) return 0;
-  return std::clamp(20 - steps.range_bits, 0, 4);
+/// The layers that do not depend on the coefficients: validity, and corrections of the samples.
+void EncodeJob::encodeSideLayers(bool restore_samples) {
+  EncodedHeights& g = *geometry_;
+  const bool infinite_integer = heights_->sample != TKS_F32 && !std::isfinite(heights_->nodata);
+  g.layers.has_nodata =
+      heights_->has_nodata != 0 && !std::isnan(heights_->nodata) && !infinite_integer;
+  if (g.layers.has_nodata) g.layers.nodata = heights_->nodata + 0.0;  // -0 equals 0: one of them
+  if (!g.steps.valid.empty()) {
+    g.validity = encodeValidity(g.steps.valid, heights_->width, heights_->height);
+    g.layers.validity_bytes = g.validity.size();
+  }
+  if (!restore_samples) return;
+  g.layers.corrections = CorrectionKind::kSamples;
+  const StreamHeader header = makeHeader(0, false);
+  const std::vector<uint8_t> hints = sampleHints(g.steps.steps, *header.geometry);
+  g.corrections = encodeCorrections(sampleCorrections(*heights_, g.steps),
+                                    {heights_->width, heights_->height, g.steps.valid, hints});
+  constexpr double kSomething = 1e-200;  // -0 for 0 is no distance, but not exact
+  g.left =
+      std::max(errorsOf(*heights_, g.steps).squares / (g.steps.step * g.steps.step), kSomething);
 }
 
-void EncodeJob::encodeGeometryWith(int fraction_bits) {
-  geometry_->fraction_bits = fraction_bits;
-  std::vector<int32_t> scaled = geometry_->steps.steps;
-  for (int32_t& q : scaled) q *= 1 << fraction_bits;
-  geometry_->track = encodeGeometry(scaled, heights_->width, heights_->height, trackLimit());
-  for (RatePoint& point : geometry_->track.points)
-    point.distortion *= std::exp2(-2 * fraction_bits);
+/// Without a target everything is sent, and whole steps are the cheapest way to the last bit.
+Purpose EncodeJob::texturePurpose() const {
+  const bool targeted = budgeted() || options_.psnr > 0 || options_.max_error > 0;
+  return options_.lossless || !targeted ? Purpose::kLossless : Purpose::kLossy;
+}
+
+Purpose EncodeJob::geometryPurpose() const {
+  const double finest = geometry_->steps.step * std::abs(heights_->scale);
+  const bool fine = options_.max_error > 0 && options_.max_error < 2 * finest;
+  const bool restores = geometry_->layers.corrections == CorrectionKind::kSamples;
+  return fine || restores ? Purpose::kLossless : texturePurpose();
+}
+
+void EncodeJob::encodeGeometry(Purpose purpose) {
+  const HeightSteps& steps = geometry_->steps;
+  geometry_->wavelet = chooseWavelet(steps.steps, steps.valid, heights_->width, heights_->height,
+                                     steps.range_bits, purpose);
+  joinLayers(encodeCoefficients());
+}
+
+EncodedTrack EncodeJob::encodeCoefficients() const {
+  return tetrakis::encodeGeometry(geometry_->steps.steps, heights_->width, heights_->height,
+                                  geometry_->wavelet, trackLimit(), geometry_->steps.valid);
+}
+
+/// Validity before the coefficients, corrections of the samples behind them.
+void EncodeJob::joinLayers(const EncodedTrack& coefficients) {
+  EncodedHeights& g = *geometry_;
+  EncodedTrack& track = g.track;
+  track = coefficients;
+  if (g.validity.empty() && g.corrections.empty() && g.left == 0) return;
+  track.codeword = g.validity;
+  track.codeword.insert(track.codeword.end(), coefficients.codeword.begin(),
+                        coefficients.codeword.end());
+  g.layers.coefficient_bytes = g.corrections.empty() ? 0 : coefficients.codeword.size();
+  track.codeword.insert(track.codeword.end(), g.corrections.begin(), g.corrections.end());
+  for (RatePoint& point : track.points) {
+    point.bytes += g.validity.size();
+    point.distortion += g.left;
+  }
+  if (!g.validity.empty()) {
+    const auto voids = static_cast<double>(g.steps.steps.size() - g.steps.validCount());
+    const double unknown = track.points.front().distortion + voids * g.validityWorth();
+    track.points.insert(track.points.begin(), {0, unknown});
+  }
+  if (!g.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
 }
 
 /// Bytes of a track worth coding. Beyond the budget, because the slopes of the last packets within
@@ -138,56 +216,78 @@ uint64_t EncodeJob::trackLimit() const {
 
 Status EncodeJob::encodeTracks() {
   const bool parallel = options_.threads > 1 && geometry_ && image_ != nullptr;
-  const auto encode_texture = [&] { return encodeTexture(texels_, trackLimit()); };
+  const auto encode_texture = [&] {
+    return encodeTexture(texels_, texturePurpose(), trackLimit());
+  };
   std::future<EncodedTexture> texture;
   if (image_ != nullptr) {
     texture = std::async(parallel ? std::launch::async : std::launch::deferred, encode_texture);
   }
-  if (geometry_) encodeGeometryWith(lossyFractionBits());
+  if (geometry_) encodeGeometry(geometryPurpose());
+  if (options_.max_error > 0) boundHeights();
   if (Status status = report(0.4); !status.ok()) return status;
   if (texture.valid()) texture_ = texture.get();
   return report(0.8);
 }
 
-/// Where a byte budget nearly reaches the heights' last step, whole units may reach it: they are
-/// the cheaper way to lossless.
-Status EncodeJob::encodeLosslessGeometryIfItFits() {
-  constexpr double kNearlyExact = 0.6;  // RMSE in steps at which losslessness is in reach
-  if (!geometry_ || options_.bytes == 0 || geometry_->fraction_bits == 0 || !geometry_->steps.exact)
-    return {};
+/// The budget buys so much of every track that losslessness is in reach.
+bool EncodeJob::nearlyExact() const {
+  constexpr double kNearlyExact = 0.6;  // RMSE in steps
+  std::array<double, kTracks> rmse = {rmseOf(255), rmseOf(255)};
   uint64_t room = options_.bytes;
-  double rmse = rmseOf(255);
   for (const Packet& packet : packets_) {
     const uint64_t size = overheadOf(packet) + packet.end - packet.begin;
     if (size > room) break;
     room -= size;
-    if (packet.track == TrackId::kGeometry) rmse = rmseOf(packet.quality);
+    rmse[static_cast<size_t>(packet.track)] = rmseOf(packet.quality);
   }
-  if (rmse > kNearlyExact) return {};
-  EncodedHeights lossy = *geometry_;
-  encodeGeometryWith(0);
-  order();
-  if (restoresEverything() && totalPayload() <= options_.bytes) return {};
-  geometry_ = std::move(lossy);
-  order();
-  return {};
+  const auto reached = [&](bool present, size_t track) {
+    return !present || rmse[track] <= kNearlyExact;
+  };
+  return reached(geometry_.has_value(), 0) && reached(texture_.has_value(), 1);
 }
 
-std::vector<int32_t> EncodeJob::decodedSteps(uint64_t bytes) const {
-  DecodedGeometry decoded =
-      decodeGeometry(std::span(geometry_->track.codeword).first(bytes), geometry_->track.planes,
-                     heights_->width, heights_->height);
-  dropFraction(decoded.heights, geometry_->fraction_bits);
-  return std::move(decoded.heights);
+/// Where a byte budget nearly reaches the last bit, tracks without fraction bits may reach it: they
+/// are the cheaper way to lossless.
+void EncodeJob::encodeLosslessIfItFits() {
+  const bool possible = !geometry_ || geometry_->steps.exact;
+  if (!budgeted() || !possible || !nearlyExact()) return;
+  std::optional<EncodedHeights> lossy_geometry = geometry_;
+  std::optional<EncodedTexture> lossy_texture = texture_;
+  if (geometry_) encodeGeometry(Purpose::kLossless);
+  if (texture_) texture_ = encodeTexture(texels_, Purpose::kLossless, trackLimit());
+  order();
+  if (restoresEverything() && totalPayload() <= options_.bytes) return;
+  geometry_ = std::move(lossy_geometry);
+  texture_ = std::move(lossy_texture);
+  order();
+}
+
+DecodedHeights EncodeJob::decodedHeights(uint64_t bytes) const {
+  const StreamHeader header = makeHeader(0, false);
+  return decodeLayers(std::span(geometry_->track.codeword).first(bytes), *header.geometry,
+                      header.layers);
 }
 
 Texels EncodeJob::decodedTexels(uint64_t bytes) const {
   return decodeTexture(texture_->header, std::span(texture_->track.codeword).first(bytes));
 }
 
-/// Sum of squared errors in steps.
+/// Sum of squared errors in steps, voids that are not known among them.
 double EncodeJob::geometrySquares(uint64_t bytes) const {
-  return squaredDistance(decodedSteps(bytes), geometry_->steps.steps);
+  const EncodedHeights& g = *geometry_;
+  const DecodedGeometry decoded = decodedHeights(bytes).geometry;
+  const std::vector<int32_t> steps = wholeSteps(decoded);
+  const bool restored =
+      g.layers.corrections == CorrectionKind::kSamples && bytes == g.track.codeword.size();
+  double squares = restored ? 0 : g.left;
+  if (g.validity.empty()) return squares + squaredDistance(steps, g.steps.steps);
+  for (size_t i = 0; i < decoded.valid.size(); ++i) {
+    const double difference = static_cast<double>(steps[i]) - g.steps.steps[i];
+    const bool known = decoded.valid[i] == g.steps.valid[i];
+    squares += known ? difference * difference : g.validityWorth();
+  }
+  return squares;
 }
 
 double EncodeJob::textureSquares(uint64_t bytes) const {
@@ -196,19 +296,20 @@ double EncodeJob::textureSquares(uint64_t bytes) const {
 
 TrackCurve EncodeJob::geometryCurve() const {
   if (!geometry_) return {};
-  const uint64_t samples = geometry_->steps.steps.size();
+  const auto samples = std::max<size_t>(geometry_->steps.validCount(), 1);
   const std::vector<RatePoint> points =
-      audit(geometry_->track, samples, budgeted(),
+      audit(geometry_->track, geometry_->steps.steps.size(), budgeted(),
             [&](uint64_t bytes) { return geometrySquares(bytes); });
   const double step =
       geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
   const double floor = meshFloor();
   const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
   const auto useful = [&](double squares) { return std::max(mean_square(squares), floor); };
-  if (image_ == nullptr) return priced(points, mean_square, useful);
+  const uint64_t opening = geometry_->validity.size();
+  if (image_ == nullptr) return priced(points, mean_square, useful, opening);
   const ScreenModel model(texels_, texelsPerMetre(step));
-  return priced(points, mean_square,
-                [&](double squares) { return model.cost(useful(squares) * step * step); });
+  const auto seen = [&](double squares) { return model.cost(useful(squares) * step * step); };
+  return priced(points, mean_square, seen, opening);
 }
 
 /// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes
@@ -220,7 +321,7 @@ double EncodeJob::meshFloor() const {
       decimate({heights_->width, heights_->height, geometry_->steps.steps});
   if (!sequence.ok()) return 0;
   const double squares = sequence->squaredError(sequence->bestPrefix(options_.triangles));
-  return squares / static_cast<double>(geometry_->steps.steps.size()) / 16;
+  return squares / static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1)) / 16;
 }
 
 /// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to
@@ -256,12 +357,13 @@ StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const 
     g.width = heights_->width;
     g.height = heights_->height;
     g.sample = static_cast<uint8_t>(heights_->sample);
-    g.fraction_bits = static_cast<uint8_t>(geometry_->fraction_bits);
+    g.wavelet = geometry_->wavelet;
     g.planes = static_cast<uint8_t>(geometry_->track.planes);
     g.exact = geometry_->steps.exact;
     g.base = geometry_->steps.base;
     g.step = geometry_->steps.step;
     g.max_error = options_.max_error > 0 ? options_.max_error : header.lossless ? 0 : -1;
+    header.layers = geometry_->layers;
     const auto text = [](const char* s) { return std::string(s ? s : ""); };
     header.metadata = {heights_->scale,     heights_->offset,     heights_->spacing_x,
                        heights_->spacing_y, text(heights_->unit), text(heights_->vertical_datum),
@@ -297,7 +399,9 @@ bool EncodeJob::restoresEverything() const {
                                      !texture_ || texture_->track.points.front().distortion == 0};
   for (const Packet& packet : packets_)
     exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
-  return exact[0] && exact[1] && (!geometry_ || geometry_->steps.exact);
+  const bool restored = !geometry_ || geometry_->steps.exact ||
+                        geometry_->layers.corrections == CorrectionKind::kSamples;
+  return exact[0] && exact[1] && restored;
 }
 
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {

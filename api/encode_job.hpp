@@ -3,21 +3,39 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "api/height_layers.hpp"
 #include "api/height_steps.hpp"
 #include "bitstream/packet.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "texture_wavelet/texture_encoder.hpp"
+#include "wavelet/filter_choice.hpp"
 
 namespace tetrakis {
 
-/// The heights in steps, and their track.
+/// The heights in steps, and their track: validity codeword, coefficients, corrections.
 struct EncodedHeights {
   HeightSteps steps;
-  int fraction_bits = 0;
+  WaveletHeader wavelet;
+  GeometryLayers layers;
+  std::vector<uint8_t> validity;     ///< codeword; empty: all samples are valid
+  std::vector<uint8_t> corrections;  ///< codeword
+  /// Squared error that exact steps leave in the samples, in steps, until corrections of the
+  /// samples are complete.
+  double left = 0;
   EncodedTrack track;
+
+  /// What a sample costs whose validity is not yet known rightly, in squared steps: as much as a
+  /// height that is off by a quarter of their range.
+  double validityWorth() const { return std::exp2(2.0 * steps.range_bits - 4); }
+};
+
+/// Decoded samples against the input's, over the valid ones; in sample units.
+struct HeightErrors {
+  double mean_square = 0, largest = 0, range = 0;
 };
 
 class EncodeJob {
@@ -33,10 +51,15 @@ class EncodeJob {
   using Needs = std::array<uint64_t, kTracks>;
 
   Status quantise();
+  void encodeSideLayers(bool restore_samples);
   Status encodeTracks();
-  Status encodeLosslessGeometryIfItFits();
-  void encodeGeometryWith(int fraction_bits);
-  int lossyFractionBits() const;
+  bool nearlyExact() const;
+  void encodeLosslessIfItFits();
+  void encodeGeometry(Purpose purpose);
+  EncodedTrack encodeCoefficients() const;
+  void joinLayers(const EncodedTrack& coefficients);
+  Purpose geometryPurpose() const;
+  Purpose texturePurpose() const;
   uint64_t trackLimit() const;
   bool budgeted() const { return options_.bytes != 0; }
 
@@ -45,14 +68,24 @@ class EncodeJob {
   TrackCurve textureCurve() const;
   double texelsPerMetre(double step) const;
   double meshFloor() const;
-  std::vector<int32_t> decodedSteps(uint64_t bytes) const;
+  DecodedHeights decodedHeights(uint64_t bytes) const;
   Texels decodedTexels(uint64_t bytes) const;
   double geometrySquares(uint64_t bytes) const;
   double textureSquares(uint64_t bytes) const;
 
+  // encode_bound.cpp: heights within a largest error.
+  void boundHeights();
+  bool widenSteps(double bound);
+  void roundHeights(int32_t largest);
+  void encodeRounded();
+  double floatSpacing() const;
+  void correctHeights(int32_t largest);
+  bool withinBound() const;
+
   // encode_target.cpp: how much of each track a quality target needs.
   Result<Needs> needs() const;
   Result<uint64_t> geometryNeed() const;
+  HeightErrors heightErrors(uint64_t bytes) const;
   uint64_t textureNeed(const Needs& so_far) const;
   bool geometryMeetsTarget(uint64_t bytes) const;
   bool textureMeetsTarget(uint64_t bytes) const;

@@ -1,40 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality targets of an encoding: how many bytes of each track --psnr and --max-error need, found
-// by decoding what would be sent.
+// Quality targets of an encoding: how many bytes of each track --psnr needs, found by decoding
+// what would be sent, and what texture goes with heights of --max-error.
 #include <algorithm>
 #include <cmath>
 
 #include "api/encode_job.hpp"
 #include "api/samples.hpp"
+#include "api/voids.hpp"
 
 namespace tetrakis {
 
 namespace {
-
-struct HeightErrors {
-  double mean_square = 0, largest = 0, range = 0;  // in sample units
-};
-
-/// Decoded samples against the input's, as a reader of the stream will see them.
-HeightErrors measure(const tks_heights& original, const GeometryHeader& header,
-                     const std::vector<int32_t>& steps) {
-  return withSampleType(original.sample, [&](auto type) {
-    using T = decltype(type);
-    std::vector<T> decoded(steps.size());
-    fromSteps(steps, header, decoded.data());
-    const T* truth = static_cast<const T*>(original.data);
-    const auto [low, high] = std::minmax_element(truth, truth + steps.size());
-    HeightErrors errors;
-    errors.range = static_cast<double>(*high) - static_cast<double>(*low);
-    for (size_t i = 0; i < steps.size(); ++i) {
-      const double error =
-          std::abs(static_cast<double>(decoded[i]) - static_cast<double>(truth[i]));
-      errors.mean_square += error * error / static_cast<double>(steps.size());
-      errors.largest = std::max(errors.largest, error);
-    }
-    return errors;
-  });
-}
 
 double worstMeanSquare(double peak, double psnr) {
   return peak * peak / std::pow(10, psnr / 10);
@@ -67,12 +43,36 @@ uint64_t first(const std::vector<uint64_t>& ends, Meets meets) {
 
 }  // namespace
 
-bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
+HeightErrors EncodeJob::heightErrors(uint64_t bytes) const {
+  const DecodedHeights decoded = decodedHeights(bytes);
   const StreamHeader header = makeHeader(0, false);
-  const GeometryHeader& g = *header.geometry;
-  const HeightErrors errors = measure(*heights_, g, decodedSteps(bytes));
-  if (options_.max_error > 0)
-    return errors.largest * std::abs(heights_->scale) <= options_.max_error;
+  const std::vector<uint8_t>& valid = geometry_->steps.valid;
+  const std::vector<int32_t> steps = wholeSteps(decoded.geometry);
+  return withSampleType(heights_->sample, [&](auto type) {
+    using T = decltype(type);
+    std::vector<T> samples(steps.size());
+    fromSteps(steps, *header.geometry, header.layers,
+              {decoded.geometry.valid, decoded.corrections}, samples.data());
+    const T* truth = static_cast<const T*>(heights_->data);
+    const SampleRange range = rangeOf(*heights_, valid);
+    HeightErrors errors;
+    errors.range = range.high - range.low;
+    double squares = 0;
+    for (size_t i = 0; i < samples.size(); ++i) {
+      if (!valid.empty() && !valid[i]) continue;
+      const double error =
+          std::abs(static_cast<double>(samples[i]) - static_cast<double>(truth[i]));
+      squares += error * error;
+      errors.largest = std::max(errors.largest, error);
+    }
+    errors.mean_square =
+        squares / static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1));
+    return errors;
+  });
+}
+
+bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
+  const HeightErrors errors = heightErrors(bytes);
   return errors.mean_square <= worstMeanSquare(errors.range, options_.psnr);
 }
 
@@ -85,15 +85,9 @@ bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
 Result<uint64_t> EncodeJob::geometryNeed() const {
   const uint64_t need = first(endsOf(packets_, TrackId::kGeometry),
                               [&](uint64_t bytes) { return geometryMeetsTarget(bytes); });
-  if (!geometryMeetsTarget(need)) {
-    return Status(
-        TKS_USAGE,
-        options_.max_error > 0
-            ? "The maximum error is below what the step of these heights allows; give a smaller "
-              "step."
-            : "This PSNR is above what the step of the heights allows; give a smaller step.");
-  }
-  return need;
+  if (geometryMeetsTarget(need)) return need;
+  return Status(TKS_USAGE,
+                "This PSNR is above what the step of the heights allows; give a smaller step.");
 }
 
 /// Without a target of its own the texture gets what the order puts before the last geometry
@@ -114,6 +108,11 @@ uint64_t EncodeJob::textureNeed(const Needs& so_far) const {
 Result<EncodeJob::Needs> EncodeJob::needs() const {
   Needs needs = {UINT64_MAX, UINT64_MAX};
   if (options_.bytes != 0 || options_.lossless != 0) return needs;
+  if (options_.max_error > 0) {  // the whole track, which was made for it
+    const uint64_t coefficients = geometry_->track.codeword.size() - geometry_->corrections.size();
+    if (texture_) needs[1] = textureNeed({coefficients, 0});
+    return needs;
+  }
   if (geometry_) {
     Result<uint64_t> need = geometryNeed();
     if (!need.ok()) return need.status();

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bitstream/header.hpp"
@@ -12,21 +13,53 @@
 namespace tetrakis {
 
 struct HeightSteps {
-  std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0
+  std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0; 0 where voids are
+  std::vector<uint8_t> valid;  ///< 1 valid, 0 void; empty: all are valid
   double base = 0, step = 1;
-  bool exact = false;  ///< every sample comes back bit for bit
+  bool exact = false;  ///< every valid sample comes back bit for bit
   int range_bits = 0;  ///< the steps span less than 2^range_bits
+
+  size_t validCount() const;
 };
 
-/// Chooses base and step. wanted_step > 0 is taken as it is (in sample units). Otherwise integers
-/// get the greatest common divisor of their differences, floats the coarsest of 1, 0.1, 0.01, 0.001
-/// or a power of two that restores every sample; where no step does that within 2^26 steps, a power
-/// of two near range / 2^20, but not above finest_useful (> 0). TKS_USAGE: a sample is NaN or
-/// infinite, or the step needs more than 2^26 steps.
-Result<HeightSteps> toSteps(const tks_heights& heights, double wanted_step, double finest_useful);
+/// What the target asks of steps that are chosen.
+struct StepNeeds {
+  double given = 0;       ///< > 0: the step itself, in sample units; nothing is chosen
+  bool lossless = false;  ///< corrections will restore the samples
+  double error = 0;       ///< > 0: largest error wanted, in sample units
+};
 
-/// Writes count samples of header.sample. steps as decoded; integers saturate at their type's
-/// range.
-void fromSteps(const std::vector<int32_t>& steps, const GeometryHeader& header, void* out);
+/// Chooses base and step. Integers get the greatest common divisor of their differences, doubled
+/// until 2^26 steps suffice; floats the coarsest of 1, 0.1, 0.01, 0.001 or a power of two that
+/// restores every sample. Where no step does that within 2^26 steps: for lossless
+/// sixteen times the spacing of the largest floats (corrections do the rest); else a power of two
+/// near range / 2^20, but not above error / 64 unless that takes more than 2^26 steps. TKS_USAGE: a
+/// sample is infinite, or the given step needs more than 2^26 steps.
+Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
+
+/// What makes samples of steps, besides the header's base and step. Empty spans: nothing to do.
+struct SampleLayers {
+  std::span<const uint8_t> valid;
+  std::span<const int32_t> corrections;  ///< of CorrectionKind::kSamples
+};
+
+/// Writes steps.size() samples of header.sample. steps as decoded; integers saturate at their
+/// type's range. Voids become layers.nodata or NaN; a height that would be that value becomes the
+/// next sample.
+void fromSteps(const std::vector<int32_t>& steps, const GeometryHeader& header,
+               const GeometryLayers& layers, const SampleLayers& decoded, void* out);
+
+/// The hints (codec/corrections_pass.hpp) of corrections to samples that these steps become.
+std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header);
+
+/// The corrections that restore the samples.
+std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps);
+
+/// Largest distance between a valid sample and what its step becomes, and the sum of the squared
+/// distances; in sample units.
+struct StepErrors {
+  double largest = 0, squares = 0;
+};
+StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps);
 
 }  // namespace tetrakis

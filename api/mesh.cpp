@@ -1,55 +1,101 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes of the decoded surface through the C interface.
+#include <algorithm>
 #include <cstdlib>
-#include <cstring>
+#include <limits>
+#include <numeric>
 
-#include "api/decoder.hpp"
 #include "api/message.hpp"
-#include "codec/decimation.hpp"
-#include "codec/lattice_mesh.hpp"
+#include "api/surface_mesh.hpp"
+#include "api/void_mesh.hpp"
+#include "codec/fitted_heights.hpp"
 
 namespace tetrakis {
 
 namespace {
 
-Result<LatticeMesh> makeMesh(const DecodedGeometry& geometry, const GeometryHeader& header,
-                             tks_mesh_kind kind, uint32_t max_triangles) {
-  Result<Lattice> lattice = Lattice::make(header.width, header.height);
-  if (!lattice.ok()) return lattice.status();
-  if (kind == TKS_MESH_CODED) return codedMesh(*lattice, geometry.significant);
-  if (max_triangles == 0) return fullMesh(*lattice);
-  Result<MeshSequence> sequence = decimate({header.width, header.height, geometry.heights});
+/// Vertices of a mesh but the roots, and its heights in the decoder's steps if they are fitted.
+struct Chosen {
+  std::vector<VertexId> vertices;
+  std::vector<double> fitted;  ///< one for each vertex of the mesh; empty: those of the samples
+};
+
+Result<Chosen> chosenVertices(const Lattice& lattice, const DecodedGeometry& geometry,
+                              tks_mesh_kind kind, uint32_t max_triangles) {
+  if (kind == TKS_MESH_CODED) return Chosen{codedVertices(lattice, geometry.significant), {}};
+  if (max_triangles == 0) {
+    std::vector<VertexId> all(lattice.vertexCount());
+    std::iota(all.begin(), all.end(), VertexId{0});
+    return Chosen{std::move(all), {}};
+  }
+  if (!geometry.valid.empty()) {
+    Result<FittedVertices> beside = verticesBesideVoids(lattice, geometry, max_triangles);
+    if (!beside.ok()) return beside.status();
+    return Chosen{std::move(beside->vertices), std::move(beside->heights)};
+  }
+  const SurfaceView view{lattice.width(), lattice.height(), geometry.heights};
+  Result<FittedSequence> sequence = FittedSequence::make({view, {}});
   if (!sequence.ok()) return sequence.status();
-  return sequence->meshWithAtMost(max_triangles);
+  const size_t count = sequence->longestPrefix(max_triangles);
+  std::vector<VertexId> order = sequence->order();
+  order.resize(count);
+  return Chosen{std::move(order), sequence->mesh(count).heights};
 }
 
 template <class T>
 T* allocate(size_t count) {
   void* memory = std::malloc(count * sizeof(T));
-  if (memory == nullptr) throw std::bad_alloc();
+  if (memory == nullptr && count > 0) throw std::bad_alloc();
   return static_cast<T*>(memory);
 }
 
-Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles, tks_mesh& out) {
+}  // namespace
+
+Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles) {
   if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET)
-    return {TKS_USAGE, "Unknown kind of mesh."};
+    return Status(TKS_USAGE, "Unknown kind of mesh.");
   Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
   if (!geometry.ok()) return geometry.status();
   const StreamHeader& header = decoder.parsed.header;
-  Result<LatticeMesh> mesh = makeMesh(**geometry, *header.geometry, kind, max_triangles);
-  if (!mesh.ok()) return mesh.status();
-  out.vertex_count = static_cast<uint32_t>(mesh->vertices.size());
-  out.triangle_count = static_cast<uint32_t>(mesh->triangleCount());
-  out.grid_index = allocate<uint32_t>(mesh->vertices.size());
-  out.height = allocate<float>(mesh->vertices.size());
-  out.triangles = allocate<uint32_t>(mesh->triangles.size());
-  std::memcpy(out.grid_index, mesh->vertices.data(), mesh->vertices.size() * sizeof(uint32_t));
-  std::memcpy(out.triangles, mesh->triangles.data(), mesh->triangles.size() * sizeof(uint32_t));
-  const SurfaceScale scale = surfaceScale(header);
-  for (size_t i = 0; i < mesh->vertices.size(); ++i) {
-    out.height[i] =
-        static_cast<float>((*geometry)->heights[mesh->vertices[i]] * scale.scale + scale.offset);
+  Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
+  if (!lattice.ok()) return lattice.status();
+  Result<Chosen> chosen = chosenVertices(*lattice, **geometry, kind, max_triangles);
+  if (!chosen.ok()) return chosen.status();
+  LatticeMesh mesh = meshOf(*lattice, chosen->vertices);
+  std::vector<float> heights;
+  heights.reserve(mesh.vertices.size());
+  const SurfaceScale scale = surfaceScale(header, **geometry);
+  const std::vector<uint8_t>& valid = (*geometry)->valid;
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const uint32_t sample = mesh.vertices[i];
+    const double steps = chosen->fitted.empty() ? (*geometry)->heights[sample] : chosen->fitted[i];
+    const bool is_void = !valid.empty() && !valid[sample];
+    heights.push_back(is_void ? std::numeric_limits<float>::quiet_NaN()
+                              : static_cast<float>(steps * scale.scale + scale.offset));
   }
+  return SurfaceMesh{std::move(*lattice), std::move(chosen->vertices), std::move(mesh),
+                     std::move(heights)};
+}
+
+void copyMesh(const LatticeMesh& mesh, std::span<const float> heights, tks_mesh& out) {
+  const auto copy = [](auto& values, auto*& to) {
+    to = allocate<std::remove_cvref_t<decltype(values[0])>>(values.size());
+    std::copy(values.begin(), values.end(), to);
+  };
+  out.vertex_count = static_cast<uint32_t>(mesh.vertices.size());
+  out.triangle_count = static_cast<uint32_t>(mesh.triangleCount());
+  copy(mesh.vertices, out.grid_index);
+  copy(heights, out.height);
+  copy(mesh.triangles, out.triangles);
+}
+
+namespace {
+
+Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles, tks_mesh& out) {
+  Result<SurfaceMesh> surface = surfaceMesh(decoder, kind, max_triangles);
+  if (!surface.ok()) return surface.status();
+  leaveOutVoids(surface->mesh, surface->heights);
+  copyMesh(surface->mesh, surface->heights, out);
   return {};
 }
 

@@ -9,7 +9,14 @@ namespace tetrakis {
 
 namespace {
 
-enum Parts : uint8_t { kGeometry = 1, kTexture = 2, kMetadata = 4, kIndex = 8, kAllParts = 15 };
+enum Parts : uint8_t {
+  kGeometry = 1,
+  kTexture = 2,
+  kMetadata = 4,
+  kIndex = 8,
+  kLayers = 16,
+  kAllParts = 31
+};
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
 
@@ -27,7 +34,8 @@ template <class V>
 void visitBody(V& v, StreamHeader& header) {
   uint8_t parts = static_cast<uint8_t>(
       (header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
-      (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex));
+      (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex) |
+      (header.layers.isDefault() ? 0 : kLayers));
   v.u8("parts", parts, 1, kAllParts);
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
   v.u8("lossless", header.lossless, 0, 1);
@@ -42,6 +50,7 @@ void visitBody(V& v, StreamHeader& header) {
     header.texture->visit(v);
   }
   if (parts & kMetadata) header.metadata.visit(v);
+  if (parts & kLayers) header.layers.visit(v);
   if (parts & kIndex) {
     uint64_t count = header.index.size();
     v.varint("packets", count, 1, kMaxHeaderBytes / 2);
@@ -59,6 +68,22 @@ Status needMore(size_t bytes) {
                              " bytes are needed."};
 }
 
+Status checkLayers(const StreamHeader& header) {
+  const GeometryLayers& layers = header.layers;
+  if (layers.isDefault()) return {};
+  if (!header.geometry) {
+    return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
+  }
+  const bool integer = header.geometry->sample != TKS_F32;
+  if (integer && !layers.has_nodata && layers.validity_bytes > 0) {
+    return {TKS_CORRUPT, "Corrupt stream: integer heights have voids but no value for them."};
+  }
+  if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata))) {
+    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no sample."};
+  }
+  return {};
+}
+
 Status checkMeaning(const StreamHeader& header) {
   if (!header.geometry && !header.texture) {
     return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
@@ -69,6 +94,7 @@ Status checkMeaning(const StreamHeader& header) {
       return {TKS_CORRUPT, "Corrupt stream: base or step of the heights is not a finite number."};
     }
   }
+  if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (header.texture) {
     const TextureHeader& t = *header.texture;
     if (t.sample != TKS_U8 && t.sample != TKS_U16) {

@@ -38,6 +38,13 @@ struct WaveletHeader {
   }
 };
 
+/// What corrections are added to.
+enum class CorrectionKind : uint8_t {
+  kNone = 0,
+  kSteps = 1,   ///< heights in steps: heights += correction_step * correction
+  kSamples = 2  ///< samples, in the order of their type: restores them bit for bit
+};
+
 /// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
 struct GeometryHeader {
   uint32_t width = 0, height = 0;
@@ -60,6 +67,35 @@ struct GeometryHeader {
     v.f64("max_error", max_error);
     wavelet.visit(v);
   }
+};
+
+/// What a geometry track holds besides coefficients, which then lie between the two:
+///
+///   validity codeword | coefficients | corrections
+struct GeometryLayers {
+  uint64_t validity_bytes = 0;  ///< 0: every sample is valid
+  uint8_t has_nodata = 0;       ///< voids have the sample value `nodata`; else NaN (f32 only)
+  double nodata = 0;
+  CorrectionKind corrections = CorrectionKind::kNone;
+  uint64_t coefficient_bytes = 0;  ///< with corrections only: what follows is theirs
+  uint32_t correction_step = 0;    ///< kSteps only: unit of the corrections, in steps
+
+  bool isDefault() const { return *this == GeometryLayers{}; }
+  bool operator==(const GeometryLayers&) const = default;
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("validity_bytes", validity_bytes, 0, UINT64_MAX >> 1);
+    v.u8("has_nodata", has_nodata, 0, 1);
+    if (has_nodata) v.f64("nodata", nodata);
+    v.u8("corrections", corrections, 0, 2);
+    if (corrections == CorrectionKind::kNone) return;
+    v.varint("coefficient_bytes", coefficient_bytes, 0, UINT64_MAX >> 1);
+    if (corrections == CorrectionKind::kSteps) {
+      v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
+    }
+  }
+  static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
 };
 
 /// Texture: centre, order and shears as in texture_wavelet/colour.hpp.
@@ -121,6 +157,7 @@ struct StreamHeader {
   uint8_t lossless = 0;        ///< the complete stream restores every sample
   uint32_t triangles = 0;      ///< budget the stream was made for; 0: none
   std::optional<GeometryHeader> geometry;
+  GeometryLayers layers;
   std::optional<TextureHeader> texture;
   Metadata metadata;
   std::vector<PacketHead> index;  ///< the heads of all packets, ahead of time

@@ -15,6 +15,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "codec/lattice.hpp"
@@ -35,10 +36,11 @@ struct AncestorWindow {
   /// Of a level of midpoints, the level of squares above it.
   AncestorWindow squaresAbove(const Lattice::Plan& above) const;
 
+  /// Without the cells of another window of the same level.
+  AncestorWindow without(const AncestorWindow& other) const;
+  /// visitOne(VertexId) for every cell.
   template <class Visit>
-  void visitSquares(const Lattice::Plan& plan, Visit& visit) const;
-  template <class Visit>
-  void visitMidpoints(const Lattice::Plan& plan, Visit& visit) const;
+  void visit(uint32_t level, const Lattice::Plan& plan, Visit& visitOne) const;
 
  private:
   static constexpr uint64_t kOddSum = 0x55aa55aa55aa55aa;
@@ -48,6 +50,10 @@ struct AncestorWindow {
 
   void clip(const Lattice::Plan& plan);
 };
+
+/// visit(level, AncestorWindow) for every level above v, from fine to coarse.
+template <class Visit>
+void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit);
 
 /// visit(VertexId) for every ancestor of v, level by level; v itself is not visited.
 template <class Visit>
@@ -59,8 +65,14 @@ template <class Delta>
 class AncestorSums {
  public:
   explicit AncestorSums(const Lattice& lattice)
-      : lattice_(&lattice), waiting_((lattice.levelCount() + 1) / 2) {}
+      : lattice_(&lattice),
+        waiting_((lattice.levelCount() + 1) / 2),
+        taken_(lattice.levelCount()) {}
 
+  /// visit(VertexId) for every ancestor of v now, and for none of them from now on. (Descendants of
+  /// v share most of their ancestors with it.)
+  template <class Visit>
+  void takeAncestorsOf(Site v, Visit&& visit);
   /// visit(VertexId, Delta) may follow now or later, for v too.
   template <class Visit>
   void add(Site v, const Delta& delta, Visit&& visit);
@@ -80,7 +92,8 @@ class AncestorSums {
   void rise(size_t pair, Visit& visit);
 
   const Lattice* lattice_;
-  std::vector<Waiting> waiting_;  ///< of levels 0, 2, 4 ...
+  std::vector<Waiting> waiting_;       ///< of levels 0, 2, 4 ...
+  std::vector<AncestorWindow> taken_;  ///< of every level; empty: none
 };
 
 inline AncestorWindow AncestorWindow::ofMidpoint(Site v) {
@@ -121,40 +134,59 @@ inline void AncestorWindow::clip(const Lattice::Plan& plan) {
   }
 }
 
-template <class Visit>
-void AncestorWindow::visitSquares(const Lattice::Plan& plan, Visit& visit) const {
-  const int64_t origin = plan.first + top * plan.columns + left;
-  for (uint64_t rest = cells; rest != 0; rest &= rest - 1) {
-    const int bit = std::countr_zero(rest);
-    visit(static_cast<VertexId>(origin + (bit >> 3) * int64_t{plan.columns} + (bit & 7)));
-  }
+inline AncestorWindow AncestorWindow::without(const AncestorWindow& other) const {
+  constexpr uint64_t kFirstColumn = 0x0101010101010101;
+  const int64_t right = other.left - left, down = other.top - top;
+  if (right < -7 || right > 7 || down < -7 || down > 7) return *this;
+  uint64_t moved = other.cells;
+  moved = right < 0 ? moved >> -right & kFirstColumn * (0xff >> -right)
+                    : moved << right & kFirstColumn * (0xff << right & 0xff);
+  moved = down < 0 ? moved >> 8 * -down : moved << 8 * down;
+  return {cells & ~moved, left, top};
 }
 
 template <class Visit>
-void AncestorWindow::visitMidpoints(const Lattice::Plan& plan, Visit& visit) const {
-  const int64_t origin = top * plan.columns + left;
-  for (uint64_t rest = cells; rest != 0; rest &= rest - 1) {
-    const int bit = std::countr_zero(rest);
-    const int64_t cell = origin + (bit >> 3) * int64_t{plan.columns} + (bit & 7);
-    visit(static_cast<VertexId>(plan.first + (cell >> 1)));
-  }
+void AncestorWindow::visit(uint32_t level, const Lattice::Plan& plan, Visit& visitOne) const {
+  // Half of an even number: the left column and the top row of midpoints are even.
+  const int64_t cell = top * plan.columns + left;
+  const auto origin =
+      static_cast<VertexId>(plan.first + (Lattice::isCentre(level) ? cell : cell / 2));
+  for (uint64_t rest = cells; rest != 0; rest &= rest - 1)
+    visitOne(VertexId{origin + plan.offsets[static_cast<size_t>(std::countr_zero(rest))]});
 }
 
 template <class Visit>
-void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit) {
+void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit) {
   uint32_t level = v.level;
   AncestorWindow squares = AncestorWindow::ofSquare(v);
   if (!Lattice::isCentre(level)) {
     --level;
     squares = AncestorWindow::ofMidpoint(v).squaresAbove(lattice.plan(level));
-    squares.visitSquares(lattice.plan(level), visit);
+    visit(level, squares);
   }
   for (; level > 0; level -= 2) {
     const AncestorWindow midpoints = squares.midpointsAbove();
-    midpoints.visitMidpoints(lattice.plan(level - 1), visit);
+    visit(level - 1, midpoints);
     squares = midpoints.squaresAbove(lattice.plan(level - 2));
-    squares.visitSquares(lattice.plan(level - 2), visit);
+    visit(level - 2, squares);
   }
+}
+
+template <class Visit>
+void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit) {
+  forEachAncestorWindow(lattice, v, [&](uint32_t level, const AncestorWindow& window) {
+    window.visit(level, lattice.plan(level), visit);
+  });
+}
+
+template <class Delta>
+template <class Visit>
+void AncestorSums<Delta>::takeAncestorsOf(Site v, Visit&& visit) {
+  for (size_t level = v.level; level < taken_.size(); ++level) taken_[level].cells = 0;
+  forEachAncestorWindow(*lattice_, v, [&](uint32_t level, const AncestorWindow& window) {
+    window.visit(level, lattice_->plan(level), visit);
+    taken_[level] = window;
+  });
 }
 
 template <class Delta>
@@ -194,15 +226,16 @@ template <class Visit>
 void AncestorSums<Delta>::rise(size_t pair, Visit& visit) {
   Waiting& waiting = waiting_[pair];
   if (waiting.squares.cells == 0) return;
+  const AncestorWindow squares = std::exchange(waiting.squares, {});
   const auto level = static_cast<uint32_t>(2 * pair);
   const auto visitOne = [&](VertexId a) { visit(a, waiting.delta); };
-  waiting.squares.visitSquares(lattice_->plan(level), visitOne);
-  if (pair > 0) {
-    const AncestorWindow midpoints = waiting.squares.midpointsAbove();
-    midpoints.visitMidpoints(lattice_->plan(level - 1), visitOne);
-    arrive(pair - 1, midpoints.squaresAbove(lattice_->plan(level - 2)), waiting.delta, visit);
-  }
-  waiting.squares.cells = 0;
+  const AncestorWindow others = squares.without(taken_[level]);
+  if (others.cells == 0) return;  // their ancestors are taken, too
+  others.visit(level, lattice_->plan(level), visitOne);
+  if (pair == 0) return;
+  const AncestorWindow midpoints = squares.midpointsAbove();
+  midpoints.without(taken_[level - 1]).visit(level - 1, lattice_->plan(level - 1), visitOne);
+  arrive(pair - 1, midpoints.squaresAbove(lattice_->plan(level - 2)), waiting.delta, visit);
 }
 
 }  // namespace tetrakis

@@ -11,7 +11,7 @@ namespace {
 
 struct Edge {
   int64_t from_x, from_y, dx, dy;
-  double weight;  ///< of the samples on it
+  double share;  ///< of the samples on it
 
   int64_t at(int64_t x, int64_t y) const { return dx * (y - from_y) - dy * (x - from_x); }
 };
@@ -23,41 +23,66 @@ Edge edgeOf(const SurfaceView& surface, GridPoint from, GridPoint to) {
   return {from.x, from.y, int64_t{to.x} - from.x, int64_t{to.y} - from.y, border ? 1.0 : 0.5};
 }
 
+class ClampedTriangle {
+ public:
+  ClampedTriangle(const SurfaceView& surface, const std::array<GridPoint, 3>& corners)
+      : surface_(surface), base_(heightAt(corners[0].x, corners[0].y)) {
+    for (size_t k = 0; k < 3; ++k) {
+      edges_[k] = edgeOf(surface, corners[(k + 1) % 3], corners[(k + 2) % 3]);
+      rise_[k] = heightAt(corners[k].x, corners[k].y) - base_;
+    }
+    const int64_t area = edges_[0].at(corners[0].x, corners[0].y);
+    assert(area != 0);
+    sign_ = area < 0 ? -1 : 1;
+    doubled_area_ = static_cast<double>(area * sign_);
+  }
+
+  struct Sample {
+    double error = 0;  ///< squared residual times weight
+    double share = 0;  ///< of the triangle in it; 0 outside
+  };
+  Sample at(uint32_t x, uint32_t y) const {
+    double share = 1, plane = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const int64_t e = edges_[k].at(x, y) * sign_;
+      if (e < 0) return {};
+      if (e == 0) share = edges_[k].share;
+      plane += static_cast<double>(e) * rise_[k];
+    }
+    const double residual = ((heightAt(x, y) - base_) * doubled_area_ - plane) / doubled_area_;
+    return {residual * residual * surface_.weightOf(indexOf(x, y)), share};
+  }
+
+ private:
+  size_t indexOf(uint32_t x, uint32_t y) const { return size_t{y} * surface_.width + x; }
+  double heightAt(uint32_t x, uint32_t y) const { return surface_.heights[indexOf(x, y)]; }
+
+  const SurfaceView& surface_;
+  std::array<Edge, 3> edges_;
+  std::array<double, 3> rise_;  ///< above corner 0: keeps the products small and exact on terrain
+  double base_;
+  int64_t sign_ = 1;
+  double doubled_area_ = 0;
+};
+
 }  // namespace
 
 double clampedEnergy(const SurfaceView& surface, const std::array<GridPoint, 3>& corners) {
-  const auto heightAt = [&](uint32_t x, uint32_t y) -> double {
-    return surface.heights[size_t{y} * surface.width + x];
-  };
-  std::array<Edge, 3> edges;
-  std::array<double, 3> rise;  // above corner 0: keeps the products small and exact on terrain
-  const double base = heightAt(corners[0].x, corners[0].y);
-  for (size_t k = 0; k < 3; ++k) {
-    edges[k] = edgeOf(surface, corners[(k + 1) % 3], corners[(k + 2) % 3]);
-    rise[k] = heightAt(corners[k].x, corners[k].y) - base;
-  }
-  const int64_t area = edges[0].at(corners[0].x, corners[0].y);
-  assert(area != 0);
-  const int64_t sign = area < 0 ? -1 : 1;
+  const ClampedTriangle triangle(surface, corners);
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
   double energy = 0;
   for (uint32_t y = top; y <= bottom; ++y)
     for (uint32_t x = left; x <= right; ++x) {
-      double weight = 1, plane = 0;
-      bool inside = true;
-      for (size_t k = 0; k < 3; ++k) {
-        const int64_t e = edges[k].at(x, y) * sign;
-        inside = inside && e >= 0;
-        if (e == 0) weight = edges[k].weight;
-        plane += static_cast<double>(e) * rise[k];
-      }
-      if (!inside) continue;
-      const double doubled_area = static_cast<double>(area * sign);
-      const double residual = ((heightAt(x, y) - base) * doubled_area - plane) / doubled_area;
-      energy += weight * residual * residual;
+      const ClampedTriangle::Sample sample = triangle.at(x, y);
+      energy += sample.share * sample.error;
     }
   return energy;
+}
+
+double clampedError(const SurfaceView& surface, const std::array<GridPoint, 3>& corners,
+                    GridPoint sample) {
+  return ClampedTriangle(surface, corners).at(sample.x, sample.y).error;
 }
 
 }  // namespace tetrakis

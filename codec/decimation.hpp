@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// RD decimation (thesis 5.2.2): general decimation of a 4-8 mesh with global error.
-//
-// From full resolution down, each step removes the merging domain M_v (v and its remaining
-// descendants) that costs least, lambda(v) = -deltaD / deltaR (5.2): squared error per triangle.
-// The steps reversed are an order of insertion whose prefixes are nested, conforming meshes.
+// RD decimation (thesis 5): an order of insertion of all vertices of a 4-8 mesh whose prefixes are
+// nested, conforming meshes, good at every rate.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/lattice.hpp"
@@ -25,7 +23,7 @@ class MeshSequence {
   const std::vector<VertexId>& order() const { return order_; }
   /// Of the mesh after `inserted` vertices, 0 ... order().size(); never falls.
   uint32_t triangleCount(size_t inserted) const { return triangle_counts_[inserted]; }
-  /// Sum over all samples of (sample - mesh)^2, in squared height steps.
+  /// Sum over all samples of weight * (sample - mesh)^2, in squared height steps.
   double squaredError(size_t inserted) const { return squared_errors_[inserted]; }
 
   /// The shortest prefix with the least error among those of at most `triangles` triangles; 0, the
@@ -41,7 +39,22 @@ class MeshSequence {
   std::vector<double> squared_errors_;
 };
 
-/// The errors of Lattice::make.
-Result<MeshSequence> decimate(const SurfaceView& surface);
+/// How to choose the next vertex. All but the first are the thesis's comparisons.
+enum class MeshPolicy {
+  kGeneralDecimation,     ///< whole merging domains, global error (general_decimation.hpp)
+  kRestrictedDecimation,  ///< single vertices, global error (leaf_order.hpp; thesis 5.4.2)
+  kLocalDecimation,       ///< single vertices, error at the vertex alone (thesis 2.5.2, 5.5.2)
+  kLocalRefinement,       ///< insertion from the roots, likewise (thesis 2.5.2, 5.5.2)
+};
+
+struct DecimationOptions {
+  MeshPolicy policy = MeshPolicy::kGeneralDecimation;
+  /// One for each lattice vertex, in any unit (vertex_costs.hpp); empty: triangles.
+  std::span<const uint32_t> costs;
+};
+
+/// The errors of Lattice::make; TKS_USAGE for weights or costs that are not one each, or weights
+/// negative or not finite; TKS_LIMIT for costs that add up to 2^32 or more.
+Result<MeshSequence> decimate(const SurfaceView& surface, const DecimationOptions& options = {});
 
 }  // namespace tetrakis

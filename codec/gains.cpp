@@ -38,12 +38,21 @@ class GainBuilder {
     return {p, static_cast<double>(surface_.heights[lattice_.gridIndex(p)])};
   }
 
-  /// Of full-resolution triangles at a sample: 8 meet in samples of even coordinate sum, 4 in the
-  /// others.
+  /// Share of a sample's weight for each full-resolution triangle at it: 8 meet in samples of even
+  /// coordinate sum, 4 in the others.
   double cornerWeight(GridPoint p) const {
     const double inside = (p.x + p.y) % 2 == 0 ? 0.125 : 0.25;
     const double side = p.x == 0 || p.x + 1 == lattice_.width() ? 2 : 1;
-    return inside * side * (p.y == 0 || p.y + 1 == lattice_.height() ? 2 : 1);
+    return inside * side * (p.y == 0 || p.y + 1 == lattice_.height() ? 2 : 1) *
+           surface_.weightOf(lattice_.gridIndex(p));
+  }
+
+  CornerWeights finestWeights(const HeightTriangle& t, GridPoint split) const {
+    const bool inner = split.x > 1 && split.y > 1 && split.x + 2 < lattice_.width() &&
+                       split.y + 2 < lattice_.height();
+    if (inner && surface_.weights.empty()) return {0.125, 0.125, 0.125, 0.25};
+    return {cornerWeight(t.a.point), cornerWeight(t.b.point), cornerWeight(t.apex.point),
+            cornerWeight(split)};
   }
 
   /// Adds the gains in and below a triangle that lies inside the grid.
@@ -52,10 +61,7 @@ class GainBuilder {
     const double delta = w.height - 0.5 * (t.a.height + t.b.height);
     double& gain = gains_[lattice_.id(lattice_.siteAt(t.level, w.point))];
     if (t.level + 1 == lattice_.levelCount()) {
-      const TriangleMoments finest =
-          mergeFinest({cornerWeight(t.a.point), cornerWeight(t.b.point), cornerWeight(t.apex.point),
-                       cornerWeight(w.point)},
-                      delta);
+      const TriangleMoments finest = mergeFinest(finestWeights(t, w.point), delta);
       gain += finest.energy;
       return finest;
     }
@@ -88,7 +94,10 @@ class GainBuilder {
     double total = 0;
     for (const double g : gains_) total += std::abs(g);
     if (total == 0) return;
-    const int exponent = std::max(-30, std::ilogb(total) - 51);
+    const float heaviest = surface_.weights.empty() ? 1
+                                                    : *std::max_element(surface_.weights.begin(),
+                                                                        surface_.weights.end());
+    const int exponent = std::max(std::ilogb(heaviest) - 30, std::ilogb(total) - 51);
     const double unit = std::ldexp(1.0, exponent), inverse = std::ldexp(1.0, -exponent);
     for (double& g : gains_) g = std::round(g * inverse) * unit;
   }

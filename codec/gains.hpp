@@ -16,9 +16,9 @@
 namespace tetrakis {
 
 /// g of every vertex, in squared height steps; may be negative. Rounded to multiples of one power
-/// of two, chosen (at most 2^-30 wide where that is fine enough) so that every sum of gains is
-/// exact in any order: orders of vertices built from them depend on no rounding. The surface has
-/// the lattice's size.
+/// of two, chosen (2^-30 of the largest weight where that is fine enough) so that every sum of
+/// gains is exact in any order: orders of vertices built from them depend on no rounding. The
+/// surface has the lattice's size.
 std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surface);
 
 }  // namespace tetrakis

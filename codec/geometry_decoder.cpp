@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry_decoder.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "bitstream/track_decoder.hpp"
@@ -9,29 +11,64 @@
 
 namespace tetrakis {
 
-DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword) {
+namespace {
+
+/// Marks the vertices that the band's significant coefficients belong to.
+void markVertices(const Band& band, const Subband& subband, uint32_t width,
+                  std::vector<uint8_t>& marks) {
+  const bool high_x = subband.orientation == Orientation::kHL ||
+                      subband.orientation == Orientation::kHH;
+  const uint32_t first = high_x ? uint32_t{1} << (subband.splits_x - 1) : 0;
+  for (uint32_t row = 0; row < subband.height; ++row) {
+    uint8_t* out = marks.data() + size_t{subband.planeRow(row)} * width + first;
+    for (uint32_t x = 0; x < band.shape.words(); ++x) {
+      uint32_t todo = band.significant[band.shape.word(row, x)];
+      for (; todo != 0; todo &= todo - 1) {
+        const size_t column = 32 * size_t{x} + static_cast<size_t>(std::countr_zero(todo));
+        out[column << subband.splits_x] = 1;
+      }
+    }
+  }
+}
+
+/// Coefficients of void vertices mean nothing.
+void clearVoids(DecodedGeometry& geometry) {
+  for (size_t i = 0; i < geometry.valid.size(); ++i) {
+    if (!geometry.valid[i]) geometry.heights[i] = geometry.significant[i] = 0;
+  }
+}
+
+}  // namespace
+
+DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword,
+                               std::vector<uint8_t> valid) {
+  const uint32_t width = header.width, height = header.height;
   const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.width, header.height);
+  const PlaneLayout layout(spec, width, height);
   const TrackState state = decodeTrack(layout.plan(0, 0, 0), header.planes, codeword);
   DecodedGeometry out;
+  out.valid = std::move(valid);
   out.fraction_bits = outputFractionBits(header.wavelet, header.planes, state.complete);
-  out.heights.assign(size_t{header.width} * header.height, 0);
+  out.heights.resize(size_t{width} * height);
+  out.significant.resize(out.heights.size());
   for (size_t i = 0; i < layout.size(); ++i) {
-    scatter(state.bands[i], out.fraction_bits - header.wavelet.fraction_bits, layout.subbands()[i],
-            out.heights, header.width);
+    const Subband& subband = layout.subbands()[i];
+    scatter(state.bands[i], out.fraction_bits - header.wavelet.fraction_bits, subband, out.heights,
+            width);
+    markVertices(state.bands[i], subband, width, out.significant);
   }
-  inverseWavelet(spec, out.heights, header.width, header.height);
+  inverseWavelet(spec, out.heights, width, height, out.valid);
+  clearVoids(out);
   return out;
 }
 
-std::vector<int32_t> wholeSteps(DecodedGeometry decoded) {
+std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded) {
+  std::vector<int32_t> steps = decoded.heights;
   const int bits = decoded.fraction_bits;
-  if (bits > 0) {
-    for (int32_t& h : decoded.heights) {
-      h = static_cast<int32_t>((int64_t{h} + (int64_t{1} << (bits - 1))) >> bits);
-    }
-  }
-  return std::move(decoded.heights);
+  if (bits == 0) return steps;
+  const int64_t half = int64_t{1} << (bits - 1);
+  for (int32_t& q : steps) q = static_cast<int32_t>((q + half) >> bits);
+  return steps;
 }
 
 }  // namespace tetrakis

@@ -11,15 +11,19 @@
 namespace tetrakis {
 
 struct DecodedGeometry {
-  std::vector<int32_t> heights;  ///< width * height, row by row, in units of 2^-fraction_bits steps
+  /// width * height, row by row, in units of 2^-fraction_bits steps; 0 where voids are
+  std::vector<int32_t> heights;
   int fraction_bits = 0;
+  std::vector<uint8_t> significant;  ///< 1 where the vertex has a non-zero coefficient
+  std::vector<uint8_t> valid;        ///< 1 valid, 0 void; empty: all are valid
 };
 
-/// codeword: any prefix of a geometry track. Safe on any bytes and any header that readHeader
-/// accepts.
-DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword);
+/// codeword: any prefix of a geometry track's coefficients. valid: width * height, or empty. Safe on
+/// any bytes and any header that readHeader accepts.
+DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword,
+                               std::vector<uint8_t> valid = {});
 
 /// Heights in whole steps, rounding half up.
-std::vector<int32_t> wholeSteps(DecodedGeometry decoded);
+std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);
 
 }  // namespace tetrakis

@@ -32,13 +32,21 @@ void Lattice::addLevels() {
     plan.columns = (right_ - 1) / (2 * step) + 1;
     plan.rows = (bottom_ - 1) / (2 * step) + 1;
     vertex_count_ += plan.columns * plan.rows;
-    levels_.push_back(plan);
+    addLevel(plan);
     plan.first = vertex_count_;
     plan.columns = (right_ - 1) / step + 2;
     plan.rows = (bottom_ - 1) / step + 2;
     vertex_count_ += static_cast<uint32_t>(uint64_t{plan.columns} * plan.rows / 2);
-    levels_.push_back(plan);
+    addLevel(plan);
   }
+}
+
+void Lattice::addLevel(Plan plan) {
+  for (uint32_t cell = 0; cell < plan.offsets.size(); ++cell) {
+    const uint32_t offset = cell / 8 * plan.columns + cell % 8;
+    plan.offsets[cell] = isCentre(levelCount()) ? offset : offset / 2;
+  }
+  levels_.push_back(plan);
 }
 
 }  // namespace tetrakis

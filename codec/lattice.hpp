@@ -92,6 +92,9 @@ class Lattice {
   /// visit(Site) for the up to four vertices that v is a parent of.
   template <class Visit>
   void forEachChild(Site v, Visit&& visit) const;
+  /// visit(Site, VertexId) for every vertex, by id.
+  template <class Visit>
+  void forEachVertex(Visit&& visit) const;
 
   struct Plan {
     uint32_t first = 0;    ///< id of the level's first vertex
@@ -99,6 +102,9 @@ class Lattice {
     uint32_t columns = 0;  ///< centres: squares in a row; midpoints: multiples of s, 0 included
     uint32_t rows = 0;
     uint32_t shift = 0;  ///< log2 s
+    /// Ids in an 8 x 8 window (ancestors.hpp): of cell 8 * row + column, from that of cell 0, whose
+    /// coordinates are even on levels of midpoints.
+    std::array<uint32_t, 64> offsets{};
   };
   static constexpr bool isCentre(uint32_t level) { return level % 2 == 0; }
   const Plan& plan(uint32_t level) const { return levels_[level]; }
@@ -106,6 +112,7 @@ class Lattice {
  private:
   Lattice(uint32_t width, uint32_t height);
   void addLevels();
+  void addLevel(Plan plan);
 
   uint32_t right_, bottom_;  ///< last column and row of the grid
   uint32_t root_side_ = 1;
@@ -223,6 +230,18 @@ void Lattice::forEachChild(Site v, Visit&& visit) const {
   if (v.row > 0 && right) visit(Site{level, v.column, v.row - 1});
   if (v.row < below.rows && left) visit(Site{level, v.column - 1, v.row});
   if (v.row < below.rows && right) visit(Site{level, v.column, v.row});
+}
+
+template <class Visit>
+void Lattice::forEachVertex(Visit&& visit) const {
+  VertexId vertex = 0;
+  for (uint32_t level = 0; level < levelCount(); ++level)
+    for (uint32_t row = 0; row < levels_[level].rows; ++row) {
+      const bool centre = isCentre(level);
+      for (uint32_t column = centre || row % 2 == 1 ? 0 : 1; column < levels_[level].columns;
+           column += centre ? 1 : 2)
+        visit(Site{level, column, row}, vertex++);
+    }
 }
 
 }  // namespace tetrakis

@@ -136,7 +136,7 @@ std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId
   return idsOf(marks);
 }
 
-LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks) {
+std::vector<VertexId> codedVertices(const Lattice& lattice, std::span<const uint8_t> marks) {
   assert(marks.size() == lattice.sampleCount());
   std::vector<bool> chosen(lattice.vertexCount());
   for (VertexId v = 0; v < lattice.vertexCount(); ++v) {
@@ -144,7 +144,11 @@ LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks) {
     chosen[v] = !lattice.hidden(site) && marks[lattice.gridIndex(lattice.position(site))] != 0;
   }
   close(lattice, chosen);
-  return meshOf(lattice, idsOf(chosen));
+  return idsOf(chosen);
+}
+
+LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks) {
+  return meshOf(lattice, codedVertices(lattice, marks));
 }
 
 }  // namespace tetrakis

@@ -30,8 +30,11 @@ LatticeMesh fullMesh(const Lattice& lattice);
 /// The smallest closed set that holds `vertices`: them and their ancestors, in order of id.
 std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId> vertices);
 
-/// The mesh of the closure of all samples whose mark is not zero (thesis 3.2.3: splitting domains).
-/// marks: one for each sample, row by row.
+/// The closure of all samples whose mark is not zero (thesis 3.2.3: splitting domains), in order of
+/// id. marks: one for each sample, row by row.
+std::vector<VertexId> codedVertices(const Lattice& lattice, std::span<const uint8_t> marks);
+
+/// Its mesh.
 LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks);
 
 }  // namespace tetrakis

@@ -2,12 +2,16 @@
 // Vertices by slope: a lazy queue whose entries are lower bounds of the slopes that vertices have
 // now.
 //
-// Slopes at the front rise, so few entries need a heap at any time:
-//   sorted   the first entry of every vertex, sorted once, 8 bytes each (slope rounded down to
-//   float); buckets  later entries, by the upper 16 bits of their slope: 128 buckets for each power
-//   of two; heap     later entries of the buckets up to the current one.
+// Slopes at the front hardly ever fall, so most entries need no order yet:
+//   later   vertices alone, by the upper 16 bits of their slope as a float: 128 buckets for each
+//           power of two, each a list of chunks of one cache line;
+//   open    the candidates of the buckets up to the current one: those that were there when it was
+//           opened, sorted, and a heap of those that came since.
+// A bucket is opened by handing its vertices back to the caller, who pushes those that are still
+// there with the slopes that they have by then: most stale entries never meet a comparison.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,35 +29,66 @@ struct Candidate {
 
 class SlopeQueue {
  public:
-  /// slopes: one for each vertex, no NaN.
-  explicit SlopeQueue(std::span<const double> slopes);
+  SlopeQueue();
 
-  /// The least entry. The queue is not empty.
-  Candidate pop();
-  void push(const Candidate& candidate);
-  /// Whether the candidate comes before every entry.
-  bool isBeforeAll(const Candidate& candidate);
+  /// slope: no NaN. Returns a bound: a slope below it needs an entry of its own.
+  float push(const Candidate& candidate);
+  /// The least entry. Entries remain; pushAgain(std::span<const VertexId>) is called with the
+  /// vertices of a bucket that is opened, some at a time, and may push them.
+  template <class PushAgain>
+  Candidate pop(PushAgain&& pushAgain);
+  /// Whether the candidate, popped just now or of a slope risen since, comes before every entry.
+  bool isFirst(const Candidate& candidate) const;
 
  private:
-  struct Entry {
-    double slope;
-    VertexId vertex;
+  static constexpr uint32_t kNone = 0xffffffff;
+  struct Chunk {
     uint32_t next;
+    uint32_t count;
+    std::array<VertexId, 14> vertices;
   };
 
-  bool sortedIsEmpty() const { return next_sorted_ == sorted_.size(); }
-  Candidate sortedFront() const;
-  void fillHeap();
-  void openBucket(uint32_t bucket);
+  bool openIsEmpty() const { return next_sorted_ == sorted_.size() && heap_.empty(); }
+  void pushLater(uint32_t bucket, VertexId vertex);
+  uint32_t newChunk(uint32_t next);
+  template <class PushAgain>
+  void openNextBucket(PushAgain& pushAgain);
+  void sortOpened();
+  Candidate popOpen();
 
-  std::vector<uint64_t>
-      sorted_;  ///< ordered bits of the float in the upper half, vertex in the lower
+  std::vector<uint32_t> heads_;  ///< first chunk of each bucket
+  std::vector<Chunk> chunks_;
+  uint32_t free_ = kNone;  ///< head of the list of unused chunks
+  int64_t current_ = -1;   ///< buckets up to this one are open
+  bool opening_ = false;
+  std::vector<Candidate> sorted_;
   size_t next_sorted_ = 0;
-  std::vector<uint32_t> buckets_;  ///< heads of linked lists of entries
-  std::vector<Entry> entries_;
-  uint32_t free_;         ///< head of the list of unused entries
-  uint32_t current_ = 0;  ///< buckets up to this one are in the heap
   std::vector<Candidate> heap_;
 };
+
+template <class PushAgain>
+Candidate SlopeQueue::pop(PushAgain&& pushAgain) {
+  while (openIsEmpty()) openNextBucket(pushAgain);
+  return popOpen();
+}
+
+template <class PushAgain>
+void SlopeQueue::openNextBucket(PushAgain& pushAgain) {
+  uint32_t chunk = heads_[static_cast<size_t>(++current_)];
+  if (chunk == kNone) return;
+  heads_[static_cast<size_t>(current_)] = kNone;
+  sorted_.clear();
+  next_sorted_ = 0;
+  opening_ = true;
+  while (chunk != kNone) {
+    const Chunk taken = chunks_[chunk];
+    chunks_[chunk].next = free_;
+    free_ = chunk;
+    chunk = taken.next;
+    pushAgain(std::span(taken.vertices).first(taken.count));
+  }
+  opening_ = false;
+  sortOpened();
+}
 
 }  // namespace tetrakis

@@ -11,6 +11,12 @@ namespace tetrakis {
 struct SurfaceView {
   uint32_t width = 0, height = 0;
   std::span<const int32_t> heights;
+  /// What a squared error at each sample counts (view, texture), finite and not negative; empty: 1.
+  std::span<const float> weights = {};
+
+  double weightOf(size_t sample) const {
+    return weights.empty() ? 1.0 : static_cast<double>(weights[sample]);
+  }
 };
 
 }  // namespace tetrakis

@@ -6,10 +6,12 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "conformance/reference_decoder.hpp"
 #include "tests/header_seal.hpp"
 #include "tests/stream_fixture.hpp"
+#include "tests/void_masks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -103,6 +105,71 @@ TEST(Reference, AgreesOnHeightsOfAllTypesAndPatterns) {
       if (HasFatalFailure()) return;
     }
   }
+}
+
+/// Encodes with a target of the caller's and voids, whole and damaged, and compares prefixes.
+void expectAgreementOnLayers(const tks_heights& heights, const tks_encode_options& options) {
+  tks_buffer buffer = {};
+  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
+  Bytes stream(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  expectAgreementOnPrefixes(stream, 16);
+  const size_t header = static_cast<size_t>(Stream(stream).info().header_bytes);
+  for (size_t i = 0; i < 8; ++i) {
+    Bytes damaged = stream;
+    const size_t at = i < 4 ? 12 + 9 * i : header + samples::hash(uint32_t(i), 0, 1) % 200;
+    if (at >= damaged.size()) continue;
+    damaged[at] ^= static_cast<uint8_t>(1 << (i % 8));
+    sealHeader(damaged);
+    expectAgreement(damaged);
+  }
+}
+
+TEST(Reference, AgreesOnVoids) {
+  for (const samples::VoidShape shape : samples::kVoidShapes) {
+    for (const auto& [width, height] : {std::pair{2u, 2u}, {19u, 14u}, {40u, 9u}}) {
+      SCOPED_TRACE(static_cast<int>(shape));
+      Raster raster = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
+      const auto valid = samples::validity(shape, width, height);
+      for (size_t i = 0; i < valid.size(); ++i) {
+        const int16_t nodata = 77;
+        if (!valid[i]) std::memcpy(raster.data.data() + 2 * i, &nodata, sizeof nodata);
+      }
+      tks_heights heights = raster.heights();
+      heights.has_nodata = 1;
+      heights.nodata = 77;
+      expectAgreementOnLayers(heights, lossless());
+      tks_encode_options bounded = budget(0);
+      bounded.max_error = 500;
+      expectAgreementOnLayers(heights, bounded);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Reference, AgreesOnCorrections) {
+  for (const tks_sample sample : {TKS_U8, TKS_I8, TKS_U16, TKS_I16, TKS_U32, TKS_I32, TKS_F32}) {
+    SCOPED_TRACE(static_cast<int>(sample));
+    for (const Pattern pattern : {Pattern::kRidges, Pattern::kExtreme}) {
+      const Raster raster = make({pattern, 13, 11, 1, sample, 3});
+      expectAgreementOnLayers(raster.heights(), lossless());
+      for (const double error : {3.0, 700.0}) {
+        tks_encode_options bounded = budget(0);
+        bounded.max_error = error;
+        expectAgreementOnLayers(raster.heights(), bounded);
+      }
+    }
+  }
+}
+
+TEST(Reference, AgreesOnFloatsOfAllMagnitudes) {
+  Raster raster = make({Pattern::kExtreme, 23, 17, 1, TKS_U32, 3});
+  raster.sample = TKS_F32;
+  for (size_t i = 0; i < 23 * 17; ++i) {
+    const auto bits = samples::hash(static_cast<uint32_t>(i), 1, 1) & 0xff7fffffu;  // no infinity
+    std::memcpy(raster.data.data() + 4 * i, &bits, sizeof bits);
+  }
+  expectAgreementOnLayers(raster.heights(), lossless());
 }
 
 // 65 x 9 and 129 x 2 have blocks without a coefficient, 5 x 70 a forest of root squares.

@@ -112,30 +112,6 @@ TEST_F(Arguments, NothingToEncodeOrNowhereToPutIt) {
   EXPECT_EQ(buffer.data, nullptr);
 }
 
-/// Not a number and infinity are no heights.
-TEST_F(Arguments, FloatHeightsMustBeFinite) {
-  for (const float bad :
-       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    Raster raster = make({Pattern::kRidges, 5, 5, 1, TKS_F32});
-    std::memcpy(raster.data.data() + 7 * sizeof bad, &bad, sizeof bad);
-    EXPECT_EQ(encodeWith([&](Call& c) { c.heights = raster.heights(); }), TKS_USAGE);
-  }
-}
-
-/// 2^26 steps do not hold both 1e-30 and 1e30: refused, never silently lossy.
-TEST_F(Arguments, LosslessNeedsAStepThatRestoresEverySample) {
-  Raster raster = make({Pattern::kRidges, 5, 5, 1, TKS_F32});
-  const float extremes[] = {1e-30f, 1e30f};
-  std::memcpy(raster.data.data(), extremes, sizeof extremes);
-  EXPECT_EQ(encodeWith([&](Call& c) { c.heights = raster.heights(); }), TKS_USAGE);
-  EXPECT_EQ(encodeWith([&](Call& c) {
-              c.heights = raster.heights();
-              c.options.lossless = 0;
-              c.options.max_error = 1e28;
-            }),
-            TKS_OK);
-}
-
 /// The message is cut to the caller's room and always ends with a zero.
 TEST_F(Arguments, MessageFitsItsBuffer) {
   const tks_encode_options options = lossless();

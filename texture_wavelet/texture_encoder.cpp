@@ -72,8 +72,11 @@ ColourTransform fitColours(const Planes& planes, const Texels& texels) {
 
 }  // namespace
 
-EncodedTexture encodeTexture(const Texels& texels, const WaveletHeader& wavelet, uint64_t limit) {
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit) {
   Planes planes = separate(texels);
+  const std::vector<int32_t>& typical = planes[texels.channels >= 3 ? 1 : 0];  // green, or grey
+  const WaveletHeader wavelet =
+      chooseWavelet(typical, {}, texels.width, texels.height, texels.bits, purpose);
   const ColourTransform colour = fitColours(planes, texels);
   transformColours(colour, wavelet.fraction_bits, planes);
   const std::vector<double> energies = energiesOf(texels, colour);

@@ -7,6 +7,7 @@
 #include "bitstream/header.hpp"
 #include "bitstream/track_encoder.hpp"
 #include "texture_wavelet/texels.hpp"
+#include "wavelet/filter_choice.hpp"
 
 namespace tetrakis {
 
@@ -16,6 +17,6 @@ struct EncodedTexture {
 };
 
 /// Coding stops soon after `limit` bytes. A complete track without fraction bits is lossless.
-EncodedTexture encodeTexture(const Texels& texels, const WaveletHeader& wavelet, uint64_t limit);
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit);
 
 }  // namespace tetrakis

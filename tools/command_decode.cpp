@@ -7,6 +7,7 @@
 
 #include "tools/command.hpp"
 #include "tools/output.hpp"
+#include "tools/viewed_mesh.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -16,6 +17,7 @@ struct DecodeArguments {
   std::string height, texture, mesh;
   uint32_t triangles = 0;
   bool coded_mesh = false;
+  CameraChoice camera;  ///< default: the whole mesh
   bool force = false;
 };
 
@@ -55,9 +57,8 @@ class Decoding {
     const tks_info& info = decoder_.info();
     if (!info.has_heights)
       return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
-    const Expected<Mesh> mesh =
-        arguments_.coded_mesh ? decoder_.codedMesh() : decoder_.budgetMesh(arguments_.triangles);
-    if (!mesh) return toStatus(mesh.error());
+    const Result<Mesh> mesh = chosenMesh();
+    if (!mesh.ok()) return mesh.status();
     MeshFile file = placeMesh(*mesh, frameOf(info));
     ImageFile texture;
     if (info.has_texture) {
@@ -77,6 +78,15 @@ class Decoding {
   }
 
  private:
+  Result<Mesh> chosenMesh() {
+    const bool coded = arguments_.coded_mesh;
+    if (!arguments_.camera.isDefault())
+      return viewedMesh(decoder_, coded, arguments_.triangles, arguments_.camera);
+    Expected<Mesh> mesh = coded ? decoder_.codedMesh() : decoder_.budgetMesh(arguments_.triangles);
+    if (!mesh) return toStatus(mesh.error());
+    return std::move(*mesh);
+  }
+
   template <class Write>
   Status stage(const std::string& path, const std::string& extension, const Write& write) {
     Result<Output> output = Output::plan(path, arguments_.force, extension);
@@ -123,6 +133,15 @@ void addDecode(CLI::App& app, CommandLine& line) {
   verb.add_flag("--coded-mesh", arguments->coded_mesh, "The mesh that the bytes themselves code")
       ->needs(mesh)
       ->excludes(triangles);
+  CLI::Option* const cameras =
+      verb.add_option("--cameras", arguments->camera.file, "Only what the file's one camera sees")
+          ->type_name("FILE.json")
+          ->needs(mesh);
+  verb.add_option("--view", arguments->camera.view,
+                  "Only what a preset camera sees: low, oblique, top")
+      ->type_name("NAME")
+      ->needs(mesh)
+      ->excludes(cameras);
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] { line.action = [arguments] { return decode(*arguments); }; });
 }

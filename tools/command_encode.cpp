@@ -2,6 +2,7 @@
 // tetrakis encode: heights, a texture or both into one embedded stream.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -28,7 +29,7 @@ struct EncodeArguments {
   bool lossless = false;
   uint32_t triangles = 0, threads = 1;
   double step = 0;
-  std::optional<double> scale, offset;
+  std::optional<double> scale, offset, nodata;
   std::string spacing;
   std::optional<std::string> unit, vertical_datum, crs;
   CameraChoice cameras;
@@ -49,17 +50,22 @@ Status checkArguments(const EncodeArguments& arguments) {
   return Status();
 }
 
-std::string nodataNote(const HeightFile& heights) {
-  if (!heights.nodata) return "";
-  const Surface samples = samplesOf(heights.width, heights.height, heights.sample, heights.data);
-  const auto count = std::count(samples.values.begin(), samples.values.end(), *heights.nodata);
-  if (count == 0) return "";
-  return std::to_string(count) + " samples hold the file's nodata value; they are coded as heights";
+std::string voidNote(const HeightFile& heights) {
+  const Surface surface = heightsOf(heights);
+  const auto count = std::count_if(surface.values.begin(), surface.values.end(),
+                                   [](double height) { return std::isnan(height); });
+  return count == 0 ? "" : std::to_string(count) + " samples are void";
+}
+
+/// As a sample of this type holds it.
+double sampleValue(double value, tks_sample sample) {
+  return sample == TKS_F32 ? static_cast<double>(static_cast<float>(value)) : value;
 }
 
 Status describe(const EncodeArguments& arguments, HeightFile& heights) {
   heights.scale = arguments.scale.value_or(heights.scale);
   heights.offset = arguments.offset.value_or(heights.offset);
+  if (arguments.nodata) heights.nodata = sampleValue(*arguments.nodata, heights.sample);
   heights.unit = arguments.unit.value_or(heights.unit);
   heights.vertical_datum = arguments.vertical_datum.value_or(heights.vertical_datum);
   heights.crs = arguments.crs.value_or(heights.crs);
@@ -77,7 +83,7 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
     Result<HeightFile> heights = readHeights(arguments.height);
     if (!heights.ok()) return heights.status();
     if (Status status = describe(arguments, *heights); !status.ok()) return status;
-    note(nodataNote(*heights), quiet);
+    note(voidNote(*heights), quiet);
     inputs.heights = std::move(*heights);
   }
   if (!arguments.texture.empty()) {
@@ -139,6 +145,8 @@ tks_heights view(const HeightFile& file, double step) {
   heights.unit = textOrUnknown(file.unit);
   heights.vertical_datum = textOrUnknown(file.vertical_datum);
   heights.crs = textOrUnknown(file.crs);
+  heights.has_nodata = file.nodata.has_value();
+  heights.nodata = file.nodata.value_or(0);
   return heights;
 }
 
@@ -273,6 +281,8 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
 void addDescription(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_option("--scale", arguments.scale, "Height = sample * scale + offset")->type_name("X");
   verb.add_option("--offset", arguments.offset, "See --scale")->type_name("X");
+  verb.add_option("--nodata", arguments.nodata, "Samples of this value are void; NaN always is")
+      ->type_name("X");
   verb.add_option("--step", arguments.step, "Quantisation step in samples; else exact if possible")
       ->check(silent(CLI::PositiveNumber))
       ->type_name("X");

@@ -36,6 +36,8 @@ Json heightsJson(const tks_info& info) {
           {"step", info.step},
           {"base", info.base},
           {"exact_steps", info.exact_steps != 0},
+          {"voids", info.has_voids != 0},
+          {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
           {"max_error", stated(info.max_error)},
           {"rmse", stated(info.heights_rmse)}};
 }

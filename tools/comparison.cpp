@@ -17,13 +17,13 @@ double psnr(double peak, double mean_squared_error) {
   return 10 * std::log10(peak * peak / mean_squared_error);
 }
 
-/// Samples that are no number in the reference are left out.
+/// Samples that are void (NaN) on either side are left out.
 HeightErrors heightErrors(const Surface& reference, const Surface& test) {
   HeightErrors errors;
   double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
   size_t count = 0;
   for (size_t i = 0; i < reference.values.size(); ++i) {
-    if (std::isnan(reference.values[i])) continue;
+    if (std::isnan(reference.values[i]) || std::isnan(test.values[i])) continue;
     const double error = std::abs(test.values[i] - reference.values[i]);
     sum += error * error;
     errors.max_error = std::max(errors.max_error, error);
@@ -33,7 +33,7 @@ HeightErrors heightErrors(const Surface& reference, const Surface& test) {
   }
   const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
   errors.rmse = std::sqrt(mean);
-  errors.psnr = psnr(high - low, mean);
+  errors.psnr = psnr(count > 0 ? high - low : 0, mean);
   return errors;
 }
 
@@ -84,6 +84,7 @@ HeightFile asEncoded(const HeightFile& heights, const tks_info& header) {
   result.spacing_x = header.spacing_x;
   result.spacing_y = header.spacing_y;
   result.unit = header.unit;
+  if (header.has_nodata) result.nodata = header.nodata;
   return result;
 }
 

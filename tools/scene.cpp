@@ -4,7 +4,10 @@
 #include "tools/scene.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "tools/units.hpp"
 
@@ -28,6 +31,14 @@ void appendVertex(const GroundFrame& frame, uint32_t grid_index, double height, 
   mesh.positions.push_back(static_cast<float>((row - last_row / 2) * frame.spacing_y));
   mesh.texcoords.push_back(static_cast<float>(column / last_column));
   mesh.texcoords.push_back(static_cast<float>(row / last_row));
+}
+
+/// Unless a corner is void.
+void appendTriangle(const Surface& heights, const std::array<uint32_t, 3>& corners,
+                    MeshFile& mesh) {
+  for (const uint32_t corner : corners)
+    if (std::isnan(heights.values[corner])) return;
+  mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
 }
 
 struct Corner {
@@ -113,12 +124,16 @@ Surface samplesOf(uint32_t width, uint32_t height, tks_sample sample,
 
 Surface heightsOf(const HeightFile& file) {
   Surface surface = samplesOf(file.width, file.height, file.sample, file.data);
-  for (double& value : surface.values) value = value * file.scale + file.offset;
+  for (double& value : surface.values) {
+    const bool is_void = file.nodata && value == *file.nodata;
+    value = is_void ? std::numeric_limits<double>::quiet_NaN() : value * file.scale + file.offset;
+  }
   return surface;
 }
 
 Surface rasterize(const Mesh& mesh, uint32_t width, uint32_t height) {
-  Surface surface{width, height, std::vector<double>(size_t{width} * height)};
+  constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
+  Surface surface{width, height, std::vector<double>(size_t{width} * height, kVoid)};
   const auto corner = [&](uint32_t vertex) {
     const uint32_t index = mesh.gridIndices()[vertex];
     return Corner{index % width, index / width, mesh.heights()[vertex]};
@@ -135,17 +150,23 @@ MeshFile fullGrid(const Surface& heights, const GroundFrame& frame) {
   const uint32_t w = heights.width, h = heights.height;
   mesh.positions.reserve(heights.values.size() * 3);
   mesh.texcoords.reserve(heights.values.size() * 2);
-  for (uint32_t i = 0; i < w * h; ++i) appendVertex(frame, i, heights.values[i], mesh);
+  for (uint32_t i = 0; i < w * h; ++i) {
+    const double height = heights.values[i];
+    appendVertex(frame, i, std::isnan(height) ? 0 : height, mesh);  // no triangle uses a void one
+  }
   mesh.triangles.reserve(size_t{6} * (w - 1) * (h - 1));
   for (uint32_t row = 0; row + 1 < h; ++row)
     for (uint32_t column = 0; column + 1 < w; ++column) {
       // nw--ne   The diagonal ends where column + row is even: nw-se or sw-ne.
       // sw--se
       const uint32_t nw = row * w + column, ne = nw + 1, sw = nw + w, se = sw + 1;
-      if ((row + column) % 2 == 0)
-        mesh.triangles.insert(mesh.triangles.end(), {nw, sw, se, nw, se, ne});
-      else
-        mesh.triangles.insert(mesh.triangles.end(), {nw, sw, ne, ne, sw, se});
+      if ((row + column) % 2 == 0) {
+        appendTriangle(heights, {nw, sw, se}, mesh);
+        appendTriangle(heights, {nw, se, ne}, mesh);
+      } else {
+        appendTriangle(heights, {nw, sw, ne}, mesh);
+        appendTriangle(heights, {ne, sw, se}, mesh);
+      }
     }
   return mesh;
 }
@@ -161,10 +182,16 @@ MeshFile placeMesh(const Mesh& mesh, const GroundFrame& frame) {
 }
 
 Bounds boundsOf(const Surface& heights, const GroundFrame& frame) {
-  const auto [low, high] = std::minmax_element(heights.values.begin(), heights.values.end());
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double height : heights.values) {
+    if (std::isnan(height)) continue;
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  if (low > high) low = high = 0;
   const double x = (frame.width - 1.0) * frame.spacing_x / 2;
   const double z = (frame.height - 1.0) * frame.spacing_y / 2;
-  return {{-x, *low * frame.metres_per_unit, -z}, {x, *high * frame.metres_per_unit, z}};
+  return {{-x, low * frame.metres_per_unit, -z}, {x, high * frame.metres_per_unit, z}};
 }
 
 Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds) {

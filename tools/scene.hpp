@@ -44,20 +44,22 @@ GroundFrame frameOf(const ImageFile& image);
 Surface samplesOf(uint32_t width, uint32_t height, tks_sample sample,
                   std::span<const std::byte> data);
 
-/// Heights in `unit`: sample * scale + offset.
+/// Heights in `unit`: sample * scale + offset; NaN where the sample is NaN or the file's nodata.
 Surface heightsOf(const HeightFile& file);
 
 /// The mesh's linear interpolant at every sample of the grid that it covers; barycentric weights
-/// are exact integers. Meshes of the library cover the whole grid.
+/// are exact integers. NaN where no triangle is: meshes cover the grid but for voids and their
+/// coasts.
 Surface rasterize(const Mesh& mesh, uint32_t width, uint32_t height);
 
-/// Every sample a vertex, every cell two triangles with the diagonals of the tetrakis tiling.
+/// Every sample a vertex, every cell two triangles with the diagonals of the tetrakis tiling, but
+/// for triangles that touch a void (NaN).
 MeshFile fullGrid(const Surface& heights, const GroundFrame& frame);
 
 /// A decoded mesh in space, texture coordinates (column / (width - 1), row / (height - 1)).
 MeshFile placeMesh(const Mesh& mesh, const GroundFrame& frame);
 
-/// Bounds of the placed surface.
+/// Bounds of the placed surface, voids left out.
 Bounds boundsOf(const Surface& heights, const GroundFrame& frame);
 
 /// The cameras of --cameras FILE or --view NAME; both empty: the oblique view.

@@ -2,6 +2,7 @@
 // Streams (.tks) as the verbs read them, and what they decode to as files hold it.
 #include "tools/stream.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "tools/file_bytes.hpp"
@@ -54,6 +55,11 @@ Result<HeightFile> decodeHeights(Decoder& decoder) {
   file.unit = info.unit;
   file.vertical_datum = info.vertical_datum;
   file.crs = info.crs;
+  if (info.has_nodata) {
+    file.nodata = info.nodata;
+  } else if (info.has_voids) {
+    file.nodata = std::numeric_limits<double>::quiet_NaN();
+  }
   return file;
 }
 

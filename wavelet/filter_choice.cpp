@@ -34,14 +34,19 @@ constexpr int kMostFractionBits = 4;
 struct Sample {
   uint32_t width, height;
   std::vector<int32_t> values;
+  std::vector<uint8_t> valid;  // empty: all
 };
 
-Sample middleOf(std::span<const int32_t> plane, uint32_t width, uint32_t height) {
-  Sample sample{std::min(width, kSampleSide), std::min(height, kSampleSide), {}};
+Sample middleOf(std::span<const int32_t> plane, Validity valid, uint32_t width, uint32_t height) {
+  Sample sample{std::min(width, kSampleSide), std::min(height, kSampleSide), {}, {}};
   const uint32_t x = (width - sample.width) / 2, y = (height - sample.height) / 2;
   for (uint32_t row = 0; row < sample.height; ++row) {
-    const auto from = plane.begin() + static_cast<ptrdiff_t>(size_t{y + row} * width + x);
-    sample.values.insert(sample.values.end(), from, from + sample.width);
+    const size_t first = size_t{y + row} * width + x;
+    const auto values = plane.subspan(first, sample.width);
+    sample.values.insert(sample.values.end(), values.begin(), values.end());
+    if (valid.empty()) continue;
+    const auto exist = valid.subspan(first, sample.width);
+    sample.valid.insert(sample.valid.end(), exist.begin(), exist.end());
   }
   return sample;
 }
@@ -51,7 +56,7 @@ std::vector<float> detailsOf(const Sample& sample, const WaveletHeader& header, 
   const WaveletSpec spec = specOf(header);
   std::vector<int32_t> plane = sample.values;
   for (int32_t& v : plane) v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
-  forwardWavelet(spec, plane, sample.width, sample.height);
+  forwardWavelet(spec, plane, sample.width, sample.height, sample.valid);
   const PlaneLayout layout(spec, sample.width, sample.height);
   std::vector<float> details;
   for (size_t i = 1; i < layout.size(); ++i) {
@@ -82,12 +87,12 @@ double bitsOf(const std::vector<float>& details, float step) {
 
 }  // namespace
 
-WaveletHeader chooseWavelet(std::span<const int32_t> plane, uint32_t width, uint32_t height,
-                            int bits, Purpose purpose) {
+WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
+                            uint32_t height, int bits, Purpose purpose) {
   const bool lossless = purpose == Purpose::kLossless;
   const std::span<const Filters> choices =
       lossless ? std::span<const Filters>(kLosslessChoices) : std::span<const Filters>(kLossyChoices);
-  const Sample sample = middleOf(plane, width, height);
+  const Sample sample = middleOf(plane, valid, width, height);
   WaveletHeader best;
   double least = std::numeric_limits<double>::infinity();
   float step = 0;

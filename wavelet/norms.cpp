@@ -69,7 +69,7 @@ Signal merge(FilterId id, Signal low, Signal high) {
 
 /// 256 log2(x), rounded down: squaring doubles the logarithm, whose bits come off one by one.
 int log2Fine(uint64_t x) {
-  const int whole = std::bit_width(x) - 1;
+  const int whole = static_cast<int>(std::bit_width(x)) - 1;
   uint64_t mantissa = whole > 31 ? x >> (whole - 31) : x << (31 - whole);  // in [2^31, 2^32)
   int result = whole;
   for (int bit = 0; bit < 8; ++bit) {

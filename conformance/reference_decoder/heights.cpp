@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: heights on the 4-8 lattice (docs/FORMAT.md, section 7).
+// Reference decoder: heights on the 4-8 lattice (docs/FORMAT.md, section 7), and the layers beside
+// their coefficients (section 7.1).
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
+#include "conformance/reference_decoder/lattice.hpp"
+#include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/track.hpp"
 
 namespace tetrakis::reference {
 namespace {
-
-enum Shape { kRoots, kCentres, kMidpoints };
-
-/// One band of the lattice: which vertices of the grid its coefficients belong to.
-struct LatticeBand {
-  Shape shape;
-  int step;  ///< s; for roots 2^d
-
-  int x(int r, int a) const {
-    if (shape == kRoots) return step * a;
-    return shape == kMidpoints && r % 2 == 1 ? 2 * step * a : step * (2 * a + 1);
-  }
-  int y(int r) const { return shape == kCentres ? step * (2 * r + 1) : step * r; }
-};
 
 /// Values k >= 0 with first + k * stride < size.
 int count(int first, int stride, int size) {
@@ -63,12 +54,6 @@ uint32_t hintOfCentre(const Band& midpoints, int r, int a) {
   return 2 * (midpoints.get(r, upper).magnitude + midpoints.get(r + 1, lower).magnitude);
 }
 
-/// The bands of a track, each with its place on the lattice.
-struct Lattice {
-  std::vector<LatticeBand> places;
-  std::vector<Band> bands;
-};
-
 Lattice makeLattice(int width, int height) {
   int d = 0;
   while (1 << d < std::max(width, height) - 1) ++d;
@@ -91,55 +76,55 @@ Lattice makeLattice(int width, int height) {
   return lattice;
 }
 
-struct Tap {
-  int dx, dy, weight;
-};
+int64_t floorDivide(int64_t a, int64_t b) {
+  return a / b - (a % b < 0 ? 1 : 0);
+}
 
-/// FORMAT 7: "24 neighbours and weights", as offsets on the grid.
-std::vector<Tap> tapsOf(const LatticeBand& band) {
-  constexpr Tap kQuarter[] = {{1, 0, 174}, {2, 1, -27}, {1, 2, -27},
-                              {3, 0, 2},   {3, 2, 3},   {2, 3, 3}};
-  std::vector<Tap> taps;
-  for (Tap tap : kQuarter) {
-    if (band.shape == kCentres) tap = {tap.dx - tap.dy, tap.dx + tap.dy, tap.weight};
-    for (int turn = 0; turn < 4; ++turn) {
-      taps.push_back({band.step * tap.dx, band.step * tap.dy, tap.weight});
-      tap = {-tap.dy, tap.dx, tap.weight};
-    }
+/// Rounded half up.
+int64_t divide(int64_t sum, int64_t count) {
+  return floorDivide(2 * sum + count, 2 * count);
+}
+
+/// FORMAT 7.1: whether a neighbour counts; turns to the opposite one where it is void.
+bool find(Grid& grid, int x, int y, Tap& tap) {
+  Tap opposite = {-tap.dx, -tap.dy, tap.weight};
+  for (Tap* t : {&tap, &opposite}) {
+    if (!mirror(x, grid.width, t->dx) || !mirror(y, grid.height, t->dy)) return false;
+    if (!grid.isValid(x + t->dx, y + t->dy)) continue;
+    tap = *t;
+    return true;
   }
-  return taps;
+  return false;
 }
 
-struct Grid {
-  int width, height;
-  std::vector<int32_t> values;
-
-  int32_t& at(int x, int y) { return values[static_cast<size_t>(y) * width + x]; }
-};
-
-/// FORMAT 7, "Boundary", on one axis: mirrors `offset` if it leads outside; false: left out.
-bool mirror(int position, int size, int& offset) {
-  const auto inside = [&](int o) { return position + o >= 0 && position + o < size; };
-  if (!inside(offset)) offset = -offset;
-  return inside(offset);
-}
-
+/// Sums over the neighbours that count, and over those of each weight alone, nearest first.
 struct Weighted {
   int64_t sum = 0, weights = 0;
+  std::array<int64_t, 4> ringSum = {}, ringCount = {};
 };
 
 Weighted sumNeighbours(Grid& grid, const std::vector<Tap>& taps, int x, int y) {
   Weighted result;
   for (Tap tap : taps) {
-    if (!mirror(x, grid.width, tap.dx) || !mirror(y, grid.height, tap.dy)) continue;
-    result.sum += int64_t{tap.weight} * grid.at(x + tap.dx, y + tap.dy);
+    if (!find(grid, x, y, tap)) continue;
+    const int32_t value = grid.at(x + tap.dx, y + tap.dy);
+    const int ring = tap.weight == 174 ? 0 : tap.weight == -27 ? 1 : tap.weight == 2 ? 2 : 3;
+    result.sum += int64_t{tap.weight} * value;
     result.weights += tap.weight;
+    result.ringSum[ring] += value;
+    ++result.ringCount[ring];
   }
   return result;
 }
 
-int64_t floorDivide(int64_t a, int64_t b) {
-  return a / b - (a % b < 0 ? 1 : 0);
+int64_t predictionOf(const Weighted& around, bool voids) {
+  if (voids && around.weights != 512) {
+    for (int ring = 0; ring < 4; ++ring) {
+      if (around.ringCount[ring] > 0) return divide(around.ringSum[ring], around.ringCount[ring]);
+    }
+    return 0;
+  }
+  return around.weights <= 0 ? 0 : divide(around.sum, around.weights);
 }
 
 /// FORMAT 7, "Inverse transform", for one band with its coefficients on the grid already.
@@ -149,6 +134,7 @@ void synthesise(Grid& grid, const LatticeBand& band) {
   for (int y = 0; y < grid.height; y += coarse) {
     for (int x = 0; x < grid.width; x += coarse) {
       if (band.shape == kMidpoints && (x / s + y / s) % 2 != 0) continue;
+      if (!grid.isValid(x, y)) continue;
       const int64_t change = (sumNeighbours(grid, taps, x, y).sum + 512) >> 10;
       grid.at(x, y) = wrap(grid.at(x, y) - change);
     }
@@ -157,21 +143,22 @@ void synthesise(Grid& grid, const LatticeBand& band) {
     const int y = band.y(r);
     for (int a = 0; band.x(r, a) < grid.width; ++a) {
       const int x = band.x(r, a);
-      const auto [sum, weights] = sumNeighbours(grid, taps, x, y);
-      const int64_t guess = weights <= 0 ? 0 : floorDivide(2 * sum + weights, 2 * weights);
+      if (!grid.isValid(x, y)) continue;
+      const int64_t guess = predictionOf(sumNeighbours(grid, taps, x, y), !grid.valid.empty());
       grid.at(x, y) = wrap(grid.at(x, y) + guess);
     }
   }
 }
 
-Grid reconstruct(const GeometryHeader& header, Lattice& lattice) {
-  Grid grid{header.width, header.height, {}};
+Grid reconstruct(const GeometryHeader& header, Lattice& lattice, std::vector<uint8_t> valid) {
+  Grid grid{header.width, header.height, {}, std::move(valid)};
   grid.values.resize(static_cast<size_t>(header.width) * header.height);
   for (size_t i = 0; i < lattice.bands.size(); ++i) {
     Band& band = lattice.bands[i];
     for (int r = 0; r < band.rows; ++r) {
       for (int a = 0; a < band.columnsOf(r); ++a) {
-        grid.at(lattice.places[i].x(r, a), lattice.places[i].y(r)) = band.at(r, a).value();
+        const int x = lattice.places[i].x(r, a), y = lattice.places[i].y(r);
+        grid.at(x, y) = grid.isValid(x, y) ? band.at(r, a).value() : 0;
       }
     }
     if (i > 0) synthesise(grid, lattice.places[i]);
@@ -179,35 +166,162 @@ Grid reconstruct(const GeometryHeader& header, Lattice& lattice) {
   return grid;
 }
 
+/// FORMAT 7, "Samples": q of a value.
+int32_t stepOf(const GeometryHeader& header, int32_t v) {
+  const int f = header.fractionBits;
+  return f == 0 ? v : wrap(v + (int64_t{1} << (f - 1))) >> f;
+}
+
 /// FORMAT 7, "Samples": the bits of one.
-uint32_t sampleOf(const GeometryHeader& header, int32_t v) {
+uint32_t sampleOf(const GeometryHeader& header, double sample) {
   constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
   constexpr double kLargest[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
-  const int f = header.fractionBits;
-  const int32_t q = f == 0 ? v : wrap(v + (int64_t{1} << (f - 1))) >> f;
-  const double sample = header.base + q * header.step;
   if (header.sample == kF32) return std::bit_cast<uint32_t>(static_cast<float>(sample));
   const double clamped =
       std::clamp(std::round(sample), kLeast[header.sample], kLargest[header.sample]);
   return static_cast<uint32_t>(static_cast<int64_t>(clamped));
 }
 
-}  // namespace
+/// FORMAT 7.1, "Order": the word of a sample, and back (it is its own inverse).
+uint32_t orderOf(const GeometryHeader& header, uint32_t bits) {
+  return header.sample == kF32 && bits >> 31 ? bits ^ 0x7FFFFFFF : bits;
+}
 
-std::vector<uint8_t> decodeHeights(const GeometryHeader& header,
-                                   std::span<const uint8_t> codeword) {
-  Lattice lattice = makeLattice(header.width, header.height);
-  decodeTrack(codeword, header.planes, lattice.bands);
-  const Grid grid = reconstruct(header, lattice);
-  std::vector<uint8_t> samples;
-  constexpr int kBytes[] = {1, 1, 2, 2, 4, 4, 4};
-  for (const int32_t v : grid.values) {
-    const uint32_t sample = sampleOf(header, v);
-    for (int i = 0; i < kBytes[header.sample]; ++i) {
-      samples.push_back(static_cast<uint8_t>(sample >> (8 * i)));
+/// "Modulo 2^bits of the type": a word of 8 or 16 bits, with its sign.
+uint32_t narrow(const GeometryHeader& header, uint32_t bits) {
+  switch (header.sample) {
+    case kU8:
+      return static_cast<uint8_t>(bits);
+    case kI8:
+      return static_cast<uint32_t>(static_cast<int8_t>(bits));
+    case kU16:
+      return static_cast<uint16_t>(bits);
+    case kI16:
+      return static_cast<uint32_t>(static_cast<int16_t>(bits));
+    default:
+      return bits;
+  }
+}
+
+/// FORMAT 7.1: hints of corrections of samples.
+int openBits(const GeometryHeader& header, uint32_t bits) {
+  const int spacing =
+      header.sample == kF32 ? std::max(static_cast<int>(bits >> 23 & 255), 1) - 150 : 0;
+  return std::clamp(std::ilogb(header.step) - spacing, 0, 31);
+}
+
+/// FORMAT 7.1: hints of corrections of steps.
+std::vector<int> activity(Grid& significant) {
+  std::vector<int> hints;
+  for (int y = 0; y < significant.height; ++y) {
+    for (int x = 0; x < significant.width; ++x) {
+      int sum = significant.at(x, y);
+      if (x > 0) sum += significant.at(x - 1, y);
+      if (x + 1 < significant.width) sum += significant.at(x + 1, y);
+      if (y > 0) sum += significant.at(x, y - 1);
+      if (y + 1 < significant.height) sum += significant.at(x, y + 1);
+      hints.push_back(sum);
     }
   }
+  return hints;
+}
+
+Grid significanceOf(Lattice& lattice, const Grid& like) {
+  Grid marks{like.width, like.height, std::vector<int32_t>(like.values.size())};
+  for (size_t i = 0; i < lattice.places.size(); ++i) {
+    Band& band = lattice.bands[i];
+    for (int r = 0; r < band.rows; ++r) {
+      for (int a = 0; a < band.columnsOf(r); ++a) {
+        const int x = lattice.places[i].x(r, a), y = lattice.places[i].y(r);
+        marks.at(x, y) = like.isValid(x, y) && band.at(r, a).value() != 0;
+      }
+    }
+  }
+  return marks;
+}
+
+void correctSteps(const GeometryHeader& header, const Layers& layers,
+                  std::span<const uint8_t> codeword, Lattice& lattice, Grid& grid) {
+  Grid marks = significanceOf(lattice, grid);
+  const std::vector<uint32_t> corrections = decodeCorrections(codeword, grid, activity(marks));
+  for (size_t i = 0; i < corrections.size(); ++i) {
+    const uint32_t change = corrections[i] * (layers.correctionStep << header.fractionBits);
+    grid.values[i] = static_cast<int32_t>(static_cast<uint32_t>(grid.values[i]) + change);
+  }
+}
+
+std::vector<uint32_t> samplesOf(const GeometryHeader& header, const Grid& grid) {
+  std::vector<uint32_t> samples;
+  for (const int32_t v : grid.values) {
+    samples.push_back(sampleOf(header, header.base + stepOf(header, v) * header.step));
+  }
   return samples;
+}
+
+void correctSamples(const GeometryHeader& header, std::span<const uint8_t> codeword,
+                    const Grid& grid, std::vector<uint32_t>& samples) {
+  std::vector<int> hints;
+  for (const uint32_t bits : samples) hints.push_back(openBits(header, bits));
+  const std::vector<uint32_t> corrections = decodeCorrections(codeword, grid, hints);
+  for (size_t i = 0; i < corrections.size(); ++i) {
+    samples[i] = narrow(header, orderOf(header, orderOf(header, samples[i]) + corrections[i]));
+  }
+}
+
+/// FORMAT 7.1, "Voids": voids get their value, and no other sample has it.
+void putVoids(const GeometryHeader& header, const Layers& layers, const Grid& grid,
+              std::vector<uint32_t>& samples) {
+  constexpr uint32_t kQuietNan = 0x7FC00000;
+  const uint32_t hole = layers.hasNodata ? sampleOf(header, layers.nodata) : kQuietNan;
+  constexpr uint32_t kLargest[] = {255, 127, 65535, 32767, 0xFFFFFFFF, 0x7FFFFFFF, 0x7F7FFFFF};
+  const auto equal = [&](uint32_t a, uint32_t b) {
+    if (header.sample != kF32) return a == b;
+    return std::bit_cast<float>(a) == std::bit_cast<float>(b);
+  };
+  const uint32_t besides =
+      orderOf(header, orderOf(header, hole) + (hole == kLargest[header.sample] ? 0xFFFFFFFF : 1));
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (!grid.valid[i]) {
+      samples[i] = hole;
+    } else if (equal(samples[i], hole)) {
+      samples[i] = besides;
+    }
+  }
+}
+
+/// Takes up to `count` bytes off the front.
+std::span<const uint8_t> take(std::span<const uint8_t>& codeword, uint64_t count) {
+  const auto taken = codeword.first(std::min<uint64_t>(count, codeword.size()));
+  codeword = codeword.subspan(taken.size());
+  return taken;
+}
+
+}  // namespace
+
+std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
+                                   std::span<const uint8_t> codeword) {
+  Lattice lattice = makeLattice(header.width, header.height);
+  std::vector<uint8_t> valid;
+  if (layers.validityBytes > 0) {
+    const auto validity = take(codeword, layers.validityBytes);
+    valid = decodeValidity(validity, header.width, header.height, lattice);
+  }
+  const auto coefficients =
+      take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
+  decodeTrack(coefficients, header.planes, lattice.bands);
+  Grid grid = reconstruct(header, lattice, std::move(valid));
+  if (layers.corrections == 1) correctSteps(header, layers, codeword, lattice, grid);
+  std::vector<uint32_t> samples = samplesOf(header, grid);
+  if (layers.corrections == 2) correctSamples(header, codeword, grid, samples);
+  if (!grid.valid.empty()) putVoids(header, layers, grid, samples);
+  std::vector<uint8_t> bytes;
+  constexpr int kBytes[] = {1, 1, 2, 2, 4, 4, 4};
+  for (const uint32_t sample : samples) {
+    for (int i = 0; i < kBytes[header.sample]; ++i) {
+      bytes.push_back(static_cast<uint8_t>(sample >> (8 * i)));
+    }
+  }
+  return bytes;
 }
 
 }  // namespace tetrakis::reference

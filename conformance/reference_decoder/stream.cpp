@@ -93,6 +93,26 @@ GeometryHeader readGeometry(Reader& in) {
   return g;
 }
 
+/// FORMAT 2, table Layers.
+Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
+  Layers layers;
+  layers.validityBytes = in.varint(0, INT64_MAX);
+  layers.hasNodata = in.u8(0, 1);
+  if (layers.hasNodata) layers.nodata = in.f64();
+  layers.corrections = in.u8(0, 2);
+  if (layers.corrections > 0) layers.coefficientBytes = in.varint(0, INT64_MAX);
+  if (layers.corrections == 1) {
+    layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
+  }
+  const bool meant = layers.validityBytes > 0 || layers.hasNodata || layers.corrections > 0;
+  if (meant && !geometry) in.fail(Outcome::kCorrupt);
+  const bool integer = geometry && geometry->sample != kF32;
+  if (integer && !layers.hasNodata && layers.validityBytes > 0) in.fail(Outcome::kCorrupt);
+  if (std::isnan(layers.nodata)) in.fail(Outcome::kCorrupt);
+  if (integer && std::isinf(layers.nodata)) in.fail(Outcome::kCorrupt);
+  return layers;
+}
+
 /// FORMAT 2, table Texture.
 TextureHeader readTexture(Reader& in) {
   TextureHeader t;
@@ -142,7 +162,7 @@ int levelOf(const Stream& stream) {
 /// FORMAT 2, Body. Returns `payload_bytes`.
 uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
-  const int parts = in.u8(1, 15);
+  const int parts = in.u8(1, 31);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
   in.u8(0, 1);               // lossless
   in.varint(0, UINT32_MAX);  // triangles
@@ -150,6 +170,7 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (parts & 1) stream.geometry = readGeometry(in);
   if (parts & 2) stream.texture = readTexture(in);
   if (parts & 4) skipMetadata(in);
+  if (parts & 16) stream.layers = readLayers(in, stream.geometry);
   if (parts & 8) skipIndex(in);
   if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
   return payloadBytes;
@@ -204,7 +225,8 @@ Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples) {
   Decoded decoded;
   decoded.outcome = stream.outcome;
   if (decoded.outcome != Outcome::kDone) return decoded;
-  if (stream.geometry) decoded.heights = decodeHeights(*stream.geometry, stream.codewords[0]);
+  if (stream.geometry)
+    decoded.heights = decodeHeights(*stream.geometry, stream.layers, stream.codewords[0]);
   if (stream.texture) decoded.texture = decodeTexture(*stream.texture, stream.codewords[1]);
   return decoded;
 }

@@ -20,6 +20,15 @@ struct GeometryHeader {
   double base = 0, step = 1;
 };
 
+/// FORMAT 2, table Layers.
+struct Layers {
+  uint64_t validityBytes = 0, coefficientBytes = 0;
+  bool hasNodata = false;
+  double nodata = 0;
+  int corrections = 0;  ///< 0 none, 1 of steps, 2 of samples
+  uint32_t correctionStep = 0;
+};
+
 struct TextureHeader {
   int width = 0, height = 0, channels = 0, sample = 0, planes = 0;
   std::array<int, 4> centre = {}, priority = {};
@@ -31,6 +40,7 @@ struct TextureHeader {
 struct Stream {
   Outcome outcome = Outcome::kDone;
   std::optional<GeometryHeader> geometry;
+  Layers layers;
   std::optional<TextureHeader> texture;
   std::array<std::vector<uint8_t>, 2> codewords;  ///< by track: 0 geometry, 1 texture
 };
@@ -41,7 +51,8 @@ constexpr int32_t wrap(int64_t value) {
 }
 
 /// Samples of the header's type, little endian (FORMAT 7).
-std::vector<uint8_t> decodeHeights(const GeometryHeader& header, std::span<const uint8_t> codeword);
+std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
+                                   std::span<const uint8_t> codeword);
 
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 8).
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);

@@ -50,7 +50,13 @@ typedef enum tks_sample {
 size_t tks_sample_bytes(tks_sample sample);
 
 /* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
- * Sizes from 2 x 2. A sample v stands for the height v * scale + offset in `unit`. */
+ * Sizes from 2 x 2. A sample v stands for the height v * scale + offset in `unit`.
+ *
+ * Voids: samples equal to `nodata` (if has_nodata), and floats that are NaN, are no heights. Their
+ * mask is coded; they take no part in any filter, error or mesh, and come back as `nodata`, without
+ * has_nodata as the quiet NaN 7fc00000. There may be any number of them, all samples included.
+ * Other samples: an infinite one is refused with its place (unless it is the nodata value);
+ * subnormal ones, negative zeros and integers of the full 32 bits are heights like any other. */
 typedef struct tks_heights {
   size_t size; /* sizeof(tks_heights) */
   uint32_t width, height;
@@ -62,6 +68,8 @@ typedef struct tks_heights {
   const char* unit;               /* UTF-8, NULL: unknown; e.g. "m" */
   const char* vertical_datum;     /* UTF-8, NULL: unknown; e.g. "EGM2008" */
   const char* crs;                /* UTF-8 WKT or EPSG text, NULL: unknown */
+  int has_nodata;                 /* non-zero: `nodata` is declared */
+  double nodata;                  /* in sample units; one that the type cannot hold meets no sample */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed. It
@@ -81,8 +89,11 @@ typedef struct tks_encode_options {
   size_t size;       /* sizeof(tks_encode_options) */
   uint64_t bytes;    /* the whole stream takes at most this many bytes */
   double psnr;       /* heights (peak: their range) and texture each reach this many dB */
-  double max_error;  /* every decoded height is within this distance, in `unit`; guaranteed */
-  int lossless;      /* everything comes back bit for bit */
+  double max_error;  /* every decoded height is within this distance, in `unit`; guaranteed: the
+                        encoder decodes and measures. Finer than 2^26 steps over the range allow:
+                        bit for bit. Finer than a `step` that is given: TKS_USAGE */
+  int lossless;      /* everything comes back bit for bit, floats by their bit patterns (NaN: see
+                        tks_heights) */
   uint32_t triangles;/* meshes will be drawn with at most this many triangles; 0: no bound */
   double parallax;   /* screen-space weight of heights: texture metres shifted per metre of height
                         error (cotangent of the view's elevation); 0: the default oblique view */
@@ -141,6 +152,9 @@ typedef struct tks_info {
   double spacing_x, spacing_y;
   int exact_steps;         /* the step loses nothing */
   int lossless;            /* the complete stream restores every sample */
+  int has_voids;           /* some samples may be void */
+  int has_nodata;          /* voids come back as `nodata` */
+  double nodata;
   double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
   uint32_t triangles;      /* the encoder's triangle budget; 0: none */
   uint32_t texture_width, texture_height, texture_channels;
@@ -154,12 +168,18 @@ typedef struct tks_info {
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 
-/* Writes width * height samples of info.sample; bytes must be their exact size. */
+/* Writes width * height samples of info.sample; bytes must be their exact size. Voids: info.nodata,
+ * or NaN. */
 tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes);
 
 /* Writes width * height heights in info.unit, one float each. Where a prefix says more than whole steps
- * of the sample type can show, the heights lie between the steps: what a renderer should draw. */
+ * of the sample type can show, the heights lie between the steps: what a renderer should draw. Voids
+ * are NaN. */
 tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count);
+
+/* Writes width * height bytes: 1 where a sample is valid, 0 where it is void. A prefix that ends inside
+ * the mask gives it at a coarser resolution. */
+tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count);
 
 /* Writes texture_width * texture_height * texture_channels samples of info.texture_sample. */
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes);
@@ -169,13 +189,15 @@ tks_status tks_verify(tks_decoder* decoder);
 
 typedef enum tks_mesh_kind {
   TKS_MESH_CODED = 0, /* closure of the significant vertices under the parent relation */
-  TKS_MESH_BUDGET = 1 /* best mesh of the decoded surface with at most max_triangles */
+  TKS_MESH_BUDGET = 1 /* best mesh of the decoded surface with at most max_triangles: heights of its
+                         vertices are fitted to all samples (least squares) */
 } tks_mesh_kind;
 
 /* A conforming 4-8 mesh. Vertex i lies on sample grid_index[i] (y * width + x) and has the height
  * height[i] in `unit`. Vertices come in insertion order, parents before children; budget meshes of one
  * surface are nested: the first vertices of the finer one are those of the coarser one. Triangles are counter-clockwise
- * seen from above with x to the right and y down the rows towards the viewer. */
+ * seen from above with x to the right and y down the rows towards the viewer. No vertex is void and no
+ * triangle touches a void sample with a corner; where all samples are void the mesh is empty. */
 typedef struct tks_mesh {
   uint32_t vertex_count, triangle_count;
   uint32_t* grid_index;
@@ -188,6 +210,23 @@ typedef struct tks_mesh {
 tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                            tks_mesh* out);
 void tks_free_mesh(tks_mesh* mesh);
+
+/* A mesh kept in a quadtree, about 5 bytes a vertex, to be drawn from many views. It depends on
+ * neither the decoder nor its data; several threads may view one tree at a time. */
+typedef struct tks_mesh_tree tks_mesh_tree;
+
+/* The mesh that tks_decode_mesh would give. */
+tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                                tks_mesh_tree** out);
+
+/* The part of the mesh that a camera may see. clip: 4 x 4, row by row, takes (column, row, height, 1),
+ * the height in `unit`, to clip coordinates; what is seen has -w <= x <= w and -w <= y <= w (the third
+ * row is not used). `out` holds every triangle whose ground may be seen at some height of the mesh, and
+ * a few beside them; of the vertices those of its triangles, parents before children. With a matrix
+ * that does not depend on the height it is the mesh of a map window. It may be empty. TKS_USAGE if
+ * the matrix is not finite. Takes time in proportion to what is seen, and to one bit a vertex. */
+tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out);
+void tks_free_mesh_tree(tks_mesh_tree* tree);
 
 #ifdef __cplusplus
 }

@@ -100,6 +100,27 @@ class Mesh {
   tks_mesh mesh_{};
 };
 
+/// A mesh kept for many views (tks_mesh_tree). Move only; outlives its decoder.
+class MeshTree {
+ public:
+  explicit MeshTree(tks_mesh_tree* tree) : tree_(tree) {}
+
+  /// What a camera may see: tks_view_mesh says what `clip` is.
+  Expected<Mesh> view(std::span<const double, 16> clip) const {
+    tks_mesh mesh{};
+    const tks_status status = tks_view_mesh(tree_.get(), clip.data(), &mesh);
+    if (status == TKS_USAGE) return Error{status, "The matrix of a view must be finite."};
+    if (status != TKS_OK) return Error{status, "Not enough memory."};
+    return Mesh(mesh);
+  }
+
+ private:
+  struct Free {
+    void operator()(tks_mesh_tree* tree) const { tks_free_mesh_tree(tree); }
+  };
+  std::unique_ptr<tks_mesh_tree, Free> tree_;
+};
+
 /// The `size` members set, everything else zero: fill in the rest.
 inline tks_heights makeHeights() {
   tks_heights heights{};
@@ -163,6 +184,14 @@ class Decoder {
     return samples;
   }
 
+  /// width * height bytes, 1 where a sample is valid, 0 where it is void.
+  Expected<std::vector<uint8_t>> validity() {
+    std::vector<uint8_t> valid(size_t{info_.width} * info_.height);
+    const tks_status status = tks_decode_validity(decoder_.get(), valid.data(), valid.size());
+    if (status != TKS_OK) return error(status);
+    return valid;
+  }
+
   /// width * height heights in info().unit, also between the steps of the sample type: for drawing.
   Expected<std::vector<float>> surface() {
     std::vector<float> heights(size_t{info_.width} * info_.height);
@@ -186,6 +215,12 @@ class Decoder {
   /// The best mesh of the decoded surface with at most max_triangles; 0: every sample.
   Expected<Mesh> budgetMesh(uint32_t max_triangles) { return mesh(TKS_MESH_BUDGET, max_triangles); }
 
+  /// The same meshes, kept in a tree that gives the part that a view sees.
+  Expected<MeshTree> codedMeshTree() { return meshTree(TKS_MESH_CODED, 0); }
+  Expected<MeshTree> budgetMeshTree(uint32_t max_triangles) {
+    return meshTree(TKS_MESH_BUDGET, max_triangles);
+  }
+
   /// Checks the syntax of the whole stream. TKS_TRUNCATED if it ends early.
   Expected<void> verify() {
     const tks_status status = tks_verify(decoder_.get());
@@ -206,6 +241,13 @@ class Decoder {
     const tks_status status = tks_decode_mesh(decoder_.get(), kind, max_triangles, &result);
     if (status != TKS_OK) return error(status);
     return Mesh(result);
+  }
+
+  Expected<MeshTree> meshTree(tks_mesh_kind kind, uint32_t max_triangles) {
+    tks_mesh_tree* tree = nullptr;
+    const tks_status status = tks_decode_mesh_tree(decoder_.get(), kind, max_triangles, &tree);
+    if (status != TKS_OK) return error(status);
+    return MeshTree(tree);
   }
 
   std::unique_ptr<tks_decoder, Close> decoder_;

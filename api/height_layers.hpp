@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A geometry track taken apart: validity, coefficients, corrections (bitstream/header.hpp).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/header.hpp"
+#include "codec/corrections_pass.hpp"
+#include "codec/geometry_decoder.hpp"
+
+namespace tetrakis {
+
+struct DecodedHeights {
+  DecodedGeometry geometry;          ///< corrections of steps applied
+  std::vector<int32_t> corrections;  ///< to the samples; empty where there are none
+};
+
+/// codeword: any prefix of the track. Safe on any bytes.
+DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHeader& header,
+                            const GeometryLayers& layers);
+
+/// The hints (codec/corrections_pass.hpp) of corrections of steps: how many of a vertex and its
+/// four neighbours are significant.
+std::vector<uint8_t> activityHints(const DecodedGeometry& geometry, uint32_t width,
+                                   uint32_t height);
+
+}  // namespace tetrakis

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes kept for many views, through the C interface.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "api/message.hpp"
+#include "api/surface_mesh.hpp"
+#include "api/void_mesh.hpp"
+#include "codec/quadtree/mesh_tree.hpp"
+
+struct tks_mesh_tree {
+  tetrakis::MeshTree tree;
+  tetrakis::MapBox box;
+};
+
+namespace tetrakis {
+namespace {
+
+/// Leaves out voids (NaN), and heights that overflow by the scale and offset of the stream.
+MapBox boxOf(const SurfaceMesh& surface) {
+  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+  for (const float height : surface.heights) {
+    if (!std::isfinite(height)) continue;
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return {surface.lattice.width() - 1.0, surface.lattice.height() - 1.0, low, high};
+}
+
+Status decodeTree(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                  tks_mesh_tree*& out) {
+  const Result<SurfaceMesh> surface = surfaceMesh(decoder, kind, max_triangles);
+  if (!surface.ok()) return surface.status();
+  out = new tks_mesh_tree{MeshTree(surface->lattice, surface->inserted, surface->heights),
+                          boxOf(*surface)};
+  return {};
+}
+
+Status viewMesh(const tks_mesh_tree& tree, const double* clip, tks_mesh& out) {
+  std::array<double, 16> matrix;
+  std::copy_n(clip, matrix.size(), matrix.begin());
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(matrix.begin(), matrix.end(), finite))
+    return {TKS_USAGE, "The matrix of a view must be finite."};
+  ViewMesh view = tree.tree.view(viewFootprint(matrix, tree.box));
+  leaveOutVoids(view.mesh, view.heights);
+  copyMesh(view.mesh, view.heights, out);
+  return {};
+}
+
+}  // namespace
+}  // namespace tetrakis
+
+tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                                tks_mesh_tree** out) {
+  if (decoder == nullptr || out == nullptr) return TKS_USAGE;
+  *out = nullptr;
+  const tetrakis::Status status =
+      tetrakis::guarded([&] { return tetrakis::decodeTree(*decoder, kind, max_triangles, *out); });
+  decoder->message = status.message();
+  return status.code();
+}
+
+tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out) {
+  if (tree == nullptr || clip == nullptr || out == nullptr) return TKS_USAGE;
+  *out = {};
+  const tetrakis::Status status =
+      tetrakis::guarded([&] { return tetrakis::viewMesh(*tree, clip, *out); });
+  if (!status.ok()) tks_free_mesh(out);
+  return status.code();
+}
+
+void tks_free_mesh_tree(tks_mesh_tree* tree) {
+  delete tree;
+}

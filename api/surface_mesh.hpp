@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes of the decoded surface, as the C interface and the mesh tree want them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "api/decoder.hpp"
+#include "codec/lattice.hpp"
+#include "codec/lattice_mesh.hpp"
+
+namespace tetrakis {
+
+/// inserted: the closed set of lattice vertices that `mesh` is made of. heights: in the unit, one
+/// for each vertex of `mesh`; NaN where it is void (api/void_mesh.hpp).
+struct SurfaceMesh {
+  Lattice lattice;
+  std::vector<VertexId> inserted;
+  LatticeMesh mesh;
+  std::vector<float> heights;
+};
+
+/// What tks_decode_mesh promises. TKS_USAGE for an unknown kind or a stream without heights, and
+/// the errors of Lattice::make.
+Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles);
+
+/// Copies into arrays that tks_free_mesh releases. Throws std::bad_alloc; `out` can then be freed.
+void copyMesh(const LatticeMesh& mesh, std::span<const float> heights, tks_mesh& out);
+
+}  // namespace tetrakis

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/void_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "codec/decimation.hpp"
+#include "codec/fitted_solver.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+std::vector<int32_t> heightsOverPits(const DecodedGeometry& geometry) {
+  std::vector<int32_t> heights = geometry.heights;
+  int32_t low = std::numeric_limits<int32_t>::max(), high = std::numeric_limits<int32_t>::min();
+  for (size_t i = 0; i < heights.size(); ++i) {
+    if (!geometry.valid.empty() && !geometry.valid[i]) continue;
+    low = std::min(low, heights[i]);
+    high = std::max(high, heights[i]);
+  }
+  const int64_t depth = (int64_t{high} - low) / 4 + 1;
+  const auto floor =
+      static_cast<int32_t>(std::max<int64_t>(low - depth, std::numeric_limits<int32_t>::min()));
+  for (size_t i = 0; i < geometry.valid.size(); ++i) {
+    if (!geometry.valid[i]) heights[i] = low <= high ? floor : 0;
+  }
+  return heights;
+}
+
+}  // namespace
+
+Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const DecodedGeometry& geometry,
+                                           uint32_t max_triangles) {
+  const std::vector<int32_t> pits = heightsOverPits(geometry);
+  const Result<MeshSequence> sequence = decimate({lattice.width(), lattice.height(), pits});
+  if (!sequence.ok()) return sequence.status();
+  FittedVertices result{sequence->order(), {}};
+  result.vertices.resize(sequence->bestPrefix(max_triangles));
+  const SurfaceView view{lattice.width(), lattice.height(), geometry.heights};
+  FittedMoments fitted(lattice, {view, geometry.valid});
+  fitted.coarsen(result.vertices);
+  fitHeights(fitted);
+  for (const uint32_t sample : meshOf(lattice, result.vertices).vertices)
+    result.heights.push_back(fitted.height(sample));
+  return result;
+}
+
+void leaveOutVoids(LatticeMesh& mesh, std::vector<float>& heights) {
+  constexpr uint32_t kGone = std::numeric_limits<uint32_t>::max();
+  std::vector<uint32_t> renumbered(mesh.vertices.size(), kGone);
+  uint32_t kept = 0;
+  for (uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (std::isnan(heights[v])) continue;
+    mesh.vertices[kept] = mesh.vertices[v];
+    heights[kept] = heights[v];
+    renumbered[v] = kept++;
+  }
+  if (kept == mesh.vertices.size()) return;
+  mesh.vertices.resize(kept);
+  heights.resize(kept);
+  size_t end = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const uint32_t corners[] = {renumbered[mesh.triangles[t]], renumbered[mesh.triangles[t + 1]],
+                                renumbered[mesh.triangles[t + 2]]};
+    if (std::find(std::begin(corners), std::end(corners), kGone) != std::end(corners)) continue;
+    std::copy(std::begin(corners), std::end(corners),
+              mesh.triangles.begin() + static_cast<ptrdiff_t>(end));
+    end += 3;
+  }
+  mesh.triangles.resize(end);
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_max_error DIR...: bytes at equal largest error, beside LERC (libLerc), which codes floats
+// and integers within a bound. Both get the samples of the file and its voids; both are decoded and
+// checked. A bound of 0 is lossless.
+#include <Lerc_c_api.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "bench/results.hpp"
+#include "tetrakis/tetrakis.hpp"
+#include "tools/files.hpp"
+#include "tools/scene.hpp"
+
+namespace tetrakis::bench {
+namespace {
+
+struct Options {
+  std::vector<std::string> folders, filters;
+  std::vector<double> errors = {0, 0.1, 0.5, 1, 2, 5, 10};
+  std::optional<double> nodata;
+  std::string csv;
+};
+
+/// Heights of a file, where they are void (NaN), and the largest distance of others from them.
+class Judge {
+ public:
+  explicit Judge(const tools::HeightFile& file) : file_(file), truth_(tools::heightsOf(file)) {}
+
+  bool isVoid(size_t i) const { return std::isnan(truth_.values[i]); }
+  size_t count() const { return truth_.values.size(); }
+
+  /// Infinity if a valid sample came back void.
+  double largestError(const std::vector<std::byte>& samples) const {
+    tools::HeightFile decoded = file_;
+    decoded.data = samples;
+    const tools::Surface surface = tools::heightsOf(decoded);
+    double largest = 0;
+    for (size_t i = 0; i < count(); ++i) {
+      if (isVoid(i)) continue;
+      const double error = std::abs(surface.values[i] - truth_.values[i]);
+      largest = std::isnan(error) ? INFINITY : std::max(largest, error);
+    }
+    return largest;
+  }
+
+ private:
+  const tools::HeightFile& file_;
+  tools::Surface truth_;
+};
+
+struct Coded {
+  size_t bytes = 0;
+  double largest_error = INFINITY;
+};
+
+Result<Coded> withTetrakis(const tools::HeightFile& file, const Judge& judge, double error) {
+  tks_heights heights = makeHeights();
+  heights.width = file.width;
+  heights.height = file.height;
+  heights.sample = file.sample;
+  heights.data = file.data.data();
+  heights.scale = file.scale;
+  heights.offset = file.offset;
+  heights.has_nodata = file.nodata.has_value();
+  heights.nodata = file.nodata.value_or(0);
+  tks_encode_options options = makeEncodeOptions();
+  options.max_error = error;
+  options.lossless = error == 0;
+  const Expected<Buffer> stream = encode(&heights, nullptr, options);
+  if (!stream) return Status(stream.error().code, stream.error().message);
+  Expected<Decoder> decoder = Decoder::open(stream->bytes());
+  if (!decoder) return Status(decoder.error().code, decoder.error().message);
+  const Expected<std::vector<std::byte>> samples = decoder->heights();
+  if (!samples) return Status(samples.error().code, samples.error().message);
+  return Coded{stream->bytes().size(), judge.largestError(*samples)};
+}
+
+/// LERC's names of sample types: char, uchar, short, ushort, int, uint, float.
+unsigned lercType(tks_sample sample) {
+  constexpr std::array<unsigned, 7> kTypes = {1, 0, 3, 2, 5, 4, 6};
+  return kTypes[sample];
+}
+
+Result<Coded> withLerc(const tools::HeightFile& file, const Judge& judge, double error) {
+  std::vector<unsigned char> valid(judge.count());
+  for (size_t i = 0; i < valid.size(); ++i) valid[i] = !judge.isVoid(i);
+  const bool voids = std::find(valid.begin(), valid.end(), 0) != valid.end();
+  const auto width = static_cast<int>(file.width), height = static_cast<int>(file.height);
+  const unsigned type = lercType(file.sample);
+  const double bound = error / std::abs(file.scale);
+  std::vector<unsigned char> code(file.data.size() * 2 + 4096);
+  unsigned written = 0;
+  const unsigned char* mask = voids ? valid.data() : nullptr;
+  if (lerc_encode(file.data.data(), type, 1, width, height, 1, voids, mask, bound, code.data(),
+                  static_cast<unsigned>(code.size()), &written) != 0) {
+    return Status(TKS_MISMATCH, "LERC does not encode these heights");
+  }
+  std::vector<std::byte> samples(file.data.size());
+  if (lerc_decode(code.data(), written, voids, valid.data(), 1, width, height, 1, type,
+                  samples.data()) != 0) {
+    return Status(TKS_MISMATCH, "LERC does not decode its own code");
+  }
+  return Coded{written, judge.largestError(samples)};
+}
+
+Status measureFile(const std::string& path, const std::string& item, const Options& options,
+                   std::vector<ResultRow>& rows) {
+  Result<tools::HeightFile> file = tools::readHeights(path);
+  if (!file.ok()) return file.status();
+  if (options.nodata) file->nodata = options.nodata;
+  const Judge judge(*file);
+  for (const double error : options.errors) {
+    const bool integer = file->sample != TKS_F32;
+    if (integer && error > 0 && error < std::abs(file->scale)) continue;  // as good as lossless
+    const Result<Coded> ours = withTetrakis(*file, judge, error);
+    if (!ours.ok()) return ours.status();
+    const Result<Coded> lerc = withLerc(*file, judge, error);
+    if (!lerc.ok()) return lerc.status();
+    if (ours->largest_error > error) return Status(TKS_MISMATCH, item + ": the bound is broken");
+    const double ratio = static_cast<double>(ours->bytes) / static_cast<double>(lerc->bytes);
+    std::printf("%-24s %8g %10zu %10zu %7.3f   %g %g\n", item.c_str(), error, ours->bytes,
+                lerc->bytes, ratio, ours->largest_error, lerc->largest_error);
+    std::fflush(stdout);
+    const std::string at = CLI::detail::to_string(error);
+    rows.push_back({item, "tetrakis", "bytes_within_" + at, static_cast<double>(ours->bytes)});
+    rows.push_back({item, "lerc", "bytes_within_" + at, static_cast<double>(lerc->bytes)});
+  }
+  return {};
+}
+
+/// Height fields below the folder, in order of name.
+std::vector<std::filesystem::path> filesBelow(const std::string& folder,
+                                              const std::vector<std::string>& filters) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().string(), extension = entry.path().extension().string();
+    const bool wanted = filters.empty() ||
+                        std::any_of(filters.begin(), filters.end(), [&](const std::string& text) {
+                          return name.find(text) != std::string::npos;
+                        });
+    if (wanted && (extension == ".tif" || extension == ".hgt")) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+int run(const Options& options) {
+  std::vector<ResultRow> rows;
+  bool failed = false;
+  std::printf("%-24s %8s %10s %10s %7s   %s\n", "file", "error", "tetrakis", "lerc", "ratio",
+              "errors found");
+  for (const std::string& folder : options.folders) {
+    for (const std::filesystem::path& path : filesBelow(folder, options.filters)) {
+      std::filesystem::path item = std::filesystem::relative(path, folder);
+      const Status status =
+          measureFile(path.string(), item.replace_extension().string(), options, rows);
+      if (status.ok()) continue;
+      std::fprintf(stderr, "%s: %s\n", path.c_str(), status.message().c_str());
+      failed = true;
+    }
+  }
+  if (failed || options.csv.empty()) return failed;
+  const Status status = updateResults(options.csv, "max_error", rows);
+  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
+  return !status.ok();
+}
+
+}  // namespace
+}  // namespace tetrakis::bench
+
+int main(int argc, char** argv) {
+  tetrakis::bench::Options options;
+  CLI::App app("Bytes at equal largest error, beside LERC");
+  app.add_option("DIR", options.folders, "Folders, searched recursively")->required();
+  app.add_option("--errors", options.errors, "Bounds in the unit of the heights; 0: lossless")
+      ->delimiter(',');
+  app.add_option("--files", options.filters, "Only files whose path holds one of these texts")
+      ->delimiter(',');
+  app.add_option("--nodata", options.nodata, "Samples of this value are void");
+  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
+  CLI11_PARSE(app, argc, argv);
+  return tetrakis::bench::run(options);
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/corrections_encoder.hpp"
+
+#include "bitstream/range_encoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+class EncodingIo {
+ public:
+  explicit EncodingIo(std::span<const int32_t> corrections) : corrections_(corrections) {}
+  bool more(AdaptiveBit& model, size_t sample, int depth) {
+    const bool bit = static_cast<int>(std::bit_width(magnitude(sample))) > depth;
+    encoder_.encode(model, bit);
+    return bit;
+  }
+  bool negative(size_t sample) { return even(corrections_[sample] < 0); }
+  bool low(size_t sample, int position) { return even((magnitude(sample) >> position) & 1); }
+  bool stopped() const { return false; }
+  std::vector<uint8_t> finish() { return encoder_.finish(); }
+
+ private:
+  uint32_t magnitude(size_t sample) const {
+    const auto bits = static_cast<uint32_t>(corrections_[sample]);
+    return corrections_[sample] < 0 ? 0u - bits : bits;
+  }
+  bool even(bool bit) {
+    encoder_.encodeEven(bit);
+    return bit;
+  }
+
+  std::span<const int32_t> corrections_;
+  RangeEncoder encoder_;
+};
+
+}  // namespace
+
+std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
+                                       const CorrectionGrid& grid) {
+  std::vector<int32_t> known(corrections.size(), 0);
+  EncodingIo io(corrections);
+  CorrectionPass<EncodingIo>(grid, io).run(known);
+  return io.finish();
+}
+
+}  // namespace tetrakis

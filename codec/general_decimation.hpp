@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// General decimation with global error (thesis 5.2.2): from full resolution down, each step removes
+// the merging domain M_v (v and its remaining descendants) that costs least,
+// lambda(v) = -deltaD / deltaR (5.2): squared error per triangle, or per unit of another cost.
+#pragma once
+
+#include <vector>
+
+#include "codec/lattice.hpp"
+#include "codec/vertex_costs.hpp"
+
+namespace tetrakis {
+
+/// All vertices, those removed last first. gains: one for each vertex (gains.hpp).
+std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs);
+
+}  // namespace tetrakis

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The levels of the 4-8 lattice over a W x H grid.
+//
+// One 4-8 subdivision of squares of side 2s (s = 2^(depth-1) ... 1) inserts two levels
+// (thesis 3.2):
+//
+//   v---.---v      v  corners: the vertices of coarser levels, at multiples of 2s
+//   |       |      c  square centres (odd level),  at odd multiples of s in x and y
+//   .   c   .      .  edge midpoints (even level), at multiples of s of odd coordinate sum
+//   |       |
+//   v---.---v      Every vertex of the grid belongs to exactly one level: once.
+//
+// The grid may have any size: there is no padding, vertices outside simply do not exist.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tetrakis {
+
+enum class LevelKind : uint8_t { kRoots, kCentres, kMidpoints };
+
+/// Vertices of one level, in rows.
+struct Level {
+  LevelKind kind = LevelKind::kRoots;
+  uint32_t step = 1;  ///< s for centres and midpoints, 2^depth for roots
+  uint32_t rows = 0;
+  std::array<uint32_t, 2> columns{};  ///< in even and in odd rows
+
+  uint32_t y(uint32_t row) const {
+    return kind == LevelKind::kCentres ? (2 * row + 1) * step : row * step;
+  }
+  uint32_t firstX(uint32_t row) const {
+    if (kind == LevelKind::kRoots) return 0;
+    return kind == LevelKind::kCentres || row % 2 == 0 ? step : 0;
+  }
+  uint32_t pitch() const { return kind == LevelKind::kRoots ? step : 2 * step; }
+};
+
+/// depth: the smallest d with 2^d >= max(width, height) - 1.
+uint32_t depthOf(uint32_t width, uint32_t height);
+
+/// Roots first, then centres and midpoints of every step from coarse to fine: 1 + 2 * depth levels.
+std::vector<Level> levelsOf(uint32_t width, uint32_t height);
+
+}  // namespace tetrakis

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The first sums, over complete domains, and the vertices of a domain.
+#include "codec/merging_domains.hpp"
+
+namespace tetrakis {
+
+MergingDomains::MergingDomains(const std::vector<double>& gains, const VertexCosts& costs)
+    : gains_(&gains),
+      costs_(&costs),
+      sums_(costs.lattice()),
+      domains_(gains.size()),
+      removed_(gains.size()) {
+  const auto add = [this](VertexId a, const Worth& worth) {
+    domains_[a].distortion += worth.distortion;
+    domains_[a].cost += worth.cost;
+  };
+  lattice().forEachVertex([&](Site site, VertexId v) { sums_.add(site, worthOf(site, v), add); });
+  sums_.flush(add);
+}
+
+/// The remaining vertices of M_v, level by level.
+void MergingDomains::collect(VertexId v) {
+  sites_.assign(1, lattice().site(v));
+  group_.assign(1, v);
+  removed_[v] = true;
+  for (size_t i = 0; i < sites_.size(); ++i)
+    lattice().forEachChild(Site(sites_[i]), [&](Site child) {
+      const VertexId w = lattice().id(child);
+      if (removed_[w]) return;
+      removed_[w] = true;
+      sites_.push_back(child);
+      group_.push_back(w);
+    });
+}
+
+}  // namespace tetrakis

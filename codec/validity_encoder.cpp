@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/validity_encoder.hpp"
+
+#include "bitstream/range_encoder.hpp"
+#include "codec/validity_pass.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+class EncodingIo {
+ public:
+  explicit EncodingIo(std::span<const uint8_t> valid) : valid_(valid) {}
+  bool bit(AdaptiveBit& model, size_t sample) {
+    encoder_.encode(model, valid_[sample] != 0);
+    return valid_[sample] != 0;
+  }
+  bool stopped() const { return false; }
+  std::vector<uint8_t> finish() { return encoder_.finish(); }
+
+ private:
+  std::span<const uint8_t> valid_;
+  RangeEncoder encoder_;
+};
+
+}  // namespace
+
+std::vector<uint8_t> encodeValidity(std::span<const uint8_t> valid, uint32_t width,
+                                    uint32_t height) {
+  std::vector<uint8_t> known(valid.size());
+  EncodingIo io(valid);
+  ValidityPass<EncodingIo>(known, width, height, io).run();
+  std::vector<uint8_t> codeword = io.finish();
+  if (codeword.empty()) codeword.push_back(0);
+  return codeword;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights that are hard to take: every bit pattern of a float, integers of all 32 bits, bounds
+// below any step, infinities. What happens is what include/tetrakis/tetrakis.h says.
+#include <bit>
+#include <limits>
+#include <random>
+
+#include "tests/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+template <class T>
+Raster rasterOf(const std::vector<T>& values, uint32_t width, tks_sample sample) {
+  Raster raster{width, static_cast<uint32_t>(values.size() / width), 1, sample, {}};
+  raster.data.resize(values.size() * sizeof(T));
+  std::memcpy(raster.data.data(), values.data(), raster.data.size());
+  return raster;
+}
+
+void expectRestored(const Raster& raster) {
+  const Bytes bytes = encode(&raster, nullptr, lossless());
+  Stream stream(bytes);
+  ASSERT_EQ(stream.status(), TKS_OK) << stream.message();
+  EXPECT_TRUE(stream.info().lossless);
+  EXPECT_EQ(stream.heights(), raster.data);
+}
+
+TEST(HostileHeights, AnyFiniteBitPatternsComeBack) {
+  std::mt19937 random(1);
+  for (const uint32_t width : {2u, 5u, 11u}) {
+    std::vector<float> values;
+    while (values.size() < width * 24u) {
+      const auto value = std::bit_cast<float>(static_cast<uint32_t>(random()));
+      if (std::isfinite(value)) values.push_back(value);
+    }
+    expectRestored(rasterOf(values, width, TKS_F32));
+  }
+}
+
+TEST(HostileHeights, ZerosOfBothSignsAndSubnormals) {
+  constexpr float kTiny = std::numeric_limits<float>::denorm_min();
+  expectRestored(rasterOf<float>({0.0f, -0.0f, 0.0f, -0.0f}, 2, TKS_F32));
+  expectRestored(rasterOf<float>({-0.0f, -0.0f, -0.0f, -0.0f}, 2, TKS_F32));
+  expectRestored(rasterOf<float>({kTiny, -kTiny, 0.0f, 3 * kTiny, -0.0f, 1e-40f}, 3, TKS_F32));
+  expectRestored(rasterOf<float>({kTiny, 8848.0f, -1e-39f, 0.1f, 1e-30f, 1e30f}, 2, TKS_F32));
+}
+
+TEST(HostileHeights, MeasuredFloatsOfFullPrecision) {
+  const Raster ridges = make({Pattern::kRidges, 60, 40, 1, TKS_I32});
+  std::vector<float> values;
+  for (size_t i = 0; i < 2400; ++i) {
+    values.push_back(static_cast<float>(sampleAt(ridges.data, TKS_I32, i) * 1e-3 / 3));
+  }
+  const Raster raster = rasterOf(values, 60, TKS_F32);
+  expectRestored(raster);
+  EXPECT_LT(encode(&raster, nullptr, lossless()).size(), raster.data.size() * 9 / 10);
+}
+
+TEST(HostileHeights, IntegersOfAll32Bits) {
+  std::mt19937 random(2);
+  std::vector<uint32_t> values(240);
+  for (uint32_t& v : values) v = static_cast<uint32_t>(random());
+  values[0] = 0;
+  values[1] = 0xffffffff;
+  expectRestored(rasterOf(values, 20, TKS_U32));
+  expectRestored(rasterOf(values, 30, TKS_I32));
+}
+
+/// Infinity is no height: refused with its place, unless it is the nodata value.
+TEST(HostileHeights, InfinityIsRefusedOrVoid) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Raster raster = rasterOf<float>({1, 2, 3, 4, 5, -kInfinity}, 2, TKS_F32);
+  tks_heights heights = raster.heights();
+  const tks_encode_options options = lossless();
+  tks_buffer buffer = {};
+  char message[256] = "";
+  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message), TKS_USAGE);
+  EXPECT_NE(std::string(message).find("column 1, row 2"), std::string::npos) << message;
+  heights.has_nodata = 1;
+  heights.nodata = static_cast<double>(-kInfinity);
+  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message), TKS_OK);
+  Stream stream(Prefix(buffer.data, buffer.size));
+  EXPECT_EQ(stream.heights(), raster.data);
+  tks_free_buffer(&buffer);
+}
+
+tks_encode_options within(double error) {
+  tks_encode_options options = {};
+  options.size = sizeof options;
+  options.max_error = error;
+  return options;
+}
+
+TEST(ErrorBound, HoldsForAllTypesPatternsAndBounds) {
+  for (const tks_sample sample : {TKS_U8, TKS_I16, TKS_U16, TKS_I32, TKS_U32, TKS_F32}) {
+    for (const Pattern pattern : {Pattern::kRidges, Pattern::kSteps, Pattern::kExtreme}) {
+      for (const double error : {0.001, 0.5, 1.0, 7.5, 300.0}) {
+        // The small one is audited at every byte by the encoder, the large one at every point.
+        const bool large = error == 7.5;
+        const Raster raster = make({pattern, large ? 50u : 9u, large ? 45u : 7u, 1, sample});
+        const Bytes bytes = encode(&raster, nullptr, within(error));
+        Stream stream(bytes);
+        ASSERT_LE(largestError(raster, stream.heights()), error)
+            << int(sample) << " " << int(pattern);
+        EXPECT_EQ(stream.info().max_error, error);
+      }
+    }
+  }
+}
+
+/// A bound that no 2^26 steps reach: bit for bit instead.
+TEST(ErrorBound, FinerThanAnyStepIsLossless) {
+  const Raster raster = rasterOf<float>({1e-30f, 1e30f, 3.3f, -7e12f}, 2, TKS_F32);
+  const Bytes bytes = encode(&raster, nullptr, within(1e-20));
+  Stream stream(bytes);
+  EXPECT_TRUE(stream.info().lossless);
+  EXPECT_EQ(stream.heights(), raster.data);
+}
+
+/// A step that is given is taken as it is: a bound below it is refused.
+TEST(ErrorBound, FinerThanTheGivenStepIsRefused) {
+  const Raster raster = make({Pattern::kRidges, 20, 20, 1, TKS_F32});
+  tks_heights heights = raster.heights();
+  heights.step = 5;
+  tks_buffer buffer = {};
+  tks_encode_options options = within(1);
+  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_USAGE);
+  options = within(4);
+  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
+  Stream stream(Prefix(buffer.data, buffer.size));
+  EXPECT_LE(largestError(raster, stream.heights()), 4);
+  tks_free_buffer(&buffer);
+}
+
+/// Cut late enough to do without corrections, the same bound takes far more bytes than this.
+TEST(ErrorBound, IsCheaperThanItsLosslessStream) {
+  const Raster raster = make({Pattern::kRidges, 129, 129, 1, TKS_I16});
+  const size_t whole = encode(&raster, nullptr, lossless()).size();
+  size_t before = whole;
+  for (const double error : {10.0, 100.0, 1000.0, 8000.0}) {
+    const size_t bytes = encode(&raster, nullptr, within(error)).size();
+    EXPECT_LT(bytes, before) << error;
+    before = bytes;
+  }
+  EXPECT_LT(before, whole / 20);
+}
+
+/// Every prefix of a stream with corrections decodes, and the bound is reached by the last byte.
+TEST(ErrorBound, PrefixesImprove) {
+  const Raster raster = make({Pattern::kRidges, 27, 31, 1, TKS_I16});
+  const Bytes bytes = encode(&raster, nullptr, within(1200));
+  double best = std::numeric_limits<double>::infinity();
+  for (size_t n = 0; n <= bytes.size(); ++n) {
+    Stream stream(Prefix(bytes).first(n));
+    if (stream.status() == TKS_TRUNCATED) continue;
+    const double squares = squaredError(raster, stream.heights());
+    ASSERT_LE(squares, 1.02 * best) << "at byte " << n << " of " << bytes.size();
+    best = std::min(best, squares);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Deterministic validity masks for tests.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tests/terrain_samples.hpp"
+
+namespace tetrakis::samples {
+
+enum class VoidShape {
+  kCoast,     ///< below a level of smooth noise: bays and islands
+  kSpeckle,   ///< a quarter of the samples at random
+  kChecker,   ///< every other sample
+  kFrame,     ///< a margin of three samples
+  kOneValid,  ///< one sample is valid
+  kOneVoid,   ///< one sample is void
+  kAll        ///< nothing is valid
+};
+
+inline constexpr VoidShape kVoidShapes[] = {
+    VoidShape::kCoast,    VoidShape::kSpeckle, VoidShape::kChecker, VoidShape::kFrame,
+    VoidShape::kOneValid, VoidShape::kOneVoid, VoidShape::kAll};
+
+inline bool isVoid(VoidShape shape, uint32_t width, uint32_t height, uint32_t x, uint32_t y) {
+  const bool middle = x == width / 2 && y == height / 2;
+  switch (shape) {
+    case VoidShape::kCoast:
+      return valueNoise(x, y, 4, 7) < 28000;
+    case VoidShape::kSpeckle:
+      return hash(x, y, 5) % 4 == 0;
+    case VoidShape::kChecker:
+      return (x ^ y) & 1;
+    case VoidShape::kFrame:
+      return x < 3 || y < 3 || x + 3 >= width || y + 3 >= height;
+    case VoidShape::kOneValid:
+      return !middle;
+    case VoidShape::kOneVoid:
+      return middle;
+    case VoidShape::kAll:
+      return true;
+  }
+  return false;
+}
+
+/// 1 valid, 0 void, row by row.
+inline std::vector<uint8_t> validity(VoidShape shape, uint32_t width, uint32_t height) {
+  std::vector<uint8_t> valid;
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) valid.push_back(!isVoid(shape, width, height, x, y));
+  }
+  return valid;
+}
+
+}  // namespace tetrakis::samples
