@@ -112,31 +112,32 @@ class Cutter {
 
 }  // namespace
 
-/// Exact steps leave an error of their own, and floats are rounded to their own spacing; what is
-/// left of the bound, in whole steps, the coding may use. Where that was too little of a margin one
-/// step less will do; none, the exact steps, is always within.
+/// Exact steps leave an error of their own; what is left of the bound, in whole steps, the coding
+/// may use. Where floats are then rounded beyond the bound one step less will do; none, the exact
+/// steps, is always within.
 void EncodeJob::boundHeights() {
   if (geometry_->layers.corrections == CorrectionKind::kSamples) return;
   const EncodedHeights exact = *geometry_;
   std::optional<EncodedHeights> best;
   const auto consider = [&] {
     const size_t bytes = geometry_->track.codeword.size();
-    if (withinBound() && (!best || bytes < best->track.codeword.size()))
-      best = std::move(*geometry_);
+    const bool within = withinBound();
+    if (within && (!best || bytes < best->track.codeword.size())) best = std::move(*geometry_);
     geometry_ = exact;
+    return within;
   };
-  const double bound = options_.max_error / std::abs(heights_->scale) - floatSpacing() / 2;
-  const double room = bound - errorsOf(*heights_, exact.steps).largest;
+  const double bound = options_.max_error / std::abs(heights_->scale);
+  const double room = (bound - errorsOf(*heights_, exact.steps).largest) / exact.steps.step;
   constexpr double kMost = 1 << 24;
-  auto largest = static_cast<int32_t>(std::clamp(room / exact.steps.step + 1e-9, 0.0, kMost));
-  if (widenSteps(bound)) consider();
-  do {
+  auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
+  if (widenSteps(bound - floatSpacing() / 2)) consider();
+  for (bool within = false; !within && largest >= 0; --largest) {
     roundHeights(largest);
-    consider();
+    within = consider();
     if (largest == 0) break;
-    correctHeights(largest--);
-    consider();
-  } while (!best);
+    correctHeights(largest);
+    within |= consider();
+  }
   if (best) geometry_ = std::move(best);
 }
 

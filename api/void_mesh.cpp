@@ -29,6 +29,34 @@ std::vector<int32_t> heightsOverPits(const DecodedGeometry& geometry) {
   return heights;
 }
 
+/// Triangles of the mesh without a void corner.
+size_t landTriangles(const LatticeMesh& mesh, const std::vector<uint8_t>& valid) {
+  size_t count = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const auto on_land = [&](size_t corner) {
+      return valid[mesh.vertices[mesh.triangles[t + corner]]] != 0;
+    };
+    count += on_land(0) && on_land(1) && on_land(2);
+  }
+  return count;
+}
+
+/// The longest prefix, as bisection finds it, of at most max_triangles on land: the same path for
+/// every budget until their answers part, so that meshes stay nested.
+size_t longestOnLand(const MeshSequence& sequence, const std::vector<uint8_t>& valid,
+                     uint32_t max_triangles) {
+  size_t low = 0, high = sequence.order().size();
+  while (low < high) {
+    const size_t middle = high - (high - low) / 2;
+    if (landTriangles(sequence.mesh(middle), valid) <= max_triangles) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  return low;
+}
+
 }  // namespace
 
 Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const DecodedGeometry& geometry,
@@ -37,7 +65,7 @@ Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const Decoded
   const Result<MeshSequence> sequence = decimate({lattice.width(), lattice.height(), pits});
   if (!sequence.ok()) return sequence.status();
   FittedVertices result{sequence->order(), {}};
-  result.vertices.resize(sequence->bestPrefix(max_triangles));
+  result.vertices.resize(longestOnLand(*sequence, geometry.valid, max_triangles));
   const SurfaceView view{lattice.width(), lattice.height(), geometry.heights};
   FittedMoments fitted(lattice, {view, geometry.valid});
   fitted.coarsen(result.vertices);

@@ -96,7 +96,7 @@ Result<PeerResult> measure(const Peer& peer, const Raster& raster, RateWindow wi
   }
   PeerResult result;
   result.points = upperEnvelope(measured);
-  result.lossless_bits = static_cast<double>(curves->lossless_bytes) * bits_per_byte;
+  result.lossless_bytes = curves->lossless_bytes;
   return result;
 }
 
@@ -112,13 +112,14 @@ Status compareFile(const ComparisonSpec& spec, const ComparisonOptions& options,
     if (!result.ok()) return result.status();
     if (peer == spec.peers.front()) {
       anchor = result->points;
-    } else {
+    } else if (!result->points.empty()) {
       const auto difference = rateDifference(anchor, result->points, options.window);
       if (!difference.ok()) return difference.status();
       result->difference = *difference;
     }
     report.addPeer(peer->name(), *result);
   }
+  report.finishFile();
   return {};
 }
 
@@ -138,7 +139,7 @@ int runComparison(const ComparisonSpec& spec, const ComparisonOptions& options) 
     std::fprintf(stderr, "%s: %s\n", file.path.c_str(), status.message().c_str());
     failure = status.code();
   }
-  report.addMeans(spec.peers.front()->name(), options.window);
+  report.addSummary(spec.peers.front()->name(), options.window);
   if (failure != 0 || options.csv.empty()) return failure;
   const Status written = updateResults(options.csv, spec.bench, report.rows());
   if (!written.ok()) std::fprintf(stderr, "%s\n", written.message().c_str());

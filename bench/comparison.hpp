@@ -3,6 +3,7 @@
 // curves against the first codec of the list.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,7 +29,12 @@ struct ComparisonOptions {
   std::vector<std::string> folders;
   std::vector<std::string> filters;  ///< only files whose path holds one of these; empty: all
   RateWindow window;                 ///< bits a pixel (heights: a sample)
+  std::vector<std::string> peers;    ///< codecs to add to the anchor and Tetrakis
   std::string csv;                   ///< file to update; empty: none
+
+  bool wants(const std::string& peer) const {
+    return std::find(peers.begin(), peers.end(), peer) != peers.end();
+  }
 };
 
 /// Prints tables to stdout, problems to stderr. A file that fails is left out of the means; the CSV

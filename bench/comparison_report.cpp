@@ -2,6 +2,7 @@
 // Tables and rows of a comparison; see comparison_report.hpp.
 #include "bench/comparison_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -11,10 +12,16 @@ namespace {
 
 constexpr double kReportedRates[] = {0.1, 0.25, 0.5, 1, 2};  // bits a pixel
 
+double percentOf(const RateDifference& difference) {
+  return 100 * difference.ratio;
+}
+
 }  // namespace
 
 void ComparisonReport::addFile(const std::string& item, const Raster& raster, double peak) {
   item_ = item;
+  lines_.clear();
+  pixels_ = static_cast<double>(raster.pixels());
   rmse_at_zero_db_ = raster.unit * peak;
   std::printf("\n%s  %u x %u", item.c_str(), raster.width, raster.height);
   if (as_rmse_) std::printf(", step %.4g, range %.6g", raster.unit, rmse_at_zero_db_);
@@ -27,34 +34,72 @@ void ComparisonReport::addFile(const std::string& item, const Raster& raster, do
 void ComparisonReport::addPeer(const std::string& codec, const PeerResult& result) {
   std::printf("  %-12s ", codec.c_str());
   if (result.difference) {
-    const double percent = 100 * result.difference->ratio;
+    const double percent = percentOf(*result.difference);
     std::printf("%+8.2f%% %6.1f .. %5.1f", percent, result.difference->psnr_low,
                 result.difference->psnr_high);
     add(codec, "bd_rate_percent", percent);
-    differences_[codec].push_back(percent);
   } else {
-    std::printf("%9s %15s", "anchor", "");
+    std::printf("%9s %15s", lines_.empty() ? "anchor" : "-", "");
   }
-  if (result.lossless_bits > 0) {
-    std::printf(" %9.3f         ", result.lossless_bits);
-    add(codec, "lossless_bits", result.lossless_bits);
+  if (result.lossless_bytes > 0) {
+    const double bits = static_cast<double>(result.lossless_bytes) * 8 / pixels_;
+    std::printf(" %9.3f         ", bits);
+    add(codec, "lossless_bits", bits);
   } else {
     std::printf(" %9s         ", "-");
   }
   addErrors(codec, result.points);
   std::printf("\n");
   std::fflush(stdout);
+  lines_.push_back({codec, result});
+}
+
+void ComparisonReport::finishFile() {
+  for (const Line& line : lines_) {
+    Total& total = totalOf(line.codec);
+    if (line.result.difference) total.differences.push_back(percentOf(*line.result.difference));
+    total.lossless_bytes += static_cast<double>(line.result.lossless_bytes);
+  }
+  ++files_;
+  total_pixels_ += pixels_;
+}
+
+ComparisonReport::Total& ComparisonReport::totalOf(const std::string& codec) {
+  const auto found = std::find_if(totals_.begin(), totals_.end(),
+                                  [&](const Total& total) { return total.codec == codec; });
+  return found != totals_.end() ? *found : totals_.emplace_back(Total{codec, {}, 0});
+}
+
+void ComparisonReport::addSummary(const std::string& anchor, RateWindow window) {
+  if (files_ == 0) return;
+  addMeans(anchor, window);
+  addLosslessSums(anchor);
 }
 
 void ComparisonReport::addMeans(const std::string& anchor, RateWindow window) {
   std::printf("\nMean BD-rate against %s, %g to %g bits (negative: fewer bytes)\n", anchor.c_str(),
               window.low, window.high);
   item_ = "mean";
-  for (const auto& [codec, values] : differences_) {
+  for (const Total& total : totals_) {
+    const std::vector<double>& values = total.differences;
+    if (values.empty()) continue;
     const double sum = std::accumulate(values.begin(), values.end(), 0.0);
     const double mean = sum / static_cast<double>(values.size());
-    std::printf("  %-12s %+8.2f%% over %zu files\n", codec.c_str(), mean, values.size());
-    add(codec, "bd_rate_percent", mean);
+    std::printf("  %-12s %+8.2f%% over %zu files\n", total.codec.c_str(), mean, values.size());
+    add(total.codec, "bd_rate_percent", mean);
+  }
+}
+
+void ComparisonReport::addLosslessSums(const std::string& anchor) {
+  std::printf("\nLossless, sum over %zu files, beside %s\n", files_, anchor.c_str());
+  item_ = "all";
+  const double reference = totalOf(anchor).lossless_bytes;
+  for (const Total& total : totals_) {
+    if (total.lossless_bytes == 0) continue;
+    const double bits = total.lossless_bytes * 8 / total_pixels_;
+    std::printf("  %-12s %+8.2f%% %12.0f bytes %9.3f bits\n", total.codec.c_str(),
+                100 * (total.lossless_bytes / reference - 1), total.lossless_bytes, bits);
+    add(total.codec, "lossless_bits", bits);
   }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_texture DIR...: images. One Tetrakis stream, cut, against OpenJPEG 9/7 files made for each
-// rate. PSNR of the mean squared error over the channels, 8 bits.
+// rate, and AVIF and JPEG XL files. PSNR of the mean squared error over the channels, 8 bits.
+#include "bench/avif_peer.hpp"
 #include "bench/comparison.hpp"
+#include "bench/jxl_peer.hpp"
 #include "bench/openjpeg_peer.hpp"
 #include "bench/options.hpp"
 #include "bench/tetrakis_peer.hpp"
@@ -29,6 +31,9 @@ int main(int argc, char** argv) {
   app.add_option("--max-pixels", max_pixels, "Larger images are cut to their centre")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--peers", options.peers, "More codecs: avif (at two speeds), jxl")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"avif", "jxl"}));
   CLI11_PARSE(app, argc, argv);
 
   ComparisonSpec spec;
@@ -38,5 +43,13 @@ int main(int argc, char** argv) {
   spec.load = [max_pixels](const std::string& path) { return load(path, max_pixels); };
   spec.peers.push_back(std::make_unique<OpenJpegPeer>(std::vector{6}, false));
   spec.peers.push_back(std::make_unique<TetrakisPeer>(RasterKind::kImage));
+  if (options.wants("avif")) {
+    for (const int speed : {3, 6}) {
+      addInstalled(std::make_unique<AvifPeer>(speed), spec.peers);
+    }
+  }
+  if (options.wants("jxl")) {
+    addInstalled(std::make_unique<JxlPeer>(JxlModes::kLosslessAndLossy), spec.peers);
+  }
   return runComparison(spec, options);
 }
