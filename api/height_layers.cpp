@@ -22,6 +22,7 @@ void correctSteps(DecodedGeometry& geometry, const GeometryHeader& header,
   const std::vector<int32_t> corrections =
       decodeCorrections(codeword, {header.width, header.height, geometry.valid, hints});
   const uint32_t unit = layers.correction_step << geometry.fraction_bits;
+  geometry.quiet_levels = 0;
   for (size_t i = 0; i < corrections.size(); ++i) {
     geometry.heights[i] = static_cast<int32_t>(static_cast<uint32_t>(geometry.heights[i]) +
                                                static_cast<uint32_t>(corrections[i]) * unit);

@@ -8,6 +8,7 @@
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
 #include "api/void_mesh.hpp"
+#include "codec/coarse_surface.hpp"
 #include "codec/fitted_heights.hpp"
 
 namespace tetrakis {
@@ -19,6 +20,19 @@ struct Chosen {
   std::vector<VertexId> vertices;
   std::vector<double> fitted;  ///< one for each vertex of the mesh; empty: those of the samples
 };
+
+/// Finest levels that a mesh can do without: nothing is known there, and the samples of the coarser
+/// ones make four times the triangles wanted.
+uint32_t spareLevels(const Lattice& lattice, const DecodedGeometry& geometry,
+                     uint32_t max_triangles) {
+  const uint32_t shorter = std::min(lattice.width(), lattice.height()) - 1;
+  uint32_t k = 0;
+  const auto enough = [&](uint32_t levels) {
+    return shorter >> levels > 0 && (lattice.sampleCount() >> (2 * levels)) >= 2 * uint64_t{max_triangles};
+  };
+  while (k < geometry.quiet_levels && enough(k + 1)) ++k;
+  return k;
+}
 
 Result<Chosen> chosenVertices(const Lattice& lattice, const DecodedGeometry& geometry,
                               tks_mesh_kind kind, uint32_t max_triangles) {
@@ -33,8 +47,9 @@ Result<Chosen> chosenVertices(const Lattice& lattice, const DecodedGeometry& geo
     if (!beside.ok()) return beside.status();
     return Chosen{std::move(beside->vertices), std::move(beside->heights)};
   }
-  const SurfaceView view{lattice.width(), lattice.height(), geometry.heights};
-  Result<FittedSequence> sequence = FittedSequence::make({view, {}});
+  const SurfaceView whole{lattice.width(), lattice.height(), geometry.heights};
+  const CoarseSurface coarse = coarsen(whole, spareLevels(lattice, geometry, max_triangles));
+  Result<FittedSequence> sequence = FittedSequence::make({coarse.view(), {}});
   if (!sequence.ok()) return sequence.status();
   const size_t count = sequence->longestPrefix(max_triangles);
   std::vector<VertexId> order = sequence->order();

@@ -31,6 +31,15 @@ void markVertices(const Band& band, const Subband& subband, uint32_t width,
   }
 }
 
+uint32_t quietLevels(const TrackState& state, const PlaneLayout& layout) {
+  uint32_t quiet = static_cast<uint32_t>(layout.subbands().front().level);
+  for (size_t i = 1; i < layout.size(); ++i) {
+    const auto level = static_cast<uint32_t>(layout.subbands()[i].level);
+    if (state.bands[i].nonzero) quiet = std::min(quiet, level - 1);
+  }
+  return quiet;
+}
+
 /// Coefficients of void vertices mean nothing.
 void clearVoids(DecodedGeometry& geometry) {
   for (size_t i = 0; i < geometry.valid.size(); ++i) {
@@ -57,6 +66,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uin
             width);
     markVertices(state.bands[i], subband, width, out.significant);
   }
+  out.quiet_levels = quietLevels(state, layout);
   inverseWavelet(spec, out.heights, width, height, out.valid);
   clearVoids(out);
   return out;

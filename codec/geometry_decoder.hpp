@@ -16,6 +16,7 @@ struct DecodedGeometry {
   int fraction_bits = 0;
   std::vector<uint8_t> significant;  ///< 1 where the vertex has a non-zero coefficient
   std::vector<uint8_t> valid;        ///< 1 valid, 0 void; empty: all are valid
+  uint32_t quiet_levels = 0;         ///< finest levels of which no coefficient is significant
 };
 
 /// codeword: any prefix of a geometry track's coefficients. valid: width * height, or empty. Safe on
