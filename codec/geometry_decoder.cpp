@@ -16,6 +16,7 @@ namespace {
 /// Marks the vertices that the band's significant coefficients belong to.
 void markVertices(const Band& band, const Subband& subband, uint32_t width,
                   std::vector<uint8_t>& marks) {
+  if (band.shape.empty()) return;
   const bool high_x = subband.orientation == Orientation::kHL ||
                       subband.orientation == Orientation::kHH;
   const uint32_t first = high_x ? uint32_t{1} << (subband.splits_x - 1) : 0;
