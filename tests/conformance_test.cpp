@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "bitstream/header.hpp"
 #include "conformance/digest.hpp"
 #include "conformance/runner.hpp"
 #include "conformance/vector_cases.hpp"
@@ -69,6 +70,57 @@ TEST_F(Vectors, ManifestIsComplete) {
     EXPECT_TRUE(listed.contains(entry.path().filename())) << entry.path();
   }
   EXPECT_EQ(vectors->size(), vectorCases().size());
+}
+
+using Tools = std::set<std::string>;
+
+void addWavelet(const WaveletHeader& wavelet, Tools& tools) {
+  for (const uint8_t filter : wavelet.filters) tools.insert("filter " + std::to_string(filter));
+  if (wavelet.filters[0] != wavelet.filters[1]) tools.insert("level 2 differs");
+  if (wavelet.filters[1] != wavelet.filters[2]) tools.insert("level 3 differs");
+  tools.insert("fraction bits " + std::to_string(wavelet.fraction_bits));
+  if (wavelet.bits > 20) tools.insert("wide sums");
+}
+
+/// What the header says that a stream makes use of.
+void addTools(const StreamHeader& header, Tools& tools) {
+  if (header.geometry) {
+    tools.insert("heights " + std::to_string(header.geometry->sample));
+    addWavelet(header.geometry->wavelet, tools);
+    const std::string kind = std::to_string(static_cast<int>(header.layers.corrections));
+    tools.insert((header.layers.validity_bytes > 0 ? "voids, corrections " : "corrections ") +
+                 kind);
+    if (header.layers.has_nodata) tools.insert("nodata");
+  }
+  if (header.texture) {
+    tools.insert("channels " + std::to_string(header.texture->channels));
+    tools.insert("texels " + std::to_string(header.texture->sample));
+    addWavelet(header.texture->wavelet, tools);
+  }
+  if (!header.index.empty()) tools.insert("index");
+}
+
+TEST_F(Vectors, VisitEveryToolOfTheHeader) {
+  const auto vectors = readManifest(kVectors);
+  ASSERT_TRUE(vectors.ok());
+  Tools tools;
+  for (const Vector& vector : *vectors) {
+    const auto stream = readFile(std::string(kVectors) + "/" + vector.file);
+    ASSERT_TRUE(stream.ok());
+    const auto parsed = readHeader(*stream);
+    if (parsed.ok()) addTools(parsed->header, tools);
+  }
+  Tools wanted{"level 2 differs", "level 3 differs", "fraction bits 0",
+               "fraction bits 4", "wide sums",       "nodata",
+               "index",           "texels 0",        "texels 2"};
+  for (int i = 0; i < 4; ++i) wanted.insert("filter " + std::to_string(i));
+  for (int i = 1; i <= 4; ++i) wanted.insert("channels " + std::to_string(i));
+  for (int i = TKS_U8; i <= TKS_F32; ++i) wanted.insert("heights " + std::to_string(i));
+  for (const char* kind : {"0", "1", "2"}) {
+    wanted.insert(std::string("corrections ") + kind);
+    wanted.insert(std::string("voids, corrections ") + kind);
+  }
+  for (const std::string& tool : wanted) EXPECT_TRUE(tools.contains(tool)) << tool;
 }
 
 TEST_F(Vectors, ManifestIsWrittenAsItIsRead) {

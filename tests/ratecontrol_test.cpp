@@ -121,7 +121,7 @@ TEST(Audit, LargeTracksAreCorrectedOnlyWithoutABudget) {
 }
 
 Texels stripes(uint32_t period) {
-  Texels texels{64, 64, 1, 8, std::vector<int32_t>(64 * 64)};
+  Texels texels{64, 64, 1, 8, std::vector<uint16_t>(64 * 64)};
   for (uint32_t i = 0; i < 64 * 64; ++i)
     texels.samples[i] = (i % 64) / (period / 2) % 2 == 0 ? 60 : 180;
   return texels;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Validity masks, masked lifting and corrections: codewords come back from any prefix as far as it
-// goes, and no value crosses a coast.
+// Validity masks, the levels they are coded by, and corrections: codewords come back from any
+// prefix as far as it goes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "codec/corrections_decoder.hpp"
 #include "codec/corrections_encoder.hpp"
-#include "codec/lifting.hpp"
+#include "codec/levels.hpp"
 #include "codec/validity_decoder.hpp"
 #include "codec/validity_encoder.hpp"
 #include "tests/void_masks.hpp"
@@ -30,6 +30,23 @@ constexpr Size kSizes[] = {{2, 2}, {2, 9}, {9, 2}, {5, 3}, {17, 17}, {40, 23}, {
 size_t differences(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), size_t{0}, std::plus<>(),
                             std::not_equal_to<>());
+}
+
+TEST(Levels, EveryVertexBelongsToExactlyOneLevel) {
+  for (const Size& size : kSizes) {
+    std::vector<int> owners(size_t{size.width} * size.height, 0);
+    for (const Level& level : levelsOf(size.width, size.height)) {
+      for (uint32_t row = 0; row < level.rows; ++row) {
+        for (uint32_t column = 0; column < level.columns[row % 2]; ++column) {
+          const uint32_t x = level.firstX(row) + column * level.pitch();
+          ASSERT_LT(x, size.width);
+          ASSERT_LT(level.y(row), size.height);
+          ++owners[size_t{level.y(row)} * size.width + x];
+        }
+      }
+    }
+    for (int count : owners) ASSERT_EQ(count, 1);
+  }
 }
 
 TEST(Validity, ComesBackWhateverFollows) {
@@ -87,64 +104,6 @@ TEST(Validity, AnyBytesDecode) {
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
     for (const uint8_t v : decodeValidity(bytes, 23, 40)) ASSERT_LE(v, 1);
   }
-}
-
-std::vector<int32_t> randomValues(size_t count, int32_t bound) {
-  std::mt19937 random(9);
-  std::vector<int32_t> values(count);
-  for (int32_t& v : values) v = static_cast<int32_t>(random() % (2u * bound)) - bound;
-  return values;
-}
-
-TEST(MaskedLifting, IsReversibleAndStaysOffVoids) {
-  for (const Size& size : kSizes) {
-    for (const VoidShape shape : kVoidShapes) {
-      const auto valid = validity(shape, size.width, size.height);
-      const std::vector<int32_t> heights = randomValues(valid.size(), 1 << 26);
-      std::vector<int32_t> values = heights;
-      forwardLifting({values, size.width, size.height, valid});
-      for (size_t i = 0; i < valid.size(); ++i) {
-        ASSERT_TRUE(valid[i] || values[i] == heights[i]) << "voids are not written";
-        ASSERT_LT(std::abs(int64_t{values[i]}), int64_t{1} << 30) << "nothing is amplified";
-      }
-      inverseLifting({values, size.width, size.height, valid});
-      ASSERT_EQ(values, heights);
-    }
-  }
-}
-
-/// What stands in a void changes no coefficient.
-TEST(MaskedLifting, VoidsAreNotRead) {
-  for (const VoidShape shape : kVoidShapes) {
-    const auto valid = validity(shape, 33, 20);
-    std::vector<int32_t> a = randomValues(valid.size(), 1000), b = a;
-    for (size_t i = 0; i < valid.size(); ++i) {
-      if (!valid[i]) b[i] = 1 << 25;
-    }
-    forwardLifting({a, 33, 20, valid});
-    forwardLifting({b, 33, 20, valid});
-    for (size_t i = 0; i < valid.size(); ++i) ASSERT_TRUE(!valid[i] || a[i] == b[i]);
-  }
-}
-
-/// A plateau beside a void has no details but where nothing coarser is near.
-TEST(MaskedLifting, ConstantsHaveFewDetails) {
-  const auto valid = validity(VoidShape::kCoast, 65, 65);
-  std::vector<int32_t> values(valid.size(), 5000);
-  forwardLifting({values, 65, 65, valid});
-  size_t details = 0;
-  for (size_t i = 0; i < valid.size(); ++i) details += valid[i] && values[i] != 0;
-  EXPECT_LT(details, 40u);
-}
-
-TEST(MaskedLifting, AllValidIsTheSameAsNoMask) {
-  const std::vector<uint8_t> valid(50 * 31, 1);
-  std::vector<int32_t> a = randomValues(valid.size(), 1 << 20), b = a;
-  forwardLifting(a, 50, 31);
-  forwardLifting({b, 50, 31, valid});
-  size_t differing = 0;
-  for (size_t i = 0; i < a.size(); ++i) differing += a[i] != b[i];
-  EXPECT_LT(differing, a.size() / 20) << "the rules differ at corners alone";
 }
 
 TEST(Corrections, ComeBackAndPrefixesAgree) {

@@ -13,7 +13,8 @@ namespace tetrakis {
 namespace {
 
 constexpr int64_t kImpulse = int64_t{1} << 20;
-/// Beyond so many splits a further one only stretches the function: a factor of sqrt 2.
+/// Beyond so many splits a further one only stretches the function: the norm grows by the same
+/// factor each time (sqrt 2 over the filter's gain for constants).
 constexpr int kMeasuredLevels = 10;
 
 /// A signal that is zero outside [origin, origin + values.size()).
@@ -57,7 +58,9 @@ Signal merge(FilterId id, Signal low, Signal high) {
     const bool predicts = i % 2 == 0;
     undo(filter.steps[i], filter.shift, predicts, predicts ? low : high, predicts ? high : low);
   }
-  const auto end = [](const Signal& s) { return s.origin + static_cast<ptrdiff_t>(s.values.size()); };
+  const auto end = [](const Signal& s) {
+    return s.origin + static_cast<ptrdiff_t>(s.values.size());
+  };
   const ptrdiff_t first = std::min(low.origin, high.origin), last = std::max(end(low), end(high));
   Signal merged{2 * first, std::vector<int64_t>(static_cast<size_t>(2 * (last - first)))};
   for (ptrdiff_t i = first; i < last; ++i) {
@@ -99,8 +102,9 @@ int measure(const WaveletSpec& spec, bool high, int splits) {
 SynthesisNorms::SynthesisNorms(const WaveletSpec& spec, int levels) : doubled_(spec.doubled) {
   for (int i = 1; i <= levels; ++i) {
     const auto at = static_cast<size_t>(i);
-    low_[at] = i <= kMeasuredLevels ? measure(spec, false, i) : low_[at - 1] + kFineSteps / 2;
-    high_[at] = i <= kMeasuredLevels ? measure(spec, true, i) : high_[at - 1] + kFineSteps / 2;
+    const bool measured = i <= kMeasuredLevels;
+    low_[at] = measured ? measure(spec, false, i) : 2 * low_[at - 1] - low_[at - 2];
+    high_[at] = measured ? measure(spec, true, i) : 2 * high_[at - 1] - high_[at - 2];
   }
 }
 

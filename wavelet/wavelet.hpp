@@ -26,16 +26,21 @@ struct WaveletSpec {
   bool doubled = false;  ///< the low band is doubled after each of kDoubledLevels
   int bits = 0;          ///< of a sample, fraction included
 
-  /// Sums of this level are of 64 bits.
-  bool wide(int level) const { return bits > widestSamples(filter(level)); }
+  static constexpr int kNarrowLevels = 3;
+
+  /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
+  /// and kOrthogonal multiplies their mean by 1.46 at every level.
+  bool wide(int level) const {
+    return level > kNarrowLevels || bits > widestSamples(filter(level));
+  }
   FilterId filter(int level) const {
     return filters[level < static_cast<int>(kChoices) ? static_cast<size_t>(level - 1)
                                                       : kChoices - 1];
   }
 };
 
-/// In place: width * height samples to coefficients, laid out as subbandsOf() says. Exactly undone by inverseWavelet
-/// of the same spec and validity. Voids are left alone.
+/// In place: width * height samples to coefficients, laid out as subbandsOf() says. Exactly undone
+/// by inverseWavelet of the same spec and validity. Voids are left alone.
 void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
                     uint32_t height, Validity valid = {});
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The encoder's choice of filters: what it depends on, and that it is always a legal one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/random_planes.hpp"
+#include "tests/terrain_samples.hpp"
+#include "tests/void_masks.hpp"
+#include "tests/wavelet_cases.hpp"
+#include "wavelet/filter_choice.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::VoidShape;
+
+constexpr Size kSize{200, 180};
+constexpr Purpose kPurposes[] = {Purpose::kLossless, Purpose::kLossy};
+
+template <class F>
+Plane planeOf(const Size& size, F f) {
+  Plane plane;
+  for (uint32_t y = 0; y < size.height; ++y) {
+    for (uint32_t x = 0; x < size.width; ++x) plane.push_back(static_cast<int32_t>(f(x, y)));
+  }
+  return plane;
+}
+
+/// A surface with nothing near its highest frequency.
+Plane oversampled() {
+  return planeOf(kSize, [](double x, double y) {
+    return 9000 * (std::sin(0.7 * x + 0.02 * y * y) + std::sin(0.5 * y) * std::cos(0.3 * x));
+  });
+}
+
+/// Few colours, vertical walls.
+Plane drawn() {
+  return planeOf(kSize, [](uint32_t x, uint32_t y) {
+    return samples::patternValue({samples::Pattern::kSteps, 0, 0}, x, y, 0) >> 8;
+  });
+}
+
+std::array<uint8_t, 3> all(FilterId id) {
+  const auto i = static_cast<uint8_t>(id);
+  return {i, i, i};
+}
+
+TEST(FilterChoice, SuitsThePlane) {
+  const auto choose = [](const Plane& plane, Purpose purpose) {
+    return chooseWavelet(plane, {}, kSize.width, kSize.height, 16, purpose).filters;
+  };
+  EXPECT_EQ(choose(drawn(), Purpose::kLossless), all(FilterId::kShort));
+  EXPECT_EQ(choose(oversampled(), Purpose::kLossless), all(FilterId::kLong));
+  EXPECT_EQ(choose(oversampled(), Purpose::kLossy)[0], static_cast<uint8_t>(FilterId::kLong));
+  EXPECT_NE(choose(drawn(), Purpose::kLossy), all(FilterId::kLong));
+}
+
+TEST(FilterChoice, IsDeterministic) {
+  for (const Plane& plane : {oversampled(), drawn()}) {
+    for (const Purpose purpose : kPurposes) {
+      const WaveletHeader a = chooseWavelet(plane, {}, kSize.width, kSize.height, 16, purpose),
+                          b = chooseWavelet(plane, {}, kSize.width, kSize.height, 16, purpose);
+      EXPECT_EQ(a.filters, b.filters);
+      EXPECT_EQ(a.bits, b.bits);
+      EXPECT_EQ(a.fraction_bits, b.fraction_bits);
+    }
+  }
+}
+
+void expectLegal(const WaveletHeader& header, int bits, Purpose purpose) {
+  for (const uint8_t filter : header.filters) EXPECT_LT(filter, kFilters);
+  EXPECT_EQ(header.bits, bits + header.fraction_bits);
+  EXPECT_TRUE(purpose == Purpose::kLossy || header.fraction_bits == 0);
+  EXPECT_LE(header.bits, std::max(20, bits)) << "fraction bits stay below the widest samples";
+  const auto orthogonal = static_cast<uint8_t>(FilterId::kOrthogonal);
+  EXPECT_TRUE(bits <= 20 || header.filters[2] != orthogonal)
+      << "its low bands would grow too large";
+}
+
+TEST(FilterChoice, TinyAndConstantPlanesAreLegal) {
+  Random random(1);
+  for (const Size& size : {Size{1, 1}, Size{1, 2}, Size{2, 1}, Size{4, 4}, Size{5, 1}, Size{1, 300},
+                           Size{300, 2}, Size{33, 33}}) {
+    for (const Purpose purpose : kPurposes) {
+      for (const int bits : {1, 8, 16, 20, 27}) {
+        const int32_t most = (1 << bits) - 1;
+        for (const Plane& plane : {Plane(size.count(), 0), Plane(size.count(), most),
+                                   randomPlane(random, size.count(), 0, most)}) {
+          const auto choose = [&](Validity valid) {
+            return chooseWavelet(plane, valid, size.width, size.height, bits, purpose);
+          };
+          expectLegal(choose({}), bits, purpose);
+          for (const VoidShape shape : samples::kVoidShapes) {
+            expectLegal(choose(samples::validity(shape, size.width, size.height)), bits, purpose);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// What stands in voids does not matter.
+TEST(FilterChoice, IgnoresVoids) {
+  Random random(2);
+  const auto valid = samples::validity(VoidShape::kCoast, kSize.width, kSize.height);
+  for (const Plane& clean : {oversampled(), drawn()}) {
+    Plane noisy = clean, quiet = clean;
+    const Plane noise = randomPlane(random, kSize.count(), 0, 65535);
+    for (size_t i = 0; i < valid.size(); ++i) {
+      if (valid[i]) continue;
+      noisy[i] = noise[i];
+      quiet[i] = 0;
+    }
+    for (const Purpose purpose : kPurposes) {
+      EXPECT_EQ(chooseWavelet(noisy, valid, kSize.width, kSize.height, 16, purpose).filters,
+                chooseWavelet(quiet, valid, kSize.width, kSize.height, 16, purpose).filters);
+    }
+  }
+}
+
+/// Only the middle is looked at, so large planes cost no more: a margin far away changes nothing.
+TEST(FilterChoice, LooksAtTheMiddle) {
+  Random random(3);
+  const Size large{600, 520};
+  Plane plane =
+      planeOf(large, [](double x, double y) { return 5000 * std::sin(0.9 * x + 0.1 * y); });
+  const auto choose = [&](Purpose purpose) {
+    return chooseWavelet(plane, {}, large.width, large.height, 16, purpose).filters;
+  };
+  const auto lossless = choose(Purpose::kLossless), lossy = choose(Purpose::kLossy);
+  for (uint32_t y = 0; y < large.height; ++y) {
+    for (uint32_t x = 0; x < 100; ++x) plane[size_t{y} * large.width + x] = random() % 65536;
+  }
+  EXPECT_EQ(choose(Purpose::kLossless), lossless);
+  EXPECT_EQ(choose(Purpose::kLossy), lossy);
+}
+
+}  // namespace
+}  // namespace tetrakis::test
