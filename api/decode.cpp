@@ -109,7 +109,8 @@ Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
   const size_t wanted =
       geometry.heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample));
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  fromSteps(wholeSteps(geometry), *header.geometry, header.layers, {geometry.valid, (*decoded)->corrections}, out);
+  fromSteps(wholeSteps(geometry), *header.geometry, header.layers,
+            {geometry.valid, (*decoded)->corrections}, out);
   return {};
 }
 

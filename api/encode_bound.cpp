@@ -47,8 +47,8 @@ struct Corrected {
 /// Tries cuts of one track of coefficients.
 class Cutter {
  public:
-  Cutter(const EncodedHeights& heights, const GeometryHeader& header, const EncodedTrack& coefficients,
-         int32_t largest)
+  Cutter(const EncodedHeights& heights, const GeometryHeader& header,
+         const EncodedTrack& coefficients, int32_t largest)
       : heights_(heights), header_(header), coefficients_(coefficients), largest_(largest) {}
 
   Corrected correct(uint64_t bytes) const {
@@ -68,8 +68,8 @@ class Cutter {
     }
     if (!any) return result;
     const std::vector<uint8_t> hints = activityHints(decoded, header_.width, header_.height);
-    result.codeword =
-        encodeCorrections(corrections, {header_.width, header_.height, heights_.steps.valid, hints});
+    result.codeword = encodeCorrections(
+        corrections, {header_.width, header_.height, heights_.steps.valid, hints});
     return result;
   }
 

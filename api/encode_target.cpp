@@ -51,8 +51,8 @@ HeightErrors EncodeJob::heightErrors(uint64_t bytes) const {
   return withSampleType(heights_->sample, [&](auto type) {
     using T = decltype(type);
     std::vector<T> samples(steps.size());
-    fromSteps(steps, *header.geometry, header.layers,
-              {decoded.geometry.valid, decoded.corrections}, samples.data());
+    fromSteps(steps, *header.geometry, header.layers, {decoded.geometry.valid, decoded.corrections},
+              samples.data());
     const T* truth = static_cast<const T*>(heights_->data);
     const SampleRange range = rangeOf(*heights_, valid);
     HeightErrors errors;

@@ -59,16 +59,15 @@ DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHea
   const auto coefficients = corrected ? firstOf(codeword, layers.coefficient_bytes) : codeword;
   codeword = codeword.subspan(coefficients.size());
   DecodedHeights decoded;
-  decoded.geometry =
-      decodeGeometry(header, coefficients, std::move(valid));
+  decoded.geometry = decodeGeometry(header, coefficients, std::move(valid));
   if (codeword.empty()) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
     correctSteps(decoded.geometry, header, layers, codeword);
     return decoded;
   }
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(decoded.geometry), header);
-  decoded.corrections = decodeCorrections(
-      codeword, {header.width, header.height, decoded.geometry.valid, hints});
+  decoded.corrections =
+      decodeCorrections(codeword, {header.width, header.height, decoded.geometry.valid, hints});
   return decoded;
 }
 

@@ -13,15 +13,14 @@ namespace tetrakis {
 /// Share of the n-th decision in the mean of an AdaptiveBit: 1 / (n + 2), in units of 2^-15.
 inline constexpr auto kDecisionShare = [] {
   std::array<int32_t, 256> table{};
-  for (int32_t n = 0; n < 256; ++n)
-    table[static_cast<size_t>(n)] = (32768 + (n + 2) / 2) / (n + 2);
+  for (int32_t n = 0; n < 256; ++n) table[static_cast<size_t>(n)] = (32768 + (n + 2) / 2) / (n + 2);
   return table;
 }();
 
 class AdaptiveBit {
  public:
-  static constexpr int kPrecision = 16;   ///< probabilities are multiples of 2^-16
-  static constexpr uint32_t kLimit = 255; ///< decisions after which the mean forgets
+  static constexpr int kPrecision = 16;    ///< probabilities are multiples of 2^-16
+  static constexpr uint32_t kLimit = 255;  ///< decisions after which the mean forgets
   static constexpr uint16_t kTrust = 20;
   static constexpr uint32_t kFloor = 24;  ///< no decision is more certain than 1 - 24/65536
 
@@ -30,9 +29,7 @@ class AdaptiveBit {
   explicit AdaptiveBit(uint8_t zero) : zero_(static_cast<uint16_t>(zero << 8)), seen_(kTrust) {}
 
   /// P(bit = 0) in units of 2^-16, in [kFloor, 65536 - kFloor].
-  uint32_t zero() const {
-    return std::clamp<uint32_t>(zero_, kFloor, (1u << kPrecision) - kFloor);
-  }
+  uint32_t zero() const { return std::clamp<uint32_t>(zero_, kFloor, (1u << kPrecision) - kFloor); }
 
   void update(bool bit) {
     const int32_t target = bit ? 0 : 0xffff;

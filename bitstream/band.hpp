@@ -21,7 +21,7 @@ struct BandShape {
   uint32_t rows = 0, columns = 0;
 
   bool empty() const { return rows == 0 || columns == 0; }
-  uint32_t words() const { return (columns + 31) / 32; }      ///< of a row of a bit map
+  uint32_t words() const { return (columns + 31) / 32; }  ///< of a row of a bit map
   uint32_t wordStride() const { return words() + 2; }
   size_t wordCells() const { return size_t{rows + 2} * wordStride(); }
   size_t word(uint32_t row, uint32_t index) const {
@@ -75,14 +75,14 @@ struct Band {
 
   BandShape shape;
   Orientation orientation = Orientation::kLL;
-  int plane = 31;        ///< bit-plane of the last pass; nothing is known below
-  bool nonzero = false;  ///< the band holds a significant coefficient
-  ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
-  ZeroedArray<uint16_t> scaled;       ///< magnitude >> plane, held below 2^15
-  ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1
-  ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
-  ZeroedArray<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known
-  ZeroedArray<uint8_t> block_nonzero; ///< the block holds a significant coefficient
+  int plane = 31;                      ///< bit-plane of the last pass; nothing is known below
+  bool nonzero = false;                ///< the band holds a significant coefficient
+  ZeroedArray<uint32_t> magnitude;     ///< known bits, unknown ones zero
+  ZeroedArray<uint16_t> scaled;        ///< magnitude >> plane, held below 2^15
+  ZeroedArray<int8_t> sign;            ///< -1, 0 while insignificant, 1
+  ZeroedArray<uint32_t> significant;   ///< bit map: magnitude is not zero
+  ZeroedArray<uint32_t> visited;       ///< bit map: bit `plane` of the magnitude is known
+  ZeroedArray<uint8_t> block_nonzero;  ///< the block holds a significant coefficient
 };
 
 }  // namespace tetrakis

@@ -48,7 +48,7 @@ enum class CorrectionKind : uint8_t {
 /// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
 struct GeometryHeader {
   uint32_t width = 0, height = 0;
-  uint8_t sample = 0;         ///< tks_sample of the input and of the decoded output
+  uint8_t sample = 0;  ///< tks_sample of the input and of the decoded output
   uint8_t planes = 0;
   uint8_t exact = 0;  ///< the steps restore every input sample
   double base = 0, step = 1;

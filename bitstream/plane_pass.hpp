@@ -231,8 +231,8 @@ class PlanePass {
     const size_t cell = r.first + i;
     const int8_t* s = band_.sign.data() + cell;
     const auto& near = neighbours_.near;
-    int context = 3 * std::clamp(s[near[0]] + s[near[1]], -1, 1) +
-                  std::clamp(s[near[2]] + s[near[3]], -1, 1);
+    int context =
+        3 * std::clamp(s[near[0]] + s[near[1]], -1, 1) + std::clamp(s[near[2]] + s[near[3]], -1, 1);
     const bool flip = context < 0;
     if (flip) context = -context;
     const bool negative = io_.signBit(models_.sign[context], cell, flip);

@@ -17,8 +17,8 @@ namespace {
 void markVertices(const Band& band, const Subband& subband, uint32_t width,
                   std::vector<uint8_t>& marks) {
   if (band.shape.empty()) return;
-  const bool high_x = subband.orientation == Orientation::kHL ||
-                      subband.orientation == Orientation::kHH;
+  const bool high_x =
+      subband.orientation == Orientation::kHL || subband.orientation == Orientation::kHH;
   const uint32_t first = high_x ? uint32_t{1} << (subband.splits_x - 1) : 0;
   for (uint32_t row = 0; row < subband.height; ++row) {
     uint8_t* out = marks.data() + size_t{subband.planeRow(row)} * width + first;

@@ -19,8 +19,8 @@ struct DecodedGeometry {
   uint32_t quiet_levels = 0;         ///< finest levels of which no coefficient is significant
 };
 
-/// codeword: any prefix of a geometry track's coefficients. valid: width * height, or empty. Safe on
-/// any bytes and any header that readHeader accepts.
+/// codeword: any prefix of a geometry track's coefficients. valid: width * height, or empty. Safe
+/// on any bytes and any header that readHeader accepts.
 DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword,
                                std::vector<uint8_t> valid = {});
 

@@ -11,7 +11,8 @@
 namespace tetrakis {
 
 /// heights: width * height integers. wavelet: from chooseWavelet(). valid: 1 valid, 0 void, one a
-/// height; empty: all are valid. Distortion is in squared height units, summed over the samples. Coding stops soon after `limit` bytes.
+/// height; empty: all are valid. Distortion is in squared height units, summed over the samples.
+/// Coding stops soon after `limit` bytes.
 EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height,
                             const WaveletHeader& wavelet, uint64_t limit,
                             std::span<const uint8_t> valid = {});

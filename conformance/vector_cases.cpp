@@ -2,6 +2,10 @@
 // The table of conformance vectors: small inputs that together visit every tool of the format.
 #include "conformance/vector_cases.hpp"
 
+#include <cmath>
+#include <cstring>
+
+#include "api/samples.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::conformance {
@@ -28,73 +32,127 @@ tks_encode_options maxError(double bound) {
   return options;
 }
 
+tks_encode_options quality(double psnr) {
+  tks_encode_options options = makeEncodeOptions();
+  options.psnr = psnr;
+  return options;
+}
+
 tks_encode_options indexed(tks_encode_options options) {
   options.index = 1;
   return options;
 }
 
+VectorCase heightsCase(const std::string& name, const std::string& purpose, const Recipe& heights,
+                       const tks_encode_options& options) {
+  VectorCase vector_case;
+  vector_case.name = name;
+  vector_case.purpose = purpose;
+  vector_case.heights = heights;
+  vector_case.options = options;
+  return vector_case;
+}
+
+VectorCase textureCase(const std::string& name, const std::string& purpose, const Recipe& image,
+                       const tks_encode_options& options) {
+  VectorCase vector_case;
+  vector_case.name = name;
+  vector_case.purpose = purpose;
+  vector_case.texture = image;
+  vector_case.options = options;
+  return vector_case;
+}
+
+VectorCase withVoids(VectorCase vector_case, samples::VoidShape shape, double nodata) {
+  vector_case.voids = shape;
+  vector_case.nodata = nodata;
+  return vector_case;
+}
+
 std::vector<VectorCase> geometryCases() {
-  const auto heights = [](Pattern pattern, uint32_t width, uint32_t height, tks_sample sample) {
-    return Recipe{pattern, width, height, 1, sample};
-  };
+  VectorCase fine = heightsCase("fine_i32_budget_60x45", "32-bit heights; three fraction bits",
+                                {Pattern::kRidges, 60, 45, 1, TKS_I32}, budget(1500));
+  fine.thirds = true;
+  VectorCase negative = heightsCase(
+      "negative_i16_48x31", "negative heights, scale and offset; rounded to a max-error bound",
+      {Pattern::kRidges, 48, 31, 1, TKS_I16}, maxError(3));
+  negative.scale = 0.1;
+  negative.offset = -400;
   return {
-      {"tiny_2x2",
-       "smallest surface: corners only",
-       heights(Pattern::kRidges, 2, 2, TKS_I16),
-       {},
-       lossless()},
-      {"odd_3x17",
-       "odd sizes; unequal sides",
-       heights(Pattern::kRidges, 3, 17, TKS_U16),
-       {},
-       lossless()},
-      {"flat_33x33",
-       "no detail at all: empty bit-planes",
-       heights(Pattern::kFlat, 33, 33, TKS_U16),
-       {},
-       lossless()},
-      {"extreme_i16_17x17",
-       "lowest and highest values side by side: every bit-plane is used",
-       heights(Pattern::kExtreme, 17, 17, TKS_I16),
-       {},
-       lossless()},
-      {"extreme_u8_9x20",
-       "8-bit heights; long coefficients",
-       heights(Pattern::kExtreme, 9, 20, TKS_U8),
-       {},
-       lossless()},
-      {"wide_u32_20x12",
-       "32-bit unsigned heights",
-       heights(Pattern::kRidges, 20, 12, TKS_U32),
-       {},
-       lossless()},
-      {"forest_160x5",
-       "long side: many root squares in a row",
-       heights(Pattern::kRidges, 160, 5, TKS_U16),
-       {},
-       lossless()},
-      {"steps_40x40",
-       "walls and terraces: runs of insignificance, abrupt signs",
-       heights(Pattern::kSteps, 40, 40, TKS_I32),
-       {},
-       lossless()},
-      {"negative_i16_48x31",
-       "negative heights, scale and offset; ends within a max-error bound",
-       heights(Pattern::kRidges, 48, 31, TKS_I16),
-       {},
-       maxError(3),
-       0.1,
-       -400},
-      {"float_65x65",
-       "32-bit float heights on an exact step",
-       heights(Pattern::kRidges, 65, 65, TKS_F32),
-       {},
-       lossless()},
-      {"geometry_budget_129x97",
-       "geometry alone, cut by a byte budget in the middle of a packet",
-       heights(Pattern::kRidges, 129, 97, TKS_U16),
-       {},
-       budget(6000)},
+      heightsCase("tiny_2x2", "smallest surface: one band", {Pattern::kRidges, 2, 2, 1, TKS_I16},
+                  lossless()),
+      heightsCase("odd_3x17", "odd sizes; a side that is never split",
+                  {Pattern::kRidges, 3, 17, 1, TKS_U16}, lossless()),
+      heightsCase("flat_33x33", "no detail at all: no bit-planes",
+                  {Pattern::kFlat, 33, 33, 1, TKS_U16}, lossless()),
+      heightsCase("extreme_i16_17x17",
+                  "lowest and highest values side by side: every bit-plane is used",
+                  {Pattern::kExtreme, 17, 17, 1, TKS_I16}, lossless()),
+      heightsCase("extreme_u8_9x20", "8-bit heights; long coefficients",
+                  {Pattern::kExtreme, 9, 20, 1, TKS_U8}, lossless()),
+      heightsCase("ramp_i8_20x60", "signed 8-bit heights on a slope",
+                  {Pattern::kRamp, 20, 60, 1, TKS_I8}, lossless()),
+      heightsCase("wide_u32_20x12", "32-bit unsigned heights",
+                  {Pattern::kRidges, 20, 12, 1, TKS_U32}, lossless()),
+      heightsCase("long_160x5", "long side: levels that split one side alone",
+                  {Pattern::kRidges, 160, 5, 1, TKS_U16}, lossless()),
+      heightsCase("steps_40x40", "walls and terraces: quiet groups and blocks, abrupt signs",
+                  {Pattern::kSteps, 40, 40, 1, TKS_I32}, lossless()),
+      negative,
+      heightsCase("float_65x65", "32-bit float heights on an exact step",
+                  {Pattern::kRidges, 65, 65, 1, TKS_F32}, lossless()),
+      fine,
+      heightsCase("geometry_budget_129x97",
+                  "fraction bits; cut by a byte budget in the middle of a packet",
+                  {Pattern::kRidges, 129, 97, 1, TKS_U16}, budget(6000)),
+  };
+}
+
+/// Validity and corrections.
+std::vector<VectorCase> layerCases() {
+  using samples::VoidShape;
+  VectorCase thirds =
+      heightsCase("float_thirds_31x33", "floats that no step restores: corrections of samples",
+                  {Pattern::kRidges, 31, 33, 1, TKS_F32}, lossless());
+  thirds.thirds = true;
+  VectorCase extreme = heightsCase(
+      "extreme_u32_16x15", "the whole range of 32 bits: wide sums, corrections of integer samples",
+      {Pattern::kExtreme, 16, 15, 1, TKS_U32}, lossless());
+  extreme.thirds = true;
+  VectorCase wide = heightsCase("extreme_float_14x19", "floats with wide sums and corrections",
+                                {Pattern::kExtreme, 14, 19, 1, TKS_F32}, lossless());
+  wide.thirds = true;
+  VectorCase both =
+      heightsCase("coast_thirds_40x30", "NaN without a nodata value, and corrections of samples",
+                  {Pattern::kRidges, 40, 30, 1, TKS_F32}, lossless());
+  both.thirds = true;
+  const Recipe small{Pattern::kRidges, 45, 38, 1, TKS_I16};
+  return {
+      withVoids(heightsCase("coast_lossless_45x38", "bays and islands: masked lifting", small,
+                            lossless()),
+                VoidShape::kCoast, -9999),
+      withVoids(heightsCase("coast_budget_90x70", "a coast and fraction bits, cut by a byte budget",
+                            {Pattern::kRidges, 90, 70, 1, TKS_U16}, budget(2500)),
+                VoidShape::kCoast, 0),
+      withVoids(heightsCase("speckle_u8_21x34", "single voids everywhere; nodata among the heights",
+                            {Pattern::kRidges, 21, 34, 1, TKS_U8}, lossless()),
+                VoidShape::kSpeckle, 100),
+      withVoids(heightsCase("checker_voids_18x9", "every other sample is void",
+                            {Pattern::kSteps, 18, 9, 1, TKS_I16}, lossless()),
+                VoidShape::kChecker, -1),
+      withVoids(heightsCase("nothing_valid_12x7", "voids only",
+                            {Pattern::kRidges, 12, 7, 1, TKS_F32}, lossless()),
+                VoidShape::kAll, NAN),
+      withVoids(both, VoidShape::kCoast, NAN),
+      thirds,
+      extreme,
+      wide,
+      heightsCase("bounded_64x64", "corrections of steps within a max-error bound",
+                  {Pattern::kRidges, 64, 64, 1, TKS_U16}, maxError(1500)),
+      withVoids(
+          heightsCase("coast_bounded_64x50", "validity, coefficients and corrections of steps",
+                      {Pattern::kRidges, 64, 50, 1, TKS_I16}, maxError(1500)),
+          VoidShape::kCoast, -32768),
   };
 }
 
@@ -104,57 +162,53 @@ std::vector<VectorCase> textureCases() {
     return Recipe{pattern, width, height, channels, sample, 7};
   };
   return {
-      {"texture_1x1",
-       "smallest texture: no wavelet step",
-       {},
-       image(Pattern::kRidges, 1, 1, 3, TKS_U8),
-       lossless()},
-      {"grey_61x40", "one channel", {}, image(Pattern::kRidges, 61, 40, 1, TKS_U8), lossless()},
-      {"grey_alpha_24x25",
-       "two channels: grey and alpha",
-       {},
-       image(Pattern::kSteps, 24, 25, 2, TKS_U8),
-       lossless()},
-      {"rgb_50x37",
-       "three channels: colour transform",
-       {},
-       image(Pattern::kRidges, 50, 37, 3, TKS_U8),
-       lossless()},
-      {"rgba_32x32",
-       "four channels: alpha beside the colour transform",
-       {},
-       image(Pattern::kRidges, 32, 32, 4, TKS_U8),
-       lossless()},
-      {"rgb16_21x30",
-       "16-bit texture",
-       {},
-       image(Pattern::kRidges, 21, 30, 3, TKS_U16),
-       lossless()},
-      {"checker_rgb_16x16",
-       "highest frequency at full range: every bit-plane is used",
-       {},
-       image(Pattern::kChecker, 16, 16, 3, TKS_U8),
-       lossless()},
-      {"texture_budget_128x128",
-       "texture alone, cut by a byte budget",
-       {},
-       image(Pattern::kRidges, 128, 128, 3, TKS_U8),
-       budget(8000)},
+      textureCase("texture_1x1", "smallest texture: no wavelet step",
+                  image(Pattern::kRidges, 1, 1, 3, TKS_U8), lossless()),
+      textureCase("texture_1x23", "one column", image(Pattern::kRidges, 1, 23, 1, TKS_U8),
+                  lossless()),
+      textureCase("grey_61x40", "one channel", image(Pattern::kRidges, 61, 40, 1, TKS_U8),
+                  lossless()),
+      textureCase("grey_alpha_24x25", "two channels: grey and alpha",
+                  image(Pattern::kSteps, 24, 25, 2, TKS_U8), lossless()),
+      textureCase("grey_alpha_budget_70x50", "alpha with fraction bits, cut by a byte budget",
+                  image(Pattern::kRidges, 70, 50, 2, TKS_U8), budget(1200)),
+      textureCase("rgb_50x37", "three channels: colour transform",
+                  image(Pattern::kRidges, 50, 37, 3, TKS_U8), lossless()),
+      textureCase("rgba_32x32", "four channels: alpha beside the colour transform",
+                  image(Pattern::kRidges, 32, 32, 4, TKS_U8), lossless()),
+      textureCase("rgb16_21x30", "16-bit texture", image(Pattern::kRidges, 21, 30, 3, TKS_U16),
+                  lossless()),
+      textureCase("rgba16_budget_60x40", "16-bit texture with fraction bits: wide sums",
+                  image(Pattern::kRidges, 60, 40, 4, TKS_U16), budget(2500)),
+      textureCase("checker_rgb_16x16", "highest frequency at full range: every bit-plane is used",
+                  image(Pattern::kChecker, 16, 16, 3, TKS_U8), lossless()),
+      textureCase("ramp_150x112", "another filter from level 3 on",
+                  image(Pattern::kRamp, 150, 112, 1, TKS_U8), quality(58)),
+      textureCase("ramp_129x96", "another filter from level 2 on",
+                  image(Pattern::kRamp, 129, 96, 1, TKS_U8), quality(58)),
+      textureCase("texture_budget_128x128", "texture alone, cut by a byte budget",
+                  image(Pattern::kRidges, 128, 128, 3, TKS_U8), budget(8000)),
   };
 }
 
 std::vector<VectorCase> jointCases() {
+  const auto joint = [](const std::string& name, const std::string& purpose, const Recipe& heights,
+                        const Recipe& image, const tks_encode_options& options) {
+    VectorCase vector_case = heightsCase(name, purpose, heights, options);
+    vector_case.texture = image;
+    return vector_case;
+  };
   const Recipe heights{Pattern::kRidges, 97, 97, 1, TKS_U16};
   const Recipe image{Pattern::kRidges, 128, 128, 3, TKS_U8, 7};
   const Recipe small_heights{Pattern::kRidges, 33, 33, 1, TKS_I16};
   const Recipe small_image{Pattern::kRidges, 40, 40, 3, TKS_U8, 7};
   return {
-      {"joint_budget_97x97_128x128", "geometry and texture packets in one order, byte budget",
-       heights, image, budget(12000)},
-      {"joint_lossless_33x33_40x40", "geometry and texture to the last bit", small_heights,
-       small_image, lossless()},
-      {"joint_index_33x33_40x40", "front index before the packets", small_heights, small_image,
-       indexed(lossless())},
+      joint("joint_budget_97x97_128x128", "geometry and texture packets in one order, byte budget",
+            heights, image, budget(12000)),
+      joint("joint_lossless_33x33_40x40", "geometry and texture to the last bit", small_heights,
+            small_image, lossless()),
+      joint("joint_index_33x33_40x40", "front index before the packets", small_heights, small_image,
+            indexed(lossless())),
   };
 }
 
@@ -162,7 +216,7 @@ std::vector<VectorCase> jointCases() {
 std::vector<VectorCase> damagedCases() {
   const Recipe heights{Pattern::kRidges, 9, 9, 1, TKS_I16};
   const auto damaged = [&](const std::string& name, const std::string& purpose, int byte) {
-    VectorCase vector_case{name, purpose, heights, {}, lossless()};
+    VectorCase vector_case = heightsCase(name, purpose, heights, lossless());
     vector_case.damaged_byte = byte;
     return vector_case;
   };
@@ -171,10 +225,29 @@ std::vector<VectorCase> damagedCases() {
           damaged("damaged_header", "the header's checksum does not match", 12)};
 }
 
+samples::Raster surfaceOf(const VectorCase& vector_case) {
+  samples::Raster surface = samples::make(*vector_case.heights);
+  const uint32_t width = surface.width, height = surface.height;
+  const std::vector<uint8_t> valid = vector_case.voids
+                                         ? samples::validity(*vector_case.voids, width, height)
+                                         : std::vector<uint8_t>(size_t{width} * height, 1);
+  withSampleType(surface.sample, [&](auto sample) {
+    for (size_t i = 0; i < valid.size(); ++i) {
+      std::byte* at = surface.data.data() + i * sizeof sample;
+      std::memcpy(&sample, at, sizeof sample);
+      if (vector_case.thirds) sample = static_cast<decltype(sample)>(sample / 3);
+      if (!valid[i]) sample = static_cast<decltype(sample)>(vector_case.nodata);
+      std::memcpy(at, &sample, sizeof sample);
+    }
+  });
+  return surface;
+}
+
 }  // namespace
 
 std::vector<VectorCase> vectorCases() {
   std::vector<VectorCase> all = geometryCases();
+  for (VectorCase& next : layerCases()) all.push_back(std::move(next));
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : damagedCases()) all.push_back(std::move(next));
@@ -186,11 +259,13 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
   tks_heights heights = {};
   tks_image image = {};
   if (vector_case.heights) {
-    surface = samples::make(*vector_case.heights);
+    surface = surfaceOf(vector_case);
     heights = surface.heights();
     heights.scale = vector_case.scale;
     heights.offset = vector_case.offset;
     heights.unit = "m";
+    heights.has_nodata = vector_case.voids && !std::isnan(vector_case.nodata);
+    if (heights.has_nodata) heights.nodata = vector_case.nodata;
   }
   if (vector_case.texture) {
     picture = samples::make(*vector_case.texture);

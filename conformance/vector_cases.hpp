@@ -2,12 +2,14 @@
 // The inputs from which the conformance vectors are encoded.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bitstream/status.hpp"
 #include "tests/terrain_samples.hpp"
+#include "tests/void_masks.hpp"
 
 namespace tetrakis::conformance {
 
@@ -19,6 +21,9 @@ struct VectorCase {
   std::optional<samples::Recipe> texture;
   tks_encode_options options = {};
   double scale = 1, offset = 0;
+  bool thirds = false;  ///< heights are divided by 3, which leaves them without a common step
+  std::optional<samples::VoidShape> voids;
+  double nodata = NAN;    ///< the value of voids; a number is declared
   int damaged_byte = -1;  ///< inverted after encoding; such a stream must not open
 };
 

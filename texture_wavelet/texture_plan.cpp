@@ -20,8 +20,8 @@ TexturePlan::TexturePlan(const TextureHeader& header)
   const auto per_component = static_cast<int>(layout_.size());
   for (uint32_t c = 0; c < header.channels; ++c) {
     const auto first = static_cast<int>(bands_.size());
-    for (BandPlan band : layout_.plan(first, static_cast<int>(header.priority[c]),
-                                      modelsOf(c, header.channels))) {
+    for (BandPlan band :
+         layout_.plan(first, static_cast<int>(header.priority[c]), modelsOf(c, header.channels))) {
       if (c > 0) band.component = static_cast<int>(bands_.size()) - per_component;
       bands_.push_back(band);
     }

@@ -16,8 +16,9 @@ enum class Purpose : uint8_t {
   kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
 };
 
-/// plane: width * height samples of `bits` bits; valid: which of them exist, empty: all. Filters are tried on the middle of the plane and
-/// compared by an estimate of the bits that their coefficients take.
+/// plane: width * height samples of `bits` bits; valid: which of them exist, empty: all. Filters
+/// are tried on the middle of the plane and compared by an estimate of the bits that their
+/// coefficients take.
 WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
                             uint32_t height, int bits, Purpose purpose);
 

@@ -26,9 +26,9 @@ struct RowSet {
   uint32_t width;  ///< values of a row that take part
 };
 
-/// Lifts all columns of a set of rows at once, in place: low rows stay at even indices, high ones at
-/// odd indices. The steps follow each other at a distance of a few rows, so that every row is read
-/// from memory once.
+/// Lifts all columns of a set of rows at once, in place: low rows stay at even indices, high ones
+/// at odd indices. The steps follow each other at a distance of a few rows, so that every row is
+/// read from memory once.
 void liftColumns(const RowSet& rows, FilterId id, Direction direction, bool wide);
 
 /// Lifts single rows. The low half lies before the high half.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The weights. Every filter keeps constants out of its high band: predictions of two-step filters sum
-// to -1 exactly, and the sums A, B, C of the first three of four steps are chosen among multiples of
-// 2^-12 so that 1 + 2 A + 2 C (1 + 2 B (1 + 2 A)) is below 10^-7. Flat ground then costs nothing.
+// The weights. Every filter keeps constants out of its high band: predictions of two-step filters
+// sum to -1 exactly, and the sums A, B, C of the first three of four steps are chosen among
+// multiples of 2^-12 so that 1 + 2 A + 2 C (1 + 2 B (1 + 2 A)) is below 10^-7. Flat ground then
+// costs nothing.
 #include "wavelet/lifting_filter.hpp"
 
 namespace tetrakis {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lifting where some samples do not exist (after S. Li and W. Li, "Shape-adaptive discrete wavelet
-// transforms", IEEE TCSVT 10(5), 2000). A void is neither read nor changed, so nothing bleeds across
-// a coast:
+// transforms", IEEE TCSVT 10(5), 2000). A void is neither read nor changed, so nothing bleeds
+// across a coast:
 //
 //   a neighbour that is void stands for its mirror image about the target,
 //   a pair of which both are void stands for the pair before it, leading ones for the first pair

@@ -18,9 +18,9 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   return spec;
 }
 
-/// Binary places that coefficients of a track with `planes` bit-planes are reconstructed with. Those
-/// of the header; where there are none and the track is incomplete, as many as fit, so that the
-/// inverse transforms add no rounding noise of their own.
+/// Binary places that coefficients of a track with `planes` bit-planes are reconstructed with.
+/// Those of the header; where there are none and the track is incomplete, as many as fit, so that
+/// the inverse transforms add no rounding noise of their own.
 inline int outputFractionBits(const WaveletHeader& header, int planes, bool complete) {
   if (header.fraction_bits > 0 || complete) return header.fraction_bits;
   return std::clamp(19 - planes, 0, 4);

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: validity and corrections (docs/FORMAT.md, section 7.1).
+// Reference decoder: validity and corrections (docs/FORMAT.md, section 8.1).
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "conformance/reference_decoder/lattice.hpp"
+#include "conformance/reference_decoder/wavelet.hpp"
 
 namespace tetrakis::reference {
 
-/// 1 valid, 0 void, row by row. lattice: which vertices there are.
-std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height,
-                                    const Lattice& lattice);
+/// 1 valid, 0 void, row by row.
+std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height);
 
-/// One a sample, modulo 2^32. grid: which samples are valid. hints: one a sample, 0 to 31.
-std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const Grid& grid,
+/// One a sample, modulo 2^32. plane: which samples are valid. hints: one a sample, 0 to 31.
+std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const Plane& plane,
                                         const std::vector<int>& hints);
 
 }  // namespace tetrakis::reference

@@ -50,21 +50,23 @@ class RangeDecoder {
 /// FORMAT 4, "Adaptive decision".
 class Model {
  public:
+  Model() = default;
+  /// FORMAT 5, "Models": trained ones.
+  explicit Model(int start) : zero_(256 * start), seen_(20) {}
+
   std::optional<int> decode(RangeDecoder& decoder) {
-    const int zero = std::clamp((fast_ + slow_) >> 1, 24, 65512);
-    const std::optional<int> bit = decoder.decode(static_cast<uint32_t>(zero));
+    const std::optional<int> bit =
+        decoder.decode(static_cast<uint32_t>(std::clamp(zero_, 24, 65512)));
     if (!bit) return bit;
     const int target = *bit ? 0 : 0xFFFF;
-    fast_ += (target - fast_) >> std::min(rate_, 5);
-    slow_ += (target - slow_) >> rate_;
-    ++seen_;
-    if (rate_ < 8 && seen_ >= 1 << rate_) ++rate_;
+    const int share = (32768 + (seen_ + 2) / 2) / (seen_ + 2);
+    zero_ += ((target - zero_) * share) >> 15;
+    seen_ = std::min(seen_ + 1, 255);
     return bit;
   }
 
  private:
-  int fast_ = 0x8000, slow_ = 0x8000, rate_ = 1;
-  int64_t seen_ = 0;
+  int zero_ = 0x8000, seen_ = 0;
 };
 
 }  // namespace tetrakis::reference

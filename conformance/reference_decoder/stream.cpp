@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 11).
+// Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 12).
 #include "conformance/reference_decoder/stream.hpp"
 
 #include <algorithm>
@@ -76,18 +76,27 @@ uint32_t crc32(std::span<const uint8_t> bytes) {
   return ~crc;
 }
 
+/// FORMAT 2, table Wavelet.
+WaveletHeader readWavelet(Reader& in) {
+  WaveletHeader w;
+  for (int& filter : w.filters) filter = in.u8(0, 3);
+  w.fractionBits = in.u8(0, 8);
+  w.sampleBits = in.u8(0, 32);
+  return w;
+}
+
 /// FORMAT 2, table Geometry.
 GeometryHeader readGeometry(Reader& in) {
   GeometryHeader g;
   g.width = static_cast<int>(in.varint(2, 1 << 20));
   g.height = static_cast<int>(in.varint(2, 1 << 20));
   g.sample = in.u8(kU8, kF32);
-  g.fractionBits = in.u8(0, 8);
   g.planes = in.u8(0, 30);
   in.u8(0, 1);  // exact
   g.base = in.f64();
   g.step = in.f64();
   in.f64();  // max_error
+  g.wavelet = readWavelet(in);
   const bool finite = std::isfinite(g.base) && std::isfinite(g.step);
   if (!finite || g.step <= 0) in.fail(Outcome::kCorrupt);
   return g;
@@ -122,6 +131,7 @@ TextureHeader readTexture(Reader& in) {
   t.sample = in.u8(kU8, kU16);
   if (t.sample == kI8) in.fail(Outcome::kCorrupt);
   t.planes = in.u8(0, 30);
+  t.wavelet = readWavelet(in);
   for (int i = 0; i < t.channels; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));
     t.priority[i] = in.zigzag(128);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: header fields and the two codewords (docs/FORMAT.md, sections 2 and 3), and
-// what sections 7 and 8 make of them.
+// what sections 8 and 9 make of them.
 #pragma once
 
 #include <array>
@@ -15,9 +15,16 @@ namespace tetrakis::reference {
 
 enum SampleType { kU8, kI8, kU16, kI16, kU32, kI32, kF32 };
 
+/// FORMAT 2, table Wavelet.
+struct WaveletHeader {
+  std::array<int, 3> filters = {};
+  int fractionBits = 0, sampleBits = 0;
+};
+
 struct GeometryHeader {
-  int width = 0, height = 0, sample = 0, fractionBits = 0, planes = 0;
+  int width = 0, height = 0, sample = 0, planes = 0;
   double base = 0, step = 1;
+  WaveletHeader wavelet;
 };
 
 /// FORMAT 2, table Layers.
@@ -31,6 +38,7 @@ struct Layers {
 
 struct TextureHeader {
   int width = 0, height = 0, channels = 0, sample = 0, planes = 0;
+  WaveletHeader wavelet;
   std::array<int, 4> centre = {}, priority = {};
   int colourOrder = 0;
   std::array<int, 6> shear = {};
@@ -50,11 +58,11 @@ constexpr int32_t wrap(int64_t value) {
   return static_cast<int32_t>(static_cast<uint32_t>(value));
 }
 
-/// Samples of the header's type, little endian (FORMAT 7).
+/// Samples of the header's type, little endian (FORMAT 8).
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
                                    std::span<const uint8_t> codeword);
 
-/// Samples of the header's type, channels interleaved, little endian (FORMAT 8).
+/// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
 
 }  // namespace tetrakis::reference

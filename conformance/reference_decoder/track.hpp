@@ -3,49 +3,50 @@
 // sections 4 to 6).
 #pragma once
 
-#include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 namespace tetrakis::reference {
 
+enum Orientation { kLL, kHL, kLH, kHH };
+
 struct Coefficient {
   uint32_t magnitude = 0;
-  int sign = 0;    ///< -1, 0 (insignificant), 1
-  int plane = 32;  ///< the bits from here upwards are known
-
-  /// FORMAT 6, "Value".
-  int32_t value() const;
+  int sign = 0;   ///< -1, 0 (insignificant), 1
+  int plane = 0;  ///< the bits from here upwards are known
 };
 
-/// FORMAT 5. Rows of columns[0] and columns[1] coefficients in turn.
-struct Band {
-  Band(int rowCount, int evenColumns, int oddColumns, bool isStaggered);
+/// FORMAT 5, table of neighbours.
+struct Neighbours {
+  Coefficient along[2], across[2], far[4];
+};
 
-  bool empty() const;
-  int columnsOf(int r) const { return columns[r % 2]; }
-  int widest() const { return std::max(columns[0], columns[1]); }
+struct Band {
+  Band(int rowCount, int columnCount, Orientation direction);
+
+  bool empty() const { return rows == 0 || columns == 0; }
   int blockRows() const { return (rows + 7) / 8; }
-  int blockColumns() const { return (widest() + 31) / 32; }
+  int blockColumns() const { return (columns + 31) / 32; }
   Coefficient& at(int r, int a);
   /// The coefficient in row r, column a; outside the band one that is insignificant.
   Coefficient get(int r, int a) const;
+  Neighbours neighboursOf(int r, int a) const;
   /// Whether the block holds a significant coefficient; outside the band none does.
   bool blockMarked(int row, int column) const;
+  /// FORMAT 6, "Value", in units of 2^-e.
+  int32_t value(int r, int a, int e) const;
 
-  int rows;
-  std::array<int, 2> columns;
-  bool staggered;
-  int logNorm = 0;
-  int modelClass = 0;
-  /// The hint for row r, column a, from the bands of the track; none: 0.
-  std::function<uint32_t(const std::vector<Band>&, int r, int a)> hint;
-  std::vector<Coefficient> coefficients;  ///< rows of widest()
-  bool marked = false;                    ///< holds a significant coefficient
-  std::vector<bool> blocks;               ///< likewise each block, row by row
+  static constexpr size_t kNone = SIZE_MAX;
+
+  int rows, columns;
+  Orientation orientation;
+  int logNorm = 0, modelClass = 0;
+  size_t parent = kNone, companion = kNone;  ///< numbers of bands of the track
+  std::vector<Coefficient> coefficients;     ///< row by row
+  bool marked = false;                       ///< holds a significant coefficient
+  std::vector<bool> blocks;                  ///< likewise each block, row by row
 };
 
 /// Runs all passes over the bands. Returns whether every decision counted (FORMAT 4, tail rule).

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: a band, its neighbourhoods and the values of its coefficients (docs/FORMAT.md,
+// sections 5 and 6).
+#include <algorithm>
+#include <cstdlib>
+
+#include "conformance/reference_decoder/activity.hpp"
+#include "conformance/reference_decoder/track.hpp"
+
+namespace tetrakis::reference {
+namespace {
+
+/// FORMAT 6, table C.
+constexpr uint64_t kCentroids[] = {16, 19, 20, 22, 23, 25, 27, 28, 29, 30, 30};
+
+/// FORMAT 6, table A, B, D.
+struct SignWeights {
+  int along, across, far;
+};
+
+SignWeights weightsOf(Orientation orientation) {
+  if (orientation == kLL) return {0, 0, 0};
+  return orientation == kHH ? SignWeights{-3, -3, 1} : SignWeights{-8, 3, -1};
+}
+
+/// sixtyfourths / 64 * 2^exponent, rounded down.
+int64_t fraction(uint64_t sixtyfourths, int exponent) {
+  return static_cast<int64_t>((sixtyfourths << exponent) >> 6);
+}
+
+}  // namespace
+
+Band::Band(int rowCount, int columnCount, Orientation direction)
+    : rows(rowCount), columns(columnCount), orientation(direction) {
+  coefficients.resize(size_t(rows) * size_t(columns));
+  blocks.resize(size_t(blockRows()) * size_t(blockColumns()));
+}
+
+Coefficient& Band::at(int r, int a) {
+  return coefficients.at(size_t(r) * columns + a);
+}
+
+Coefficient Band::get(int r, int a) const {
+  if (r < 0 || r >= rows || a < 0 || a >= columns) return {};
+  return coefficients.at(size_t(r) * columns + a);
+}
+
+Neighbours Band::neighboursOf(int r, int a) const {
+  const Coefficient left = get(r, a - 1), right = get(r, a + 1);
+  const Coefficient above = get(r - 1, a), below = get(r + 1, a);
+  Neighbours n{{left, right},
+               {above, below},
+               {get(r - 1, a - 1), get(r - 1, a + 1), get(r + 1, a - 1), get(r + 1, a + 1)}};
+  if (orientation == kLH) std::swap(n.along, n.across);
+  return n;
+}
+
+bool Band::blockMarked(int row, int column) const {
+  if (row < 0 || row >= blockRows() || column < 0 || column >= blockColumns()) return false;
+  return blocks.at(size_t(row) * blockColumns() + column);
+}
+
+int32_t Band::value(int r, int a, int e) const {
+  const Coefficient c = get(r, a);
+  const Neighbours n = neighboursOf(r, a);
+  if (c.magnitude > 0) {
+    int64_t size = int64_t{c.magnitude} << e;
+    if (c.plane > 0) size += fraction(kCentroids[activity(n, c.plane)], c.plane + e);
+    return static_cast<int32_t>(c.sign * size);
+  }
+  if (c.plane == 0) return 0;
+  const SignWeights w = weightsOf(orientation);
+  int t = w.along * (n.along[0].sign + n.along[1].sign) +
+          w.across * (n.across[0].sign + n.across[1].sign);
+  for (const Coefficient& far : n.far) t += w.far * far.sign;
+  const int64_t size = fraction(static_cast<uint64_t>(std::abs(t)), c.plane + e);
+  return static_cast<int32_t>(t < 0 ? -size : size);
+}
+
+}  // namespace tetrakis::reference

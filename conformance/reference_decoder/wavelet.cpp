@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: the inverse wavelet of a plane, with voids or without (docs/FORMAT.md,
+// section 7).
+#include "conformance/reference_decoder/wavelet.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace tetrakis::reference {
+namespace {
+
+/// One signal, and which of its samples are valid.
+struct Line {
+  std::vector<int32_t> values;
+  std::vector<bool> valid;
+};
+
+/// "Mirrored about the first and the last sample (period 2n - 2)".
+size_t mirrored(int64_t t, size_t size) {
+  const auto n = static_cast<int64_t>(size), period = 2 * n - 2;
+  t = (t % period + period) % period;
+  return static_cast<size_t>(t < n ? t : period - t);
+}
+
+/// The sum of a pair; a void counts as the other one. Nothing: both are void.
+std::optional<int64_t> pairSum(const Line& line, size_t t, int64_t distance) {
+  const size_t n = line.values.size();
+  size_t before = mirrored(static_cast<int64_t>(t) - distance, n);
+  size_t after = mirrored(static_cast<int64_t>(t) + distance, n);
+  if (!line.valid[before] && !line.valid[after]) return std::nullopt;
+  if (!line.valid[before]) before = after;
+  if (!line.valid[after]) after = before;
+  return int64_t{line.values[before]} + line.values[after];
+}
+
+/// The sums of all pairs of a step; pairs of two voids have that of another. Empty: all are.
+std::vector<int64_t> pairSums(const Line& line, size_t t, size_t pairs) {
+  std::vector<std::optional<int64_t>> sums;
+  for (size_t k = 0; k < pairs; ++k)
+    sums.push_back(pairSum(line, t, static_cast<int64_t>(2 * k + 1)));
+  const auto nearest = std::find_if(sums.begin(), sums.end(), [](const auto& s) { return !!s; });
+  if (nearest == sums.end()) return {};
+  std::vector<int64_t> filled;
+  int64_t last = **nearest;
+  for (const std::optional<int64_t>& sum : sums) {
+    last = sum.value_or(last);
+    filled.push_back(last);
+  }
+  return filled;
+}
+
+/// FORMAT 7, "Inverse of one signal".
+void synthesiseLine(const Filter& filter, bool exact, Line& line) {
+  for (size_t s = filter.steps.size(); s-- > 0;) {
+    const std::vector<int>& weights = filter.steps[s];
+    for (size_t t = s % 2 == 0 ? 1 : 0; t < line.values.size(); t += 2) {
+      if (!line.valid[t]) continue;
+      const std::vector<int64_t> sums = pairSums(line, t, weights.size());
+      if (sums.empty()) continue;
+      int64_t sum = int64_t{1} << (filter.shift - 1);
+      for (size_t k = 0; k < weights.size(); ++k) sum += weights[k] * sums[k];
+      if (!exact) sum = wrap(sum);
+      line.values[t] = wrap(line.values[t] - (sum >> filter.shift));
+    }
+  }
+}
+
+/// The samples of one signal.
+struct Places {
+  int x, y, stepX, stepY, count;
+};
+
+void synthesisePlaces(const WaveletHeader& header, int level, const Places& places, Plane& plane) {
+  Line line;
+  for (int i = 0; i < places.count; ++i) {
+    const int x = places.x + i * places.stepX, y = places.y + i * places.stepY;
+    line.values.push_back(plane.at(x, y));
+    line.valid.push_back(plane.isValid(x, y));
+  }
+  const Filter& filter = filterOf(header, level);
+  const bool voids = std::find(line.valid.begin(), line.valid.end(), false) != line.valid.end();
+  const bool exact = voids || level > 3 || header.sampleBits > filter.widest;
+  synthesiseLine(filter, exact, line);
+  for (int i = 0; i < places.count; ++i)
+    plane.at(places.x + i * places.stepX, places.y + i * places.stepY) = line.values[size_t(i)];
+}
+
+/// Multiples of a step below a size.
+int multiples(int size, int step) {
+  return (size - 1) / step + 1;
+}
+
+/// FORMAT 7, "Inverse transform", one level. hh: the subband that is high in both directions.
+void synthesiseLevel(const WaveletHeader& header, const Subband& hh, Plane& plane) {
+  const int lowX = 1 << hh.splitsX, lowY = 1 << hh.splitsY;
+  if (header.fractionBits == 0 && (hh.level == 3 || hh.level == 4)) {
+    for (int y = 0; y < plane.height; y += lowY) {
+      for (int x = 0; x < plane.width; x += lowX)
+        plane.at(x, y) = wrap(int64_t{plane.at(x, y)} + 1) >> 1;
+    }
+  }
+  // A side that was split at this level was split at every finer one.
+  const bool splitX = hh.splitsX == hh.level, splitY = hh.splitsY == hh.level;
+  const int stepX = splitX ? lowX / 2 : lowX, stepY = splitY ? lowY / 2 : lowY;
+  for (int x = 0; x < plane.width && splitY; x += stepX)
+    synthesisePlaces(header, hh.level, {x, 0, 0, stepY, multiples(plane.height, stepY)}, plane);
+  for (int y = 0; y < plane.height && splitX; y += stepY)
+    synthesisePlaces(header, hh.level, {0, y, stepX, 0, multiples(plane.width, stepX)}, plane);
+}
+
+}  // namespace
+
+const Filter& filterOf(const WaveletHeader& header, int level) {
+  static const Filter kFilters[] = {
+      {8, 20, {{-128}, {64}}},
+      {8, 20, {{-147, 28, -9}, {78, -20, 6}}},
+      {12, 16, {{-6493, 41}, {-218, 20}, {3605, 41}, {1858, -205}}},
+      {8, 20, {{-157, 41, -17, 8, -3}, {77, -24, 12, -6, 2}}},
+  };
+  return kFilters[header.filters.at(static_cast<size_t>(std::min(level, 3) - 1))];
+}
+
+int fractionOf(const WaveletHeader& header, int planes, bool complete) {
+  if (header.fractionBits > 0 || complete) return header.fractionBits;
+  return std::clamp(19 - planes, 0, 4);
+}
+
+void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
+                std::span<const Band> bands, int f, Plane& plane) {
+  plane.values.assign(static_cast<size_t>(plane.width) * plane.height, 0);
+  for (size_t i = 0; i < subbands.size(); ++i) {
+    const Subband& subband = subbands[i];
+    for (int r = 0; r < subband.rows; ++r) {
+      for (int a = 0; a < subband.columns; ++a)
+        plane.at(subband.x(a), subband.y(r)) = bands[i].value(r, a, f - header.fractionBits);
+    }
+  }
+  for (const Subband& subband : subbands) {
+    if (subband.orientation == kHH) synthesiseLevel(header, subband, plane);
+  }
+}
+
+}  // namespace tetrakis::reference

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: subbands of a plane and the inverse wavelet (docs/FORMAT.md, section 7).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "conformance/reference_decoder/stream.hpp"
+#include "conformance/reference_decoder/track.hpp"
+
+namespace tetrakis::reference {
+
+/// FORMAT 7, table of filters. Steps in the order of the analysis; the first predicts.
+struct Filter {
+  int shift, widest;
+  std::vector<std::vector<int>> steps;
+};
+
+/// Of a level, from 1.
+const Filter& filterOf(const WaveletHeader& header, int level);
+
+/// FORMAT 7, "Subbands" and "Places".
+struct Subband {
+  int level;  ///< LL: the number of levels
+  Orientation orientation;
+  int rows, columns;
+  int splitsX, splitsY;  ///< down to the band's level
+
+  bool highInX() const { return orientation == kHL || orientation == kHH; }
+  bool highInY() const { return orientation == kLH || orientation == kHH; }
+  int x(int a) const { return highInX() ? (2 * a + 1) << (splitsX - 1) : a << splitsX; }
+  int y(int r) const { return highInY() ? (2 * r + 1) << (splitsY - 1) : r << splitsY; }
+};
+
+std::vector<Subband> subbandsOf(int width, int height);
+
+/// FORMAT 7, "Norms", without the priority.
+int logNormOf(const WaveletHeader& header, const Subband& subband);
+
+/// The bands of one plane, as they follow `first` others in a track; all but their companions.
+std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
+                          size_t first);
+
+/// FORMAT 7, "Fraction": f.
+int fractionOf(const WaveletHeader& header, int planes, bool complete);
+
+/// One value for each sample, row by row.
+struct Plane {
+  int width, height;
+  std::vector<int32_t> values;
+  std::vector<uint8_t> valid = {};  ///< 1 valid, 0 void; empty: all are valid
+
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * width + x; }
+  int32_t& at(int x, int y) { return values.at(index(x, y)); }
+  bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
+};
+
+/// Puts the values of the bands, in units of 2^-f, to their places; then the inverse transform.
+void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
+                std::span<const Band> bands, int f, Plane& plane);
+
+}  // namespace tetrakis::reference
