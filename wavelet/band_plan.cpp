@@ -26,10 +26,7 @@ BandShape shapeOf(const Subband& subband) {
 }
 
 PlaneLayout::PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height)
-    : width_(width),
-      height_(height),
-      subbands_(subbandsOf(width, height)),
-      norms_(spec, subbands_.front().level) {}
+    : subbands_(subbandsOf(width, height)), norms_(spec, subbands_.front().level) {}
 
 std::vector<BandPlan> PlaneLayout::plan(int first, int priority, uint32_t models) const {
   std::vector<BandPlan> bands;

@@ -31,7 +31,6 @@ class PlaneLayout {
   double energy(size_t subband) const { return norms_.energy(subbands_[subband]); }
 
  private:
-  uint32_t width_, height_;
   std::vector<Subband> subbands_;
   SynthesisNorms norms_;
 };
