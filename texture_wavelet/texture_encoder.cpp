@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "texture_wavelet/colour_fit.hpp"
+#include "texture_wavelet/lossless_colour.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -64,10 +65,12 @@ void transformColours(const ColourTransform& colour, int fraction_bits, Planes& 
   }
 }
 
-ColourTransform fitColours(const Planes& planes, const Texels& texels) {
+ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose purpose) {
   std::vector<const int32_t*> pointers;
   for (const std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
-  return fitColour(pointers, texels.width, texels.height);
+  const ColourTransform fitted = fitColour(pointers, texels.width, texels.height);
+  if (purpose == Purpose::kLossy) return fitted;
+  return chooseLosslessColour(fitted, pointers, texels.width, texels.height);
 }
 
 }  // namespace
@@ -77,7 +80,7 @@ EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t lim
   const std::vector<int32_t>& typical = planes[texels.channels >= 3 ? 1 : 0];  // green, or grey
   const WaveletHeader wavelet =
       chooseWavelet(typical, {}, texels.width, texels.height, texels.bits, purpose);
-  const ColourTransform colour = fitColours(planes, texels);
+  const ColourTransform colour = fitColours(planes, texels, purpose);
   transformColours(colour, wavelet.fraction_bits, planes);
   const std::vector<double> energies = energiesOf(texels, colour);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};

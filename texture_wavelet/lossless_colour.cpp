@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/lossless_colour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tetrakis {
+
+namespace {
+
+constexpr uint32_t kSampleSide = 256;  // of the middle of the image that transforms are tried on
+constexpr int16_t kOne = 1 << kShearFractionBits;
+
+/// Differences to channel kChannelOrders[order][0], and its mean with them: RCT (ISO/IEC 15444-1,
+/// G.2) where that is green.
+ColourTransform reversible(const ColourTransform& fitted, uint8_t order) {
+  ColourTransform transform = fitted;
+  transform.order = order;
+  transform.shears = {0, -kOne, 0, -kOne, kOne / 4, kOne / 4};
+  return transform;
+}
+
+struct Sample {
+  uint32_t width, height;
+  std::vector<std::vector<int32_t>> planes;
+};
+
+Sample middleOf(std::span<const int32_t* const> planes, uint32_t width, uint32_t height) {
+  Sample sample{std::min(width, kSampleSide), std::min(height, kSampleSide), {}};
+  const uint32_t x = (width - sample.width) / 2, y = (height - sample.height) / 2;
+  for (const int32_t* plane : planes) {
+    std::vector<int32_t>& part = sample.planes.emplace_back();
+    for (uint32_t row = 0; row < sample.height; ++row) {
+      const int32_t* from = plane + size_t{y + row} * width + x;
+      part.insert(part.end(), from, from + sample.width);
+    }
+  }
+  return sample;
+}
+
+/// About the bits of a plane: log2(1 + |x - (west + north - northwest)|) a sample.
+double bitsOf(const std::vector<int32_t>& plane, uint32_t width, uint32_t height) {
+  double bits = 0;
+  for (uint32_t y = 1; y < height; ++y) {
+    const int32_t *row = plane.data() + size_t{y} * width, *above = row - width;
+    for (uint32_t x = 1; x < width; ++x) {
+      const auto residual = static_cast<float>(row[x] - row[x - 1] - above[x] + above[x - 1]);
+      bits += std::log2(1 + std::abs(residual));
+    }
+  }
+  return bits;
+}
+
+double bitsOf(Sample sample, const ColourTransform& transform) {
+  std::vector<int32_t*> pointers;
+  for (std::vector<int32_t>& plane : sample.planes) pointers.push_back(plane.data());
+  forwardColour(transform, pointers, sample.planes.front().size(), 0);
+  double bits = 0;
+  for (const std::vector<int32_t>& plane : sample.planes)
+    bits += bitsOf(plane, sample.width, sample.height);
+  return bits;
+}
+
+}  // namespace
+
+ColourTransform chooseLosslessColour(const ColourTransform& fitted,
+                                     std::span<const int32_t* const> planes, uint32_t width,
+                                     uint32_t height) {
+  if (planes.size() < 3) return fitted;
+  ColourTransform none = fitted;
+  none.shears = {};
+  const Sample sample = middleOf(planes, width, height);
+  ColourTransform best = fitted;
+  double least = bitsOf(sample, fitted);
+  // One order for each channel that may come first; that of the other two makes no difference.
+  for (const ColourTransform& candidate :
+       {reversible(fitted, 0), reversible(fitted, 2), reversible(fitted, 4), none}) {
+    const double bits = bitsOf(sample, candidate);
+    if (bits >= least) continue;
+    least = bits;
+    best = candidate;
+  }
+  return best;
+}
+
+}  // namespace tetrakis
