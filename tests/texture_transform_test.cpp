@@ -11,6 +11,7 @@
 #include "tests/random_planes.hpp"
 #include "texture_wavelet/colour.hpp"
 #include "texture_wavelet/colour_fit.hpp"
+#include "texture_wavelet/lossless_colour.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -27,6 +28,11 @@ struct Planes {
     std::vector<const int32_t*> constant;
     for (const Plane& plane : values) constant.push_back(plane.data());
     return fitColour(constant, width, height);
+  }
+  ColourTransform chooseLossless(uint32_t width, uint32_t height) const {
+    std::vector<const int32_t*> constant;
+    for (const Plane& plane : values) constant.push_back(plane.data());
+    return chooseLosslessColour(fit(width, height), constant, width, height);
   }
 };
 
@@ -267,6 +273,58 @@ TEST(ColourFit, SmallAndFlatImagesAreLegal) {
       image.values[0][0] ^= 1;
       EXPECT_TRUE(survivesColour(image.fit(width, height), image));
     }
+  }
+}
+
+/// One grey image of noise in all channels, with more noise of `own` in each.
+Planes noisyColours(uint32_t count, int own, Random& random) {
+  Planes planes{std::vector<Plane>(3, Plane(count))};
+  const auto upTo = [&](int most) { return static_cast<int32_t>(random() % (most + 1u)); };
+  for (uint32_t i = 0; i < count; ++i) {
+    const int32_t grey = upTo(255 - own);
+    for (Plane& plane : planes.values) plane[i] = grey + upTo(own);
+  }
+  return planes;
+}
+
+/// log2(1 + |gradient residual|), summed over all samples and components.
+double residualBits(const ColourTransform& transform, Planes planes, uint32_t width) {
+  forwardColour(transform, planes.pointers(), planes.values[0].size(), 0);
+  double bits = 0;
+  for (const Plane& plane : planes.values) {
+    for (size_t i = width + 1; i < plane.size(); ++i) {
+      const int32_t residual = plane[i] - plane[i - 1] - plane[i - width] + plane[i - width - 1];
+      if (i % width != 0) bits += std::log2(1 + std::abs(static_cast<double>(residual)));
+    }
+  }
+  return bits;
+}
+
+TEST(LosslessColour, CostsNoMoreThanTheFitOrNone) {
+  Random random(7);
+  for (const int own : {0, 3, 40, 255}) {
+    const Planes planes = noisyColours(64 * 48, own, random);
+    const ColourTransform chosen = planes.chooseLossless(64, 48), fitted = planes.fit(64, 48);
+    ColourTransform none = fitted;
+    none.shears = {};
+    const double bits = residualBits(chosen, planes, 64) * 0.9999;  // sums of floats
+    EXPECT_LE(bits, residualBits(fitted, planes, 64)) << own;
+    EXPECT_LE(bits, residualBits(none, planes, 64)) << own;
+    EXPECT_TRUE(survivesColour(chosen, planes)) << own;
+    if (own <= 3) {
+      EXPECT_NE(chosen.shears, none.shears) << own;
+    }
+  }
+}
+
+TEST(LosslessColour, TakesAnySizeAndKeepsGreyAsItIs) {
+  Random random(9);
+  for (const uint32_t width : {1u, 2u, 300u}) {
+    Planes planes = noisyColours(width * 2, 20, random);
+    EXPECT_TRUE(survivesColour(planes.chooseLossless(width, 2), planes)) << width;
+    planes.values.resize(1);
+    const ColourTransform grey = planes.chooseLossless(width, 2);
+    EXPECT_EQ(grey.shears, planes.fit(width, 2).shears);
   }
 }
 
