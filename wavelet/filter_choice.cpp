@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A coefficient c coded with a step T costs about log2(1 + |c| / T) bits, its norm counted in |c|.
-// Of the sums over all details the smallest wins. Against the best of all choices, found by coding
-// with each, the choice loses 0.1 % of the bytes on terrain and nothing on aerial images.
+// Of the sums over all details the smallest wins. Against the best of the choices, found by coding
+// with each, it lost up to 1 % of the bytes on parts of 13 DEMs and nothing on five aerial images.
 #include "wavelet/filter_choice.hpp"
 
 #include <algorithm>
