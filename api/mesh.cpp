@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <numeric>
 
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
@@ -41,11 +40,7 @@ uint32_t spareLevels(const Lattice& lattice, const DecodedGeometry& geometry,
 Result<Chosen> chosenVertices(const Lattice& lattice, const DecodedGeometry& geometry,
                               tks_mesh_kind kind, uint32_t max_triangles) {
   if (kind == TKS_MESH_CODED) return Chosen{codedVertices(lattice, geometry.significant), {}};
-  if (max_triangles == 0) {
-    std::vector<VertexId> all(lattice.vertexCount());
-    std::iota(all.begin(), all.end(), VertexId{0});
-    return Chosen{std::move(all), {}};
-  }
+  if (max_triangles == 0) return Chosen{allVertices(lattice), {}};
   if (!geometry.valid.empty()) {
     Result<FittedVertices> beside = verticesBesideVoids(lattice, geometry, max_triangles);
     if (!beside.ok()) return beside.status();

@@ -123,10 +123,10 @@ LatticeMesh meshOf(const Lattice& lattice, std::span<const VertexId> vertices) {
   return MeshBuilder(lattice).build(vertices);
 }
 
-LatticeMesh fullMesh(const Lattice& lattice) {
+std::vector<VertexId> allVertices(const Lattice& lattice) {
   std::vector<VertexId> all(lattice.vertexCount());
   std::iota(all.begin(), all.end(), VertexId{0});
-  return meshOf(lattice, all);
+  return all;
 }
 
 std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId> vertices) {

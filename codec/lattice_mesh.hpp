@@ -24,8 +24,8 @@ struct LatticeMesh {
 /// The mesh after inserting `vertices`, which come once each, every one after its parents.
 LatticeMesh meshOf(const Lattice& lattice, std::span<const VertexId> vertices);
 
-/// Every sample is a vertex; coarse vertices first.
-LatticeMesh fullMesh(const Lattice& lattice);
+/// Coarse ones first: their mesh has every sample.
+std::vector<VertexId> allVertices(const Lattice& lattice);
 
 /// The smallest closed set that holds `vertices`: them and their ancestors, in order of id.
 std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId> vertices);

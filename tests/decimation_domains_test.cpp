@@ -217,7 +217,7 @@ DomainSize sizeOf(const Lattice& lattice, VertexId v) {
   std::set<uint32_t> samples;
   for (VertexId w = 0; w < lattice.vertexCount(); ++w)
     if (inside[w]) samples.insert(lattice.gridIndex(lattice.position(lattice.site(w))));
-  const LatticeMesh full = fullMesh(lattice), coarse = meshOf(lattice, others);
+  const LatticeMesh full = meshOf(lattice, allVertices(lattice)), coarse = meshOf(lattice, others);
   DomainSize size;
   std::set<std::array<uint32_t, 3>> finest;
   for (size_t t = 0; t < full.triangleCount(); ++t) {

@@ -114,7 +114,7 @@ TEST_P(EverySize, AncestorSumsAddUpWhatEachVertexAdds) {
 }
 
 TEST_P(EverySize, FullMeshHasEverySampleAndAllUnitTriangles) {
-  const LatticeMesh mesh = fullMesh(lattice_);
+  const LatticeMesh mesh = meshOf(lattice_, allVertices(lattice_));
   EXPECT_EQ(mesh.vertices.size(), lattice_.sampleCount());
   EXPECT_EQ(mesh.triangleCount(), size_t{2} * (lattice_.width() - 1) * (lattice_.height() - 1));
   expectConforming(mesh);

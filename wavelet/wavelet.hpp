@@ -4,8 +4,7 @@
 // Rounding noise enters at every level, and that of the coarse levels spreads over the whole plane.
 // Planes that carry fraction bits do not hear it. For planes without (lossless ones) the low band
 // is doubled after the levels of kDoubledLevels, which lifts it out of the noise: streams cut short
-// gain, lossless ones pay 0.5 %
-// (terrain) to 0.9 % (images).
+// gain, lossless ones pay 0.5 % (terrain) to 0.9 % (images).
 #pragma once
 
 #include <array>
