@@ -114,8 +114,7 @@ Status compareFile(const ComparisonSpec& spec, const ComparisonOptions& options,
       anchor = result->points;
     } else if (!result->points.empty()) {
       const auto difference = rateDifference(anchor, result->points, options.window);
-      if (!difference.ok()) return difference.status();
-      result->difference = *difference;
+      if (difference.ok()) result->difference = *difference;
     }
     report.addPeer(peer->name(), *result);
   }

@@ -10,6 +10,7 @@
 #include "tests/void_masks.hpp"
 #include "tests/wavelet_cases.hpp"
 #include "wavelet/filter_choice.hpp"
+#include "wavelet/typical_parts.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -120,21 +121,48 @@ TEST(FilterChoice, IgnoresVoids) {
   }
 }
 
-/// Only the middle is looked at, so large planes cost no more: a margin far away changes nothing.
-TEST(FilterChoice, LooksAtTheMiddle) {
-  Random random(3);
+/// A lake in the middle does not decide for the hills around it, and the other way round.
+TEST(FilterChoice, FlatPartsDoNotDecide) {
   const Size large{600, 520};
-  Plane plane =
+  const Plane hills =
       planeOf(large, [](double x, double y) { return 5000 * std::sin(0.9 * x + 0.1 * y); });
-  const auto choose = [&](Purpose purpose) {
-    return chooseWavelet(plane, {}, large.width, large.height, 16, purpose).filters;
-  };
-  const auto lossless = choose(Purpose::kLossless), lossy = choose(Purpose::kLossy);
-  for (uint32_t y = 0; y < large.height; ++y) {
-    for (uint32_t x = 0; x < 100; ++x) plane[size_t{y} * large.width + x] = random() % 65536;
+  for (const Purpose purpose : kPurposes) {
+    const auto choose = [&](const Plane& plane) {
+      return chooseWavelet(plane, {}, large.width, large.height, 16, purpose).filters;
+    };
+    Plane lake = hills, coast = hills;
+    for (uint32_t y = 0; y < large.height; ++y) {
+      for (uint32_t x = 0; x < large.width; ++x) {
+        const bool middle = x > 200 && x < 400 && y > 170 && y < 350;
+        (middle ? lake : coast)[size_t{y} * large.width + x] = 0;
+      }
+    }
+    EXPECT_EQ(choose(lake), choose(hills));
+    EXPECT_EQ(choose(coast), choose(hills));
   }
-  EXPECT_EQ(choose(Purpose::kLossless), lossless);
-  EXPECT_EQ(choose(Purpose::kLossy), lossy);
+}
+
+TEST(TypicalParts, LieInThePlaneAndApart) {
+  for (const Size& size : {Size{1, 1}, Size{256, 256}, Size{257, 1}, Size{2, 5000}, Size{257, 256},
+                           Size{300, 289}, Size{4097, 2049}, Size{1u << 21, 3}}) {
+    std::vector<Part> parts = typicalParts(size.width, size.height);
+    ASSERT_FALSE(parts.empty());
+    uint64_t samples = 0;
+    for (const Part& part : parts) {
+      ASSERT_GT(part.width, 0u);
+      ASSERT_GT(part.height, 0u);
+      ASSERT_LE(uint64_t{part.x} + part.width, size.width);
+      ASSERT_LE(uint64_t{part.y} + part.height, size.height);
+      samples += uint64_t{part.width} * part.height;
+      for (const Part& other : parts) {
+        const bool apart = &part == &other || part.x + part.width <= other.x ||
+                           other.x + other.width <= part.x || part.y + part.height <= other.y ||
+                           other.y + other.height <= part.y;
+        ASSERT_TRUE(apart);
+      }
+    }
+    EXPECT_LE(samples, 9u * 96 * 96);
+  }
 }
 
 }  // namespace

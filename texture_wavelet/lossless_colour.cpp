@@ -5,11 +5,12 @@
 #include <cmath>
 #include <vector>
 
+#include "wavelet/typical_parts.hpp"
+
 namespace tetrakis {
 
 namespace {
 
-constexpr uint32_t kSampleSide = 256;  // of the middle of the image that transforms are tried on
 constexpr int16_t kOne = 1 << kShearFractionBits;
 
 /// Differences to channel kChannelOrders[order][0], and its mean with them: RCT (ISO/IEC 15444-1,
@@ -26,14 +27,13 @@ struct Sample {
   std::vector<std::vector<int32_t>> planes;
 };
 
-Sample middleOf(std::span<const int32_t* const> planes, uint32_t width, uint32_t height) {
-  Sample sample{std::min(width, kSampleSide), std::min(height, kSampleSide), {}};
-  const uint32_t x = (width - sample.width) / 2, y = (height - sample.height) / 2;
+Sample sampleOf(const Part& part, std::span<const int32_t* const> planes, uint32_t width) {
+  Sample sample{part.width, part.height, {}};
   for (const int32_t* plane : planes) {
-    std::vector<int32_t>& part = sample.planes.emplace_back();
-    for (uint32_t row = 0; row < sample.height; ++row) {
-      const int32_t* from = plane + size_t{y + row} * width + x;
-      part.insert(part.end(), from, from + sample.width);
+    std::vector<int32_t>& values = sample.planes.emplace_back();
+    for (uint32_t row = 0; row < part.height; ++row) {
+      const int32_t* from = plane + size_t{part.y + row} * width + part.x;
+      values.insert(values.end(), from, from + part.width);
     }
   }
   return sample;
@@ -52,13 +52,15 @@ double bitsOf(const std::vector<int32_t>& plane, uint32_t width, uint32_t height
   return bits;
 }
 
-double bitsOf(Sample sample, const ColourTransform& transform) {
-  std::vector<int32_t*> pointers;
-  for (std::vector<int32_t>& plane : sample.planes) pointers.push_back(plane.data());
-  forwardColour(transform, pointers, sample.planes.front().size(), 0);
+double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
   double bits = 0;
-  for (const std::vector<int32_t>& plane : sample.planes)
-    bits += bitsOf(plane, sample.width, sample.height);
+  for (Sample& sample : samples) {
+    std::vector<int32_t*> pointers;
+    for (std::vector<int32_t>& plane : sample.planes) pointers.push_back(plane.data());
+    forwardColour(transform, pointers, sample.planes.front().size(), 0);
+    for (const std::vector<int32_t>& plane : sample.planes)
+      bits += bitsOf(plane, sample.width, sample.height);
+  }
   return bits;
 }
 
@@ -70,13 +72,15 @@ ColourTransform chooseLosslessColour(const ColourTransform& fitted,
   if (planes.size() < 3) return fitted;
   ColourTransform none = fitted;
   none.shears = {};
-  const Sample sample = middleOf(planes, width, height);
+  std::vector<Sample> samples;
+  for (const Part& part : typicalParts(width, height))
+    samples.push_back(sampleOf(part, planes, width));
   ColourTransform best = fitted;
-  double least = bitsOf(sample, fitted);
+  double least = bitsOf(samples, fitted);
   // One order for each channel that may come first; that of the other two makes no difference.
   for (const ColourTransform& candidate :
        {reversible(fitted, 0), reversible(fitted, 2), reversible(fitted, 4), none}) {
-    const double bits = bitsOf(sample, candidate);
+    const double bits = bitsOf(samples, candidate);
     if (bits >= least) continue;
     least = bits;
     best = candidate;

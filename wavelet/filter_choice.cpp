@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "wavelet/band_plan.hpp"
+#include "wavelet/typical_parts.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -27,8 +28,8 @@ constexpr std::array<Filters, 4> kLossyChoices = {
     {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}}};
 constexpr std::array<Filters, 3> kLosslessChoices = {{{kM, kM, kM}, {kL, kL, kL}, {kS, kS, kS}}};
 
-constexpr uint32_t kSampleSide = 256;  // of the middle of the plane that filters are tried on
-constexpr double kSignificant = 0.1;   // share of the details that the step T leaves above itself
+constexpr double kSignificant =
+    0.1;  // share of the other details that the step T leaves above itself
 constexpr int kMostFractionBits = 4;
 constexpr int kOrthogonalBits = 20;  // with more, the growing low bands of kOrthogonal pass 2^30
 
@@ -38,40 +39,40 @@ struct Sample {
   std::vector<uint8_t> valid;  // empty: all
 };
 
-Sample middleOf(std::span<const int32_t> plane, Validity valid, uint32_t width, uint32_t height) {
-  Sample sample{std::min(width, kSampleSide), std::min(height, kSampleSide), {}, {}};
-  const uint32_t x = (width - sample.width) / 2, y = (height - sample.height) / 2;
-  for (uint32_t row = 0; row < sample.height; ++row) {
-    const size_t first = size_t{y + row} * width + x;
-    const auto values = plane.subspan(first, sample.width);
+Sample sampleOf(const Part& part, std::span<const int32_t> plane, Validity valid, uint32_t width) {
+  Sample sample{part.width, part.height, {}, {}};
+  for (uint32_t row = 0; row < part.height; ++row) {
+    const size_t first = size_t{part.y + row} * width + part.x;
+    const auto values = plane.subspan(first, part.width);
     sample.values.insert(sample.values.end(), values.begin(), values.end());
     if (valid.empty()) continue;
-    const auto exist = valid.subspan(first, sample.width);
+    const auto exist = valid.subspan(first, part.width);
     sample.valid.insert(sample.valid.end(), exist.begin(), exist.end());
   }
   for (size_t i = 0; i < sample.valid.size(); ++i) sample.values[i] *= sample.valid[i];
   return sample;
 }
 
-/// Magnitudes of all details, times their norms unless `plain`.
-std::vector<float> detailsOf(const Sample& sample, const WaveletHeader& header, bool plain) {
+/// Appends the magnitudes of a sample's details, times their norms unless `plain`. Zeros, which
+/// flat ground consists of, cost nothing and say nothing about the step.
+void appendDetails(const Sample& sample, const WaveletHeader& header, bool plain,
+                   std::vector<float>& details) {
   const WaveletSpec spec = specOf(header);
   std::vector<int32_t> plane = sample.values;
   for (int32_t& v : plane)
     v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
   forwardWavelet(spec, plane, sample.width, sample.height, sample.valid);
   const PlaneLayout layout(spec, sample.width, sample.height);
-  std::vector<float> details;
   for (size_t i = 1; i < layout.size(); ++i) {
     const Subband& band = layout.subbands()[i];
     const auto norm = static_cast<float>(plain ? 1 : std::sqrt(layout.energy(i)));
     for (uint32_t row = 0; row < band.height; ++row) {
       const int32_t* from = plane.data() + size_t{band.planeRow(row)} * sample.width + band.x;
-      for (uint32_t column = 0; column < band.width; ++column)
-        details.push_back(norm * std::abs(static_cast<float>(from[column])));
+      for (uint32_t column = 0; column < band.width; ++column) {
+        if (from[column] != 0) details.push_back(norm * std::abs(static_cast<float>(from[column])));
+      }
     }
   }
-  return details;
 }
 
 float stepOf(std::vector<float> details) {
@@ -95,7 +96,9 @@ WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint
   const bool lossless = purpose == Purpose::kLossless;
   std::span<const Filters> choices = kLosslessChoices;
   if (!lossless) choices = std::span(kLossyChoices).first(bits > kOrthogonalBits ? 1 : 4);
-  const Sample sample = middleOf(plane, valid, width, height);
+  std::vector<Sample> samples;
+  for (const Part& part : typicalParts(width, height))
+    samples.push_back(sampleOf(part, plane, valid, width));
   WaveletHeader best;
   double least = std::numeric_limits<double>::infinity();
   float step = 0;
@@ -104,7 +107,8 @@ WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint
     if (!lossless)
       header.fraction_bits = static_cast<uint8_t>(std::clamp(20 - bits, 0, kMostFractionBits));
     header.bits = static_cast<uint8_t>(bits + header.fraction_bits);
-    const std::vector<float> details = detailsOf(sample, header, lossless);
+    std::vector<float> details;
+    for (const Sample& sample : samples) appendDetails(sample, header, lossless, details);
     if (step == 0) step = lossless ? 1 : stepOf(details);
     const double estimate = bitsOf(details, step);
     if (estimate < least) {

@@ -17,7 +17,7 @@ enum class Purpose : uint8_t {
 };
 
 /// plane: width * height samples of `bits` bits; valid: which of them exist, empty: all. Filters
-/// are tried on the middle of the plane and compared by an estimate of the bits that their
+/// are tried on typical parts of the plane and compared by an estimate of the bits that their
 /// coefficients take.
 WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
                             uint32_t height, int bits, Purpose purpose);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wavelet/typical_parts.hpp"
+
+#include <algorithm>
+
+namespace tetrakis {
+
+namespace {
+
+constexpr uint32_t kWholeSide = 256;
+constexpr uint32_t kPartSide = 96;
+constexpr uint32_t kFields = 3;  // along each side
+
+struct Interval {
+  uint32_t first, length;
+};
+
+/// At most kPartSide samples in the middle of a field of a side.
+Interval middleOf(uint32_t field, uint32_t side) {
+  const auto begin = static_cast<uint32_t>(uint64_t{side} * field / kFields);
+  const auto end = static_cast<uint32_t>(uint64_t{side} * (field + 1) / kFields);
+  const uint32_t length = std::min(end - begin, kPartSide);
+  return {begin + (end - begin - length) / 2, length};
+}
+
+}  // namespace
+
+std::vector<Part> typicalParts(uint32_t width, uint32_t height) {
+  if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};
+  std::vector<Part> parts;
+  for (uint32_t row = 0; row < kFields; ++row) {
+    const Interval y = middleOf(row, height);
+    for (uint32_t column = 0; column < kFields; ++column) {
+      const Interval x = middleOf(column, width);
+      if (x.length > 0 && y.length > 0) parts.push_back({x.first, y.first, x.length, y.length});
+    }
+  }
+  return parts;
+}
+
+}  // namespace tetrakis
