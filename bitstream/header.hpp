@@ -98,7 +98,10 @@ struct GeometryLayers {
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
 };
 
-/// Texture: centre, order and shears as in texture_wavelet/colour.hpp.
+/// In the place of a number of bit-planes: the texture is drawn (texture_wavelet/drawn_pass.hpp).
+inline constexpr uint8_t kDrawnPlanes = 31;
+
+/// Texture: centre, order and shears as in texture_wavelet/colour.hpp. Drawn ones end with `planes`.
 struct TextureHeader {
   uint32_t width = 0, height = 0;
   uint8_t channels = 0;
@@ -116,7 +119,8 @@ struct TextureHeader {
     v.varint("texture_height", height, 1, kMaxTextureSide);
     v.u8("channels", channels, 1, 4);
     v.u8("texture_sample", sample, 0, TKS_U16);
-    v.u8("texture_planes", planes, 0, 30);
+    v.u8("texture_planes", planes, 0, kDrawnPlanes);
+    if (drawn()) return;
     wavelet.visit(v);
     for (size_t c = 0; c < channels && v.ok(); ++c) {
       v.varint("centre", centre[c], 0, 0xffff);
@@ -126,6 +130,8 @@ struct TextureHeader {
     v.u8("colour_order", colour_order, 0, 5);
     for (int64_t& shear : colour_shears) v.zigzag("colour_shear", shear, INT16_MAX);
   }
+  bool drawn() const { return planes == kDrawnPlanes; }
+
   static constexpr int64_t kMaxPriority = 128;
 };
 

@@ -19,8 +19,8 @@
 #include <span>
 
 #include "bitstream/adaptive_bit.hpp"
-#include "codec/levels.hpp"
-#include "codec/stencil.hpp"
+#include "lattice/levels.hpp"
+#include "lattice/stencil.hpp"
 
 namespace tetrakis {
 

@@ -95,7 +95,11 @@ void addTools(const StreamHeader& header, Tools& tools) {
   if (header.texture) {
     tools.insert("channels " + std::to_string(header.texture->channels));
     tools.insert("texels " + std::to_string(header.texture->sample));
-    addWavelet(header.texture->wavelet, tools);
+    if (header.texture->drawn()) {
+      tools.insert("drawn");
+    } else {
+      addWavelet(header.texture->wavelet, tools);
+    }
   }
   if (!header.index.empty()) tools.insert("index");
 }
@@ -110,9 +114,9 @@ TEST_F(Vectors, VisitEveryToolOfTheHeader) {
     const auto parsed = readHeader(*stream);
     if (parsed.ok()) addTools(parsed->header, tools);
   }
-  Tools wanted{"level 2 differs", "level 3 differs", "fraction bits 0",
-               "fraction bits 4", "wide sums",       "nodata",
-               "index",           "texels 0",        "texels 2"};
+  Tools wanted{
+      "level 2 differs", "level 3 differs", "fraction bits 0", "fraction bits 4", "wide sums",
+      "nodata",          "index",           "texels 0",        "texels 2",        "drawn"};
   for (int i = 0; i < 4; ++i) wanted.insert("filter " + std::to_string(i));
   for (int i = 1; i <= 4; ++i) wanted.insert("channels " + std::to_string(i));
   for (int i = TKS_U8; i <= TKS_F32; ++i) wanted.insert("heights " + std::to_string(i));

@@ -10,7 +10,7 @@
 
 #include "codec/corrections_decoder.hpp"
 #include "codec/corrections_encoder.hpp"
-#include "codec/levels.hpp"
+#include "lattice/levels.hpp"
 #include "codec/validity_decoder.hpp"
 #include "codec/validity_encoder.hpp"
 #include "tests/void_masks.hpp"

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bitstream/track_decoder.hpp"
+#include "texture_wavelet/drawn_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -37,6 +38,7 @@ void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* c
 }  // namespace
 
 Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword) {
+  if (header.drawn()) return decodeDrawn(header, codeword);
   Texels texels{header.width, header.height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
   const size_t count = size_t{header.width} * header.height;
   const TexturePlan plan(header);

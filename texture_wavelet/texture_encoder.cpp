@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "texture_wavelet/colour_fit.hpp"
+#include "texture_wavelet/drawn_encoder.hpp"
 #include "texture_wavelet/lossless_colour.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -73,15 +75,27 @@ ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose p
   return chooseLosslessColour(fitted, pointers, texels.width, texels.height);
 }
 
-}  // namespace
-
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit) {
-  Planes planes = separate(texels);
-  const std::vector<int32_t>& typical = planes[texels.channels >= 3 ? 1 : 0];  // green, or grey
-  const WaveletHeader wavelet =
-      chooseWavelet(typical, {}, texels.width, texels.height, texels.bits, purpose);
-  const ColourTransform colour = fitColours(planes, texels, purpose);
+/// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of
+/// it, else by green, or grey, because it must be known how many fraction bits go in.
+WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, const Texels& texels,
+                               Planes& planes) {
+  const auto choose = [&](std::span<const std::span<const int32_t>> typical) {
+    return chooseWavelet(typical, {}, texels.width, texels.height, texels.bits, purpose);
+  };
+  if (purpose == Purpose::kLossless) {
+    transformColours(colour, 0, planes);
+    return choose(std::vector<std::span<const int32_t>>(planes.begin(), planes.end()));
+  }
+  const std::span<const int32_t> typical = planes[texels.channels >= 3 ? 1 : 0];
+  const WaveletHeader wavelet = choose(std::span(&typical, 1));
   transformColours(colour, wavelet.fraction_bits, planes);
+  return wavelet;
+}
+
+EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, uint64_t limit) {
+  Planes planes = separate(texels);
+  const ColourTransform colour = fitColours(planes, texels, purpose);
+  const WaveletHeader wavelet = transformColours(colour, purpose, texels, planes);
   const std::vector<double> energies = energiesOf(texels, colour);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};
   const TexturePlan plan(encoded.header);
@@ -99,6 +113,36 @@ EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t lim
   encoded.track = encodeTrack(plan.bands(), sources, limit);
   encoded.header.planes = static_cast<uint8_t>(encoded.track.planes);
   return encoded;
+}
+
+double distortionAt(const EncodedTrack& track, uint64_t bytes) {
+  const std::vector<RatePoint>& points = track.points;
+  const auto above = std::find_if(points.begin(), points.end(),
+                                  [&](const RatePoint& p) { return p.bytes > bytes; });
+  if (above == points.begin() || above == points.end()) return points.back().distortion;
+  const RatePoint &low = *(above - 1), &high = *above;
+  const double part =
+      static_cast<double>(bytes - low.bytes) / static_cast<double>(high.bytes - low.bytes);
+  return std::lerp(low.distortion, high.distortion, part);
+}
+
+}  // namespace
+
+/// A drawn texture is better than the wavelet where its last byte is in reach, and worse before, if
+/// it has many colours. It also must take no more bytes than the wavelet needs for the last bit; or
+/// half of them, if the last bit is not asked for.
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit) {
+  std::optional<EncodedTexture> drawn = encodeDrawn(texels);
+  if (!drawn) return encodeByWavelet(texels, purpose, limit);
+  const uint64_t bytes = drawn->track.codeword.size(), reach = limit / 2;
+  if (bytes > reach) {
+    EncodedTexture wavelet = encodeByWavelet(texels, purpose, limit);
+    return distortionAt(drawn->track, reach) < distortionAt(wavelet.track, reach) ? *drawn
+                                                                                  : wavelet;
+  }
+  const uint64_t room = purpose == Purpose::kLossless ? bytes : 2 * bytes;
+  const bool better = !encodeByWavelet(texels, Purpose::kLossless, room).track.complete;
+  return better ? *drawn : encodeByWavelet(texels, purpose, limit);
 }
 
 }  // namespace tetrakis

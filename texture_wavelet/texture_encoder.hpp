@@ -16,7 +16,8 @@ struct EncodedTexture {
   EncodedTrack track;  ///< distortion: squared error summed over all samples of all channels
 };
 
-/// Coding stops soon after `limit` bytes. A complete track without fraction bits is lossless.
+/// By wavelet, or drawn where that is better. Coding stops soon after `limit` bytes, of which half
+/// are what a budget has room for. A complete track without fraction bits is lossless.
 EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit);
 
 }  // namespace tetrakis

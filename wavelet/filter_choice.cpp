@@ -93,12 +93,19 @@ double bitsOf(const std::vector<float>& details, float step) {
 
 WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
                             uint32_t height, int bits, Purpose purpose) {
+  return chooseWavelet(std::span(&plane, 1), valid, width, height, bits, purpose);
+}
+
+WaveletHeader chooseWavelet(std::span<const std::span<const int32_t>> planes, Validity valid,
+                            uint32_t width, uint32_t height, int bits, Purpose purpose) {
   const bool lossless = purpose == Purpose::kLossless;
   std::span<const Filters> choices = kLosslessChoices;
   if (!lossless) choices = std::span(kLossyChoices).first(bits > kOrthogonalBits ? 1 : 4);
   std::vector<Sample> samples;
-  for (const Part& part : typicalParts(width, height))
-    samples.push_back(sampleOf(part, plane, valid, width));
+  for (const Part& part : typicalParts(width, height)) {
+    for (const std::span<const int32_t> plane : planes)
+      samples.push_back(sampleOf(part, plane, valid, width));
+  }
   WaveletHeader best;
   double least = std::numeric_limits<double>::infinity();
   float step = 0;

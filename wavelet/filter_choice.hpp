@@ -22,4 +22,8 @@ enum class Purpose : uint8_t {
 WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
                             uint32_t height, int bits, Purpose purpose);
 
+/// The same for several planes, which share one answer.
+WaveletHeader chooseWavelet(std::span<const std::span<const int32_t>> planes, Validity valid,
+                            uint32_t width, uint32_t height, int bits, Purpose purpose);
+
 }  // namespace tetrakis

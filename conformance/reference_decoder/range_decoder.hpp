@@ -57,13 +57,18 @@ class Model {
   std::optional<int> decode(RangeDecoder& decoder) {
     const std::optional<int> bit =
         decoder.decode(static_cast<uint32_t>(std::clamp(zero_, 24, 65512)));
-    if (!bit) return bit;
-    const int target = *bit ? 0 : 0xFFFF;
+    if (bit) learn(*bit);
+    return bit;
+  }
+
+  void learn(int bit) {
+    const int target = bit ? 0 : 0xFFFF;
     const int share = (32768 + (seen_ + 2) / 2) / (seen_ + 2);
     zero_ += ((target - zero_) * share) >> 15;
     seen_ = std::min(seen_ + 1, 255);
-    return bit;
   }
+
+  bool unseen() const { return seen_ == 0; }
 
  private:
   int zero_ = 0x8000, seen_ = 0;

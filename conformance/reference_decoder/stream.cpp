@@ -130,7 +130,8 @@ TextureHeader readTexture(Reader& in) {
   t.channels = in.u8(1, 4);
   t.sample = in.u8(kU8, kU16);
   if (t.sample == kI8) in.fail(Outcome::kCorrupt);
-  t.planes = in.u8(0, 30);
+  t.planes = in.u8(0, kDrawnPlanes);
+  if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
   for (int i = 0; i < t.channels; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));

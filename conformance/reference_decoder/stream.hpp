@@ -65,4 +65,9 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
 
+/// The same for kDrawnPlanes (FORMAT 9.1).
+std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword);
+
+inline constexpr int kDrawnPlanes = 31;
+
 }  // namespace tetrakis::reference

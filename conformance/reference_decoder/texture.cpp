@@ -60,6 +60,7 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
 }  // namespace
 
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword) {
+  if (header.planes == kDrawnPlanes) return decodeDrawn(header, codeword);
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   std::vector<Band> bands = bandsOfAll(header, subbands);
   const bool complete = decodeTrack(codeword, header.planes, bands);

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "codec/levels.hpp"
+#include "lattice/levels.hpp"
 
 namespace tetrakis {
 

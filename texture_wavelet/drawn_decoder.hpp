@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Track of a drawn texture to image. Integer only.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/header.hpp"
+#include "texture_wavelet/texels.hpp"
+
+namespace tetrakis {
+
+/// codeword: any prefix of the track of a texture with header.drawn(). Safe on any bytes.
+Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword);
+
+}  // namespace tetrakis

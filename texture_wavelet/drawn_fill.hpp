@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colours for the texels of a drawn texture, known or not.
+#pragma once
+
+#include <span>
+
+#include "texture_wavelet/drawn_colours.hpp"
+#include "texture_wavelet/texels.hpp"
+
+namespace tetrakis {
+
+/// Writes every sample of texels, whose format and size of samples are set. indices: width *
+/// height, row by row. A texel without one is the mean of the coarser vertices next to it; a root,
+/// grey.
+void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, Texels& texels);
+
+}  // namespace tetrakis
