@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first sums, over complete domains, and the vertices of a domain.
+// The vertices of a domain.
 #include "codec/merging_domains.hpp"
+
+#include "codec/complete_domains.hpp"
 
 namespace tetrakis {
 
@@ -8,15 +10,8 @@ MergingDomains::MergingDomains(const std::vector<double>& gains, const VertexCos
     : gains_(&gains),
       costs_(&costs),
       sums_(costs.lattice()),
-      domains_(gains.size()),
-      removed_(gains.size()) {
-  const auto add = [this](VertexId a, const Worth& worth) {
-    domains_[a].distortion += worth.distortion;
-    domains_[a].cost += worth.cost;
-  };
-  lattice().forEachVertex([&](Site site, VertexId v) { sums_.add(site, worthOf(site, v), add); });
-  sums_.flush(add);
-}
+      domains_(completeDomains(gains, costs)),
+      removed_(gains.size()) {}
 
 /// The remaining vertices of M_v, level by level.
 void MergingDomains::collect(VertexId v) {

@@ -6,40 +6,14 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "codec/ancestors.hpp"
 #include "codec/vertex_costs.hpp"
+#include "codec/worth.hpp"
 
 namespace tetrakis {
-
-/// lambda, thesis 5.2.2. What saves nothing goes at once if it does no harm, and as late as it can
-/// otherwise.
-inline double slopeOf(double distortion, uint32_t cost) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (cost == 0) return distortion > 0 ? kInfinity : -kInfinity;
-  return distortion / cost;
-}
-
-/// The vector functional u = (D, R) of the thesis, of a vertex or several.
-struct Worth {
-  double distortion = 0;
-  uint32_t cost = 0;
-
-  Worth& operator+=(const Worth& other) {
-    distortion += other.distortion;
-    cost += other.cost;
-    return *this;
-  }
-  Worth& operator-=(const Worth& other) {
-    distortion -= other.distortion;
-    cost -= other.cost;
-    return *this;
-  }
-  bool operator==(const Worth&) const = default;
-};
 
 class MergingDomains {
  public:
@@ -62,13 +36,6 @@ class MergingDomains {
   std::span<const VertexId> remove(VertexId v, OnFall&& onFall);
 
  private:
-  /// 16 bytes: one access to memory for each ancestor that changes.
-  struct Domain {
-    double distortion = 0;
-    uint32_t cost = 0;
-    float bound = -std::numeric_limits<float>::infinity();
-  };
-
   const Lattice& lattice() const { return costs_->lattice(); }
   Worth worthOf(Site site, VertexId v) const { return {(*gains_)[v], costs_->of(site, v)}; }
   void collect(VertexId v);
@@ -78,7 +45,7 @@ class MergingDomains {
   const std::vector<double>* gains_;
   const VertexCosts* costs_;
   AncestorSums<Worth> sums_;
-  std::vector<Domain> domains_;
+  std::vector<DomainWorth> domains_;
   std::vector<bool> removed_;
   std::vector<Site> sites_;  ///< of the group that is being removed
   std::vector<VertexId> group_;
@@ -92,10 +59,7 @@ template <class OnFall>
 std::span<const VertexId> MergingDomains::remove(VertexId v, OnFall&& onFall) {
   const Worth all = worth(v);
   collect(v);
-  const auto loseAll = [&](VertexId a) {
-    domains_[a].distortion -= all.distortion;
-    domains_[a].cost -= all.cost;
-  };
+  const auto loseAll = [&](VertexId a) { domains_[a] -= all; };
   const auto lose = [&](VertexId a, const Worth& part) { subtract(a, part, onFall); };
   if (all.cost > 0 && group_.size() == 1) {
     forEachAncestor(lattice(), sites_[0], loseAll);
@@ -113,9 +77,8 @@ std::span<const VertexId> MergingDomains::remove(VertexId v, OnFall&& onFall) {
 
 template <class OnFall>
 void MergingDomains::subtract(VertexId a, const Worth& worth, OnFall& onFall) {
-  Domain& domain = domains_[a];
-  domain.distortion -= worth.distortion;
-  domain.cost -= worth.cost;
+  DomainWorth& domain = domains_[a];
+  domain -= worth;
   // Without a division; the product is exact while costs add up to less than 2^29.
   const double least = static_cast<double>(domain.bound) * domain.cost;
   if (domain.distortion > least && domain.cost > 0) return;

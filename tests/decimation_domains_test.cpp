@@ -122,6 +122,22 @@ TEST(MergingDomains, LoseTheirIntersectionsWithWhatIsRemoved) {
   }
 }
 
+void expectCompleteDomains(uint32_t width, uint32_t height) {
+  SCOPED_TRACE(testing::Message() << width << " x " << height);
+  const Terrain terrain(width, height, Relief::kNoise);
+  const Removal removal(terrain);
+  for (const VertexId v : removal.remaining())
+    ASSERT_EQ(removal.worth(v), removal.sumOver(removal.domainOf(v))) << v;
+}
+
+TEST(MergingDomains, AreCompleteAtFirstWhateverTheOverhang) {
+  for (uint32_t width = 2; width <= 20; ++width)
+    for (uint32_t height = 2; height <= 20; height += width % 2 == 0 ? 1 : 3)
+      expectCompleteDomains(width, height);
+  for (const auto& [width, height] : {std::pair{33u, 33u}, {37u, 45u}, {20u, 90u}, {66u, 34u}})
+    expectCompleteDomains(width, height);
+}
+
 TEST(MergingDomains, AreWorthWhatMeshesWithoutThemLoseAndSave) {
   const std::vector<std::pair<uint32_t, uint32_t>> sizes = {{9, 9}, {12, 12}, {7, 10}};
   for (const auto& [width, height] : sizes) {
