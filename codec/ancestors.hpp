@@ -51,9 +51,10 @@ struct AncestorWindow {
   void clip(const Lattice::Plan& plan);
 };
 
-/// visit(level, AncestorWindow) for every level above v, from fine to coarse.
+/// visit(level, AncestorWindow) for every level above v up to `last`, one of squares, from fine to
+/// coarse.
 template <class Visit>
-void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit);
+void forEachAncestorWindow(const Lattice& lattice, Site v, uint32_t last, Visit&& visit);
 
 /// visit(VertexId) for every ancestor of v, level by level; v itself is not visited.
 template <class Visit>
@@ -61,6 +62,10 @@ void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit);
 
 /// Adds amounts to many vertices and all their ancestors. Neighbours share most of their ancestors:
 /// amounts wait at every level of squares until one with another window arrives. Delta has +=.
+///
+/// visit(VertexId, Delta) may follow an amount now or later. A visitor that has a function
+/// visit.pass(level, squares, taken, Delta) is told what goes on to the squares of a level, those
+/// taken included, before that.
 template <class Delta>
 class AncestorSums {
  public:
@@ -69,11 +74,12 @@ class AncestorSums {
         waiting_((lattice.levelCount() + 1) / 2),
         taken_(lattice.levelCount()) {}
 
-  /// visit(VertexId) for every ancestor of v now, and for none of them from now on. (Descendants of
-  /// v share most of their ancestors with it.)
+  /// No visits to v and its ancestors from now on. (Descendants of v share most of their ancestors
+  /// with it.) visit(level, AncestorWindow): as forEachAncestorWindow() with `last`.
   template <class Visit>
-  void takeAncestorsOf(Site v, Visit&& visit);
-  /// visit(VertexId, Delta) may follow now or later, for v too.
+  void takeAncestorsOf(Site v, uint32_t last, Visit&& visit);
+  /// The window of v or its ancestors on a level from `last` on; empty below v.
+  const AncestorWindow& taken(uint32_t level) const { return taken_[level]; }
   template <class Visit>
   void add(Site v, const Delta& delta, Visit&& visit);
   /// Visits all that waits.
@@ -90,10 +96,12 @@ class AncestorSums {
   void arrive(size_t pair, const AncestorWindow& squares, const Delta& delta, Visit& visit);
   template <class Visit>
   void rise(size_t pair, Visit& visit);
+  void takeAbove(uint32_t level);
 
   const Lattice* lattice_;
   std::vector<Waiting> waiting_;       ///< of levels 0, 2, 4 ...
-  std::vector<AncestorWindow> taken_;  ///< of every level; empty: none
+  std::vector<AncestorWindow> taken_;  ///< of every level from last_taken_ on; empty: none
+  uint32_t last_taken_ = 0;            ///< a level of squares
 };
 
 inline AncestorWindow AncestorWindow::ofMidpoint(Site v) {
@@ -156,7 +164,7 @@ void AncestorWindow::visit(uint32_t level, const Lattice::Plan& plan, Visit& vis
 }
 
 template <class Visit>
-void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit) {
+void forEachAncestorWindow(const Lattice& lattice, Site v, uint32_t last, Visit&& visit) {
   uint32_t level = v.level;
   AncestorWindow squares = AncestorWindow::ofSquare(v);
   if (!Lattice::isCentre(level)) {
@@ -164,7 +172,7 @@ void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit) {
     squares = AncestorWindow::ofMidpoint(v).squaresAbove(lattice.plan(level));
     visit(level, squares);
   }
-  for (; level > 0; level -= 2) {
+  for (; level > last; level -= 2) {
     const AncestorWindow midpoints = squares.midpointsAbove();
     visit(level - 1, midpoints);
     squares = midpoints.squaresAbove(lattice.plan(level - 2));
@@ -174,19 +182,32 @@ void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit) {
 
 template <class Visit>
 void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit) {
-  forEachAncestorWindow(lattice, v, [&](uint32_t level, const AncestorWindow& window) {
+  forEachAncestorWindow(lattice, v, 0, [&](uint32_t level, const AncestorWindow& window) {
     window.visit(level, lattice.plan(level), visit);
   });
 }
 
 template <class Delta>
 template <class Visit>
-void AncestorSums<Delta>::takeAncestorsOf(Site v, Visit&& visit) {
-  for (size_t level = v.level; level < taken_.size(); ++level) taken_[level].cells = 0;
-  forEachAncestorWindow(*lattice_, v, [&](uint32_t level, const AncestorWindow& window) {
-    window.visit(level, lattice_->plan(level), visit);
+void AncestorSums<Delta>::takeAncestorsOf(Site v, uint32_t last, Visit&& visit) {
+  for (size_t level = v.level + 1; level < taken_.size(); ++level) taken_[level].cells = 0;
+  taken_[v.level] =
+      Lattice::isCentre(v.level) ? AncestorWindow::ofSquare(v) : AncestorWindow::ofMidpoint(v);
+  forEachAncestorWindow(*lattice_, v, last, [&](uint32_t level, const AncestorWindow& window) {
+    visit(level, window);
     taken_[level] = window;
   });
+  last_taken_ = last;
+}
+
+/// The levels that takeAncestorsOf() left out: few amounts rise so far.
+template <class Delta>
+void AncestorSums<Delta>::takeAbove(uint32_t level) {
+  for (; level > 0; level -= 2) {
+    taken_[level - 1] = taken_[level].midpointsAbove();
+    taken_[level - 2] = taken_[level - 1].squaresAbove(lattice_->plan(level - 2));
+  }
+  last_taken_ = 0;
 }
 
 template <class Delta>
@@ -228,11 +249,14 @@ void AncestorSums<Delta>::rise(size_t pair, Visit& visit) {
   if (waiting.squares.cells == 0) return;
   const AncestorWindow squares = std::exchange(waiting.squares, {});
   const auto level = static_cast<uint32_t>(2 * pair);
-  const auto visitOne = [&](VertexId a) { visit(a, waiting.delta); };
   const AncestorWindow others = squares.without(taken_[level]);
   if (others.cells == 0) return;  // their ancestors are taken, too
+  if constexpr (requires { visit.pass(level, squares, taken_[level], waiting.delta); })
+    visit.pass(level, squares, taken_[level], waiting.delta);
+  const auto visitOne = [&](VertexId a) { visit(a, waiting.delta); };
   others.visit(level, lattice_->plan(level), visitOne);
   if (pair == 0) return;
+  if (level == last_taken_) takeAbove(level);
   const AncestorWindow midpoints = squares.midpointsAbove();
   midpoints.without(taken_[level - 1]).visit(level - 1, lattice_->plan(level - 1), visitOne);
   arrive(pair - 1, midpoints.squaresAbove(lattice_->plan(level - 2)), waiting.delta, visit);

@@ -5,8 +5,17 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "codec/octagon.hpp"
+
 namespace tetrakis {
 namespace {
+
+/// Vertices of a level in one row, and where they lie in units of the step of RowSums.
+struct VertexRow {
+  DomainWorth* domains;
+  size_t count;
+  int64_t left, stride, y;
+};
 
 /// Prefix sums along the rows of one pair of levels: columns and rows are multiples of its step.
 class RowSums {
@@ -22,12 +31,13 @@ class RowSums {
   }
 
   int64_t rows() const { return rows_; }
-  /// to[i] += row y from x - reach to x + reach, x = left + i * stride, clipped.
-  void addTo(DomainWorth* to, size_t count, int64_t y, int64_t left, int64_t stride,
-             int64_t reach) const {
+  /// Adds row y from x - reach to x + reach to the domain of the vertex at x.
+  void addTo(const VertexRow& vertices, int64_t y, int64_t reach) const {
     const Worth* row = &sums_[static_cast<size_t>(y) * (columns_ + 1)];
     const int64_t end = columns_;
-    for (int64_t x = left; count > 0; --count, x += stride, ++to) {
+    DomainWorth* to = vertices.domains;
+    int64_t x = vertices.left;
+    for (size_t i = 0; i < vertices.count; ++i, ++to, x += vertices.stride) {
       *to += row[std::min(x + reach + 1, end)];
       *to -= row[std::max<int64_t>(x - reach, 0)];
     }
@@ -38,7 +48,6 @@ class RowSums {
   void addRow(uint32_t y) {
     const Lattice& lattice = costs_->lattice();
     Worth* row = &sums_[size_t{y} * (columns_ + 1)];
-    const uint32_t squares = lattice.plan(centres_).columns;
     Worth sum;
     const auto add = [&](Site site) {
       const VertexId v = lattice.id(site);
@@ -48,7 +57,7 @@ class RowSums {
       row[x] = sum;
       if ((x + y) % 2 == 1)
         add({centres_ + 1, x, y});
-      else if (x % 2 == 1 && x / 2 < squares)
+      else if (x % 2 == 1)
         add({centres_, x / 2, y / 2});
     }
     row[columns_] = sum;
@@ -61,24 +70,10 @@ class RowSums {
   std::vector<Worth> sums_;
 };
 
-/// Vertices of a level in one row, and where they lie in units of the step of RowSums.
-struct VertexRow {
-  DomainWorth* domains;
-  size_t count;
-  int64_t left, stride, y;
-};
-
-struct Octagon {
-  int64_t x, y;  ///< X, Y
-};
-
 void addOctagons(const RowSums& sums, const VertexRow& row, const Octagon& octagon) {
   const int64_t top = std::max<int64_t>(row.y - octagon.x, 0);
   const int64_t bottom = std::min(row.y + octagon.x, sums.rows() - 1);
-  for (int64_t y = top; y <= bottom; ++y) {
-    const int64_t reach = std::min(octagon.x, octagon.y - std::abs(y - row.y));
-    sums.addTo(row.domains, row.count, y, row.left, row.stride, reach);
-  }
+  for (int64_t y = top; y <= bottom; ++y) sums.addTo(row, y, octagon.reach(y - row.y));
 }
 
 /// Adds a pair of levels, 2^k times finer, to the domains of one of the levels above it or in it.
@@ -87,8 +82,7 @@ void addPair(const RowSums& sums, const Lattice& lattice, uint32_t level, uint32
   const Lattice::Plan& plan = lattice.plan(level);
   const int64_t scale = int64_t{1} << k;
   const bool centre = Lattice::isCentre(level);
-  const Octagon octagon =
-      centre ? Octagon{3 * scale - 2, 4 * scale - 3} : Octagon{2 * scale - 2, 3 * scale - 3};
+  const Octagon octagon = Octagon::ofMidpoints(level, k);
   DomainWorth* next = &domains[plan.first];
   for (uint32_t row = 0; row < plan.rows; ++row) {
     const uint32_t first = centre || row % 2 == 1 ? 0 : 1;
