@@ -47,6 +47,7 @@ void MergingDomains::collect(VertexId v) {
       const VertexId w = lattice().id(child);
       if (removed_[w]) return;
       removed_[w] = true;
+      __builtin_prefetch(&(*gains_)[w]);
       sites_.push_back(child);
       group_.push_back(w);
     });

@@ -85,6 +85,7 @@ void SlopeQueue::openNextBucket(PushAgain& pushAgain) {
     chunks_[chunk].next = free_;
     free_ = chunk;
     chunk = taken.next;
+    if (chunk != kNone) __builtin_prefetch(&chunks_[chunk]);
     pushAgain(std::span(taken.vertices).first(taken.count));
   }
   opening_ = false;
