@@ -70,6 +70,8 @@ class MergingDomains {
   void reportLateFalls(OnFall& onFall);
   template <class OnFall>
   void subtract(VertexId a, const Worth& worth, OnFall& onFall);
+  template <class OnFall>
+  void report(VertexId a, OnFall& onFall);
 
   const std::vector<double>* gains_;
   const VertexCosts* costs_;
@@ -129,16 +131,24 @@ void MergingDomains::reportLateFalls(OnFall& onFall) {
 }
 
 template <class OnFall>
-void MergingDomains::subtract(VertexId a, const Worth& worth, OnFall& onFall) {
+inline void MergingDomains::subtract(VertexId a, const Worth& worth, OnFall& onFall) {
   DomainWorth& domain = domains_[a];
   domain -= worth;
   // Without a division; the product is exact while costs add up to less than 2^29.
   const double least = static_cast<double>(domain.bound) * domain.cost;
-  if (domain.distortion > least && domain.cost > 0) return;
+  if (domain.distortion > least && domain.cost > 0) [[likely]]
+    return;
+  report(a, onFall);
+}
+
+/// Perhaps a fall.
+template <class OnFall>
+[[gnu::noinline]] void MergingDomains::report(VertexId a, OnFall& onFall) {
   if (removed_[a]) return;
   if (a < late_.size())
     fallen_.push_back(a);
-  else if (slopeOf(domain.distortion, domain.cost) < static_cast<double>(domain.bound))
+  else if (slopeOf(domains_[a].distortion, domains_[a].cost) <
+           static_cast<double>(domains_[a].bound))
     onFall(a);
 }
 
