@@ -25,11 +25,13 @@ namespace tetrakis {
 /// Cell (0, 0) is (left, top) of the level.
 struct AncestorWindow {
   uint64_t cells = 0;
-  int64_t left = 0, top = 0;
+  int32_t left = 0, top = 0;
 
   bool operator==(const AncestorWindow&) const = default;
 
-  static AncestorWindow ofSquare(Site v) { return {1, v.column, v.row}; }
+  static AncestorWindow ofSquare(Site v) {
+    return {1, static_cast<int32_t>(v.column), static_cast<int32_t>(v.row)};
+  }
   static AncestorWindow ofMidpoint(Site v);
   /// Of a level of squares, the level of midpoints above it.
   AncestorWindow midpointsAbove() const;
@@ -93,9 +95,9 @@ class AncestorSums {
   };
 
   template <class Visit>
-  void arrive(size_t pair, const AncestorWindow& squares, const Delta& delta, Visit& visit);
+  void arrive(size_t pair, Waiting amount, Visit& visit);
   template <class Visit>
-  void rise(size_t pair, Visit& visit);
+  bool rise(size_t pair, Waiting& amount, Visit& visit);
   void takeAbove(uint32_t level);
 
   const Lattice* lattice_;
@@ -105,14 +107,15 @@ class AncestorSums {
 };
 
 inline AncestorWindow AncestorWindow::ofMidpoint(Site v) {
-  AncestorWindow w{0, (int64_t{v.column} - 1) & ~int64_t{1}, (int64_t{v.row} - 1) & ~int64_t{1}};
-  w.cells = uint64_t{1} << (v.column - w.left + 8 * (v.row - w.top));
+  const auto column = static_cast<int32_t>(v.column), row = static_cast<int32_t>(v.row);
+  AncestorWindow w{0, (column - 1) & ~1, (row - 1) & ~1};
+  w.cells = uint64_t{1} << (column - w.left + 8 * (row - w.top));
   return w;
 }
 
 inline AncestorWindow AncestorWindow::midpointsAbove() const {
-  AncestorWindow corners{0, (left - 1) & ~int64_t{1}, (top - 1) & ~int64_t{1}};
-  const int64_t shift = left - corners.left + 8 * (top - corners.top);
+  AncestorWindow corners{0, (left - 1) & ~1, (top - 1) & ~1};
+  const int32_t shift = left - corners.left + 8 * (top - corners.top);
   corners.cells = (cells | cells << 1 | cells << 8 | cells << 9) << shift & kOddSum;
   return corners;
 }
@@ -132,7 +135,7 @@ inline AncestorWindow AncestorWindow::squaresAbove(const Lattice::Plan& above) c
 }
 
 inline void AncestorWindow::clip(const Lattice::Plan& plan) {
-  const auto within = [](int64_t i, uint32_t count) { return i >= 0 && i < count; };
+  const auto within = [](int32_t i, uint32_t count) { return static_cast<uint32_t>(i) < count; };
   if (within(left, plan.columns) && within(left + 3, plan.columns) && within(top, plan.rows) &&
       within(top + 3, plan.rows))
     return;
@@ -144,7 +147,7 @@ inline void AncestorWindow::clip(const Lattice::Plan& plan) {
 
 inline AncestorWindow AncestorWindow::without(const AncestorWindow& other) const {
   constexpr uint64_t kFirstColumn = 0x0101010101010101;
-  const int64_t right = other.left - left, down = other.top - top;
+  const int32_t right = other.left - left, down = other.top - top;
   if (right < -7 || right > 7 || down < -7 || down > 7) return *this;
   uint64_t moved = other.cells;
   moved = right < 0 ? moved >> -right & kFirstColumn * (0xff >> -right)
@@ -156,7 +159,7 @@ inline AncestorWindow AncestorWindow::without(const AncestorWindow& other) const
 template <class Visit>
 void AncestorWindow::visit(uint32_t level, const Lattice::Plan& plan, Visit& visitOne) const {
   // Half of an even number: the left column and the top row of midpoints are even.
-  const int64_t cell = top * plan.columns + left;
+  const int64_t cell = int64_t{top} * plan.columns + left;
   const auto origin =
       static_cast<VertexId>(plan.first + (Lattice::isCentre(level) ? cell : cell / 2));
   for (uint64_t rest = cells; rest != 0; rest &= rest - 1)
@@ -215,51 +218,55 @@ template <class Visit>
 void AncestorSums<Delta>::add(Site v, const Delta& delta, Visit&& visit) {
   const size_t pair = v.level / 2;
   if (Lattice::isCentre(v.level)) {
-    arrive(pair, AncestorWindow::ofSquare(v), delta, visit);
+    arrive(pair, {AncestorWindow::ofSquare(v), delta}, visit);
     return;
   }
   visit(lattice_->id(v), delta);
-  arrive(pair, AncestorWindow::ofMidpoint(v).squaresAbove(lattice_->plan(v.level - 1)), delta,
+  arrive(pair, {AncestorWindow::ofMidpoint(v).squaresAbove(lattice_->plan(v.level - 1)), delta},
          visit);
 }
 
 template <class Delta>
 template <class Visit>
 void AncestorSums<Delta>::flush(Visit&& visit) {
-  for (size_t pair = waiting_.size(); pair-- > 0;) rise(pair, visit);
-}
-
-template <class Delta>
-template <class Visit>
-void AncestorSums<Delta>::arrive(size_t pair, const AncestorWindow& squares, const Delta& delta,
-                                 Visit& visit) {
-  Waiting& waiting = waiting_[pair];
-  if (waiting.squares == squares) {
-    waiting.delta += delta;
-    return;
+  for (size_t pair = waiting_.size(); pair-- > 0;) {
+    Waiting amount = std::exchange(waiting_[pair], {});
+    if (amount.squares.cells != 0 && rise(pair, amount, visit)) arrive(pair - 1, amount, visit);
   }
-  rise(pair, visit);
-  waiting = {squares, delta};
 }
 
+/// What waited until now goes on.
 template <class Delta>
 template <class Visit>
-void AncestorSums<Delta>::rise(size_t pair, Visit& visit) {
-  Waiting& waiting = waiting_[pair];
-  if (waiting.squares.cells == 0) return;
-  const AncestorWindow squares = std::exchange(waiting.squares, {});
+void AncestorSums<Delta>::arrive(size_t pair, Waiting amount, Visit& visit) {
+  for (;; --pair) {
+    Waiting& waiting = waiting_[pair];
+    if (waiting.squares == amount.squares) {
+      waiting.delta += amount.delta;
+      return;
+    }
+    std::swap(waiting, amount);
+    if (amount.squares.cells == 0 || !rise(pair, amount, visit)) return;
+  }
+}
+
+/// From squares to the squares above; false if there are none to go on to.
+template <class Delta>
+template <class Visit>
+bool AncestorSums<Delta>::rise(size_t pair, Waiting& amount, Visit& visit) {
   const auto level = static_cast<uint32_t>(2 * pair);
-  const AncestorWindow others = squares.without(taken_[level]);
-  if (others.cells == 0) return;  // their ancestors are taken, too
-  if constexpr (requires { visit.pass(level, squares, taken_[level], waiting.delta); })
-    visit.pass(level, squares, taken_[level], waiting.delta);
-  const auto visitOne = [&](VertexId a) { visit(a, waiting.delta); };
+  const AncestorWindow others = amount.squares.without(taken_[level]);
+  if (others.cells == 0) return false;  // their ancestors are taken, too
+  if constexpr (requires { visit.pass(level, others, others, amount.delta); })
+    visit.pass(level, amount.squares, taken_[level], amount.delta);
+  const auto visitOne = [&](VertexId a) { visit(a, amount.delta); };
   others.visit(level, lattice_->plan(level), visitOne);
-  if (pair == 0) return;
+  if (pair == 0) return false;
   if (level == last_taken_) takeAbove(level);
-  const AncestorWindow midpoints = squares.midpointsAbove();
+  const AncestorWindow midpoints = amount.squares.midpointsAbove();
   midpoints.without(taken_[level - 1]).visit(level - 1, lattice_->plan(level - 1), visitOne);
-  arrive(pair - 1, midpoints.squaresAbove(lattice_->plan(level - 2)), waiting.delta, visit);
+  amount.squares = midpoints.squaresAbove(lattice_->plan(level - 2));
+  return true;
 }
 
 }  // namespace tetrakis
