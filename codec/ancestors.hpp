@@ -62,7 +62,7 @@ void forEachAncestorWindow(const Lattice& lattice, Site v, uint32_t last, Visit&
 template <class Visit>
 void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit);
 
-/// Adds amounts to many vertices and all their ancestors. Neighbours share most of their ancestors:
+/// Adds amounts to all ancestors of many vertices. Neighbours share most of their ancestors:
 /// amounts wait at every level of squares until one with another window arrives. Delta has +=.
 ///
 /// visit(VertexId, Delta) may follow an amount now or later. A visitor that has a function
@@ -97,7 +97,7 @@ class AncestorSums {
   template <class Visit>
   void arrive(size_t pair, Waiting amount, Visit& visit);
   template <class Visit>
-  bool rise(size_t pair, Waiting& amount, Visit& visit);
+  bool rise(size_t pair, Waiting& amount, bool own, Visit& visit);
   void takeAbove(uint32_t level);
 
   const Lattice* lattice_;
@@ -216,14 +216,14 @@ void AncestorSums<Delta>::takeAbove(uint32_t level) {
 template <class Delta>
 template <class Visit>
 void AncestorSums<Delta>::add(Site v, const Delta& delta, Visit&& visit) {
-  const size_t pair = v.level / 2;
-  if (Lattice::isCentre(v.level)) {
-    arrive(pair, {AncestorWindow::ofSquare(v), delta}, visit);
+  size_t pair = v.level / 2;
+  if (!Lattice::isCentre(v.level)) {
+    const Lattice::Plan& above = lattice_->plan(v.level - 1);
+    arrive(pair, {AncestorWindow::ofMidpoint(v).squaresAbove(above), delta}, visit);
     return;
   }
-  visit(lattice_->id(v), delta);
-  arrive(pair, {AncestorWindow::ofMidpoint(v).squaresAbove(lattice_->plan(v.level - 1)), delta},
-         visit);
+  Waiting amount{AncestorWindow::ofSquare(v), delta};
+  if (rise(pair, amount, true, visit)) arrive(pair - 1, amount, visit);
 }
 
 template <class Delta>
@@ -231,7 +231,8 @@ template <class Visit>
 void AncestorSums<Delta>::flush(Visit&& visit) {
   for (size_t pair = waiting_.size(); pair-- > 0;) {
     Waiting amount = std::exchange(waiting_[pair], {});
-    if (amount.squares.cells != 0 && rise(pair, amount, visit)) arrive(pair - 1, amount, visit);
+    if (amount.squares.cells != 0 && rise(pair, amount, false, visit))
+      arrive(pair - 1, amount, visit);
   }
 }
 
@@ -246,21 +247,22 @@ void AncestorSums<Delta>::arrive(size_t pair, Waiting amount, Visit& visit) {
       return;
     }
     std::swap(waiting, amount);
-    if (amount.squares.cells == 0 || !rise(pair, amount, visit)) return;
+    if (amount.squares.cells == 0 || !rise(pair, amount, false, visit)) return;
   }
 }
 
-/// From squares to the squares above; false if there are none to go on to.
+/// From squares to the squares above; false if there are none to go on to. own: the square is the
+/// vertex itself.
 template <class Delta>
 template <class Visit>
-bool AncestorSums<Delta>::rise(size_t pair, Waiting& amount, Visit& visit) {
+bool AncestorSums<Delta>::rise(size_t pair, Waiting& amount, bool own, Visit& visit) {
   const auto level = static_cast<uint32_t>(2 * pair);
   const AncestorWindow others = amount.squares.without(taken_[level]);
   if (others.cells == 0) return false;  // their ancestors are taken, too
   if constexpr (requires { visit.pass(level, others, others, amount.delta); })
     visit.pass(level, amount.squares, taken_[level], amount.delta);
   const auto visitOne = [&](VertexId a) { visit(a, amount.delta); };
-  others.visit(level, lattice_->plan(level), visitOne);
+  if (!own) others.visit(level, lattice_->plan(level), visitOne);
   if (pair == 0) return false;
   if (level == last_taken_) takeAbove(level);
   const AncestorWindow midpoints = amount.squares.midpointsAbove();

@@ -54,11 +54,11 @@ class Squares {
 }  // namespace
 
 DeferredLosses::DeferredLosses(const Lattice& lattice, uint32_t level)
-    : lattice_(&lattice),
-      level_(level),
-      columns_(lattice.plan(level).columns / 2 + 1),
-      rows_(lattice.plan(level).rows / 2 + 1) {
+    : lattice_(&lattice), level_(level) {
   for (Kind& kind : kinds_) kind.index.fill(kNoShape);
+  if (lattice.levelCount() == 0) return;  // nobody loses anything
+  columns_ = lattice.plan(level).columns / 2 + 1;
+  rows_ = lattice.plan(level).rows / 2 + 1;
 }
 
 Worth& DeferredLosses::slot(const AncestorWindow& squares) {

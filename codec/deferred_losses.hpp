@@ -47,7 +47,7 @@ class DeferredLosses {
 
   const Lattice* lattice_;
   uint32_t level_;
-  size_t columns_, rows_;  ///< of places of one kind; the first place is square (-1, -1)
+  size_t columns_ = 0, rows_ = 0;  ///< of places of one kind; the first place is square (-1, -1)
   std::array<Kind, 4> kinds_;
 };
 
