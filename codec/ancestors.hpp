@@ -25,11 +25,13 @@ namespace tetrakis {
 /// Cell (0, 0) is (left, top) of the level.
 struct AncestorWindow {
   uint64_t cells = 0;
-  int64_t left = 0, top = 0;
+  int32_t left = 0, top = 0;
 
   bool operator==(const AncestorWindow&) const = default;
 
-  static AncestorWindow ofSquare(Site v) { return {1, v.column, v.row}; }
+  static AncestorWindow ofSquare(Site v) {
+    return {1, static_cast<int32_t>(v.column), static_cast<int32_t>(v.row)};
+  }
   static AncestorWindow ofMidpoint(Site v);
   /// Of a level of squares, the level of midpoints above it.
   AncestorWindow midpointsAbove() const;
@@ -51,16 +53,21 @@ struct AncestorWindow {
   void clip(const Lattice::Plan& plan);
 };
 
-/// visit(level, AncestorWindow) for every level above v, from fine to coarse.
+/// visit(level, AncestorWindow) for every level above v up to `last`, one of squares, from fine to
+/// coarse.
 template <class Visit>
-void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit);
+void forEachAncestorWindow(const Lattice& lattice, Site v, uint32_t last, Visit&& visit);
 
 /// visit(VertexId) for every ancestor of v, level by level; v itself is not visited.
 template <class Visit>
 void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit);
 
-/// Adds amounts to many vertices and all their ancestors. Neighbours share most of their ancestors:
+/// Adds amounts to all ancestors of many vertices. Neighbours share most of their ancestors:
 /// amounts wait at every level of squares until one with another window arrives. Delta has +=.
+///
+/// visit(VertexId, Delta) may follow an amount now or later. A visitor that has a function
+/// visit.pass(level, squares, taken, Delta) is told what goes on to the squares of a level, those
+/// taken included, before that.
 template <class Delta>
 class AncestorSums {
  public:
@@ -69,11 +76,12 @@ class AncestorSums {
         waiting_((lattice.levelCount() + 1) / 2),
         taken_(lattice.levelCount()) {}
 
-  /// visit(VertexId) for every ancestor of v now, and for none of them from now on. (Descendants of
-  /// v share most of their ancestors with it.)
+  /// No visits to v and its ancestors from now on. (Descendants of v share most of their ancestors
+  /// with it.) visit(level, AncestorWindow): as forEachAncestorWindow() with `last`.
   template <class Visit>
-  void takeAncestorsOf(Site v, Visit&& visit);
-  /// visit(VertexId, Delta) may follow now or later, for v too.
+  void takeAncestorsOf(Site v, uint32_t last, Visit&& visit);
+  /// The window of v or its ancestors on a level from `last` on; empty below v.
+  const AncestorWindow& taken(uint32_t level) const { return taken_[level]; }
   template <class Visit>
   void add(Site v, const Delta& delta, Visit&& visit);
   /// Visits all that waits.
@@ -87,24 +95,27 @@ class AncestorSums {
   };
 
   template <class Visit>
-  void arrive(size_t pair, const AncestorWindow& squares, const Delta& delta, Visit& visit);
+  void arrive(size_t pair, Waiting amount, Visit& visit);
   template <class Visit>
-  void rise(size_t pair, Visit& visit);
+  bool rise(size_t pair, Waiting& amount, bool own, Visit& visit);
+  void takeAbove(uint32_t level);
 
   const Lattice* lattice_;
   std::vector<Waiting> waiting_;       ///< of levels 0, 2, 4 ...
-  std::vector<AncestorWindow> taken_;  ///< of every level; empty: none
+  std::vector<AncestorWindow> taken_;  ///< of every level from last_taken_ on; empty: none
+  uint32_t last_taken_ = 0;            ///< a level of squares
 };
 
 inline AncestorWindow AncestorWindow::ofMidpoint(Site v) {
-  AncestorWindow w{0, (int64_t{v.column} - 1) & ~int64_t{1}, (int64_t{v.row} - 1) & ~int64_t{1}};
-  w.cells = uint64_t{1} << (v.column - w.left + 8 * (v.row - w.top));
+  const auto column = static_cast<int32_t>(v.column), row = static_cast<int32_t>(v.row);
+  AncestorWindow w{0, (column - 1) & ~1, (row - 1) & ~1};
+  w.cells = uint64_t{1} << (column - w.left + 8 * (row - w.top));
   return w;
 }
 
 inline AncestorWindow AncestorWindow::midpointsAbove() const {
-  AncestorWindow corners{0, (left - 1) & ~int64_t{1}, (top - 1) & ~int64_t{1}};
-  const int64_t shift = left - corners.left + 8 * (top - corners.top);
+  AncestorWindow corners{0, (left - 1) & ~1, (top - 1) & ~1};
+  const int32_t shift = left - corners.left + 8 * (top - corners.top);
   corners.cells = (cells | cells << 1 | cells << 8 | cells << 9) << shift & kOddSum;
   return corners;
 }
@@ -124,7 +135,7 @@ inline AncestorWindow AncestorWindow::squaresAbove(const Lattice::Plan& above) c
 }
 
 inline void AncestorWindow::clip(const Lattice::Plan& plan) {
-  const auto within = [](int64_t i, uint32_t count) { return i >= 0 && i < count; };
+  const auto within = [](int32_t i, uint32_t count) { return static_cast<uint32_t>(i) < count; };
   if (within(left, plan.columns) && within(left + 3, plan.columns) && within(top, plan.rows) &&
       within(top + 3, plan.rows))
     return;
@@ -136,7 +147,7 @@ inline void AncestorWindow::clip(const Lattice::Plan& plan) {
 
 inline AncestorWindow AncestorWindow::without(const AncestorWindow& other) const {
   constexpr uint64_t kFirstColumn = 0x0101010101010101;
-  const int64_t right = other.left - left, down = other.top - top;
+  const int32_t right = other.left - left, down = other.top - top;
   if (right < -7 || right > 7 || down < -7 || down > 7) return *this;
   uint64_t moved = other.cells;
   moved = right < 0 ? moved >> -right & kFirstColumn * (0xff >> -right)
@@ -148,7 +159,7 @@ inline AncestorWindow AncestorWindow::without(const AncestorWindow& other) const
 template <class Visit>
 void AncestorWindow::visit(uint32_t level, const Lattice::Plan& plan, Visit& visitOne) const {
   // Half of an even number: the left column and the top row of midpoints are even.
-  const int64_t cell = top * plan.columns + left;
+  const int64_t cell = int64_t{top} * plan.columns + left;
   const auto origin =
       static_cast<VertexId>(plan.first + (Lattice::isCentre(level) ? cell : cell / 2));
   for (uint64_t rest = cells; rest != 0; rest &= rest - 1)
@@ -156,7 +167,7 @@ void AncestorWindow::visit(uint32_t level, const Lattice::Plan& plan, Visit& vis
 }
 
 template <class Visit>
-void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit) {
+void forEachAncestorWindow(const Lattice& lattice, Site v, uint32_t last, Visit&& visit) {
   uint32_t level = v.level;
   AncestorWindow squares = AncestorWindow::ofSquare(v);
   if (!Lattice::isCentre(level)) {
@@ -164,7 +175,7 @@ void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit) {
     squares = AncestorWindow::ofMidpoint(v).squaresAbove(lattice.plan(level));
     visit(level, squares);
   }
-  for (; level > 0; level -= 2) {
+  for (; level > last; level -= 2) {
     const AncestorWindow midpoints = squares.midpointsAbove();
     visit(level - 1, midpoints);
     squares = midpoints.squaresAbove(lattice.plan(level - 2));
@@ -174,68 +185,90 @@ void forEachAncestorWindow(const Lattice& lattice, Site v, Visit&& visit) {
 
 template <class Visit>
 void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit) {
-  forEachAncestorWindow(lattice, v, [&](uint32_t level, const AncestorWindow& window) {
+  forEachAncestorWindow(lattice, v, 0, [&](uint32_t level, const AncestorWindow& window) {
     window.visit(level, lattice.plan(level), visit);
   });
 }
 
 template <class Delta>
 template <class Visit>
-void AncestorSums<Delta>::takeAncestorsOf(Site v, Visit&& visit) {
-  for (size_t level = v.level; level < taken_.size(); ++level) taken_[level].cells = 0;
-  forEachAncestorWindow(*lattice_, v, [&](uint32_t level, const AncestorWindow& window) {
-    window.visit(level, lattice_->plan(level), visit);
+void AncestorSums<Delta>::takeAncestorsOf(Site v, uint32_t last, Visit&& visit) {
+  for (size_t level = v.level + 1; level < taken_.size(); ++level) taken_[level].cells = 0;
+  taken_[v.level] =
+      Lattice::isCentre(v.level) ? AncestorWindow::ofSquare(v) : AncestorWindow::ofMidpoint(v);
+  forEachAncestorWindow(*lattice_, v, last, [&](uint32_t level, const AncestorWindow& window) {
+    visit(level, window);
     taken_[level] = window;
   });
+  last_taken_ = last;
+}
+
+/// The levels that takeAncestorsOf() left out: few amounts rise so far.
+template <class Delta>
+void AncestorSums<Delta>::takeAbove(uint32_t level) {
+  for (; level > 0; level -= 2) {
+    taken_[level - 1] = taken_[level].midpointsAbove();
+    taken_[level - 2] = taken_[level - 1].squaresAbove(lattice_->plan(level - 2));
+  }
+  last_taken_ = 0;
 }
 
 template <class Delta>
 template <class Visit>
 void AncestorSums<Delta>::add(Site v, const Delta& delta, Visit&& visit) {
-  const size_t pair = v.level / 2;
-  if (Lattice::isCentre(v.level)) {
-    arrive(pair, AncestorWindow::ofSquare(v), delta, visit);
+  size_t pair = v.level / 2;
+  if (!Lattice::isCentre(v.level)) {
+    const Lattice::Plan& above = lattice_->plan(v.level - 1);
+    arrive(pair, {AncestorWindow::ofMidpoint(v).squaresAbove(above), delta}, visit);
     return;
   }
-  visit(lattice_->id(v), delta);
-  arrive(pair, AncestorWindow::ofMidpoint(v).squaresAbove(lattice_->plan(v.level - 1)), delta,
-         visit);
+  Waiting amount{AncestorWindow::ofSquare(v), delta};
+  if (rise(pair, amount, true, visit)) arrive(pair - 1, amount, visit);
 }
 
 template <class Delta>
 template <class Visit>
 void AncestorSums<Delta>::flush(Visit&& visit) {
-  for (size_t pair = waiting_.size(); pair-- > 0;) rise(pair, visit);
-}
-
-template <class Delta>
-template <class Visit>
-void AncestorSums<Delta>::arrive(size_t pair, const AncestorWindow& squares, const Delta& delta,
-                                 Visit& visit) {
-  Waiting& waiting = waiting_[pair];
-  if (waiting.squares == squares) {
-    waiting.delta += delta;
-    return;
+  for (size_t pair = waiting_.size(); pair-- > 0;) {
+    Waiting amount = std::exchange(waiting_[pair], {});
+    if (amount.squares.cells != 0 && rise(pair, amount, false, visit))
+      arrive(pair - 1, amount, visit);
   }
-  rise(pair, visit);
-  waiting = {squares, delta};
 }
 
+/// What waited until now goes on.
 template <class Delta>
 template <class Visit>
-void AncestorSums<Delta>::rise(size_t pair, Visit& visit) {
-  Waiting& waiting = waiting_[pair];
-  if (waiting.squares.cells == 0) return;
-  const AncestorWindow squares = std::exchange(waiting.squares, {});
+void AncestorSums<Delta>::arrive(size_t pair, Waiting amount, Visit& visit) {
+  for (;; --pair) {
+    Waiting& waiting = waiting_[pair];
+    if (waiting.squares == amount.squares) {
+      waiting.delta += amount.delta;
+      return;
+    }
+    std::swap(waiting, amount);
+    if (amount.squares.cells == 0 || !rise(pair, amount, false, visit)) return;
+  }
+}
+
+/// From squares to the squares above; false if there are none to go on to. own: the square is the
+/// vertex itself.
+template <class Delta>
+template <class Visit>
+bool AncestorSums<Delta>::rise(size_t pair, Waiting& amount, bool own, Visit& visit) {
   const auto level = static_cast<uint32_t>(2 * pair);
-  const auto visitOne = [&](VertexId a) { visit(a, waiting.delta); };
-  const AncestorWindow others = squares.without(taken_[level]);
-  if (others.cells == 0) return;  // their ancestors are taken, too
-  others.visit(level, lattice_->plan(level), visitOne);
-  if (pair == 0) return;
-  const AncestorWindow midpoints = squares.midpointsAbove();
+  const AncestorWindow others = amount.squares.without(taken_[level]);
+  if (others.cells == 0) return false;  // their ancestors are taken, too
+  if constexpr (requires { visit.pass(level, others, others, amount.delta); })
+    visit.pass(level, amount.squares, taken_[level], amount.delta);
+  const auto visitOne = [&](VertexId a) { visit(a, amount.delta); };
+  if (!own) others.visit(level, lattice_->plan(level), visitOne);
+  if (pair == 0) return false;
+  if (level == last_taken_) takeAbove(level);
+  const AncestorWindow midpoints = amount.squares.midpointsAbove();
   midpoints.without(taken_[level - 1]).visit(level - 1, lattice_->plan(level - 1), visitOne);
-  arrive(pair - 1, midpoints.squaresAbove(lattice_->plan(level - 2)), waiting.delta, visit);
+  amount.squares = midpoints.squaresAbove(lattice_->plan(level - 2));
+  return true;
 }
 
 }  // namespace tetrakis

@@ -52,9 +52,12 @@ MeshSequence::MeshSequence(Lattice lattice, std::vector<VertexId> order,
       order_(std::move(order)),
       triangle_counts_(order_.size() + 1),
       squared_errors_(order_.size() + 1) {
+  std::vector<uint8_t> costs(order_.size());
+  lattice_.forEachVertex(
+      [&](Site site, VertexId v) { costs[v] = static_cast<uint8_t>(lattice_.triangleCost(site)); });
   triangle_counts_[0] = 2 * lattice_.rootColumns() * lattice_.rootRows();
   for (size_t i = 0; i < order_.size(); ++i)
-    triangle_counts_[i + 1] = triangle_counts_[i] + lattice_.triangleCost(lattice_.site(order_[i]));
+    triangle_counts_[i + 1] = triangle_counts_[i] + costs[order_[i]];
   double error = 0;
   for (size_t i = order_.size(); i-- > 0;) {
     error += gains[order_[i]];

@@ -20,10 +20,21 @@ struct HeightCorner {
 };
 using HeightTriangle = LatticeTriangle<HeightCorner>;
 
+/// Of a triangle whose moments of second order are known.
+struct Residuals {
+  double energy;
+  TriangleMoments::First first;
+};
+
 class GainBuilder {
  public:
   GainBuilder(const Lattice& lattice, const SurfaceView& surface)
-      : lattice_(lattice), surface_(surface), gains_(lattice.vertexCount()) {}
+      : lattice_(lattice), surface_(surface), gains_(lattice.vertexCount()) {
+    // Far from the border and without weights all triangles of a level have the same.
+    grams_.resize(lattice.levelCount());
+    TriangleMoments t = mergeFinest(kInnerWeights, 0);
+    for (size_t level = grams_.size(); level-- > 0; t = merge(t, t, 0)) grams_[level] = t.gram;
+  }
 
   std::vector<double> build() {
     forEachRootTriangle(
@@ -34,6 +45,8 @@ class GainBuilder {
   }
 
  private:
+  static constexpr CornerWeights kInnerWeights = {0.125, 0.125, 0.125, 0.25};
+
   HeightCorner cornerAt(GridPoint p) const {
     return {p, static_cast<double>(surface_.heights[lattice_.gridIndex(p)])};
   }
@@ -50,13 +63,45 @@ class GainBuilder {
   CornerWeights finestWeights(const HeightTriangle& t, GridPoint split) const {
     const bool inner = split.x > 1 && split.y > 1 && split.x + 2 < lattice_.width() &&
                        split.y + 2 < lattice_.height();
-    if (inner && surface_.weights.empty()) return {0.125, 0.125, 0.125, 0.25};
+    if (inner && surface_.weights.empty()) return kInnerWeights;
     return {cornerWeight(t.a.point), cornerWeight(t.b.point), cornerWeight(t.apex.point),
             cornerWeight(split)};
   }
 
+  bool isInner(GridPoint p) const {
+    return p.x > 0 && p.y > 0 && p.x + 1 < lattice_.width() && p.y + 1 < lattice_.height();
+  }
+
+  /// What moments() does, for an inner triangle and without weights: nearly all there are.
+  Residuals residuals(uint32_t level, const HeightCorner& a, const HeightCorner& b,
+                      const HeightCorner& apex) {
+    const GridPoint split = {(a.point.x + b.point.x) / 2, (a.point.y + b.point.y) / 2};
+    const HeightCorner w = {
+        split, static_cast<double>(surface_.heights[split.y * lattice_.width() + split.x])};
+    const double delta = w.height - 0.5 * (a.height + b.height);
+    double& gain = gains_[lattice_.id(lattice_.siteAt(level, split))];
+    if (level + 1 == lattice_.levelCount()) {
+      const double half = kInnerWeights.split * delta, energy = 2 * half * delta;
+      gain += energy;
+      return {energy, {half, half, 0}};
+    }
+    const Residuals t1 = residuals(level + 1, apex, a, w), t2 = residuals(level + 1, b, apex, w);
+    const TriangleMoments::Gram& g = grams_[level + 1];
+    const double more = 2 * delta * (t1.first.p + t2.first.p) + delta * delta * (g.pp + g.pp);
+    gain += more;
+    const double half = 0.5 * ((t1.first.p + delta * g.pp) + (t2.first.p + delta * g.pp));
+    return {t1.energy + t2.energy + more,
+            {(t1.first.b + delta * g.bp) + half, (t2.first.a + delta * g.ap) + half,
+             (t1.first.a + delta * g.ap) + (t2.first.b + delta * g.bp)}};
+  }
+
   /// Adds the gains in and below a triangle that lies inside the grid.
   TriangleMoments moments(const HeightTriangle& t) {
+    if (surface_.weights.empty() && isInner(t.a.point) && isInner(t.b.point) &&
+        isInner(t.apex.point)) {
+      const Residuals r = residuals(t.level, t.a, t.b, t.apex);
+      return {r.energy, r.first, grams_[t.level]};
+    }
     const HeightCorner w = cornerAt(t.splitPoint());
     const double delta = w.height - 0.5 * (t.a.height + t.b.height);
     double& gain = gains_[lattice_.id(lattice_.siteAt(t.level, w.point))];
@@ -105,6 +150,7 @@ class GainBuilder {
   const Lattice& lattice_;
   const SurfaceView& surface_;
   std::vector<double> gains_;
+  std::vector<TriangleMoments::Gram> grams_;  ///< of inner triangles of each level
 };
 
 }  // namespace

@@ -6,16 +6,21 @@
 #include <algorithm>
 #include <span>
 
-#include "codec/merging_domains.hpp"
 #include "codec/slope_queue.hpp"
 
 namespace tetrakis {
 namespace {
 
+double sumOfPositive(const std::vector<double>& gains) {
+  double sum = 0;
+  for (const double g : gains) sum += std::max(g, 0.0);
+  return sum;
+}
+
 class Decimator {
  public:
-  Decimator(const std::vector<double>& gains, const VertexCosts& costs)
-      : count_(gains.size()), domains_(gains, costs) {
+  Decimator(const std::vector<double>& gains, const VertexCosts& costs, uint32_t prompt_levels)
+      : count_(gains.size()), domains_(gains, costs, prompt_levels), queue_(sumOfPositive(gains)) {
     for (VertexId v = 0; v < count_; ++v) enqueue(v);
   }
 
@@ -56,9 +61,9 @@ class Decimator {
 
 }  // namespace
 
-std::vector<VertexId> generalDecimation(const std::vector<double>& gains,
-                                        const VertexCosts& costs) {
-  return Decimator(gains, costs).run();
+std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,
+                                        uint32_t prompt_levels) {
+  return Decimator(gains, costs, prompt_levels).run();
 }
 
 }  // namespace tetrakis

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "codec/lattice.hpp"
+#include "codec/merging_domains.hpp"
 #include "codec/vertex_costs.hpp"
 
 namespace tetrakis {
 
-/// All vertices, those removed last first. gains: one for each vertex (gains.hpp).
-std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs);
+/// All vertices, those removed last first. gains: one for each vertex (gains.hpp). prompt_levels
+/// changes the time that it takes.
+std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,
+                                        uint32_t prompt_levels = MergingDomains::kPromptLevels);
 
 }  // namespace tetrakis

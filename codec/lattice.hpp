@@ -133,9 +133,8 @@ inline Site Lattice::site(VertexId vertex) const {
   const Plan& plan = levels_[level];
   const uint32_t cell = vertex - plan.first;
   if (isCentre(level)) return {level, cell % plan.columns, cell / plan.columns};
-  const uint64_t wide = uint64_t{2} * cell + 1;
-  Site v{level, static_cast<uint32_t>(wide % plan.columns),
-         static_cast<uint32_t>(wide / plan.columns)};
+  const uint32_t wide = 2 * cell + 1;  // cells are half of at most 2^31 samples and a few more
+  Site v{level, wide % plan.columns, wide / plan.columns};
   if ((v.column + v.row) % 2 == 0) --v.column;
   return v;
 }

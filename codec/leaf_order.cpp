@@ -7,8 +7,8 @@
 #include <limits>
 #include <queue>
 
-#include "codec/merging_domains.hpp"
 #include "codec/slope_queue.hpp"
+#include "codec/worth.hpp"
 
 namespace tetrakis {
 namespace {

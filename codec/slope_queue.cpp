@@ -12,7 +12,7 @@
 namespace tetrakis {
 namespace {
 
-constexpr uint32_t kBuckets = 1 << 16;
+constexpr uint32_t kBuckets = 56 * 128;
 
 // IEEE 754 floats compare like integers once the bits of negative ones are turned over.
 constexpr uint32_t kSign = 0x80000000;
@@ -24,8 +24,8 @@ float floatOf(uint32_t ordered) {
   return std::bit_cast<float>((ordered & kSign) != 0 ? ordered & ~kSign : ~ordered);
 }
 
-/// Of the largest float that is not above the slope.
-uint32_t bucketOf(double slope) {
+/// Upper bits of the largest float that is not above the slope.
+uint32_t upperBits(double slope) {
   const auto nearest = static_cast<float>(slope);
   return (orderedBits(nearest) - (static_cast<double>(nearest) > slope ? 1 : 0)) >> 16;
 }
@@ -38,13 +38,23 @@ float roundUp(double slope) {
 
 }  // namespace
 
-SlopeQueue::SlopeQueue() : heads_(kBuckets, kNone) {}
+SlopeQueue::SlopeQueue(double greatest)
+    : first_(std::max(upperBits(greatest), kBuckets) - kBuckets + 1), heads_(kBuckets, kNone) {}
+
+uint32_t SlopeQueue::bucketOf(double slope) const {
+  return std::clamp(upperBits(slope), first_, first_ + kBuckets - 1) - first_;
+}
+
+float SlopeQueue::lowerEnd(uint32_t bucket) const {
+  if (bucket == 0) return -std::numeric_limits<float>::infinity();
+  return floatOf((first_ + bucket) << 16);
+}
 
 float SlopeQueue::push(const Candidate& candidate) {
   const uint32_t bucket = bucketOf(candidate.slope);
   if (bucket > current_) {
     pushLater(bucket, candidate.vertex);
-    return floatOf(bucket << 16);
+    return lowerEnd(bucket);
   }
   if (opening_) {
     sorted_.push_back(candidate);

@@ -3,8 +3,8 @@
 // now.
 //
 // Slopes at the front hardly ever fall, so most entries need no order yet:
-//   later   vertices alone, by the upper 16 bits of their slope as a float: 128 buckets for each
-//           power of two, each a list of chunks of one cache line;
+//   later   vertices alone, by the upper 16 bits of their slope as a float: 128 buckets for each of
+//           the greatest 56 powers of two, each a list of chunks of one cache line;
 //   open    the candidates of the buckets up to the current one: those that were there when it was
 //           opened, sorted, and a heap of those that came since.
 // A bucket is opened by handing its vertices back to the caller, who pushes those that are still
@@ -29,7 +29,8 @@ struct Candidate {
 
 class SlopeQueue {
  public:
-  SlopeQueue();
+  /// greatest: no finite slope is greater; 0 if none is positive.
+  explicit SlopeQueue(double greatest);
 
   /// slope: no NaN. Returns a bound: a slope below it needs an entry of its own.
   float push(const Candidate& candidate);
@@ -56,6 +57,10 @@ class SlopeQueue {
   void sortOpened();
   Candidate popOpen();
 
+  uint32_t bucketOf(double slope) const;
+  float lowerEnd(uint32_t bucket) const;
+
+  uint32_t first_;               ///< upper bits of the first bucket, which also holds all below
   std::vector<uint32_t> heads_;  ///< first chunk of each bucket
   std::vector<Chunk> chunks_;
   uint32_t free_ = kNone;  ///< head of the list of unused chunks
@@ -85,6 +90,7 @@ void SlopeQueue::openNextBucket(PushAgain& pushAgain) {
     chunks_[chunk].next = free_;
     free_ = chunk;
     chunk = taken.next;
+    if (chunk != kNone) __builtin_prefetch(&chunks_[chunk]);
     pushAgain(std::span(taken.vertices).first(taken.count));
   }
   opening_ = false;

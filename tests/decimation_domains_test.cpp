@@ -25,12 +25,12 @@ using Domain = std::set<VertexId>;
 /// A surface whose vertices are removed at random, and all of its domains as sets.
 class Removal {
  public:
-  explicit Removal(const Terrain& terrain)
+  explicit Removal(const Terrain& terrain, uint32_t prompt_levels = MergingDomains::kPromptLevels)
       : terrain_(terrain),
         lattice_(*Lattice::make(terrain.width, terrain.height)),
         gains_(vertexGains(lattice_, terrain.view())),
         costs_(lattice_),
-        domains_(gains_, costs_) {
+        domains_(gains_, costs_, prompt_levels) {
     for (VertexId v = 0; v < lattice_.vertexCount(); ++v) remaining_.insert(v);
   }
 
@@ -122,6 +122,22 @@ TEST(MergingDomains, LoseTheirIntersectionsWithWhatIsRemoved) {
   }
 }
 
+void expectCompleteDomains(uint32_t width, uint32_t height) {
+  SCOPED_TRACE(testing::Message() << width << " x " << height);
+  const Terrain terrain(width, height, Relief::kNoise);
+  const Removal removal(terrain);
+  for (const VertexId v : removal.remaining())
+    ASSERT_EQ(removal.worth(v), removal.sumOver(removal.domainOf(v))) << v;
+}
+
+TEST(MergingDomains, AreCompleteAtFirstWhateverTheOverhang) {
+  for (uint32_t width = 2; width <= 20; ++width)
+    for (uint32_t height = 2; height <= 20; height += width % 2 == 0 ? 1 : 3)
+      expectCompleteDomains(width, height);
+  for (const auto& [width, height] : {std::pair{33u, 33u}, {37u, 45u}, {20u, 90u}, {66u, 34u}})
+    expectCompleteDomains(width, height);
+}
+
 TEST(MergingDomains, AreWorthWhatMeshesWithoutThemLoseAndSave) {
   const std::vector<std::pair<uint32_t, uint32_t>> sizes = {{9, 9}, {12, 12}, {7, 10}};
   for (const auto& [width, height] : sizes) {
@@ -136,9 +152,10 @@ TEST(MergingDomains, AreWorthWhatMeshesWithoutThemLoseAndSave) {
   }
 }
 
-TEST(MergingDomains, StayExactOnLargerSurfaces) {
-  const Terrain terrain(45, 70, Relief::kTerrain);
-  Removal removal(terrain);
+void expectExact(uint32_t width, uint32_t height, uint32_t prompt_levels) {
+  SCOPED_TRACE(testing::Message() << width << " x " << height << ", " << prompt_levels);
+  const Terrain terrain(width, height, Relief::kTerrain);
+  Removal removal(terrain, prompt_levels);
   for (int step = 0; !removal.remaining().empty(); ++step) {
     if (step % 40 == 0)
       for (int i = 0; i < 40; ++i) {
@@ -149,16 +166,26 @@ TEST(MergingDomains, StayExactOnLargerSurfaces) {
   }
 }
 
+TEST(MergingDomains, StayExactOnLargerSurfaces) {
+  expectExact(45, 70, MergingDomains::kPromptLevels);
+  for (const uint32_t prompt_levels : {2u, 4u, 6u}) {
+    expectExact(45, 70, prompt_levels);
+    expectExact(33, 33, prompt_levels);
+    expectExact(66, 34, prompt_levels);
+    expectExact(20, 90, prompt_levels);
+  }
+}
+
 float floatBelow(double slope) {
   return std::nextafter(static_cast<float>(slope), -std::numeric_limits<float>::infinity());
 }
 
 /// While the least slope goes, step after step. Returns how many slopes fell below their bounds.
-size_t expectFallsReported(const Terrain& terrain) {
+size_t expectFallsReported(const Terrain& terrain, uint32_t prompt_levels) {
   const Lattice lattice = *Lattice::make(terrain.width, terrain.height);
   const std::vector<double> gains = vertexGains(lattice, terrain.view());
   const VertexCosts costs(lattice);
-  MergingDomains domains(gains, costs);
+  MergingDomains domains(gains, costs, prompt_levels);
   Domain remaining;
   for (VertexId v = 0; v < lattice.vertexCount(); ++v) remaining.insert(v);
   size_t falls = 0;
@@ -187,7 +214,8 @@ TEST(MergingDomains, ReportFallsBelowTheirBounds) {
   size_t falls = 0;
   for (const auto& [width, height] : checks::kSizes)
     for (const Relief relief : checks::kReliefs)
-      falls += expectFallsReported(Terrain(width, height, relief));
+      for (const uint32_t prompt_levels : {2u, 4u, MergingDomains::kPromptLevels})
+        falls += expectFallsReported(Terrain(width, height, relief), prompt_levels);
   EXPECT_GT(falls, 0u);
 }
 

@@ -8,6 +8,7 @@
 
 #include "codec/decimation.hpp"
 #include "codec/gains.hpp"
+#include "codec/general_decimation.hpp"
 #include "tests/decimation_terrain.hpp"
 #include "tests/mesh_checks.hpp"
 
@@ -143,6 +144,21 @@ TEST(Decimation, EveryStepIsTheGreedyChoiceWhateverTheOverhang) {
     for (uint32_t height = 2; height <= 9; ++height) {
       SCOPED_TRACE(testing::Message() << width << " x " << height);
       expectGreedyChoices(Terrain(width, height, Relief::kNoise));
+    }
+}
+
+/// Between them the numbers of levels that are kept up to date tell every slope late or at once.
+TEST(Decimation, OrderDoesNotDependOnWhenSlopesAreSummedUp) {
+  for (const auto& [width, height] : {std::pair{70u, 50u}, {129u, 65u}})
+    for (const Relief relief : {Relief::kTerrain, Relief::kNoise, Relief::kSteps}) {
+      const Terrain terrain(width, height, relief);
+      const Lattice lattice = *Lattice::make(width, height);
+      const std::vector<double> gains = vertexGains(lattice, terrain.view());
+      const VertexCosts costs(lattice);
+      const std::vector<VertexId> order = generalDecimation(gains, costs, 20);
+      for (const uint32_t prompt_levels : {4u, 8u, 12u})
+        EXPECT_EQ(generalDecimation(gains, costs, prompt_levels), order)
+            << width << " x " << height << ", " << prompt_levels;
     }
 }
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What vertices cost and save: the vector functional u = (D, R) of the thesis and its slope.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace tetrakis {
+
+/// lambda, thesis 5.2.2. What saves nothing goes at once if it does no harm, and as late as it can
+/// otherwise.
+inline double slopeOf(double distortion, uint32_t cost) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (cost == 0) return distortion > 0 ? kInfinity : -kInfinity;
+  return distortion / cost;
+}
+
+/// u of a vertex or several.
+struct Worth {
+  double distortion = 0;
+  uint32_t cost = 0;
+
+  Worth& operator+=(const Worth& other) {
+    distortion += other.distortion;
+    cost += other.cost;
+    return *this;
+  }
+  Worth& operator-=(const Worth& other) {
+    distortion -= other.distortion;
+    cost -= other.cost;
+    return *this;
+  }
+  bool operator==(const Worth&) const = default;
+};
+
+/// u of a merging domain, and the slope below which its next fall counts. 16 bytes: one access to
+/// memory for each ancestor that changes.
+struct DomainWorth {
+  double distortion = 0;
+  uint32_t cost = 0;
+  float bound = -std::numeric_limits<float>::infinity();
+
+  DomainWorth& operator+=(const Worth& other) {
+    distortion += other.distortion;
+    cost += other.cost;
+    return *this;
+  }
+  DomainWorth& operator-=(const Worth& other) {
+    distortion -= other.distortion;
+    cost -= other.cost;
+    return *this;
+  }
+};
+
+}  // namespace tetrakis
