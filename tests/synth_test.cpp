@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -29,12 +31,12 @@ uint64_t digest(std::span<const std::byte> bytes, uint64_t h = 0xcbf29ce48422232
 }
 
 uint64_t digest(const SynthTerrain& terrain) {
-  return digest(terrain.texture.data, digest(terrain.heights.data));
+  return digest(terrain.map.data, digest(terrain.texture.data, digest(terrain.heights.data)));
 }
 
 TEST(Synth, MakesTheSameBytesEverywhere) {
-  EXPECT_EQ(digest(synthesize({65, 7})), 0x8bf007d453e3ccb6u);
-  EXPECT_EQ(digest(synthesize({150, 1})), 0xb47cb6acf9c8150bu);
+  EXPECT_EQ(digest(synthesize({65, 7})), 0x4034d9316f42ecb5u);
+  EXPECT_EQ(digest(synthesize({150, 1})), 0xb7f0748379c5bd7du);
 }
 
 TEST(Synth, HasTheStatedShape) {
@@ -57,6 +59,16 @@ TEST(Synth, HasTheStatedShape) {
     EXPECT_EQ(terrain.texture.sample, TKS_U8);
     EXPECT_EQ(terrain.texture.data.size(), size_t{12} * (size - 1) * (size - 1));
   }
+}
+
+TEST(Synth, MapsHaveFewColours) {
+  const SynthTerrain terrain = synthesize({129, 1});
+  const std::vector<std::byte>& map = terrain.map.data;
+  ASSERT_EQ(map.size(), terrain.texture.data.size());
+  std::set<std::array<std::byte, 3>> colours;
+  for (size_t i = 0; i < map.size(); i += 3) colours.insert({map[i], map[i + 1], map[i + 2]});
+  EXPECT_GE(colours.size(), 5u);
+  EXPECT_LE(colours.size(), 11u);
 }
 
 TEST(Synth, SeedsDiffer) {

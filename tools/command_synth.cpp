@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// tetrakis synth: a deterministic sample terrain and its texture.
+// tetrakis synth: a deterministic sample terrain, its texture and its map.
+#include <array>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/command.hpp"
 #include "tools/output.hpp"
@@ -19,29 +24,34 @@ struct SynthArguments {
 Status synth(const SynthArguments& arguments) {
   const Result<OutputFolder> folder = OutputFolder::create(arguments.folder);
   if (!folder.ok()) return folder.status();
-  Result<Output> height = Output::plan(folder->file("height.tif"), arguments.force, ".tif");
-  if (!height.ok()) return height.status();
-  Result<Output> texture = Output::plan(folder->file("texture.png"), arguments.force, ".png");
-  if (!texture.ok()) return texture.status();
+  std::vector<Output> outputs;
+  for (const char* name : {"height.tif", "texture.png", "map.png"}) {
+    Result<Output> output =
+        Output::plan(folder->file(name), arguments.force, std::filesystem::path(name).extension());
+    if (!output.ok()) return output.status();
+    outputs.push_back(std::move(*output));
+  }
   const SynthTerrain terrain = synthesize(arguments.options);
-  if (Status status = height->stage(
-          [&](const std::string& path) { return writeHeights(path, terrain.heights); });
-      !status.ok())
-    return status;
-  if (Status status = texture->stage(
-          [&](const std::string& path) { return writeImage(path, terrain.texture); });
-      !status.ok())
-    return status;
-  if (Status status = height->commit(); !status.ok()) return status;
-  return texture->commit();
+  const std::array<std::function<Status(const std::string&)>, 3> writers = {
+      [&](const std::string& path) { return writeHeights(path, terrain.heights); },
+      [&](const std::string& path) { return writeImage(path, terrain.texture); },
+      [&](const std::string& path) { return writeImage(path, terrain.map); }};
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    if (Status status = outputs[i].stage(writers[i]); !status.ok()) return status;
+  }
+  for (Output& output : outputs) {
+    if (Status status = output.commit(); !status.ok()) return status;
+  }
+  return {};
 }
 
 }  // namespace
 
 void addSynth(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<SynthArguments>();
-  CLI::App& verb = *app.add_subcommand("synth", "Make a sample terrain with its texture");
-  verb.add_option("-o,--output", arguments->folder, "Folder for height.tif and texture.png")
+  CLI::App& verb = *app.add_subcommand("synth", "Make a sample terrain with its texture and map");
+  verb.add_option("-o,--output", arguments->folder,
+                  "Folder for height.tif, texture.png and map.png")
       ->required()
       ->type_name("DIR");
   verb.add_option("--size", arguments->options.size, "Samples along a side")

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "tools/synth_map.hpp"
 #include "tools/synth_relief.hpp"
 #include "tools/synth_texture.hpp"
 
@@ -40,7 +41,8 @@ HeightFile heightsOf(const synth::Relief& relief, uint32_t size) {
 SynthTerrain synthesize(const SynthOptions& options) {
   assert(options.size >= 2);
   const synth::Relief relief = synth::makeRelief(options.size, options.seed);
-  return {heightsOf(relief, options.size), synth::photograph(relief, options.size, options.seed)};
+  return {heightsOf(relief, options.size), synth::photograph(relief, options.size, options.seed),
+          synth::drawMap(relief, options.size)};
 }
 
 }  // namespace tetrakis::tools

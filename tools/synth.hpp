@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sample terrain: eroded mountains with a lake, a farmed plain and a coast, and its aerial
-// photograph.
+// photograph and map.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ struct SynthOptions {
 };
 
 /// heights: size x size TKS_U16 in steps of 0.1 m, 30 m apart; the sea is 0 and the lake one level.
-/// texture: RGB8 of 2 (size - 1) texels a side over the same footprint.
+/// texture and map: RGB8 of 2 (size - 1) texels a side over the same footprint.
 struct SynthTerrain {
   HeightFile heights;
-  ImageFile texture;
+  ImageFile texture, map;
 };
 
 /// The same bytes from every compiler and machine with IEEE arithmetic. Needs about 400 bytes of
