@@ -31,8 +31,8 @@ class AdaptiveBit {
   /// P(bit = 0) in units of 2^-16, in [kFloor, 65536 - kFloor].
   uint32_t zero() const { return std::clamp<uint32_t>(zero_, kFloor, (1u << kPrecision) - kFloor); }
 
-  /// No decision has been seen, and none was trained.
-  bool fresh() const { return seen_ == 0; }
+  /// It has seen two decisions, or was trained.
+  bool experienced() const { return seen_ >= 2; }
 
   void update(bool bit) {
     const int32_t target = bit ? 0 : 0xffff;

@@ -10,9 +10,9 @@
 
 #include "codec/corrections_decoder.hpp"
 #include "codec/corrections_encoder.hpp"
-#include "lattice/levels.hpp"
 #include "codec/validity_decoder.hpp"
 #include "codec/validity_encoder.hpp"
+#include "lattice/levels.hpp"
 #include "tests/void_masks.hpp"
 
 namespace tetrakis::test {

@@ -13,12 +13,16 @@
 
 namespace tetrakis {
 
-/// Models of a decision about an index, from the most special to the most general: of both first
-/// candidates, of the first, of none. The first one that has seen a decision is asked; all learn.
-struct IndexModels {
-  AdaptiveBit *pair, *single, *plain;
+/// Models of one decision, from the most special to the most general. The first that has experience
+/// is asked, or the last; all learn.
+struct ModelChain {
+  std::array<AdaptiveBit*, 3> models;
 
-  AdaptiveBit& asked() const { return pair->fresh() ? single->fresh() ? *plain : *single : *pair; }
+  AdaptiveBit& asked() const {
+    return models[0]->experienced()   ? *models[0]
+           : models[1]->experienced() ? *models[1]
+                                      : *models[2];
+  }
 };
 
 class DrawnModels {
@@ -28,27 +32,33 @@ class DrawnModels {
   DrawnModels()
       : pairs_(size_t{1} << kPairBits),
         singles_(size_t{1} << kSingleBits),
-        plain_(size_t{1} << kColourIndexBits) {}
+        indices_(size_t{1} << kColourIndexBits),
+        rivals_(size_t{1} << kRivalBits),
+        patterns_(size_t{2 * Candidates::kRanked} << kPatternBits) {}
 
-  /// Whether the vertex has the colour of the candidate at `place`.
-  AdaptiveBit& candidate(const Candidates& around, int place, LevelKind kind) {
+  /// Whether the vertex has the colour of the candidate at `place`. Special: which of the
+  /// neighbours have it, and which of near and causal have the next one's (of the first, for other
+  /// places). General: how many.
+  ModelChain candidate(const Candidates& around, int place, LevelKind kind) {
     const Candidate& c = around[place];
-    const int more = place == 0   ? (around.count() > 1 ? std::min(around[1].near, 3) : 0)
+    const bool centre = kind == LevelKind::kCentres;
+    const uint32_t pattern =
+        (static_cast<uint32_t>(2 * place + centre) << kPatternBits) + c.pattern;
+    const uint32_t rival = around.count() > 1 ? around[place == 0].pattern & 0x3f : 0;
+    const int more = place == 0   ? (around.count() > 1 ? std::min(around[1].near(), 3) : 0)
                      : place == 1 ? std::min(around.count(), 4) - 1
                                   : 0;
-    const int context = (((place * 4 + more) * 5 + c.near) * 3 + c.causal) * 9 + c.ring;
-    return candidates_[static_cast<size_t>(2 * context + (kind == LevelKind::kCentres))];
+    const int count = (((place * 4 + more) * 5 + c.near()) * 3 + c.causal()) * 9 + c.ring();
+    return {{&rivals_[hash(pattern * 64 + rival, kRivalBits)], &patterns_[pattern],
+             &counts_[static_cast<size_t>(2 * count + centre)]}};
   }
 
-  /// node: 1 followed by the bits of the index so far, the highest first.
-  IndexModels index(const Candidates& around, uint32_t node) {
+  /// A bit of an index. node: 1 followed by its bits so far, the highest first.
+  ModelChain index(const Candidates& around, uint32_t node) {
     const uint32_t first = around.count() > 0 ? around[0].colour : kMostColours;
     const uint32_t second = around.count() > 1 ? around[1].colour : kMostColours;
-    const auto hash = [&](uint32_t context, int bits) {
-      return ((context * kFactor + node) * 2654435761u) >> (32 - bits);
-    };
-    return {&pairs_[hash(first * kFactor + second, kPairBits)], &singles_[hash(first, kSingleBits)],
-            &plain_[node]};
+    return {{&pairs_[hash((first * kFactor + second) * kFactor + node, kPairBits)],
+             &singles_[hash(first * kFactor + node, kSingleBits)], &indices_[node]}};
   }
 
   AdaptiveBit fresh;  ///< the colour has not appeared before
@@ -56,10 +66,15 @@ class DrawnModels {
 
  private:
   static constexpr uint32_t kFactor = kMostColours + 3;
-  static constexpr int kPairBits = 18, kSingleBits = 16;
+  static constexpr int kPairBits = 18, kSingleBits = 16, kRivalBits = 18, kPatternBits = 14;
 
-  std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> candidates_;
-  std::vector<AdaptiveBit> pairs_, singles_, plain_;
+  static uint32_t hash(uint32_t context, int bits) {
+    return (context * 2654435761u) >> (32 - bits);
+  }
+
+  std::vector<AdaptiveBit> pairs_, singles_, indices_;
+  std::vector<AdaptiveBit> rivals_, patterns_;
+  std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> counts_;
 };
 
 }  // namespace tetrakis

@@ -10,8 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <span>
-#include <utility>
 
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
@@ -19,12 +19,15 @@
 
 namespace tetrakis {
 
-/// A colour among the neighbours, and how many of each kind have it.
+/// A colour among the neighbours.
 struct Candidate {
   ColourIndex colour = kNoColour;
-  int near = 0, causal = 0, ring = 0;
+  uint32_t pattern = 0;  ///< of the neighbours that have it: bits 0-3 near, 4-5 causal, 6-13 ring
+  int votes = 0;
 
-  int votes() const { return 6 * near + 4 * causal + ring; }
+  int near() const { return std::popcount(pattern & 0xf); }
+  int causal() const { return std::popcount(pattern >> 4 & 3); }
+  int ring() const { return std::popcount(pattern >> 6); }
 };
 
 /// The candidates around one vertex: the first three by votes, of equal ones the first met.
@@ -32,12 +35,14 @@ class Candidates {
  public:
   static constexpr int kRanked = 3;
 
-  void meet(ColourIndex colour, int Candidate::*kind) {
+  /// neighbour: its bit in the patterns.
+  void meet(ColourIndex colour, int neighbour) {
     const auto end = all_.begin() + count_;
     const auto found =
         std::find_if(all_.begin(), end, [&](const Candidate& c) { return c.colour == colour; });
-    if (found == end) all_[static_cast<size_t>(count_++)] = {colour, 0, 0, 0};
-    ++((*found).*kind);
+    if (found == end) all_[static_cast<size_t>(count_++)] = {colour, 0, 0};
+    found->pattern |= 1u << neighbour;
+    found->votes += neighbour < 4 ? 6 : neighbour < 6 ? 4 : 1;
   }
 
   /// After the last meet().
@@ -46,7 +51,7 @@ class Candidates {
       const auto first = all_.begin() + place;
       const auto best = std::max_element(
           first, all_.begin() + count_,
-          [](const Candidate& a, const Candidate& b) { return a.votes() < b.votes(); });
+          [](const Candidate& a, const Candidate& b) { return a.votes < b.votes; });
       std::rotate(first, best, best + 1);
     }
   }
@@ -72,11 +77,10 @@ class Neighbourhood {
     const int s = static_cast<int>(level.step);
     const bool centre = level.kind == LevelKind::kCentres;
     constexpr int kNear = Stencil::kRingSize[0];
-    for (int tap = 0; tap < kNear; ++tap) add(stencil.dx[tap], stencil.dy[tap], &Candidate::near);
-    add(centre ? -2 * s : -s, centre ? 0 : -s, &Candidate::causal);
-    add(centre ? 0 : s, centre ? -2 * s : -s, &Candidate::causal);
-    for (int tap = kNear; tap < Stencil::kTaps; ++tap)
-      add(stencil.dx[tap], stencil.dy[tap], &Candidate::ring);
+    for (int tap = 0; tap < kNear; ++tap) add(stencil.dx[tap], stencil.dy[tap]);
+    add(centre ? -2 * s : -s, centre ? 0 : -s);
+    add(centre ? 0 : s, centre ? -2 * s : -s);
+    for (int tap = kNear; tap < Stencil::kTaps; ++tap) add(stencil.dx[tap], stencil.dy[tap]);
     reach_ = static_cast<uint32_t>(stencil.reach);
   }
 
@@ -86,7 +90,7 @@ class Neighbourhood {
     for (int i = 0; i < count_; ++i) {
       const Neighbour& n = neighbours_[static_cast<size_t>(i)];
       if (!inside && !(reaches(x, n.dx, width_) && reaches(y, n.dy, height_))) continue;
-      candidates.meet(indices_[static_cast<ptrdiff_t>(size_t{y} * width_ + x) + n.linear], n.kind);
+      candidates.meet(indices_[static_cast<ptrdiff_t>(size_t{y} * width_ + x) + n.linear], i);
     }
     candidates.rank();
     return candidates;
@@ -96,7 +100,6 @@ class Neighbourhood {
   struct Neighbour {
     int dx, dy;
     ptrdiff_t linear;
-    int Candidate::*kind;
   };
 
   static bool reaches(uint32_t at, int offset, uint32_t size) {
@@ -104,9 +107,8 @@ class Neighbourhood {
     return place >= 0 && place < size;
   }
 
-  void add(int dx, int dy, int Candidate::*kind) {
-    neighbours_[static_cast<size_t>(count_++)] = {dx, dy, dy * static_cast<ptrdiff_t>(width_) + dx,
-                                                  kind};
+  void add(int dx, int dy) {
+    neighbours_[static_cast<size_t>(count_++)] = {dx, dy, dy * static_cast<ptrdiff_t>(width_) + dx};
   }
 
   const ColourIndex* indices_;

@@ -2,6 +2,7 @@
 // Reference decoder: drawn textures (docs/FORMAT.md, section 9.1).
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 
 #include "conformance/reference_decoder/range_decoder.hpp"
@@ -20,9 +21,13 @@ using Colour = std::array<int, 4>;
 struct TrackEnd {};
 
 struct Candidate {
-  int index, near = 0, causal = 0, ring = 0;
+  int index;
+  uint32_t pattern = 0;
 
-  int votes() const { return 6 * near + 4 * causal + ring; }
+  int near() const { return std::popcount(pattern & 15); }
+  int causal() const { return std::popcount(pattern >> 4 & 3); }
+  int ring() const { return std::popcount(pattern >> 6); }
+  int votes() const { return 6 * near() + 4 * causal() + ring(); }
 };
 
 class DrawnDecoder {
@@ -34,7 +39,9 @@ class DrawnDecoder {
         indices_(static_cast<size_t>(header.width) * header.height, -1),
         pair_(1 << 18),
         single_(1 << 16),
-        plain_(1 << 12) {}
+        plain_(1 << 12),
+        rival_(1 << 18),
+        pattern_(6 << 14) {}
 
   std::vector<Colour> decode() {
     try {
@@ -88,19 +95,22 @@ class DrawnDecoder {
 
   std::vector<Candidate> candidatesOf(bool centre, int s, int x, int y) const {
     std::vector<Candidate> found;
-    const auto meet = [&](Offset o, int Candidate::*kind) {
-      if (!inside(x + o.x, y + o.y)) return;
-      const int index = indices_[at(x + o.x, y + o.y)];
-      auto same = std::find_if(found.begin(), found.end(),
-                               [&](const Candidate& c) { return c.index == index; });
-      if (same == found.end()) same = found.insert(found.end(), Candidate{index});
-      ++((*same).*kind);
+    uint32_t bit = 1;
+    const auto meet = [&](Offset o) {
+      if (inside(x + o.x, y + o.y)) {
+        const int index = indices_[at(x + o.x, y + o.y)];
+        auto same = std::find_if(found.begin(), found.end(),
+                                 [&](const Candidate& c) { return c.index == index; });
+        if (same == found.end()) same = found.insert(found.end(), Candidate{index});
+        same->pattern |= bit;
+      }
+      bit *= 2;
     };
     if (s == 0) return found;
-    for (int i = 0; i < 4; ++i) meet(coarser(centre, s, i), &Candidate::near);
-    meet(centre ? Offset{-2 * s, 0} : Offset{-s, -s}, &Candidate::causal);
-    meet(centre ? Offset{0, -2 * s} : Offset{s, -s}, &Candidate::causal);
-    for (int i = 4; i < 12; ++i) meet(coarser(centre, s, i), &Candidate::ring);
+    for (int i = 0; i < 4; ++i) meet(coarser(centre, s, i));
+    meet(centre ? Offset{-2 * s, 0} : Offset{-s, -s});
+    meet(centre ? Offset{0, -2 * s} : Offset{s, -s});
+    for (int i = 4; i < 12; ++i) meet(coarser(centre, s, i));
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.votes() > b.votes(); });
     return found;
@@ -111,11 +121,16 @@ class DrawnDecoder {
     for (int i = 0; i < std::min(n, 3); ++i) {
       const Candidate& c = candidates[static_cast<size_t>(i)];
       int more = 0;
-      if (i == 0 && n > 1) more = std::min(candidates[1].near, 3);
+      if (i == 0 && n > 1) more = std::min(candidates[1].near(), 3);
       if (i == 1) more = std::min(n, 4) - 1;
-      const int context =
-          ((((i * 4 + more) * 5 + c.near) * 3 + c.causal) * 9 + c.ring) * 2 + centre;
-      if (decide(candidate_.at(static_cast<size_t>(context)))) return c.index;
+      const int count =
+          ((((i * 4 + more) * 5 + c.near()) * 3 + c.causal()) * 9 + c.ring()) * 2 + centre;
+      const uint32_t pattern = static_cast<uint32_t>(2 * i + centre) * 16384 + c.pattern;
+      const uint32_t rival = n > 1 ? candidates[i == 0 ? 1 : 0].pattern % 64 : 0;
+      if (decide({&rival_[hash(64 * pattern + rival, 18)], &pattern_[pattern],
+                  &count_.at(static_cast<size_t>(count))})) {
+        return c.index;
+      }
     }
     if (colours_.empty() || (colours_.size() < 4096 && decide(fresh_))) {
       colours_.push_back(newColour(candidates));
@@ -128,19 +143,9 @@ class DrawnDecoder {
     const uint32_t k1 = candidates.empty() ? 4096 : candidates[0].index;
     const uint32_t k2 = candidates.size() < 2 ? 4096 : candidates[1].index;
     uint32_t node = 1;
-    const auto hash = [&](uint32_t k, int b) {
-      return ((k * 4099 + node) * 2654435761u) >> (32 - b);
-    };
     while (node < 4096) {
-      Model* const models[] = {&pair_[hash(k1 * 4099 + k2, 18)], &single_[hash(k1, 16)],
-                               &plain_[node]};
-      Model* const asked = !models[0]->unseen()   ? models[0]
-                           : !models[1]->unseen() ? models[1]
-                                                  : models[2];
-      const int bit = decide(*asked);
-      for (Model* model : models) {
-        if (model != asked) model->learn(bit);
-      }
+      const int bit = decide({&pair_[hash((k1 * 4099 + k2) * 4099 + node, 18)],
+                              &single_[hash(k1 * 4099 + node, 16)], &plain_[node]});
       node = 2 * node + bit;
     }
     return std::min(static_cast<int>(node) - 4096, static_cast<int>(colours_.size()) - 1);
@@ -188,6 +193,21 @@ class DrawnDecoder {
     return sum;
   }
 
+  /// FORMAT 9.1: "The first of three models".
+  int decide(const std::array<Model*, 3>& models) {
+    Model* asked = models[2];
+    if (models[1]->seen() >= 2) asked = models[1];
+    if (models[0]->seen() >= 2) asked = models[0];
+    const int bit = decide(*asked);
+    for (Model* model : models) {
+      if (model != asked) model->learn(bit);
+    }
+    return bit;
+  }
+  static uint32_t hash(uint32_t context, int bits) {
+    return (context * 2654435761u) >> (32 - bits);
+  }
+
   int decide(Model& model) { return counted(model.decode(decoder_)); }
   int even() { return counted(decoder_.decode(0x8000)); }
   static int counted(std::optional<int> bit) {
@@ -200,9 +220,9 @@ class DrawnDecoder {
   RangeDecoder decoder_;
   std::vector<int> indices_;
   std::vector<Colour> colours_;
-  std::array<Model, 3 * 4 * 5 * 3 * 9 * 2> candidate_;
+  std::array<Model, 3 * 4 * 5 * 3 * 9 * 2> count_;
   Model fresh_;
-  std::vector<Model> pair_, single_, plain_;
+  std::vector<Model> pair_, single_, plain_, rival_, pattern_;
   std::array<std::array<Model, 17>, 4> residual_;
 };
 

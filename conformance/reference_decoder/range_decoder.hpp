@@ -68,7 +68,7 @@ class Model {
     seen_ = std::min(seen_ + 1, 255);
   }
 
-  bool unseen() const { return seen_ == 0; }
+  int seen() const { return seen_; }
 
  private:
   int zero_ = 0x8000, seen_ = 0;
