@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "codec/fitted_moments.hpp"
@@ -22,11 +24,17 @@ struct FittedMesh {
   std::vector<double> heights;  ///< of each vertex of the mesh, in height steps
 };
 
+/// Least-squares heights of the mesh of a closed set.
+FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
+                   std::span<const VertexId> vertices);
+
 class FittedSequence {
  public:
-  /// The errors of decimate(), whose order of the view is where refinement starts. The surface
-  /// outlives the sequence.
-  static Result<FittedSequence> make(const WeightedSurface& surface);
+  /// The errors of decimate(), whose order of the view is where refinement starts. triangles: most
+  /// that a mesh will have; with at most an eighth of the samples this saves the first stages. The
+  /// surface outlives the sequence.
+  static Result<FittedSequence> make(const WeightedSurface& surface,
+                                     uint32_t triangles = std::numeric_limits<uint32_t>::max());
 
   const Lattice& lattice() const { return lattice_; }
   /// Vertices in insertion order, parents before children, hidden ones included: meshes are nested.
@@ -39,7 +47,7 @@ class FittedSequence {
 
  private:
   FittedSequence(Lattice lattice, const WeightedSurface& surface, std::vector<VertexId> order);
-  void refine();
+  void refine(uint32_t wanted);
   void sortBySlope(size_t count, const FittedMoments& fitted);
 
   Lattice lattice_;
