@@ -25,12 +25,13 @@ FittedSequence::FittedSequence(Lattice lattice, const WeightedSurface& surface,
     : lattice_(std::move(lattice)), surface_(surface), order_(std::move(order)) {}
 
 /// Above a quarter of a triangle a sample the samples themselves nearly fit, and what is sorted far
-/// above the triangles that are wanted hardly shows in their mesh.
+/// above the triangles that are wanted (0: any number) hardly shows in their mesh, what is sorted
+/// below not at all.
 void FittedSequence::refine(uint32_t wanted) {
   FittedMoments fitted(lattice_, surface_);
   size_t triangles = lattice_.sampleCount() / 4;
-  while (triangles / 4 >= wanted) triangles /= 2;
-  for (; triangles > 0; triangles /= 2) {
+  while (wanted > 0 && triangles / 4 >= wanted) triangles /= 2;
+  for (; triangles > 0 && triangles >= wanted; triangles /= 2) {
     const size_t count = longestPrefix(static_cast<uint32_t>(triangles));
     if (count == 0) return;
     fitted.coarsen(std::span(order_).first(count));

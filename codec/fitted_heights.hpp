@@ -9,7 +9,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,11 +29,10 @@ FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
 
 class FittedSequence {
  public:
-  /// The errors of decimate(), whose order of the view is where refinement starts. triangles: most
-  /// that a mesh will have; with at most an eighth of the samples this saves the first stages. The
-  /// surface outlives the sequence.
-  static Result<FittedSequence> make(const WeightedSurface& surface,
-                                     uint32_t triangles = std::numeric_limits<uint32_t>::max());
+  /// The errors of decimate(), whose order of the view is where refinement starts. triangles: those
+  /// of the one mesh that is wanted, which saves most stages; 0: meshes of any number of triangles.
+  /// The surface outlives the sequence.
+  static Result<FittedSequence> make(const WeightedSurface& surface, uint32_t triangles = 0);
 
   const Lattice& lattice() const { return lattice_; }
   /// Vertices in insertion order, parents before children, hidden ones included: meshes are nested.
