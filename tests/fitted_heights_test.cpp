@@ -228,12 +228,12 @@ TEST(FittedHeights, ErrorFallsWithTheBudgetAndBelowThatOfInterpolation) {
 
 /// Fewer stages lead to other meshes, not to worse ones.
 TEST(FittedHeights, SequencesForOneMeshAreAsGoodThere) {
-  const Terrain terrain(97, 80);
+  const Terrain terrain(65, 50);
   const Result<FittedSequence> all = FittedSequence::make(terrain.surface());
-  for (const uint32_t budget : {2u, 50u, 150u, 500u, 1500u, 15000u, 100000u}) {
+  for (const uint32_t budget : {2u, 30u, 150u, 600u, 10000u}) {
     const Result<FittedSequence> one = FittedSequence::make(terrain.surface(), budget);
     const FittedMesh mesh = one->mesh(one->longestPrefix(budget));
-    checks::expectConforming(mesh.mesh, 97, 80);
+    checks::expectConforming(mesh.mesh, 65, 50);
     const double error = squaredError(all->mesh(all->longestPrefix(budget)), terrain);
     EXPECT_LE(squaredError(mesh, terrain), 1.03 * error + 1e-9) << budget;
   }
