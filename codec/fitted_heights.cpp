@@ -12,11 +12,11 @@
 
 namespace tetrakis {
 
-Result<FittedSequence> FittedSequence::make(const WeightedSurface& surface) {
+Result<FittedSequence> FittedSequence::make(const WeightedSurface& surface, uint32_t triangles) {
   Result<MeshSequence> greedy = decimate(surface.view);
   if (!greedy.ok()) return greedy.status();
   FittedSequence sequence(greedy->lattice(), surface, greedy->order());
-  sequence.refine();
+  sequence.refine(triangles);
   return sequence;
 }
 
@@ -24,10 +24,14 @@ FittedSequence::FittedSequence(Lattice lattice, const WeightedSurface& surface,
                                std::vector<VertexId> order)
     : lattice_(std::move(lattice)), surface_(surface), order_(std::move(order)) {}
 
-/// Above a quarter of a triangle a sample the samples themselves nearly fit.
-void FittedSequence::refine() {
+/// Above a quarter of a triangle a sample the samples themselves nearly fit, and what is sorted far
+/// above the triangles that are wanted (0: any number) hardly shows in their mesh, what is sorted
+/// below not at all.
+void FittedSequence::refine(uint32_t wanted) {
   FittedMoments fitted(lattice_, surface_);
-  for (size_t triangles = lattice_.sampleCount() / 4; triangles > 0; triangles /= 2) {
+  size_t triangles = lattice_.sampleCount() / 4;
+  while (wanted > 0 && triangles / 4 >= wanted) triangles /= 2;
+  for (; triangles > 0 && triangles >= wanted; triangles /= 2) {
     const size_t count = longestPrefix(static_cast<uint32_t>(triangles));
     if (count == 0) return;
     fitted.coarsen(std::span(order_).first(count));
@@ -59,11 +63,15 @@ size_t FittedSequence::longestPrefix(uint32_t triangles) const {
 }
 
 FittedMesh FittedSequence::mesh(size_t inserted) const {
-  const auto vertices = std::span(order_).first(inserted);
-  FittedMoments fitted(lattice_, surface_);
+  return fitMesh(lattice_, surface_, std::span(order_).first(inserted));
+}
+
+FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
+                   std::span<const VertexId> vertices) {
+  FittedMoments fitted(lattice, surface);
   fitted.coarsen(vertices);
   fitHeights(fitted);
-  FittedMesh result{meshOf(lattice_, vertices), {}};
+  FittedMesh result{meshOf(lattice, vertices), {}};
   for (const uint32_t sample : result.mesh.vertices)
     result.heights.push_back(fitted.height(sample));
   return result;

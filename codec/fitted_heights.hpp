@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/fitted_moments.hpp"
@@ -22,11 +23,16 @@ struct FittedMesh {
   std::vector<double> heights;  ///< of each vertex of the mesh, in height steps
 };
 
+/// Least-squares heights of the mesh of a closed set.
+FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
+                   std::span<const VertexId> vertices);
+
 class FittedSequence {
  public:
-  /// The errors of decimate(), whose order of the view is where refinement starts. The surface
-  /// outlives the sequence.
-  static Result<FittedSequence> make(const WeightedSurface& surface);
+  /// The errors of decimate(), whose order of the view is where refinement starts. triangles: those
+  /// of the one mesh that is wanted, which saves most stages; 0: meshes of any number of triangles.
+  /// The surface outlives the sequence.
+  static Result<FittedSequence> make(const WeightedSurface& surface, uint32_t triangles = 0);
 
   const Lattice& lattice() const { return lattice_; }
   /// Vertices in insertion order, parents before children, hidden ones included: meshes are nested.
@@ -39,7 +45,7 @@ class FittedSequence {
 
  private:
   FittedSequence(Lattice lattice, const WeightedSurface& surface, std::vector<VertexId> order);
-  void refine();
+  void refine(uint32_t wanted);
   void sortBySlope(size_t count, const FittedMoments& fitted);
 
   Lattice lattice_;

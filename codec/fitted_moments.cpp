@@ -52,8 +52,15 @@ bool onBorder(const Lattice& lattice, GridPoint p, GridPoint q) {
          (p.y == q.y && (p.y == 0 || p.y + 1 == lattice.height()));
 }
 
-/// Edge functions (Pineda 1988) of the clamped triangle; a b apex run clockwise with rows downwards
-/// turned up, so that all are >= 0 inside.
+std::array<double, 3> cornerSamples(const WeightedSurface& surface, const FittedTriangle& t) {
+  const auto& z = surface.view.heights;
+  return {static_cast<double>(z[t.a.sample]), static_cast<double>(z[t.b.sample]),
+          static_cast<double>(z[t.apex.sample])};
+}
+
+/// Against the plane through the samples at its corners. Edge functions (Pineda 1988) of the
+/// clamped triangle; a b apex run clockwise with rows downwards turned up, so that all are >= 0
+/// inside.
 TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface,
                           const FittedTriangle& t) {
   struct Edge {
@@ -73,6 +80,7 @@ TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface
   assert(area > 0);
   const auto [left, right] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
   const auto [top, bottom] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
+  const std::array<double, 3> heights = cornerSamples(surface, t);
   TriangleMoments moments;
   for (uint32_t y = top; y <= bottom; ++y)
     for (uint32_t x = left; x <= right; ++x) {
@@ -87,7 +95,7 @@ TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface
                    p = static_cast<double>(e[2]) / area;
       const double z = surface.view.heights[sample];
       add(moments,
-          {weight, a, b, p, a * (z - t.a.height) + b * (z - t.b.height) + p * (z - t.apex.height)});
+          {weight, a, b, p, a * (z - heights[0]) + b * (z - heights[1]) + p * (z - heights[2])});
     }
   return moments;
 }
@@ -118,7 +126,7 @@ class FittedDescent {
     }
     const bool was_leaf = !splits(t, mesh_.present_);
     TriangleMoments moments = momentsOf(t, nullptr);
-    if (!was_leaf && t.overhangs(lattice_)) moments = rasterise(lattice_, mesh_.surface_, t);
+    if (!was_leaf && t.overhangs(lattice_)) moments = overhanging(t);
     out.push_back({{t.a.sample, t.b.sample, t.apex.sample}, moments});
   }
 
@@ -138,7 +146,7 @@ class FittedDescent {
     } else {
       whole.energy = halves;
       if (gains == nullptr || w.sample == t.a.sample || w.sample == t.b.sample) return whole;
-      whole.energy = rasterise(lattice_, mesh_.surface_, t).energy;
+      whole.energy = overhanging(t).energy;
     }
     if (gains != nullptr)
       (*gains)[lattice_.id(lattice_.siteAt(t.level, w.point))] += whole.energy - halves;
@@ -154,6 +162,18 @@ class FittedDescent {
   bool splits(const FittedTriangle& t, const std::vector<bool>& vertices) const {
     return t.level < lattice_.levelCount() &&
            vertices[lattice_.id(lattice_.siteAt(t.level, t.splitPoint()))];
+  }
+
+  TriangleMoments overhanging(const FittedTriangle& t) const {
+    const GridPoint w = t.splitPoint(), p = t.apex.point;
+    const bool first = p.y < w.y || (p.y == w.y && p.x < w.x);
+    const uint64_t split = lattice_.id(lattice_.siteAt(t.level, w));
+    const auto [known, added] = mesh_.rasters_.try_emplace(2 * split + (first ? 0 : 1));
+    if (added) known->second = rasterise(lattice_, mesh_.surface_, t);
+    TriangleMoments moments = known->second;
+    const std::array<double, 3> z = cornerSamples(mesh_.surface_, t);
+    lower(moments, {z[0] - t.a.height, z[1] - t.b.height, z[2] - t.apex.height});
+    return moments;
   }
 
   /// w becomes a sample like others.

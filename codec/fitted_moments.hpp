@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "codec/lattice.hpp"
@@ -64,6 +65,9 @@ class FittedMoments {
   std::vector<bool> present_;    ///< of each lattice vertex
   std::vector<double> heights_;  ///< of each sample; those of vertices count
   std::vector<Leaf> leaves_;
+  /// Of triangles that overhang the grid, against planes through their samples, by split vertex and
+  /// side: rasterised once.
+  mutable std::unordered_map<uint64_t, TriangleMoments> rasters_;
   bool full_ = true;  ///< all leaves are of full resolution, empty, and not stored
 };
 

@@ -19,7 +19,8 @@ namespace tetrakis {
 class MergingDomains {
  public:
   /// Levels, from the finest on, whose domains are kept up to date; the others, of one vertex in
-  /// several hundred, are summed up when somebody asks: half of all ancestors.
+  /// four thousand but two fifths of all ancestors at 1025 x 1025, are summed up when somebody
+  /// asks.
   static constexpr uint32_t kPromptLevels = 12;
 
   /// Complete domains. gains: one for each vertex. Both arguments must outlive the domains.

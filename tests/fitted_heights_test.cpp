@@ -226,6 +226,19 @@ TEST(FittedHeights, ErrorFallsWithTheBudgetAndBelowThatOfInterpolation) {
   }
 }
 
+/// Fewer stages lead to other meshes, not to worse ones.
+TEST(FittedHeights, SequencesForOneMeshAreAsGoodThere) {
+  const Terrain terrain(65, 50);
+  const Result<FittedSequence> all = FittedSequence::make(terrain.surface());
+  for (const uint32_t budget : {2u, 30u, 150u, 600u, 10000u}) {
+    const Result<FittedSequence> one = FittedSequence::make(terrain.surface(), budget);
+    const FittedMesh mesh = one->mesh(one->longestPrefix(budget));
+    checks::expectConforming(mesh.mesh, 65, 50);
+    const double error = squaredError(all->mesh(all->longestPrefix(budget)), terrain);
+    EXPECT_LE(squaredError(mesh, terrain), 1.03 * error + 1e-9) << budget;
+  }
+}
+
 TEST(FittedHeights, PlanesStayPlanes) {
   Terrain terrain(45, 71);
   for (size_t i = 0; i < terrain.heights.size(); ++i)

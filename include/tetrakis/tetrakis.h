@@ -194,10 +194,10 @@ typedef enum tks_mesh_kind {
 } tks_mesh_kind;
 
 /* A conforming 4-8 mesh. Vertex i lies on sample grid_index[i] (y * width + x) and has the height
- * height[i] in `unit`. Vertices come in insertion order, parents before children; budget meshes of one
- * surface are nested: the first vertices of the finer one are those of the coarser one. Triangles are counter-clockwise
- * seen from above with x to the right and y down the rows towards the viewer. No vertex is void and no
- * triangle touches a void sample with a corner; where all samples are void the mesh is empty. */
+ * height[i] in `unit`. Vertices come in insertion order, parents before children; of a budget mesh the
+ * most important ones come first. Triangles are counter-clockwise seen from above with x to the right
+ * and y down the rows towards the viewer. No vertex is void and no triangle touches a void sample with
+ * a corner; where all samples are void the mesh is empty. */
 typedef struct tks_mesh {
   uint32_t vertex_count, triangle_count;
   uint32_t* grid_index;
