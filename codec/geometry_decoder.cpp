@@ -16,17 +16,12 @@ namespace {
 /// Marks the vertices that the band's significant coefficients belong to.
 void markVertices(const Band& band, const Subband& subband, uint32_t width,
                   std::vector<uint8_t>& marks) {
-  if (band.shape.empty()) return;
-  const bool high_x =
-      subband.orientation == Orientation::kHL || subband.orientation == Orientation::kHH;
-  const uint32_t first = high_x ? uint32_t{1} << (subband.splits_x - 1) : 0;
   for (uint32_t row = 0; row < subband.height; ++row) {
-    uint8_t* out = marks.data() + size_t{subband.planeRow(row)} * width + first;
+    uint8_t* out = marks.data() + size_t{subband.planeRow(row)} * width;
     for (uint32_t x = 0; x < band.shape.words(); ++x) {
       uint32_t todo = band.significant[band.shape.word(row, x)];
       for (; todo != 0; todo &= todo - 1) {
-        const size_t column = 32 * size_t{x} + static_cast<size_t>(std::countr_zero(todo));
-        out[column << subband.splits_x] = 1;
+        out[subband.sampleColumn(32 * x + static_cast<uint32_t>(std::countr_zero(todo)))] = 1;
       }
     }
   }
@@ -41,10 +36,10 @@ uint32_t quietLevels(const TrackState& state, const PlaneLayout& layout) {
   return quiet;
 }
 
-/// Coefficients of void vertices mean nothing.
+/// The guess at an insignificant coefficient means nothing where there is none.
 void clearVoids(DecodedGeometry& geometry) {
   for (size_t i = 0; i < geometry.valid.size(); ++i) {
-    if (!geometry.valid[i]) geometry.heights[i] = geometry.significant[i] = 0;
+    if (!geometry.valid[i]) geometry.heights[i] = 0;
   }
 }
 
@@ -55,7 +50,9 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uin
   const uint32_t width = header.width, height = header.height;
   const WaveletSpec spec = specOf(header.wavelet);
   const PlaneLayout layout(spec, width, height);
-  const TrackState state = decodeTrack(layout.plan(0, 0, 0), header.planes, codeword);
+  std::vector<BandPlan> plan = layout.plan(0, 0, 0);
+  markAbsent(layout, valid, width, plan);
+  const TrackState state = decodeTrack(plan, header.planes, codeword);
   DecodedGeometry out;
   out.valid = std::move(valid);
   out.fraction_bits = outputFractionBits(header.wavelet, header.planes, state.complete);

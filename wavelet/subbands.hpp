@@ -37,6 +37,11 @@ struct Subband {
 
   /// Row of the plane that a row of the band lies in.
   uint32_t planeRow(uint32_t row) const { return y + (row << splits_y); }
+  /// Column of the sample that a column of the band belongs to.
+  uint32_t sampleColumn(uint32_t column) const {
+    const bool high = orientation == Orientation::kHL || orientation == Orientation::kHH;
+    return (column << splits_x) + (high ? uint32_t{1} << (splits_x - 1) : 0);
+  }
 };
 
 /// LL, then HL, LH and HH of the coarsest level, and so on to level 1: 3 * levels + 1 bands, some

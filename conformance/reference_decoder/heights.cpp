@@ -85,14 +85,15 @@ Surface decodeSurface(const GeometryHeader& header, std::span<const uint8_t> coe
   Surface surface;
   surface.subbands = subbandsOf(header.width, header.height);
   surface.bands = bandsOf(header.wavelet, surface.subbands, 0);
+  surface.plane = {header.width, header.height, {}, std::move(valid)};
+  markAbsent(surface.subbands, surface.plane, surface.bands);
   const bool complete = decodeTrack(coefficients, header.planes, surface.bands);
   surface.f = fractionOf(header.wavelet, header.planes, complete);
-  surface.plane = {header.width, header.height, {}, std::move(valid)};
   synthesise(header.wavelet, surface.subbands, surface.bands, surface.f, surface.plane);
   return surface;
 }
 
-/// 1 where a valid sample has a significant coefficient.
+/// 1 where a sample has a significant coefficient.
 Plane significanceOf(const Surface& surface) {
   Plane marks{surface.plane.width, surface.plane.height, {}};
   marks.values.resize(surface.plane.values.size());
@@ -100,8 +101,7 @@ Plane significanceOf(const Surface& surface) {
     const Subband& subband = surface.subbands[i];
     for (int r = 0; r < subband.rows; ++r) {
       for (int a = 0; a < subband.columns; ++a) {
-        const int x = subband.x(a), y = subband.y(r);
-        marks.at(x, y) = surface.plane.isValid(x, y) && surface.bands[i].get(r, a).magnitude > 0;
+        marks.at(subband.x(a), subband.y(r)) = surface.bands[i].get(r, a).magnitude > 0;
       }
     }
   }

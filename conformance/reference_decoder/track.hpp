@@ -16,6 +16,7 @@ struct Coefficient {
   uint32_t magnitude = 0;
   int sign = 0;   ///< -1, 0 (insignificant), 1
   int plane = 0;  ///< the bits from here upwards are known
+  bool absent = false;
 };
 
 /// FORMAT 5, table of neighbours.
@@ -26,7 +27,8 @@ struct Neighbours {
 struct Band {
   Band(int rowCount, int columnCount, Orientation direction);
 
-  bool empty() const { return rows == 0 || columns == 0; }
+  /// Whether no coefficient exists.
+  bool empty() const;
   int blockRows() const { return (rows + 7) / 8; }
   int blockColumns() const { return (columns + 31) / 32; }
   Coefficient& at(int r, int a);

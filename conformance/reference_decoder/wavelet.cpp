@@ -125,6 +125,15 @@ int fractionOf(const WaveletHeader& header, int planes, bool complete) {
   return std::clamp(19 - planes, 0, 4);
 }
 
+void markAbsent(const std::vector<Subband>& subbands, const Plane& plane, std::span<Band> bands) {
+  for (size_t i = 0; i < subbands.size(); ++i) {
+    for (int r = 0; r < subbands[i].rows; ++r) {
+      for (int a = 0; a < subbands[i].columns; ++a)
+        bands[i].at(r, a).absent = !plane.isValid(subbands[i].x(a), subbands[i].y(r));
+    }
+  }
+}
+
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
                 std::span<const Band> bands, int f, Plane& plane) {
   plane.values.assign(static_cast<size_t>(plane.width) * plane.height, 0);

@@ -57,6 +57,9 @@ struct Plane {
   bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
 };
 
+/// FORMAT 7, "Places": coefficients of voids do not exist.
+void markAbsent(const std::vector<Subband>& subbands, const Plane& plane, std::span<Band> bands);
+
 /// Puts the values of the bands, in units of 2^-f, to their places; then the inverse transform.
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
                 std::span<const Band> bands, int f, Plane& plane);
