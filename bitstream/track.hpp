@@ -24,6 +24,7 @@ struct BandPlan {
   int component = kNone;  ///< the same band of another component
   /// Bit map (BandShape::word) of the coefficients that do not exist; empty: all do.
   std::vector<uint32_t> absent = {};
+  bool needed = true;  ///< by a decoder
 
   /// There is no coefficient to code.
   bool vacant() const;
@@ -56,7 +57,7 @@ struct TrackState {
 
   std::vector<Band> bands;
   std::vector<BandModels> models;
-  bool complete = false;  ///< every pass has been decoded: the coefficients are exact
+  bool complete = false;  ///< every pass asked for has been decoded: those bands are exact
 };
 
 }  // namespace tetrakis

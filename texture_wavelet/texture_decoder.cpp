@@ -6,6 +6,7 @@
 
 #include "bitstream/track_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
+#include "wavelet/mip_level.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -18,7 +19,7 @@ constexpr size_t kChunk = 2048;
 /// Components to interleaved samples.
 void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* const> planes,
             Texels& texels) {
-  const size_t count = size_t{header.width} * header.height;
+  const size_t count = size_t{texels.width} * texels.height;
   const int32_t most = (1 << texels.bits) - 1;
   const ColourTransform colour = colourOf(header);
   std::vector<int32_t*> chunk(planes.size());
@@ -36,27 +37,38 @@ void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* c
 
 }  // namespace
 
-Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword) {
-  Texels texels{header.width, header.height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
-  const size_t count = size_t{header.width} * header.height;
+Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
   const TexturePlan plan(header);
-  const PlaneLayout& layout = plan.layout();
-  TrackState state = decodeTrack(plan.bands(), header.planes, codeword);
+  const MipLevel mip(header.width, header.height, level);
+  std::vector<BandPlan> bands = plan.bands();
+  const size_t per_component = plan.layout().size();
+  for (uint32_t c = 0; c < header.channels; ++c) {
+    mip.dropFiner(std::span(bands).subspan(c * per_component, per_component));
+  }
+  TrackState state = decodeTrack(bands, header.planes, codeword);
   const int fraction_bits = outputFractionBits(header.wavelet, header.planes, state.complete);
+  const WaveletSpec spec = specOf(header.wavelet);
+  const auto [width, height] = mip.low();
+  const std::vector<Subband> subbands = subbandsOf(width, height);
   std::vector<std::unique_ptr<int32_t[]>> planes(header.channels);
   std::vector<int32_t*> pointers;
   for (uint32_t c = 0; c < header.channels; ++c) {
+    const size_t count = size_t{width} * height;
     planes[c].reset(new int32_t[count]);  // every value is written: the bands fill the plane
     const std::span plane(planes[c].get(), count);
-    for (size_t i = 0; i < layout.size(); ++i) {
-      scatter(state.bands[c * layout.size() + i], fraction_bits - header.wavelet.fraction_bits,
-              layout.subbands()[i], plane, header.width);
+    for (size_t i = 0; i < subbands.size(); ++i) {
+      scatter(state.bands[c * per_component + i], fraction_bits - header.wavelet.fraction_bits,
+              subbands[i], plane, width);
     }
-    inverseWavelet(specOf(header.wavelet), plane, header.width, header.height);
+    inverseWavelet(mip.transform(spec), plane, width, height);
+    mip.normalise(spec, plane);
+    mip.thin(plane);
     pointers.push_back(plane.data());
   }
   state.bands.clear();
-  texels.samples.resize(count * header.channels);
+  const auto [columns, rows] = mip.size();
+  Texels texels{columns, rows, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
+  texels.samples.resize(size_t{columns} * rows * header.channels);
   finish(header, fraction_bits, pointers, texels);
   return texels;
 }

@@ -9,8 +9,6 @@ namespace tetrakis {
 
 namespace {
 
-constexpr size_t kBandsPerLevel = 3;
-
 /// The finest levels hold most coefficients and get contexts of their own. Orientations share
 /// theirs: neighbours are named along and across the direction of the band, so that all look alike.
 uint32_t modelsOf(const Subband& subband) {

@@ -18,6 +18,7 @@ namespace tetrakis {
 
 /// Sides of so many samples or fewer are not split; then HL or LH, and HH, are empty.
 inline constexpr uint32_t kSmallestSide = 4;
+inline constexpr size_t kBandsPerLevel = 3;
 inline constexpr int kMaxLevels = 19;  ///< enough for sides up to 2^21
 
 struct Extent {

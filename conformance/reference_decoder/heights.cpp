@@ -81,15 +81,17 @@ struct Surface {
 };
 
 Surface decodeSurface(const GeometryHeader& header, std::span<const uint8_t> coefficients,
-                      std::vector<uint8_t> valid) {
+                      std::vector<uint8_t> valid, int level) {
   Surface surface;
   surface.subbands = subbandsOf(header.width, header.height);
   surface.bands = bandsOf(header.wavelet, surface.subbands, 0);
   surface.plane = {header.width, header.height, {}, std::move(valid)};
   markAbsent(surface.subbands, surface.plane, surface.bands);
+  dropFiner(surface.subbands, level, surface.bands);
   const bool complete = decodeTrack(coefficients, header.planes, surface.bands);
   surface.f = fractionOf(header.wavelet, header.planes, complete);
-  synthesise(header.wavelet, surface.subbands, surface.bands, surface.f, surface.plane);
+  synthesise(header.wavelet, surface.subbands, surface.bands, {surface.f, level}, surface.plane);
+  if (level > 0) surface.plane = levelOf(header.wavelet, surface.subbands, level, surface.plane);
   return surface;
 }
 
@@ -177,17 +179,19 @@ std::vector<uint8_t> bytesOf(const GeometryHeader& header, const std::vector<uin
 }  // namespace
 
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword) {
+                                   std::span<const uint8_t> codeword, int level) {
+  level = std::min(level, subbandsOf(header.width, header.height).front().level);
   std::vector<uint8_t> valid;
   if (layers.validityBytes > 0) {
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
   const auto coefficients =
       take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
-  Surface surface = decodeSurface(header, coefficients, std::move(valid));
-  if (layers.corrections == 1) correctSteps(layers, codeword, surface);
+  Surface surface = decodeSurface(header, coefficients, std::move(valid), level);
+  if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
   std::vector<uint32_t> samples = samplesOf(header, surface);
-  if (layers.corrections == 2) correctSamples(header, codeword, surface.plane, samples);
+  if (layers.corrections == 2 && level == 0)
+    correctSamples(header, codeword, surface.plane, samples);
   if (layers.validityBytes > 0) putVoids(header, layers, surface.plane, samples);
   return bytesOf(header, samples);
 }

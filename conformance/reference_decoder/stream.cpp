@@ -230,14 +230,16 @@ Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples) {
 
 }  // namespace
 
-Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples) {
+Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels levels) {
   const Stream stream = readStream(prefix, maxSamples);
   Decoded decoded;
   decoded.outcome = stream.outcome;
   if (decoded.outcome != Outcome::kDone) return decoded;
   if (stream.geometry)
-    decoded.heights = decodeHeights(*stream.geometry, stream.layers, stream.codewords[0]);
-  if (stream.texture) decoded.texture = decodeTexture(*stream.texture, stream.codewords[1]);
+    decoded.heights =
+        decodeHeights(*stream.geometry, stream.layers, stream.codewords[0], levels.heights);
+  if (stream.texture)
+    decoded.texture = decodeTexture(*stream.texture, stream.codewords[1], levels.texture);
   return decoded;
 }
 

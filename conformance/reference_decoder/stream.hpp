@@ -60,9 +60,10 @@ constexpr int32_t wrap(int64_t value) {
 
 /// Samples of the header's type, little endian (FORMAT 8).
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword);
+                                   std::span<const uint8_t> codeword, int level);
 
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
+                                   int level);
 
 }  // namespace tetrakis::reference

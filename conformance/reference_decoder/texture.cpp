@@ -59,16 +59,20 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
 
 }  // namespace
 
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword) {
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
+                                   int level) {
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
+  level = std::min(level, subbands.front().level);
   std::vector<Band> bands = bandsOfAll(header, subbands);
+  dropFiner(subbands, level, bands);
   const bool complete = decodeTrack(codeword, header.planes, bands);
   const int f = fractionOf(header.wavelet, header.planes, complete);
   std::vector<Plane> planes;
   for (int c = 0; c < header.channels; ++c) {
     planes.push_back({header.width, header.height, {}});
     const auto own = std::span(bands).subspan(c * subbands.size(), subbands.size());
-    synthesise(header.wavelet, subbands, own, f, planes.back());
+    synthesise(header.wavelet, subbands, own, {f, level}, planes.back());
+    planes.back() = levelOf(header.wavelet, subbands, level, planes.back());
   }
   std::vector<uint8_t> samples;
   for (size_t i = 0; i < planes[0].values.size(); ++i) {

@@ -212,7 +212,9 @@ bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band
     for (Coefficient& c : band.coefficients) c.plane = planes;
   }
   TrackDecoder decoder(codeword, bands);
-  for (const Pass& pass : orderPasses(planes, bands)) {
+  std::vector<Pass> passes = orderPasses(planes, bands);
+  while (!passes.empty() && !bands[passes.back().band].needed) passes.pop_back();
+  for (const Pass& pass : passes) {
     if (!decoder.run(pass)) return false;
   }
   return true;

@@ -47,11 +47,13 @@ struct Band {
   int logNorm = 0, modelClass = 0;
   size_t parent = kNone, companion = kNone;  ///< numbers of bands of the track
   std::vector<Coefficient> coefficients;     ///< row by row
+  bool needed = true;                        ///< its passes have to be decoded (FORMAT 7.1)
   bool marked = false;                       ///< holds a significant coefficient
   std::vector<bool> blocks;                  ///< likewise each block, row by row
 };
 
-/// Runs all passes over the bands. Returns whether every decision counted (FORMAT 4, tail rule).
+/// Runs the passes over the bands, up to the last one of a needed band. Returns whether every
+/// decision counted (FORMAT 4, tail rule).
 bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band>& bands);
 
 }  // namespace tetrakis::reference
