@@ -258,6 +258,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.texture_height = mip.size().height;
     info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevels(header.texture));
     info.texture_channels = header.texture->channels;
+    info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;
     info.texture_sample = static_cast<tks_sample>(header.texture->sample);
   }
   const Metadata& m = header.metadata;

@@ -6,7 +6,7 @@
 
 #include "api/height_steps.hpp"
 #include "codec/corrections_decoder.hpp"
-#include "codec/validity_decoder.hpp"
+#include "wavelet/validity_decoder.hpp"
 
 namespace tetrakis {
 

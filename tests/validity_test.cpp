@@ -10,9 +10,9 @@
 
 #include "codec/corrections_decoder.hpp"
 #include "codec/corrections_encoder.hpp"
-#include "codec/levels.hpp"
-#include "codec/validity_decoder.hpp"
-#include "codec/validity_encoder.hpp"
+#include "wavelet/levels.hpp"
+#include "wavelet/validity_decoder.hpp"
+#include "wavelet/validity_encoder.hpp"
 #include "tests/void_masks.hpp"
 
 namespace tetrakis::test {

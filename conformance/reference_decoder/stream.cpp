@@ -127,16 +127,23 @@ TextureHeader readTexture(Reader& in) {
   TextureHeader t;
   t.width = static_cast<int>(in.varint(1, 1 << 15));
   t.height = static_cast<int>(in.varint(1, 1 << 15));
-  t.channels = in.u8(1, 4);
+  const int kind = in.u8(1, 6);
+  const bool cutout = kind > 4;
+  t.components = cutout ? 2 * kind - 9 : kind;
+  t.channels = t.components + cutout;
   t.sample = in.u8(kU8, kU16);
   if (t.sample == kI8) in.fail(Outcome::kCorrupt);
   t.planes = in.u8(0, 30);
   t.wavelet = readWavelet(in);
-  for (int i = 0; i < t.channels; ++i) {
+  if (cutout) {
+    t.alphaBytes = in.varint(1, INT64_MAX);
+    t.hidden = in.u8(0, 1);
+  }
+  for (int i = 0; i < t.components; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));
     t.priority[i] = in.zigzag(128);
   }
-  if (t.channels >= 3) {
+  if (t.components >= 3) {
     t.colourOrder = in.u8(0, 5);
     for (int& h : t.shear) h = in.zigzag(32767);
   }

@@ -37,7 +37,9 @@ struct Layers {
 };
 
 struct TextureHeader {
-  int width = 0, height = 0, channels = 0, sample = 0, planes = 0;
+  int width = 0, height = 0, channels = 0, components = 0, sample = 0, planes = 0;
+  uint64_t alphaBytes = 0;  ///< 0: no cut-out
+  bool hidden = false;
   WaveletHeader wavelet;
   std::array<int, 4> centre = {}, priority = {};
   int colourOrder = 0;

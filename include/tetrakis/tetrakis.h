@@ -73,7 +73,11 @@ typedef struct tks_heights {
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed. It
- * covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1. */
+ * covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
+ *
+ * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of the
+ * colours and comes back exactly. Unless the stream is lossless, the colours of texels with alpha 0 are
+ * not kept (they come back as the mean of the others) and count in no error. */
 typedef struct tks_image {
   size_t size; /* sizeof(tks_image) */
   uint32_t width, height, channels;
@@ -160,6 +164,7 @@ typedef struct tks_info {
   uint32_t triangles;      /* the encoder's triangle budget; 0: none */
   uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
   uint32_t texture_coarsest_level;
+  int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are not kept */
   tks_sample texture_sample;
   double heights_rmse;     /* stated by the last complete packet, in unit; < 0: not yet stated */
   double texture_psnr;     /* likewise, dB; < 0: not yet stated; infinity: exact */

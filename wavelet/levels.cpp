@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/levels.hpp"
+#include "wavelet/levels.hpp"
 
 #include <algorithm>
 

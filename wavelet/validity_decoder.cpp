@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/validity_decoder.hpp"
+#include "wavelet/validity_decoder.hpp"
 
 #include "bitstream/range_decoder.hpp"
-#include "codec/validity_pass.hpp"
+#include "wavelet/validity_pass.hpp"
 
 namespace tetrakis {
 

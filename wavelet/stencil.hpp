@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "codec/levels.hpp"
+#include "wavelet/levels.hpp"
 
 namespace tetrakis {
 
