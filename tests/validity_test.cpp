@@ -10,10 +10,10 @@
 
 #include "codec/corrections_decoder.hpp"
 #include "codec/corrections_encoder.hpp"
+#include "tests/void_masks.hpp"
 #include "wavelet/levels.hpp"
 #include "wavelet/validity_decoder.hpp"
 #include "wavelet/validity_encoder.hpp"
-#include "tests/void_masks.hpp"
 
 namespace tetrakis::test {
 namespace {
