@@ -23,8 +23,7 @@ struct Shape {
 constexpr Shape kShapes[] = {{33, 20, 4, TKS_U8}, {1, 23, 2, TKS_U8}, {13, 18, 4, TKS_U16},
                              {5, 3, 2, TKS_U16},  {2, 1, 4, TKS_U8},  {40, 36, 2, TKS_U8},
                              {50, 5, 4, TKS_U8}};
-constexpr VoidShape kMasks[] = {VoidShape::kCoast, VoidShape::kSpeckle, VoidShape::kOneValid,
-                                VoidShape::kOneVoid};
+constexpr VoidShape kMasks[] = {VoidShape::kCoast, VoidShape::kSpeckle, VoidShape::kOneValid};
 
 Raster cutOutImage(const Shape& shape, VoidShape mask) {
   Raster image =
