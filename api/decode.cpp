@@ -9,6 +9,7 @@
 #include "api/message.hpp"
 #include "api/samples.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "wavelet/mip_level.hpp"
 
 namespace tetrakis {
 
@@ -82,7 +83,8 @@ Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
   const StreamHeader& header = decoder.parsed.header;
   if (!header.geometry) return Status(TKS_USAGE, "The stream holds no heights.");
   if (!decoder.heights) {
-    decoder.heights = decodeLayers(decoder.payload.codewords[0], *header.geometry, header.layers);
+    decoder.heights = decodeLayers(decoder.payload.codewords[0], *header.geometry, header.layers,
+                                   decoder.heights_level);
   }
   return &*decoder.heights;
 }
@@ -148,14 +150,37 @@ Status decodeTexels(tks_decoder& decoder, void* out, size_t bytes) {
   const auto& header = decoder.parsed.header.texture;
   if (!header) return {TKS_USAGE, "The stream holds no texture."};
   const auto sample = static_cast<tks_sample>(header->sample);
-  const size_t wanted =
-      size_t{header->width} * header->height * header->channels * tks_sample_bytes(sample);
+  const int level = decoder.texture_level;
+  const size_t wanted = MipLevel(header->width, header->height, level).samples() *
+                        header->channels * tks_sample_bytes(sample);
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  const Texels texels = decodeTexture(*header, decoder.payload.codewords[1]);
+  const Texels texels = decodeTexture(*header, decoder.payload.codewords[1], level);
   withSampleType(sample, [&](auto type) {
     std::transform(texels.samples.begin(), texels.samples.end(), static_cast<decltype(type)*>(out),
                    [](int32_t v) { return static_cast<decltype(type)>(v); });
   });
+  return {};
+}
+
+Status checkLevel(const char* what, uint32_t level, int coarsest) {
+  if (level <= static_cast<uint32_t>(coarsest)) return {};
+  return {TKS_USAGE, std::string(what) + " have no level " + std::to_string(level) +
+                         "; their coarsest is " + std::to_string(coarsest) + "."};
+}
+
+/// Of a part that is missing: 0.
+int coarsestLevels(const auto& part) {
+  return part ? MipLevel::coarsestLevel(part->width, part->height) : 0;
+}
+
+Status setLevels(tks_decoder& decoder, uint32_t heights, uint32_t texture) {
+  const StreamHeader& header = decoder.parsed.header;
+  Status status = checkLevel("The heights", heights, coarsestLevels(header.geometry));
+  if (status.ok()) status = checkLevel("The texels", texture, coarsestLevels(header.texture));
+  if (!status.ok()) return status;
+  if (static_cast<int>(heights) != decoder.heights_level) decoder.heights.reset();
+  decoder.heights_level = static_cast<int>(heights);
+  decoder.texture_level = static_cast<int>(texture);
   return {};
 }
 
@@ -214,8 +239,10 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.max_error = -1;
   if (header.geometry) {
     const GeometryHeader& g = *header.geometry;
-    info.width = g.width;
-    info.height = g.height;
+    const MipLevel mip(g.width, g.height, decoder.heights_level);
+    info.width = mip.size().width;
+    info.height = mip.size().height;
+    info.coarsest_level = static_cast<uint32_t>(coarsestLevels(header.geometry));
     info.sample = static_cast<tks_sample>(g.sample);
     info.base = g.base;
     info.step = g.step;
@@ -226,16 +253,19 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.nodata = header.layers.nodata;
   }
   if (header.texture) {
-    info.texture_width = header.texture->width;
-    info.texture_height = header.texture->height;
+    const MipLevel mip(header.texture->width, header.texture->height, decoder.texture_level);
+    info.texture_width = mip.size().width;
+    info.texture_height = mip.size().height;
+    info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevels(header.texture));
     info.texture_channels = header.texture->channels;
+    info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;
     info.texture_sample = static_cast<tks_sample>(header.texture->sample);
   }
   const Metadata& m = header.metadata;
   info.scale = m.scale;
   info.offset = m.offset;
-  info.spacing_x = m.spacing_x;
-  info.spacing_y = m.spacing_y;
+  info.spacing_x = std::ldexp(m.spacing_x, decoder.heights_level);
+  info.spacing_y = std::ldexp(m.spacing_y, decoder.heights_level);
   info.unit = m.unit.c_str();
   info.vertical_datum = m.vertical_datum.c_str();
   info.crs = m.crs.c_str();
@@ -291,6 +321,11 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
   if (decoder == nullptr || info == nullptr || info->size != sizeof(tks_info)) return TKS_USAGE;
   tetrakis::fillInfo(*decoder, *info);
   return TKS_OK;
+}
+
+tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture) {
+  return tetrakis::keeping(decoder,
+                           [&] { return tetrakis::setLevels(*decoder, heights, texture); });
 }
 
 tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes) {

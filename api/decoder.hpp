@@ -14,7 +14,8 @@ struct tks_decoder {
   std::span<const uint8_t> data;  ///< the caller's
   tetrakis::ParsedHeader parsed;
   tetrakis::Demultiplexed payload;
-  std::optional<tetrakis::DecodedHeights> heights;  ///< decoded on first use
+  int heights_level = 0, texture_level = 0;
+  std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   std::string message;
 };
 

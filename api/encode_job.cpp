@@ -11,10 +11,11 @@
 #include "codec/decimation.hpp"
 #include "codec/geometry_decoder.hpp"
 #include "codec/geometry_encoder.hpp"
-#include "codec/validity_encoder.hpp"
+#include "lattice/validity_encoder.hpp"
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/hull.hpp"
 #include "ratecontrol/screen_model.hpp"
+#include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {
@@ -291,7 +292,7 @@ double EncodeJob::geometrySquares(uint64_t bytes) const {
 }
 
 double EncodeJob::textureSquares(uint64_t bytes) const {
-  return squaredDistance(decodedTexels(bytes).samples, texels_.samples);
+  return countedSquares(texels_, decodedTexels(bytes), texture_->seen);
 }
 
 TrackCurve EncodeJob::geometryCurve() const {
@@ -336,11 +337,11 @@ double EncodeJob::texelsPerMetre(double step) const {
 
 TrackCurve EncodeJob::textureCurve() const {
   if (!texture_) return {};
-  const uint64_t samples = texels_.samples.size();
+  const uint64_t samples = countedSamples(texels_, texture_->seen);
   const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
-  return priced(audit(texture_->track, samples, budgeted(),
+  return priced(audit(texture_->track, texels_.samples.size(), budgeted(),
                       [&](uint64_t bytes) { return textureSquares(bytes); }),
-                mean_square, mean_square);
+                mean_square, mean_square, texture_->header.alpha_bytes);
 }
 
 void EncodeJob::order() {
@@ -401,7 +402,8 @@ bool EncodeJob::restoresEverything() const {
     exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
   const bool restored = !geometry_ || geometry_->steps.exact ||
                         geometry_->layers.corrections == CorrectionKind::kSamples;
-  return exact[0] && exact[1] && restored;
+  const bool hidden = texture_ && texture_->header.hidden;
+  return exact[0] && exact[1] && restored && !hidden;
 }
 
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {

@@ -11,6 +11,7 @@
 #include "api/height_steps.hpp"
 #include "bitstream/packet.hpp"
 #include "ratecontrol/allocation.hpp"
+#include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/texture_encoder.hpp"
 #include "wavelet/filter_choice.hpp"
 

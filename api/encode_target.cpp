@@ -78,7 +78,8 @@ bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
 
 bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
   const double peak = (1 << texels_.bits) - 1;
-  return textureSquares(bytes) / static_cast<double>(texels_.samples.size()) <=
+  const uint64_t samples = countedSamples(texels_, texture_->seen);
+  return textureSquares(bytes) / static_cast<double>(samples) <=
          worstMeanSquare(peak, options_.psnr);
 }
 

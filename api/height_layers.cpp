@@ -6,7 +6,7 @@
 
 #include "api/height_steps.hpp"
 #include "codec/corrections_decoder.hpp"
-#include "codec/validity_decoder.hpp"
+#include "lattice/validity_decoder.hpp"
 
 namespace tetrakis {
 
@@ -48,7 +48,7 @@ std::vector<uint8_t> activityHints(const DecodedGeometry& geometry, uint32_t wid
 }
 
 DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHeader& header,
-                            const GeometryLayers& layers) {
+                            const GeometryLayers& layers, int level) {
   std::vector<uint8_t> valid;
   if (layers.validity_bytes > 0) {
     const auto validity = firstOf(codeword, layers.validity_bytes);
@@ -59,8 +59,8 @@ DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHea
   const auto coefficients = corrected ? firstOf(codeword, layers.coefficient_bytes) : codeword;
   codeword = codeword.subspan(coefficients.size());
   DecodedHeights decoded;
-  decoded.geometry = decodeGeometry(header, coefficients, std::move(valid));
-  if (codeword.empty()) return decoded;
+  decoded.geometry = decodeGeometry(header, coefficients, std::move(valid), level);
+  if (codeword.empty() || level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
     correctSteps(decoded.geometry, header, layers, codeword);
     return decoded;

@@ -17,9 +17,10 @@ struct DecodedHeights {
   std::vector<int32_t> corrections;  ///< to the samples; empty where there are none
 };
 
-/// codeword: any prefix of the track. Safe on any bytes.
+/// codeword: any prefix of the track. Safe on any bytes. level: as decodeGeometry takes it; above 0
+/// without corrections, which are those of the samples.
 DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHeader& header,
-                            const GeometryLayers& layers);
+                            const GeometryLayers& layers, int level = 0);
 
 /// The hints (codec/corrections_pass.hpp) of corrections of steps: how many of a vertex and its
 /// four neighbours are significant.

@@ -80,6 +80,8 @@ T* allocate(size_t count) {
 Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles) {
   if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET)
     return Status(TKS_USAGE, "Unknown kind of mesh.");
+  if (decoder.heights_level > 0)
+    return Status(TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles.");
   Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
   if (!geometry.ok()) return geometry.status();
   const StreamHeader& header = decoder.parsed.header;

@@ -3,12 +3,14 @@
 //
 // Structure of arrays with a margin of zeros, so that neighbours need no bounds checks. Sets of
 // coefficients (significant, visited in this plane) are bit maps, one word for each 32 columns: a
-// pass finds its coefficients by word operations and skips the others.
+// pass finds its coefficients by word operations and skips the others. Coefficients that do not
+// exist, because their sample is void, count as visited from the start of every plane.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "bitstream/zeroed_array.hpp"
 
@@ -58,10 +60,21 @@ struct Band {
   static constexpr uint32_t kBlockRows = 8;  ///< blocks are one word wide
 
   Band() = default;
-  Band(const BandShape& band_shape, Orientation band_orientation);
+  /// absent_cells: bit map of the coefficients that do not exist; empty: all do.
+  Band(const BandShape& band_shape, Orientation band_orientation,
+       std::span<const uint32_t> absent_cells = {});
 
   uint32_t blockRows() const { return (shape.rows + kBlockRows - 1) / kBlockRows; }
   uint8_t& block(uint32_t y, uint32_t x) { return block_nonzero[size_t{y} * shape.words() + x]; }
+
+  /// The columns of a word that exist.
+  uint32_t existing(uint32_t row, uint32_t index) const {
+    const uint32_t valid = shape.valid(index);
+    return absent.size() == 0 ? valid : valid & ~absent[shape.word(row, index)];
+  }
+
+  /// Nothing is known of the next bit-plane yet.
+  void clearVisited();
 
   /// The columns of a word that have a significant neighbour. Significant ones themselves may or
   /// may not be among them.
@@ -75,13 +88,14 @@ struct Band {
 
   BandShape shape;
   Orientation orientation = Orientation::kLL;
-  int plane = 31;                      ///< bit-plane of the last pass; nothing is known below
-  bool nonzero = false;                ///< the band holds a significant coefficient
-  ZeroedArray<uint32_t> magnitude;     ///< known bits, unknown ones zero
-  ZeroedArray<uint16_t> scaled;        ///< magnitude >> plane, held below 2^15
-  ZeroedArray<int8_t> sign;            ///< -1, 0 while insignificant, 1
-  ZeroedArray<uint32_t> significant;   ///< bit map: magnitude is not zero
-  ZeroedArray<uint32_t> visited;       ///< bit map: bit `plane` of the magnitude is known
+  int plane = 31;                     ///< bit-plane of the last pass; nothing is known below
+  bool nonzero = false;               ///< the band holds a significant coefficient
+  ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
+  ZeroedArray<uint16_t> scaled;       ///< magnitude >> plane, held below 2^15
+  ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1
+  ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
+  ZeroedArray<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known, or absent
+  ZeroedArray<uint32_t> absent;       ///< bit map: does not exist; without elements: all do
   ZeroedArray<uint8_t> block_nonzero;  ///< the block holds a significant coefficient
 };
 

@@ -101,32 +101,46 @@ struct GeometryLayers {
 /// In the place of a number of bit-planes: the texture is drawn (texture_wavelet/drawn_pass.hpp).
 inline constexpr uint8_t kDrawnPlanes = 31;
 
-/// Texture: centre, order and shears as in texture_wavelet/colour.hpp. Drawn ones end with `planes`.
+/// Texture: centre, order and shears as in texture_wavelet/colour.hpp. Drawn ones end with
+/// `planes`.
 struct TextureHeader {
   uint32_t width = 0, height = 0;
   uint8_t channels = 0;
   uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
   uint8_t colour_order = 0;
-  std::array<int64_t, 6> colour_shears{};  ///< read and written where there are 3 channels or more
-  std::array<uint16_t, 4> centre{};        ///< one per channel
+  std::array<int64_t, 6>
+      colour_shears{};                ///< read and written where there are 3 components or more
+  std::array<uint16_t, 4> centre{};   ///< one per component
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
+  /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
+  /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
+  uint64_t alpha_bytes = 0;
+  uint8_t hidden = 0;  ///< of a cut-out: colours where alpha is 0 are not coded
+
+  uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
   template <class V>
   void visit(V& v) {
     v.varint("texture_width", width, 1, kMaxTextureSide);
     v.varint("texture_height", height, 1, kMaxTextureSide);
-    v.u8("channels", channels, 1, 4);
+    uint8_t kind = static_cast<uint8_t>(alpha_bytes == 0 ? channels : 4 + channels / 2);
+    v.u8("channels", kind, 1, 6);
+    channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
     v.u8("texture_sample", sample, 0, TKS_U16);
     v.u8("texture_planes", planes, 0, kDrawnPlanes);
     if (drawn()) return;
     wavelet.visit(v);
-    for (size_t c = 0; c < channels && v.ok(); ++c) {
+    if (kind > 4) {
+      v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
+      v.u8("hidden", hidden, 0, 1);
+    }
+    for (size_t c = 0; c < components() && v.ok(); ++c) {
       v.varint("centre", centre[c], 0, 0xffff);
       v.zigzag("priority", priority[c], kMaxPriority);
     }
-    if (channels < 3) return;
+    if (components() < 3) return;
     v.u8("colour_order", colour_order, 0, 5);
     for (int64_t& shear : colour_shears) v.zigzag("colour_shear", shear, INT16_MAX);
   }

@@ -2,7 +2,8 @@
 // Embedded bit-plane coding of one band: the three passes of a plane (after EBCOT, D. Taubman
 // 2000), with contexts from local magnitude sums (after F. Auli-Llinas 2011) and from a hint of the
 // expected magnitude given by the parent band and by another component. Blocks without a
-// significant coefficient cost one decision a plane and no work.
+// significant coefficient cost one decision a plane and no work; coefficients that do not exist
+// (Band::absent) cost nothing, nor do blocks without one that does.
 //
 //   likely   significance where a neighbour is significant (steepest slope)
 //   rest     significance everywhere else; empty blocks are first asked as a whole, and so are
@@ -69,7 +70,7 @@ class PlanePass {
   void beginPlane() {
     band_.plane = plane_;
     if (!band_.nonzero) return;
-    std::fill(band_.visited.begin(), band_.visited.end(), 0);
+    band_.clearVisited();
     for (uint32_t row = 0; row < band_.shape.rows; ++row) {
       for (uint32_t x = 0; x < band_.shape.words(); ++x) {
         if (band_.significant[band_.shape.word(row, x)] == 0) continue;
@@ -91,7 +92,7 @@ class PlanePass {
     const uint32_t begin = y * Band::kBlockRows,
                    end = std::min(begin + Band::kBlockRows, band_.shape.rows);
     if (!nonzero) {
-      if (kind != PassKind::kRest) return;
+      if (kind != PassKind::kRest || isVacant(begin, end, x)) return;
       const bool bit = band_.block_nonzero.size() == 1 ||
                        io_.blockBit(models_.block[blockContext(y, x)], y, x, plane_);
       if (io_.stopped()) return;
@@ -111,6 +112,13 @@ class PlanePass {
           break;
       }
     }
+  }
+
+  /// No coefficient of the block exists.
+  bool isVacant(uint32_t begin, uint32_t end, uint32_t x) const {
+    if (band_.absent.size() == 0) return false;
+    while (begin < end && band_.existing(begin, x) == 0) ++begin;
+    return begin == end;
   }
 
   void markVisited(uint32_t begin, uint32_t end, uint32_t x) {

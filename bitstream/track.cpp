@@ -15,20 +15,32 @@ constexpr std::array<int, 3> kDelay = {0, 6, 10};
 
 }  // namespace
 
+bool BandPlan::vacant() const {
+  if (shape.empty() || absent.empty()) return shape.empty();
+  for (uint32_t row = 0; row < shape.rows; ++row) {
+    for (uint32_t x = 0; x < shape.words(); ++x) {
+      if ((shape.valid(x) & ~absent[shape.word(row, x)]) != 0) return false;
+    }
+  }
+  return true;
+}
+
 std::vector<Pass> schedule(const std::vector<BandPlan>& plan, int planes) {
   struct Keyed {
     int key;
     Pass pass;
   };
+  std::vector<uint16_t> coded;
+  for (size_t band = 0; band < plan.size(); ++band) {
+    if (!plan[band].vacant()) coded.push_back(static_cast<uint16_t>(band));
+  }
   std::vector<Keyed> keyed;
   keyed.reserve(plan.size() * static_cast<size_t>(planes) * kDelay.size());
   for (int plane = planes - 1; plane >= 0; --plane) {
-    for (size_t band = 0; band < plan.size(); ++band) {
-      if (plan[band].shape.empty()) continue;
+    for (const uint16_t band : coded) {
       for (int kind = 0; kind < 3; ++kind) {
         keyed.push_back({16 * plane + plan[band].log_norm - kDelay[kind],
-                         {static_cast<uint16_t>(band), static_cast<uint8_t>(plane),
-                          static_cast<PassKind>(kind)}});
+                         {band, static_cast<uint8_t>(plane), static_cast<PassKind>(kind)}});
       }
     }
   }
@@ -44,7 +56,7 @@ TrackState::TrackState(const std::vector<BandPlan>& plan, int planes) {
   uint32_t classes = 0;
   bands.reserve(plan.size());
   for (const BandPlan& band : plan) {
-    bands.emplace_back(band.shape, band.orientation).plane = planes;
+    bands.emplace_back(band.shape, band.orientation, band.absent).plane = planes;
     classes = std::max(classes, band.models + 1);
   }
   models.resize(classes);

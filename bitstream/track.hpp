@@ -22,6 +22,12 @@ struct BandPlan {
   uint32_t models = 0;    ///< index of the BandModels that the band uses
   int parent = kNone;     ///< the band of the same orientation one level coarser
   int component = kNone;  ///< the same band of another component
+  /// Bit map (BandShape::word) of the coefficients that do not exist; empty: all do.
+  std::vector<uint32_t> absent = {};
+  bool needed = true;  ///< by a decoder
+
+  /// There is no coefficient to code.
+  bool vacant() const;
 };
 
 /// Bit-planes a coefficient may have: magnitudes stay below 2^30.
@@ -51,7 +57,7 @@ struct TrackState {
 
   std::vector<Band> bands;
   std::vector<BandModels> models;
-  bool complete = false;  ///< every pass has been decoded: the coefficients are exact
+  bool complete = false;  ///< every pass asked for has been decoded: those bands are exact
 };
 
 }  // namespace tetrakis

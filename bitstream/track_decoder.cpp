@@ -30,7 +30,9 @@ TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
                        std::span<const uint8_t> codeword) {
   TrackState state(plan, planes);
   DecodingIo io(codeword);
-  for (const Pass& pass : schedule(plan, planes)) {
+  std::vector<Pass> passes = schedule(plan, planes);
+  while (!passes.empty() && !plan[passes.back().band].needed) passes.pop_back();
+  for (const Pass& pass : passes) {
     state.run(plan, pass, io);
     if (io.stopped()) return state;
   }

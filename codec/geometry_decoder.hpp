@@ -11,6 +11,7 @@
 namespace tetrakis {
 
 struct DecodedGeometry {
+  uint32_t width = 0, height = 0;
   /// width * height, row by row, in units of 2^-fraction_bits steps; 0 where voids are
   std::vector<int32_t> heights;
   int fraction_bits = 0;
@@ -19,10 +20,11 @@ struct DecodedGeometry {
   uint32_t quiet_levels = 0;         ///< finest levels of which no coefficient is significant
 };
 
-/// codeword: any prefix of a geometry track's coefficients. valid: width * height, or empty. Safe
-/// on any bytes and any header that readHeader accepts.
+/// codeword: any prefix of a geometry track's coefficients. valid: of all samples, or empty. level:
+/// every 2^level-th sample in x and y, up to the coarsest (wavelet/mip_level.hpp). Safe on any
+/// bytes and any header that readHeader accepts.
 DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword,
-                               std::vector<uint8_t> valid = {});
+                               std::vector<uint8_t> valid = {}, int level = 0);
 
 /// Heights in whole steps, rounding half up.
 std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);

@@ -24,7 +24,9 @@ EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, ui
   for (size_t i = 0; i < layout.size(); ++i) {
     sources.push_back({gather(plane, width, layout.subbands()[i]), layout.energy(i) * unit});
   }
-  return encodeTrack(layout.plan(0, 0, 0), sources, limit);
+  std::vector<BandPlan> plan = layout.plan(0, 0, 0);
+  markAbsent(layout, valid, width, plan);
+  return encodeTrack(plan, sources, limit);
 }
 
 }  // namespace tetrakis

@@ -24,6 +24,11 @@ enum class Outcome {
 /// Samples, or texels, that a component may have unless the caller says otherwise.
 inline constexpr uint64_t kMaxSamples = uint64_t{1} << 22;
 
+/// Mip levels (FORMAT 7.1) of the two components, 0 the whole. One beyond the coarsest is that one.
+struct Levels {
+  int heights = 0, texture = 0;
+};
+
 /// Samples are rows from the top, channels interleaved, little endian, of the type in the header.
 /// A component that the stream does not announce stays empty.
 struct Decoded {
@@ -33,6 +38,7 @@ struct Decoded {
 };
 
 /// Decodes the first bytes of a stream: all of them, or any prefix. Safe on any input.
-Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples = kMaxSamples);
+Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples = kMaxSamples,
+               Levels levels = {});
 
 }  // namespace tetrakis::reference

@@ -69,6 +69,11 @@ VectorCase withVoids(VectorCase vector_case, samples::VoidShape shape, double no
   return vector_case;
 }
 
+VectorCase asCutout(VectorCase vector_case, samples::VoidShape shape) {
+  vector_case.cutout = shape;
+  return vector_case;
+}
+
 std::vector<VectorCase> geometryCases() {
   VectorCase fine = heightsCase("fine_i32_budget_60x45", "32-bit heights; three fraction bits",
                                 {Pattern::kRidges, 60, 45, 1, TKS_I32}, budget(1500));
@@ -180,6 +185,16 @@ std::vector<VectorCase> textureCases() {
                   lossless()),
       textureCase("rgba16_budget_60x40", "16-bit texture with fraction bits: wide sums",
                   image(Pattern::kRidges, 60, 40, 4, TKS_U16), budget(2500)),
+      asCutout(textureCase("cutout_rgb_40x33", "alpha as a mask; colours that it hides are coded",
+                           image(Pattern::kRidges, 40, 33, 4, TKS_U8), lossless()),
+               samples::VoidShape::kCoast),
+      asCutout(
+          textureCase("cutout_rgb_budget_70x45", "hidden colours are void; cut by a byte budget",
+                      image(Pattern::kRidges, 70, 45, 4, TKS_U8), budget(1500)),
+          samples::VoidShape::kCoast),
+      asCutout(textureCase("cutout_grey16_1x41", "cut-out of 16-bit grey, one column",
+                           image(Pattern::kRidges, 1, 41, 2, TKS_U16), quality(40)),
+               samples::VoidShape::kSpeckle),
       textureCase("checker_rgb_16x16", "highest frequency at full range: every bit-plane is used",
                   image(Pattern::kChecker, 16, 16, 3, TKS_U8), lossless()),
       textureCase("ramp_150x112", "another filter from level 3 on",
@@ -273,6 +288,9 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
   }
   if (vector_case.texture) {
     picture = samples::make(*vector_case.texture);
+    if (vector_case.cutout)
+      samples::cutOut(picture,
+                      samples::validity(*vector_case.cutout, picture.width, picture.height));
     image = picture.image();
   }
   const auto stream = encode(vector_case.heights ? &heights : nullptr,

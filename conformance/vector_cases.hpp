@@ -23,7 +23,8 @@ struct VectorCase {
   double scale = 1, offset = 0;
   bool thirds = false;  ///< heights are divided by 3, which leaves them without a common step
   std::optional<samples::VoidShape> voids;
-  double nodata = NAN;    ///< the value of voids; a number is declared
+  std::optional<samples::VoidShape> cutout;  ///< alpha is 0 there, else the largest value
+  double nodata = NAN;                       ///< the value of voids; a number is declared
   int damaged_byte = -1;  ///< inverted after encoding; such a stream must not open
 };
 

@@ -11,6 +11,7 @@
 #include "bitstream/track_decoder.hpp"
 #include "bitstream/track_encoder.hpp"
 #include "tests/random_planes.hpp"
+#include "tests/terrain_samples.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -233,6 +234,81 @@ TEST(TrackCoding, ZerosCostNothing) {
     Reconstruction(band, 4).row(0, values.data());
     EXPECT_EQ(std::count(values.begin(), values.begin() + band.shape.columns, 0),
               static_cast<ptrdiff_t>(band.shape.columns));
+  }
+}
+
+/// Takes coefficients away from the bands: single ones, whole blocks, whole bands.
+void takeAway(Random& random, Material& m) {
+  for (size_t i = 0; i < m.plan.size(); ++i) {
+    BandPlan& band = m.plan[i];
+    band.absent.assign(band.shape.wordCells(), 0);
+    const uint32_t kind = random() % 4;
+    for (uint32_t row = 0; row < band.shape.rows; ++row) {
+      for (uint32_t column = 0; column < band.shape.columns; ++column) {
+        const bool block = samples::hash(row / 8, column / 32, kind) % 2 == 0;
+        const bool gone = kind == 0   ? random() % 4 == 0
+                          : kind == 1 ? block
+                          : kind == 2 ? block || random() % 2 == 0
+                                      : true;
+        if (!gone) continue;
+        band.absent[band.shape.word(row, column / 32)] |= uint32_t{1} << column % 32;
+        m.sources[i].values[band.shape.cell(row, column)] = 0;
+      }
+    }
+  }
+}
+
+TEST(TrackCoding, EveryPrefixIsTrueWhereCoefficientsAreAbsent) {
+  Random random(13);
+  for (int trial = 0; trial < 12; ++trial) {
+    const BandShape coarse = kShapes[random() % std::size(kShapes)];
+    Material m = material(static_cast<uint32_t>(random()), coarse, 1 + trial);
+    takeAway(random, m);
+    const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+    const size_t stride = std::max<size_t>(1, track.codeword.size() / 20);
+    for (size_t n = 0; n <= track.codeword.size(); n += stride) {
+      const auto prefix = std::span(track.codeword).first(n);
+      const TrackState state = decodeTrack(m.plan, track.planes, prefix);
+      for (size_t i = 0; i < m.plan.size(); ++i)
+        ASSERT_NO_FATAL_FAILURE(expectTruth(state, i, m.sources[i], 3));
+    }
+    const TrackState whole = decodeTrack(m.plan, track.planes, track.codeword);
+    EXPECT_TRUE(whole.complete);
+  }
+}
+
+/// What any bytes say, they say nothing of a coefficient that is absent.
+TEST(TrackCoding, AbsentCoefficientsStayZero) {
+  Random random(14);
+  Material m = material(15, {20, 70}, 8);
+  takeAway(random, m);
+  std::vector<uint8_t> noise(3000);
+  for (uint8_t& byte : noise) byte = static_cast<uint8_t>(random());
+  const TrackState state = decodeTrack(m.plan, 12, noise);
+  size_t significant = 0;
+  for (size_t i = 0; i < m.plan.size(); ++i) {
+    for (size_t word = 0; word < m.plan[i].absent.size(); ++word) {
+      ASSERT_EQ(state.bands[i].significant[word] & m.plan[i].absent[word], 0u);
+      significant += static_cast<size_t>(std::popcount(state.bands[i].significant[word]));
+    }
+  }
+  EXPECT_GT(significant, 100u);
+}
+
+/// A band in which one coefficient exists takes that one's bits alone, however large it is.
+TEST(TrackCoding, AbsentCoefficientsCostNothing) {
+  for (const uint32_t side : {16u, 256u, 512u}) {
+    BandPlan band;
+    band.shape = {side, side};
+    band.absent.assign(band.shape.wordCells(), ~uint32_t{0});
+    band.absent[band.shape.word(side / 2, 0)] ^= 4;
+    BandSource source;
+    source.values.assign(band.shape.cells(), 0);
+    source.values[band.shape.cell(side / 2, 2)] = 1000;
+    const EncodedTrack track = encodeTrack({band}, {source}, UINT64_MAX);
+    ASSERT_NO_FATAL_FAILURE(
+        expectTruth(decodeTrack({band}, track.planes, track.codeword), 0, source, 4));
+    EXPECT_LE(track.codeword.size(), 4u) << side;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "texture_wavelet/drawn_encoder.hpp"
+#include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {

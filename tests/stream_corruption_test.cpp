@@ -3,6 +3,7 @@
 // written outputs, or an error with untouched ones.
 #include "tests/header_seal.hpp"
 #include "tests/stream_fixture.hpp"
+#include "tests/void_masks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -88,6 +89,16 @@ TEST(StreamCorruption, EveryByteOfHeights) {
 TEST(StreamCorruption, EveryByteOfTexture) {
   const Raster image = make({Pattern::kRidges, 9, 8, 4, TKS_U8});
   expectSurvivesEveryDamagedByte(encode(nullptr, &image, lossless()));
+}
+
+TEST(StreamCorruption, EveryByteOfCutout) {
+  Raster image = make({Pattern::kRidges, 9, 8, 4, TKS_U8});
+  samples::cutOut(image, samples::validity(samples::VoidShape::kCoast, 9, 8));
+  for (const tks_encode_options& options : {lossless(), budget(200)}) {
+    const Bytes bytes = encode(nullptr, &image, options);
+    ASSERT_NE(Stream(bytes).info().texture_cutout, 0);
+    expectSurvivesEveryDamagedByte(bytes);
+  }
 }
 
 TEST(StreamCorruption, EveryByteOfJointIndexedStream) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
-#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "codec/corrections_decoder.hpp"
 #include "codec/corrections_encoder.hpp"
-#include "codec/validity_decoder.hpp"
-#include "codec/validity_encoder.hpp"
 #include "lattice/levels.hpp"
+#include "lattice/validity_decoder.hpp"
+#include "lattice/validity_encoder.hpp"
 #include "tests/void_masks.hpp"
 
 namespace tetrakis::test {

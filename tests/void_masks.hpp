@@ -2,6 +2,7 @@
 // Deterministic validity masks for tests.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -51,6 +52,15 @@ inline std::vector<uint8_t> validity(VoidShape shape, uint32_t width, uint32_t h
     for (uint32_t x = 0; x < width; ++x) valid.push_back(!isVoid(shape, width, height, x, y));
   }
   return valid;
+}
+
+/// Gives the last channel, alpha, its largest value where `seen` is 1, and 0 elsewhere.
+inline void cutOut(Raster& image, const std::vector<uint8_t>& seen) {
+  const size_t bytes = tks_sample_bytes(image.sample);
+  for (size_t i = 0; i < seen.size(); ++i) {
+    std::byte* alpha = image.data.data() + ((i + 1) * image.channels - 1) * bytes;
+    std::fill_n(alpha, bytes, seen[i] ? std::byte{0xff} : std::byte{0});
+  }
 }
 
 }  // namespace tetrakis::samples

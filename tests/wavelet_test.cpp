@@ -7,6 +7,7 @@
 
 #include "tests/random_planes.hpp"
 #include "tests/wavelet_cases.hpp"
+#include "wavelet/mip_level.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::test {
@@ -281,6 +282,34 @@ TEST(WaveletHeader, GivesFractionBitsOnlyWhereTheyHelp) {
   }
   EXPECT_TRUE(specOf({{}, 0, 8}).doubled);
   EXPECT_FALSE(specOf({{}, 1, 8}).doubled);
+}
+
+/// Whatever the filters and doublings of the finer levels.
+TEST(MipLevel, ConstantsKeepTheirValue) {
+  for (const WaveletSpec& spec : allSpecs()) {
+    for (const Size& size : {Size{64, 64}, Size{77, 40}, Size{5, 100}, Size{3, 9}}) {
+      for (int level = 0; level <= MipLevel::coarsestLevel(size.width, size.height); ++level) {
+        const MipLevel mip(size.width, size.height, level);
+        for (const int32_t constant : {-3000, 1, 77, 20000}) {
+          Plane plane = forward(spec, Plane(size.count(), constant), size);
+          const auto subbands = subbandsOf(size.width, size.height);
+          const auto coarse = subbandsOf(mip.low().width, mip.low().height);
+          Plane low(size_t{mip.low().width} * mip.low().height);
+          for (size_t i = 0; i < coarse.size(); ++i) {
+            for (uint32_t row = 0; row < coarse[i].height; ++row)
+              std::copy_n(
+                  plane.data() + size_t{subbands[i].planeRow(row)} * size.width + subbands[i].x,
+                  coarse[i].width,
+                  low.data() + size_t{coarse[i].planeRow(row)} * mip.low().width + coarse[i].x);
+          }
+          inverseWavelet(mip.transform(spec), low, mip.low().width, mip.low().height);
+          mip.normalise(spec, low);
+          for (const int32_t value : low)
+            ASSERT_NEAR(value, constant, std::abs(constant) / 2000 + 2) << spec << level;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

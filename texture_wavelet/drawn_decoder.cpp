@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/drawn_decoder.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "bitstream/range_decoder.hpp"
@@ -26,17 +27,35 @@ class DecodingIo {
   DrawnColour unknown_{};
 };
 
+/// Leaves the texels at multiples of the step.
+void thin(uint32_t step, Texels& texels) {
+  if (step == 1) return;
+  auto out = texels.samples.begin();
+  for (uint32_t y = 0; y < texels.height; y += step) {
+    for (uint32_t x = 0; x < texels.width; x += step) {
+      const size_t from = (size_t{y} * texels.width + x) * texels.channels;
+      out =
+          std::copy_n(texels.samples.begin() + static_cast<ptrdiff_t>(from), texels.channels, out);
+    }
+  }
+  texels.samples.erase(out, texels.samples.end());
+  texels.width = (texels.width - 1) / step + 1;
+  texels.height = (texels.height - 1) / step + 1;
+}
+
 }  // namespace
 
-Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword) {
+Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
   Texels texels{header.width, header.height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
   const size_t count = size_t{header.width} * header.height;
   std::vector<ColourIndex> indices(count, kNoColour);
   DrawnColours colours;
   DecodingIo io(codeword);
-  DrawnPass<DecodingIo>(texels, indices, colours, io).run();
+  const uint32_t step = uint32_t{1} << level;
+  DrawnPass<DecodingIo>(texels, indices, colours, io).run(step);
   texels.samples.resize(count * header.channels);
-  fillDrawn(indices, colours, texels);
+  fillDrawn(indices, colours, step, texels);
+  thin(step, texels);
   return texels;
 }
 

@@ -10,7 +10,8 @@
 
 namespace tetrakis {
 
-/// codeword: any prefix of the track of a texture with header.drawn(). Safe on any bytes.
-Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword);
+/// codeword: any prefix of the track of a texture with header.drawn(). Safe on any bytes. level: as
+/// for decodeTexture(); texels of finer levels are not decoded.
+Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level);
 
 }  // namespace tetrakis

@@ -92,7 +92,7 @@ class EncodingIo {
   void measure(uint64_t bytes) {
     Texels decoded{texels_.width, texels_.height, texels_.channels, texels_.bits, {}};
     decoded.samples.resize(texels_.samples.size());
-    fillDrawn(indices_, colours_, decoded);
+    fillDrawn(indices_, colours_, 1, decoded);
     double squares = 0;
     for (size_t i = 0; i < decoded.samples.size(); ++i) {
       const double difference = double{1} * decoded.samples[i] - texels_.samples[i];

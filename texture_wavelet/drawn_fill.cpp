@@ -49,9 +49,11 @@ class Filling {
 
 }  // namespace
 
-void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, Texels& texels) {
+void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
+               Texels& texels) {
   Filling filling(texels);
   for (const Level& level : levelsOf(texels.width, texels.height)) {
+    if (level.step < finest) return;
     const Stencil stencil = level.kind == LevelKind::kRoots
                                 ? Stencil{}
                                 : stencilOf(level.kind, level.step, texels.width);

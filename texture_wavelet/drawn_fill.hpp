@@ -9,9 +9,10 @@
 
 namespace tetrakis {
 
-/// Writes every sample of texels, whose format and size of samples are set. indices: width *
-/// height, row by row. A texel without one is the mean of the coarser vertices next to it; a root,
-/// grey.
-void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, Texels& texels);
+/// Writes the samples of all texels of levels whose step is at least `finest`; the format of texels
+/// and the size of its samples are set. indices: width * height, row by row. A texel without one is
+/// the mean of the coarser vertices next to it; a root, grey.
+void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
+               Texels& texels);
 
 }  // namespace tetrakis

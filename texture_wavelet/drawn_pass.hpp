@@ -39,9 +39,10 @@ class DrawnPass {
   DrawnPass(const Texels& format, std::span<ColourIndex> indices, DrawnColours& colours, Io& io)
       : format_(format), indices_(indices), colours_(colours), io_(io) {}
 
-  /// Ends early at a decision that does not count.
-  void run() {
+  /// The levels whose step is at least `finest`. Ends early at a decision that does not count.
+  void run(uint32_t finest = 1) {
     for (const Level& level : levelsOf(format_.width, format_.height)) {
+      if (level.step < finest) return;
       const Neighbourhood neighbourhood(level, indices_, format_.width, format_.height);
       for (uint32_t row = 0; row < level.rows; ++row) {
         const uint32_t y = level.y(row);

@@ -10,8 +10,8 @@
 
 namespace tetrakis {
 
-/// codeword: any prefix of a texture track. Safe on any bytes and any header that readHeader
-/// accepts.
-Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
+/// codeword: any prefix of a texture track. level: every 2^level-th texel in x and y, up to the
+/// coarsest (wavelet/mip_level.hpp). Safe on any bytes and any header that readHeader accepts.
+Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword, int level = 0);
 
 }  // namespace tetrakis

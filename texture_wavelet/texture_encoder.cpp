@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
+#include "lattice/validity_encoder.hpp"
 #include "texture_wavelet/colour_fit.hpp"
-#include "texture_wavelet/drawn_encoder.hpp"
+#include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/lossless_colour.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -17,12 +18,12 @@ namespace {
 
 using Planes = std::vector<std::vector<int32_t>>;
 
-Planes separate(const Texels& texels) {
+/// The first channels of the texels.
+Planes separate(const Texels& texels, uint32_t channels) {
   const size_t count = size_t{texels.width} * texels.height;
-  Planes planes(texels.channels, std::vector<int32_t>(count));
+  Planes planes(channels, std::vector<int32_t>(count));
   for (size_t i = 0; i < count; ++i) {
-    for (uint32_t c = 0; c < texels.channels; ++c)
-      planes[c][i] = texels.samples[i * texels.channels + c];
+    for (uint32_t c = 0; c < channels; ++c) planes[c][i] = texels.samples[i * texels.channels + c];
   }
   return planes;
 }
@@ -46,9 +47,9 @@ TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
 }
 
 /// Squared error of all channels per squared error of each component; alpha counts like a colour.
-std::vector<double> energiesOf(const Texels& texels, const ColourTransform& colour) {
-  std::vector<double> energies(texels.channels, 1.0);
-  if (texels.channels >= 3) {
+std::vector<double> energiesOf(size_t components, const ColourTransform& colour) {
+  std::vector<double> energies(components, 1.0);
+  if (components >= 3) {
     const std::array<double, 3> rgb = componentEnergies(colour);
     std::copy(rgb.begin(), rgb.end(), energies.begin());
   }
@@ -78,9 +79,9 @@ ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose p
 /// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of
 /// it, else by green, or grey, because it must be known how many fraction bits go in.
 WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, const Texels& texels,
-                               Planes& planes) {
+                               Validity coded, Planes& planes) {
   const auto choose = [&](std::span<const std::span<const int32_t>> typical) {
-    return chooseWavelet(typical, {}, texels.width, texels.height, texels.bits, purpose);
+    return chooseWavelet(typical, coded, texels.width, texels.height, texels.bits, purpose);
   };
   if (purpose == Purpose::kLossless) {
     transformColours(colour, 0, planes);
@@ -92,57 +93,59 @@ WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, c
   return wavelet;
 }
 
-EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, uint64_t limit) {
-  Planes planes = separate(texels);
-  const ColourTransform colour = fitColours(planes, texels, purpose);
-  const WaveletHeader wavelet = transformColours(colour, purpose, texels, planes);
-  const std::vector<double> energies = energiesOf(texels, colour);
-  EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};
-  const TexturePlan plan(encoded.header);
+/// The mask of a cut-out goes first: what it hides is worth as much as alphas that are all wrong.
+void prepend(std::span<const uint8_t> mask, double worth, EncodedTrack& track) {
+  track.codeword.insert(track.codeword.begin(), mask.begin(), mask.end());
+  for (RatePoint& point : track.points) point.bytes += mask.size();
+  track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth});
+}
+
+EncodedTrack encodePlanes(const EncodedTexture& encoded, std::span<const double> energies,
+                          Validity coded, Planes& planes, uint64_t limit) {
+  const TextureHeader& header = encoded.header;
+  const TexturePlan plan(header);
   const PlaneLayout& layout = plan.layout();
-  const double unit = std::exp2(-2 * wavelet.fraction_bits);
+  const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
+  std::vector<BandPlan> bands = plan.bands();
   std::vector<BandSource> sources;
-  for (uint32_t c = 0; c < texels.channels; ++c) {
-    forwardWavelet(specOf(wavelet), planes[c], texels.width, texels.height);
+  for (size_t c = 0; c < planes.size(); ++c) {
+    for (size_t i = 0; i < coded.size(); ++i) planes[c][i] *= coded[i];
+    forwardWavelet(specOf(header.wavelet), planes[c], header.width, header.height, coded);
+    markAbsent(layout, coded, header.width,
+               std::span(bands).subspan(c * layout.size(), layout.size()));
     for (size_t i = 0; i < layout.size(); ++i) {
-      sources.push_back({gather(planes[c], texels.width, layout.subbands()[i]),
+      sources.push_back({gather(planes[c], header.width, layout.subbands()[i]),
                          layout.energy(i) * energies[c] * unit});
     }
     planes[c] = {};
   }
-  encoded.track = encodeTrack(plan.bands(), sources, limit);
-  encoded.header.planes = static_cast<uint8_t>(encoded.track.planes);
-  return encoded;
-}
-
-double distortionAt(const EncodedTrack& track, uint64_t bytes) {
-  const std::vector<RatePoint>& points = track.points;
-  const auto above = std::find_if(points.begin(), points.end(),
-                                  [&](const RatePoint& p) { return p.bytes > bytes; });
-  if (above == points.begin() || above == points.end()) return points.back().distortion;
-  const RatePoint &low = *(above - 1), &high = *above;
-  const double part =
-      static_cast<double>(bytes - low.bytes) / static_cast<double>(high.bytes - low.bytes);
-  return std::lerp(low.distortion, high.distortion, part);
+  return encodeTrack(bands, sources, limit);
 }
 
 }  // namespace
 
-/// A drawn texture is better than the wavelet where its last byte is in reach, and worse before, if
-/// it has many colours. It also must take no more bytes than the wavelet needs for the last bit; or
-/// half of them, if the last bit is not asked for.
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit) {
-  std::optional<EncodedTexture> drawn = encodeDrawn(texels);
-  if (!drawn) return encodeByWavelet(texels, purpose, limit);
-  const uint64_t bytes = drawn->track.codeword.size(), reach = limit / 2;
-  if (bytes > reach) {
-    EncodedTexture wavelet = encodeByWavelet(texels, purpose, limit);
-    return distortionAt(drawn->track, reach) < distortionAt(wavelet.track, reach) ? *drawn
-                                                                                  : wavelet;
+EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, uint64_t limit) {
+  std::vector<uint8_t> seen = cutoutOf(texels);
+  const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
+  Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
+  if (hidden) hideColours(seen, planes);
+  const Validity coded = hidden ? Validity(seen) : Validity();
+  const ColourTransform colour = fitColours(planes, texels, purpose);
+  const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
+  const std::vector<double> energies = energiesOf(planes.size(), colour);
+  EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}, {}};
+  encoded.header.hidden = hidden;
+  std::vector<uint8_t> mask;
+  if (!seen.empty()) mask = encodeValidity(seen, texels.width, texels.height);
+  encoded.header.alpha_bytes = mask.size();
+  encoded.track = encodePlanes(encoded, energies, coded, planes, limit);
+  encoded.header.planes = static_cast<uint8_t>(encoded.track.planes);
+  if (!mask.empty()) {
+    const double most = (1 << texels.bits) - 1;
+    prepend(mask, most * most * static_cast<double>(seen.size()), encoded.track);
   }
-  const uint64_t room = purpose == Purpose::kLossless ? bytes : 2 * bytes;
-  const bool better = !encodeByWavelet(texels, Purpose::kLossless, room).track.complete;
-  return better ? *drawn : encodeByWavelet(texels, purpose, limit);
+  if (hidden) encoded.seen = std::move(seen);
+  return encoded;
 }
 
 }  // namespace tetrakis

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to texture track.
+// Image to texture track, by wavelet.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bitstream/header.hpp"
 #include "bitstream/track_encoder.hpp"
@@ -13,11 +14,14 @@ namespace tetrakis {
 
 struct EncodedTexture {
   TextureHeader header;
-  EncodedTrack track;  ///< distortion: squared error summed over all samples of all channels
+  EncodedTrack track;  ///< distortion: squared error summed over the samples that count
+  /// Where colours are hidden, 1 for each texel whose colours are not; else empty.
+  std::vector<uint8_t> seen;
 };
 
-/// By wavelet, or drawn where that is better. Coding stops soon after `limit` bytes, of which half
-/// are what a budget has room for. A complete track without fraction bits is lossless.
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit);
+/// Coding stops soon after `limit` bytes. An alpha of two values becomes a cut-out: a mask ahead of
+/// the coefficients; colours that it hides are coded for Purpose::kLossless alone. A complete track
+/// without fraction bits that hides nothing is lossless.
+EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, uint64_t limit);
 
 }  // namespace tetrakis

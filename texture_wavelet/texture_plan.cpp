@@ -18,10 +18,10 @@ uint32_t modelsOf(uint32_t component, uint32_t channels) {
 TexturePlan::TexturePlan(const TextureHeader& header)
     : layout_(specOf(header.wavelet), header.width, header.height) {
   const auto per_component = static_cast<int>(layout_.size());
-  for (uint32_t c = 0; c < header.channels; ++c) {
+  for (uint32_t c = 0; c < header.components(); ++c) {
     const auto first = static_cast<int>(bands_.size());
-    for (BandPlan band :
-         layout_.plan(first, static_cast<int>(header.priority[c]), modelsOf(c, header.channels))) {
+    for (BandPlan band : layout_.plan(first, static_cast<int>(header.priority[c]),
+                                      modelsOf(c, header.components()))) {
       if (c > 0) band.component = static_cast<int>(bands_.size()) - per_component;
       bands_.push_back(band);
     }

@@ -15,7 +15,7 @@ namespace {
 struct DecodeArguments {
   StreamSource source;
   std::string height, texture, mesh;
-  uint32_t triangles = 0;
+  uint32_t triangles = 0, level = 0;
   bool coded_mesh = false;
   CameraChoice camera;  ///< default: the whole mesh
   bool force = false;
@@ -104,6 +104,10 @@ Status decode(const DecodeArguments& arguments) {
   if (Status status = checkOutputs(arguments); !status.ok()) return status;
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
+  const uint32_t heights_level = arguments.height.empty() ? 0 : arguments.level,
+                 texture_level = arguments.texture.empty() ? 0 : arguments.level;
+  const Expected<void> set = stream->decoder.setLevels(heights_level, texture_level);
+  if (!set) return toStatus(set.error());
   Decoding decoding(arguments, stream->decoder);
   if (!arguments.height.empty())
     if (Status status = decoding.writeHeightField(); !status.ok()) return status;
@@ -127,6 +131,10 @@ void addDecode(CLI::App& app, CommandLine& line) {
   CLI::Option* const mesh =
       verb.add_option("--mesh", arguments->mesh, "Mesh in metres (.glb .obj .ply)")
           ->type_name("OUT.glb");
+  verb.add_option("--level", arguments->level,
+                  "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
+      ->type_name("K")
+      ->excludes(mesh);
   CLI::Option* const triangles =
       addTriangles(verb, arguments->triangles, "At most so many triangles; else every sample")
           ->needs(mesh);

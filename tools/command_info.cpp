@@ -48,6 +48,7 @@ Json textureJson(const tks_info& info) {
           {"height", info.texture_height},
           {"channels", info.texture_channels},
           {"sample", sampleName(info.texture_sample)},
+          {"cutout", info.texture_cutout != 0},
           {"psnr", stated(info.texture_psnr)},
           {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};
 }

@@ -37,14 +37,21 @@ HeightErrors heightErrors(const Surface& reference, const Surface& test) {
   return errors;
 }
 
-double imagePsnr(const ImageFile& reference, const ImageFile& test) {
+/// hidden: colours count where the reference's alpha is not 0.
+double imagePsnr(const ImageFile& reference, const ImageFile& test, bool hidden) {
   const uint32_t row = reference.width * reference.channels;
   const Surface a = samplesOf(row, reference.height, reference.sample, reference.data);
   const Surface b = samplesOf(row, test.height, test.sample, test.data);
+  const size_t channels = reference.channels;
   double sum = 0;
-  for (size_t i = 0; i < a.values.size(); ++i)
+  size_t count = 0;
+  for (size_t i = 0; i < a.values.size(); ++i) {
+    const size_t alpha = i - i % channels + channels - 1;
+    if (hidden && i != alpha && a.values[alpha] == 0) continue;
     sum += (a.values[i] - b.values[i]) * (a.values[i] - b.values[i]);
-  return psnr(reference.sample == TKS_U8 ? 255 : 65535, sum / static_cast<double>(a.values.size()));
+    ++count;
+  }
+  return psnr(reference.sample == TKS_U8 ? 255 : 65535, sum / static_cast<double>(count));
 }
 
 std::string shape(uint32_t width, uint32_t height) {
@@ -171,7 +178,8 @@ Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t 
     Result<ImageFile> decoded = decodeImage(*decoder);
     if (!decoded.ok()) return decoded.status();
     texture = std::move(*decoded);
-    result.texture_psnr = imagePsnr(*reference_->image, *texture);
+    result.texture_psnr =
+        imagePsnr(*reference_->image, *texture, decoder->info().texture_cutout == 2);
   }
   if (renderer_)
     if (Status status = drawAndScore(mesh, texture ? &*texture : nullptr, result); !status.ok())

@@ -32,7 +32,7 @@ struct Measurement {
   uint64_t bytes = 0, geometry_bytes = 0, texture_bytes = 0;
   std::optional<uint32_t> triangles;  ///< of the mesh that was drawn
   std::optional<HeightErrors> heights;
-  std::optional<double> texture_psnr;  ///< dB over all channels
+  std::optional<double> texture_psnr;  ///< dB over all channels that count (tks_image)
   std::optional<double> screen_psnr;   ///< dB over all cameras
   std::vector<double> camera_psnr;     ///< dB, one a camera; empty without a renderer
   std::vector<Picture> pictures;       ///< one a camera

@@ -9,8 +9,6 @@ namespace tetrakis {
 
 namespace {
 
-constexpr size_t kBandsPerLevel = 3;
-
 /// The finest levels hold most coefficients and get contexts of their own. Orientations share
 /// theirs: neighbours are named along and across the direction of the band, so that all look alike.
 uint32_t modelsOf(const Subband& subband) {
@@ -42,6 +40,23 @@ std::vector<BandPlan> PlaneLayout::plan(int first, int priority, uint32_t models
     bands.push_back(band);
   }
   return bands;
+}
+
+void markAbsent(const PlaneLayout& layout, Validity valid, uint32_t width,
+                std::span<BandPlan> bands) {
+  if (valid.empty()) return;
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const Subband& subband = layout.subbands()[i];
+    const BandShape& shape = bands[i].shape;
+    bands[i].absent.assign(shape.wordCells(), 0);
+    for (uint32_t row = 0; row < subband.height; ++row) {
+      const uint8_t* samples = valid.data() + size_t{subband.planeRow(row)} * width;
+      for (uint32_t column = 0; column < subband.width; ++column) {
+        const uint32_t absent = samples[subband.sampleColumn(column)] == 0;
+        bands[i].absent[shape.word(row, column / 32)] |= absent << column % 32;
+      }
+    }
+  }
 }
 
 std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width,

@@ -37,6 +37,11 @@ class PlaneLayout {
 
 BandShape shapeOf(const Subband& subband);
 
+/// Marks the coefficients of void samples as absent. bands: the layout's, in its order. valid:
+/// width * height; empty: there are no voids.
+void markAbsent(const PlaneLayout& layout, Validity valid, uint32_t width,
+                std::span<BandPlan> bands);
+
 /// The subband's coefficients in the cell layout of its shape.
 std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband);
 

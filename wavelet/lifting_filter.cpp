@@ -40,6 +40,11 @@ LiftingFilter liftingFilter(FilterId id) {
   return {8, kLongSteps};
 }
 
+int64_t inverseGain(FilterId id) {
+  // kOrthogonal: 1 / (1 + 2 B (1 + 2 A)); its last step adds next to nothing to constants.
+  return id == FilterId::kOrthogonal ? 888933380 : int64_t{1} << 30;
+}
+
 int widestSamples(FilterId id) {
   return id == FilterId::kOrthogonal ? 16 : 20;
 }

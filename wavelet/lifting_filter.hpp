@@ -34,6 +34,9 @@ struct LiftingFilter {
 
 LiftingFilter liftingFilter(FilterId id);
 
+/// What the low band of constants has to be multiplied by to be those constants, in units of 2^-30.
+int64_t inverseGain(FilterId id);
+
 /// Samples of more bits need 64-bit sums.
 int widestSamples(FilterId id);
 

@@ -18,6 +18,7 @@ namespace tetrakis {
 
 /// Sides of so many samples or fewer are not split; then HL or LH, and HH, are empty.
 inline constexpr uint32_t kSmallestSide = 4;
+inline constexpr size_t kBandsPerLevel = 3;
 inline constexpr int kMaxLevels = 19;  ///< enough for sides up to 2^21
 
 struct Extent {
@@ -37,6 +38,11 @@ struct Subband {
 
   /// Row of the plane that a row of the band lies in.
   uint32_t planeRow(uint32_t row) const { return y + (row << splits_y); }
+  /// Column of the sample that a column of the band belongs to.
+  uint32_t sampleColumn(uint32_t column) const {
+    const bool high = orientation == Orientation::kHL || orientation == Orientation::kHH;
+    return (column << splits_x) + (high ? uint32_t{1} << (splits_x - 1) : 0);
+  }
 };
 
 /// LL, then HL, LH and HH of the coarsest level, and so on to level 1: 3 * levels + 1 bands, some

@@ -2,7 +2,6 @@
 // The order of the levels.
 #include "wavelet/wavelet.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 #include "wavelet/lifting.hpp"
@@ -10,11 +9,6 @@
 namespace tetrakis {
 
 namespace {
-
-bool isDoubled(const WaveletSpec& spec, size_t level) {
-  return spec.doubled && std::find(kDoubledLevels.begin(), kDoubledLevels.end(),
-                                   static_cast<int>(level)) != kDoubledLevels.end();
-}
 
 /// The low band that a level starts from, in place: rows 2^splits_y apart, columns together.
 struct LowBand {
@@ -103,7 +97,7 @@ void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t 
   LevelTransform transform(spec, valid, width);
   for (size_t l = 1; l < bands.size(); ++l) {
     transform.run(static_cast<int>(l), bands[l - 1], bands[l], Direction::kAnalysis);
-    if (isDoubled(spec, l)) doubleValues(bands[l]);
+    if (spec.doubles(static_cast<int>(l))) doubleValues(bands[l]);
   }
 }
 
@@ -113,7 +107,7 @@ void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t 
   const std::vector<LowBand> bands = lowBands(plane, width, height);
   LevelTransform transform(spec, valid, width);
   for (size_t l = bands.size() - 1; l >= 1; --l) {
-    if (isDoubled(spec, l)) halveValues(bands[l]);
+    if (spec.doubles(static_cast<int>(l))) halveValues(bands[l]);
     transform.run(static_cast<int>(l), bands[l - 1], bands[l], Direction::kSynthesis);
   }
 }

@@ -7,6 +7,7 @@
 // gain, lossless ones pay 0.5 % (terrain) to 0.9 % (images).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -25,17 +26,22 @@ struct WaveletSpec {
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
   bool doubled = false;  ///< the low band is doubled after each of kDoubledLevels
   int bits = 0;          ///< of a sample, fraction included
+  int finer_levels = 0;  ///< the plane is the low band after so many others, which count as levels
 
   static constexpr int kNarrowLevels = 3;
 
   /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
   /// and kOrthogonal multiplies their mean by 1.46 at every level.
   bool wide(int level) const {
-    return level > kNarrowLevels || bits > widestSamples(filter(level));
+    return level + finer_levels > kNarrowLevels || bits > widestSamples(filter(level));
   }
   FilterId filter(int level) const {
-    return filters[level < static_cast<int>(kChoices) ? static_cast<size_t>(level - 1)
-                                                      : kChoices - 1];
+    return filters[std::min(static_cast<size_t>(level + finer_levels), kChoices) - 1];
+  }
+  /// The low band is doubled after this level.
+  bool doubles(int level) const {
+    return doubled && std::find(kDoubledLevels.begin(), kDoubledLevels.end(),
+                                level + finer_levels) != kDoubledLevels.end();
   }
 };
 

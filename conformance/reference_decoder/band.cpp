@@ -36,6 +36,11 @@ Band::Band(int rowCount, int columnCount, Orientation direction)
   blocks.resize(size_t(blockRows()) * size_t(blockColumns()));
 }
 
+bool Band::empty() const {
+  return std::all_of(coefficients.begin(), coefficients.end(),
+                     [](const Coefficient& c) { return c.absent; });
+}
+
 Coefficient& Band::at(int r, int a) {
   return coefficients.at(size_t(r) * columns + a);
 }

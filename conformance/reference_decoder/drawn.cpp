@@ -228,12 +228,17 @@ class DrawnDecoder {
 
 }  // namespace
 
-std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword) {
+std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,
+                                 int level) {
+  const std::vector<Colour> texels = DrawnDecoder(header, codeword).decode();
   std::vector<uint8_t> samples;
-  for (const Colour& texel : DrawnDecoder(header, codeword).decode()) {
-    for (int c = 0; c < header.channels; ++c) {
-      samples.push_back(static_cast<uint8_t>(texel[c]));
-      if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));
+  for (int y = 0; y < header.height; y += 1 << level) {
+    for (int x = 0; x < header.width; x += 1 << level) {
+      for (int c = 0; c < header.channels; ++c) {
+        const int value = texels[static_cast<size_t>(y) * header.width + x][c];
+        samples.push_back(static_cast<uint8_t>(value));
+        if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(value >> 8));
+      }
     }
   }
   return samples;

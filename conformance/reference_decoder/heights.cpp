@@ -81,18 +81,21 @@ struct Surface {
 };
 
 Surface decodeSurface(const GeometryHeader& header, std::span<const uint8_t> coefficients,
-                      std::vector<uint8_t> valid) {
+                      std::vector<uint8_t> valid, int level) {
   Surface surface;
   surface.subbands = subbandsOf(header.width, header.height);
   surface.bands = bandsOf(header.wavelet, surface.subbands, 0);
+  surface.plane = {header.width, header.height, {}, std::move(valid)};
+  markAbsent(surface.subbands, surface.plane, surface.bands);
+  dropFiner(surface.subbands, level, surface.bands);
   const bool complete = decodeTrack(coefficients, header.planes, surface.bands);
   surface.f = fractionOf(header.wavelet, header.planes, complete);
-  surface.plane = {header.width, header.height, {}, std::move(valid)};
-  synthesise(header.wavelet, surface.subbands, surface.bands, surface.f, surface.plane);
+  synthesise(header.wavelet, surface.subbands, surface.bands, {surface.f, level}, surface.plane);
+  if (level > 0) surface.plane = levelOf(header.wavelet, surface.subbands, level, surface.plane);
   return surface;
 }
 
-/// 1 where a valid sample has a significant coefficient.
+/// 1 where a sample has a significant coefficient.
 Plane significanceOf(const Surface& surface) {
   Plane marks{surface.plane.width, surface.plane.height, {}};
   marks.values.resize(surface.plane.values.size());
@@ -100,8 +103,7 @@ Plane significanceOf(const Surface& surface) {
     const Subband& subband = surface.subbands[i];
     for (int r = 0; r < subband.rows; ++r) {
       for (int a = 0; a < subband.columns; ++a) {
-        const int x = subband.x(a), y = subband.y(r);
-        marks.at(x, y) = surface.plane.isValid(x, y) && surface.bands[i].get(r, a).magnitude > 0;
+        marks.at(subband.x(a), subband.y(r)) = surface.bands[i].get(r, a).magnitude > 0;
       }
     }
   }
@@ -177,17 +179,19 @@ std::vector<uint8_t> bytesOf(const GeometryHeader& header, const std::vector<uin
 }  // namespace
 
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword) {
+                                   std::span<const uint8_t> codeword, int level) {
+  level = std::min(level, subbandsOf(header.width, header.height).front().level);
   std::vector<uint8_t> valid;
   if (layers.validityBytes > 0) {
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
   const auto coefficients =
       take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
-  Surface surface = decodeSurface(header, coefficients, std::move(valid));
-  if (layers.corrections == 1) correctSteps(layers, codeword, surface);
+  Surface surface = decodeSurface(header, coefficients, std::move(valid), level);
+  if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
   std::vector<uint32_t> samples = samplesOf(header, surface);
-  if (layers.corrections == 2) correctSamples(header, codeword, surface.plane, samples);
+  if (layers.corrections == 2 && level == 0)
+    correctSamples(header, codeword, surface.plane, samples);
   if (layers.validityBytes > 0) putVoids(header, layers, surface.plane, samples);
   return bytesOf(header, samples);
 }

@@ -127,17 +127,24 @@ TextureHeader readTexture(Reader& in) {
   TextureHeader t;
   t.width = static_cast<int>(in.varint(1, 1 << 15));
   t.height = static_cast<int>(in.varint(1, 1 << 15));
-  t.channels = in.u8(1, 4);
+  const int kind = in.u8(1, 6);
+  const bool cutout = kind > 4;
+  t.components = cutout ? 2 * kind - 9 : kind;
+  t.channels = t.components + cutout;
   t.sample = in.u8(kU8, kU16);
   if (t.sample == kI8) in.fail(Outcome::kCorrupt);
   t.planes = in.u8(0, kDrawnPlanes);
   if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
-  for (int i = 0; i < t.channels; ++i) {
+  if (cutout) {
+    t.alphaBytes = in.varint(1, INT64_MAX);
+    t.hidden = in.u8(0, 1);
+  }
+  for (int i = 0; i < t.components; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));
     t.priority[i] = in.zigzag(128);
   }
-  if (t.channels >= 3) {
+  if (t.components >= 3) {
     t.colourOrder = in.u8(0, 5);
     for (int& h : t.shear) h = in.zigzag(32767);
   }
@@ -231,14 +238,16 @@ Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples) {
 
 }  // namespace
 
-Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples) {
+Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels levels) {
   const Stream stream = readStream(prefix, maxSamples);
   Decoded decoded;
   decoded.outcome = stream.outcome;
   if (decoded.outcome != Outcome::kDone) return decoded;
   if (stream.geometry)
-    decoded.heights = decodeHeights(*stream.geometry, stream.layers, stream.codewords[0]);
-  if (stream.texture) decoded.texture = decodeTexture(*stream.texture, stream.codewords[1]);
+    decoded.heights =
+        decodeHeights(*stream.geometry, stream.layers, stream.codewords[0], levels.heights);
+  if (stream.texture)
+    decoded.texture = decodeTexture(*stream.texture, stream.codewords[1], levels.texture);
   return decoded;
 }
 

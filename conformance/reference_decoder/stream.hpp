@@ -37,7 +37,9 @@ struct Layers {
 };
 
 struct TextureHeader {
-  int width = 0, height = 0, channels = 0, sample = 0, planes = 0;
+  int width = 0, height = 0, channels = 0, components = 0, sample = 0, planes = 0;
+  uint64_t alphaBytes = 0;  ///< 0: no cut-out
+  bool hidden = false;
   WaveletHeader wavelet;
   std::array<int, 4> centre = {}, priority = {};
   int colourOrder = 0;
@@ -60,13 +62,15 @@ constexpr int32_t wrap(int64_t value) {
 
 /// Samples of the header's type, little endian (FORMAT 8).
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword);
+                                   std::span<const uint8_t> codeword, int level);
 
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
+                                   int level);
 
 /// The same for kDrawnPlanes (FORMAT 9.1).
-std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword);
+std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,
+                                 int level);
 
 inline constexpr int kDrawnPlanes = 31;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 
+#include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 
@@ -13,8 +14,8 @@ namespace {
 /// FORMAT 9: the bands of all components.
 std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Subband>& subbands) {
   std::vector<Band> all;
-  for (int c = 0; c < header.channels; ++c) {
-    const bool alpha = header.channels % 2 == 0 && c == header.channels - 1;
+  for (int c = 0; c < header.components; ++c) {
+    const bool alpha = header.components % 2 == 0 && c == header.components - 1;
     const int kind = alpha ? 2 : c == 0 ? 0 : 1;
     const size_t first = all.size();
     std::vector<Band> bands = bandsOf(header.wavelet, subbands, first);
@@ -43,7 +44,7 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
   constexpr size_t kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                     {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   std::array<int32_t, 4> channels = planes;
-  if (header.channels >= 3) {
+  if (header.components >= 3) {
     unshear(header.shear, planes);
     for (size_t i = 0; i < 3; ++i) {
       channels[kOrders[header.colourOrder][i]] = planes[i];
@@ -59,26 +60,48 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
 
 }  // namespace
 
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword) {
-  if (header.planes == kDrawnPlanes) return decodeDrawn(header, codeword);
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
+                                   int level) {
+  if (header.planes == kDrawnPlanes) return decodeDrawn(header, codeword, level);
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
+  level = std::min(level, subbands.front().level);
+  Plane seen{header.width, header.height, {}};  // its validity: where alpha is not 0
+  if (header.alphaBytes > 0) {
+    const auto mask = codeword.first(std::min<uint64_t>(header.alphaBytes, codeword.size()));
+    seen.valid = decodeValidity(mask, header.width, header.height);
+    codeword = codeword.subspan(mask.size());
+  }
   std::vector<Band> bands = bandsOfAll(header, subbands);
+  const auto bandsOfComponent = [&](int c) {
+    return std::span(bands).subspan(c * subbands.size(), subbands.size());
+  };
+  for (int c = 0; c < header.components && header.hidden; ++c)
+    markAbsent(subbands, seen, bandsOfComponent(c));
+  dropFiner(subbands, level, bands);
   const bool complete = decodeTrack(codeword, header.planes, bands);
   const int f = fractionOf(header.wavelet, header.planes, complete);
   std::vector<Plane> planes;
-  for (int c = 0; c < header.channels; ++c) {
-    planes.push_back({header.width, header.height, {}});
-    const auto own = std::span(bands).subspan(c * subbands.size(), subbands.size());
-    synthesise(header.wavelet, subbands, own, f, planes.back());
+  for (int c = 0; c < header.components; ++c) {
+    Plane plane{header.width, header.height, {}};
+    if (header.hidden) plane.valid = seen.valid;
+    synthesise(header.wavelet, subbands, bandsOfComponent(c), {f, level}, plane);
+    planes.push_back(levelOf(header.wavelet, subbands, level, plane));
   }
+  const int columns = planes[0].width, rows = planes[0].height;
   std::vector<uint8_t> samples;
-  for (size_t i = 0; i < planes[0].values.size(); ++i) {
-    std::array<int32_t, 4> texel = {};
-    for (size_t c = 0; c < planes.size(); ++c) texel[c] = planes[c].values[i];
-    texel = finish(header, texel, f);
-    for (size_t c = 0; c < planes.size(); ++c) {
-      samples.push_back(static_cast<uint8_t>(texel[c]));
-      if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const bool there = seen.isValid(x << level, y << level);
+      std::array<int32_t, 4> texel = {};
+      for (size_t c = 0; c < planes.size() && (there || !header.hidden); ++c)
+        texel[c] = planes[c].at(x, y);
+      texel = finish(header, texel, f);
+      if (header.alphaBytes > 0)
+        texel[planes.size()] = !there ? 0 : header.sample == kU8 ? 255 : 65535;
+      for (int c = 0; c < header.channels; ++c) {
+        samples.push_back(static_cast<uint8_t>(texel[c]));
+        if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));
+      }
     }
   }
   return samples;

@@ -26,7 +26,8 @@ struct Pass {
 std::vector<Pass> orderPasses(int planes, const std::vector<Band>& bands) {
   std::vector<Pass> passes;
   for (size_t b = 0; b < bands.size(); ++b) {
-    for (int p = 0; p < planes && !bands[b].empty(); ++p) {
+    if (bands[b].empty()) continue;
+    for (int p = 0; p < planes; ++p) {
       const int key = 16 * p + bands[b].logNorm;
       passes.push_back({key, p, b, kLikely});
       passes.push_back({key - 6, p, b, kRest});
@@ -75,9 +76,19 @@ class TrackDecoder {
   std::optional<int> decodeBlock(int row, int column) {
     const Band& b = band();
     if (b.blocks.size() == 1) return 1;
+    if (!existsIn(row, column)) return 0;
     const int n = b.blockMarked(row, column - 1) + b.blockMarked(row, column + 1) +
                   b.blockMarked(row - 1, column) + b.blockMarked(row + 1, column);
     return models().block[n].decode(decoder_);
+  }
+
+  bool existsIn(int blockRow, int blockColumn) {
+    for (int r = 8 * blockRow; r < std::min(8 * blockRow + 8, band().rows); ++r) {
+      for (int a = 32 * blockColumn; a < std::min(32 * blockColumn + 32, band().columns); ++a) {
+        if (!band().at(r, a).absent) return true;
+      }
+    }
+    return false;
   }
 
   bool runBlock(int row, int column) {
@@ -105,7 +116,8 @@ class TrackDecoder {
   /// FORMAT 6: which coefficients a pass decides on.
   bool visit(int r, int a) {
     const Coefficient& c = band().at(r, a);
-    if (c.plane <= pass_.plane || (c.magnitude > 0) != (pass_.kind == kRefine)) return true;
+    if (c.absent || c.plane <= pass_.plane) return true;
+    if ((c.magnitude > 0) != (pass_.kind == kRefine)) return true;
     if (pass_.kind == kRefine) return refine(r, a);
     if (pass_.kind == kLikely && levelAt(r, a) == 0) return true;
     return pass_.kind == kRest && isGroup(r, a) ? decodeGroup(r, a) : decodeSignificance(r, a);
@@ -118,7 +130,8 @@ class TrackDecoder {
     if (a % 4 != 0 || a + 4 > band().columns) return false;
     for (int i = a; i < a + 4; ++i) {
       const Coefficient& c = band().at(r, i);
-      if (c.plane <= pass_.plane || c.magnitude > 0 || levelAt(r, i) > 0) return false;
+      if (c.absent || c.plane <= pass_.plane || c.magnitude > 0) return false;
+      if (levelAt(r, i) > 0) return false;
     }
     return true;
   }
@@ -199,7 +212,9 @@ bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band
     for (Coefficient& c : band.coefficients) c.plane = planes;
   }
   TrackDecoder decoder(codeword, bands);
-  for (const Pass& pass : orderPasses(planes, bands)) {
+  std::vector<Pass> passes = orderPasses(planes, bands);
+  while (!passes.empty() && !bands[passes.back().band].needed) passes.pop_back();
+  for (const Pass& pass : passes) {
     if (!decoder.run(pass)) return false;
   }
   return true;

@@ -16,6 +16,7 @@ struct Coefficient {
   uint32_t magnitude = 0;
   int sign = 0;   ///< -1, 0 (insignificant), 1
   int plane = 0;  ///< the bits from here upwards are known
+  bool absent = false;
 };
 
 /// FORMAT 5, table of neighbours.
@@ -26,7 +27,8 @@ struct Neighbours {
 struct Band {
   Band(int rowCount, int columnCount, Orientation direction);
 
-  bool empty() const { return rows == 0 || columns == 0; }
+  /// Whether no coefficient exists.
+  bool empty() const;
   int blockRows() const { return (rows + 7) / 8; }
   int blockColumns() const { return (columns + 31) / 32; }
   Coefficient& at(int r, int a);
@@ -45,11 +47,13 @@ struct Band {
   int logNorm = 0, modelClass = 0;
   size_t parent = kNone, companion = kNone;  ///< numbers of bands of the track
   std::vector<Coefficient> coefficients;     ///< row by row
+  bool needed = true;                        ///< its passes have to be decoded (FORMAT 7.1)
   bool marked = false;                       ///< holds a significant coefficient
   std::vector<bool> blocks;                  ///< likewise each block, row by row
 };
 
-/// Runs all passes over the bands. Returns whether every decision counted (FORMAT 4, tail rule).
+/// Runs the passes over the bands, up to the last one of a needed band. Returns whether every
+/// decision counted (FORMAT 4, tail rule).
 bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band>& bands);
 
 }  // namespace tetrakis::reference

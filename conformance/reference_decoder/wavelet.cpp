@@ -125,19 +125,59 @@ int fractionOf(const WaveletHeader& header, int planes, bool complete) {
   return std::clamp(19 - planes, 0, 4);
 }
 
+void markAbsent(const std::vector<Subband>& subbands, const Plane& plane, std::span<Band> bands) {
+  for (size_t i = 0; i < subbands.size(); ++i) {
+    for (int r = 0; r < subbands[i].rows; ++r) {
+      for (int a = 0; a < subbands[i].columns; ++a)
+        bands[i].at(r, a).absent = !plane.isValid(subbands[i].x(a), subbands[i].y(r));
+    }
+  }
+}
+
+void dropFiner(const std::vector<Subband>& subbands, int level, std::span<Band> bands) {
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const Subband& subband = subbands[i % subbands.size()];
+    bands[i].needed = subband.orientation == kLL || subband.level > level;
+  }
+}
+
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                std::span<const Band> bands, int f, Plane& plane) {
+                std::span<const Band> bands, Target target, Plane& plane) {
   plane.values.assign(static_cast<size_t>(plane.width) * plane.height, 0);
   for (size_t i = 0; i < subbands.size(); ++i) {
     const Subband& subband = subbands[i];
     for (int r = 0; r < subband.rows; ++r) {
       for (int a = 0; a < subband.columns; ++a)
-        plane.at(subband.x(a), subband.y(r)) = bands[i].value(r, a, f - header.fractionBits);
+        plane.at(subband.x(a), subband.y(r)) = bands[i].value(r, a, target.f - header.fractionBits);
     }
   }
   for (const Subband& subband : subbands) {
-    if (subband.orientation == kHH) synthesiseLevel(header, subband, plane);
+    if (subband.orientation == kHH && subband.level > target.level)
+      synthesiseLevel(header, subband, plane);
   }
+}
+
+Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,
+              const Plane& plane) {
+  int64_t weight = int64_t{1} << 30;
+  for (int l = 1; l <= level; ++l) {
+    const auto hh = std::find_if(subbands.begin(), subbands.end(), [l](const Subband& subband) {
+      return subband.orientation == kHH && subband.level == l;
+    });
+    const int splits = (hh->splitsX == l) + (hh->splitsY == l);
+    for (int i = 0; i < splits && filterOf(header, l).widest == 16; ++i)
+      weight = (weight * 888933380 + (1 << 29)) >> 30;
+  }
+  const int d = header.fractionBits > 0 ? 0 : std::clamp(level - 2, 0, 2);
+  Plane image{multiples(plane.width, 1 << level), multiples(plane.height, 1 << level), {}};
+  for (int y = 0; y < plane.height; y += 1 << level) {
+    for (int x = 0; x < plane.width; x += 1 << level) {
+      const int64_t v = plane.values.at(plane.index(x, y));
+      image.values.push_back(wrap((v * weight + (int64_t{1} << (29 + d))) >> (30 + d)));
+      if (!plane.valid.empty()) image.valid.push_back(plane.isValid(x, y));
+    }
+  }
+  return image;
 }
 
 }  // namespace tetrakis::reference

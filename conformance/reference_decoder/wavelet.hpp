@@ -57,8 +57,24 @@ struct Plane {
   bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
 };
 
-/// Puts the values of the bands, in units of 2^-f, to their places; then the inverse transform.
+/// FORMAT 7, "Places": coefficients of voids do not exist.
+void markAbsent(const std::vector<Subband>& subbands, const Plane& plane, std::span<Band> bands);
+
+/// FORMAT 7.1: marks the bands that a level does not need. bands: of one component after another.
+void dropFiner(const std::vector<Subband>& subbands, int level, std::span<Band> bands);
+
+/// How far the inverse transform goes, and its unit 2^-f.
+struct Target {
+  int f, level;
+};
+
+/// Puts the values of the bands to their places; then the inverse transform of the levels above
+/// the target's.
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                std::span<const Band> bands, int f, Plane& plane);
+                std::span<const Band> bands, Target target, Plane& plane);
+
+/// FORMAT 7.1: what the inverse transform down to a level has made, as an image of its own.
+Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,
+              const Plane& plane);
 
 }  // namespace tetrakis::reference

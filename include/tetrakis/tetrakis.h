@@ -73,7 +73,11 @@ typedef struct tks_heights {
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed. It
- * covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1. */
+ * covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
+ *
+ * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of the
+ * colours and comes back exactly. Unless the stream is lossless, the colours of texels with alpha 0 are
+ * not kept (they come back as the mean of the others) and count in no error. */
 typedef struct tks_image {
   size_t size; /* sizeof(tks_image) */
   uint32_t width, height, channels;
@@ -145,11 +149,12 @@ typedef struct tks_info {
   uint64_t packets;        /* packets begun in the available bytes */
   uint64_t geometry_bytes, texture_bytes; /* payload available of either track */
   int has_heights, has_texture;
-  uint32_t width, height;  /* heights; 0 when absent */
+  uint32_t width, height;  /* heights, of the level that is set; 0 when absent */
+  uint32_t coarsest_level; /* of the heights, for tks_set_levels */
   tks_sample sample;
   double scale, offset, step; /* decoded integer q stands for sample q * step + base */
   double base;
-  double spacing_x, spacing_y;
+  double spacing_x, spacing_y; /* of the level that is set */
   int exact_steps;         /* the step loses nothing */
   int lossless;            /* the complete stream restores every sample */
   int has_voids;           /* some samples may be void */
@@ -157,7 +162,9 @@ typedef struct tks_info {
   double nodata;
   double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
   uint32_t triangles;      /* the encoder's triangle budget; 0: none */
-  uint32_t texture_width, texture_height, texture_channels;
+  uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
+  uint32_t texture_coarsest_level;
+  int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are not kept */
   tks_sample texture_sample;
   double heights_rmse;     /* stated by the last complete packet, in unit; < 0: not yet stated */
   double texture_psnr;     /* likewise, dB; < 0: not yet stated; infinity: exact */
@@ -167,6 +174,15 @@ typedef struct tks_info {
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
+
+/* From here on heights and texture are those of mip levels: level k, of W x H samples, is the image
+ * of ceil(W / 2^k) x ceil(H / 2^k) whose sample (x, y) lies on sample (x 2^k, y 2^k), low-pass
+ * filtered; 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A level
+ * takes no inverse transform of the finer ones, and of the bytes what comes before the last that
+ * concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed above
+ * level 0, and meshes are made of level 0 alone. TKS_USAGE beyond the coarsest levels (those of a
+ * missing part: 0); the levels are then as before. */
+tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 
 /* Writes width * height samples of info.sample; bytes must be their exact size. Voids: info.nodata,
  * or NaN. */

@@ -175,6 +175,16 @@ class Decoder {
   /// Sizes, types and metadata; its strings live as long as the decoder.
   const tks_info& info() const { return info_; }
 
+  /// Mip levels of heights and texture, 0 the whole image: tks_set_levels says what they are.
+  /// info() follows.
+  Expected<void> setLevels(uint32_t heights, uint32_t texture) {
+    const tks_status status = tks_set_levels(decoder_.get(), heights, texture);
+    if (status != TKS_OK) return error(status);
+    if (const tks_status got = tks_get_info(decoder_.get(), &info_); got != TKS_OK)
+      return error(got);
+    return {};
+  }
+
   /// width * height samples of info().sample, host byte order, row by row.
   Expected<std::vector<std::byte>> heights() {
     std::vector<std::byte> samples(size_t{info_.width} * info_.height *

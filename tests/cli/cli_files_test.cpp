@@ -40,6 +40,24 @@ TEST_F(CliFiles, StandardInputAndOutputCarryTheSameBytesAsFiles) {
   EXPECT_EQ(cli("info -", "a.tks").out, cli("info a.tks").out);
 }
 
+TEST_F(CliFiles, LevelsAreSmallerFilesOfTheSameGround) {
+  makeStream();
+  ASSERT_EQ(cli("decode a.tks --level 2 --height h.tif --texture t.png").code, 0);
+  const auto heights = tools::readHeights(path("h.tif"));
+  ASSERT_TRUE(heights.ok());
+  EXPECT_EQ(heights->width, 5u);
+  EXPECT_EQ(heights->height, 5u);
+  EXPECT_EQ(heights->spacing_x, 4 * hills(17).spacing_x);
+  EXPECT_EQ(heights->spacing_y, 4 * hills(17).spacing_y);
+  const auto image = tools::readImage(path("t.png"));
+  ASSERT_TRUE(image.ok());
+  EXPECT_EQ(image->width, 9u);
+  const Outcome beyond = cli("decode a.tks --level 9 --height x.tif");
+  EXPECT_EQ(beyond.code, 1);
+  EXPECT_NE(beyond.err.find("their coarsest is"), std::string::npos) << beyond.err;
+  EXPECT_EQ(cli("decode a.tks --level 1 --mesh x.glb").code, 1);
+}
+
 TEST_F(CliFiles, TruncateWritesTheExactPrefix) {
   makeStream();
   const std::string stream = content("a.tks");

@@ -54,6 +54,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     checkMesh(decoder->budgetMesh(100), info);
   }
   if (info.has_texture) static_cast<void>(decoder->texture());
+  const auto coarser = [size](uint32_t coarsest) {
+    return static_cast<uint32_t>(size) % (coarsest + 1);
+  };
+  if (!decoder->setLevels(coarser(info.coarsest_level), coarser(info.texture_coarsest_level)))
+    std::abort();
+  if (info.has_heights) static_cast<void>(decoder->heights());
+  if (info.has_texture) static_cast<void>(decoder->texture());
   static_cast<void>(decoder->verify());
   return 0;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/validity_decoder.hpp"
+#include "lattice/validity_decoder.hpp"
 
 #include "bitstream/range_decoder.hpp"
-#include "codec/validity_pass.hpp"
+#include "lattice/validity_pass.hpp"
 
 namespace tetrakis {
 

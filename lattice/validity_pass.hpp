@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of the validity mask: which samples of a height field exist. Level by level of the 4-8
-// lattice, so that any prefix of the codeword gives the whole mask at the resolution it pays for.
-// Contexts from known neighbours after JBIG (ITU-T T.82, progressive templates):
+// Coding of a mask: which samples of a height field exist, which texels can be seen. Level by level
+// of the 4-8 lattice, so that any prefix of the codeword gives the whole mask at the resolution it
+// pays for. Contexts from known neighbours after JBIG (ITU-T T.82, progressive templates):
 //
 //   near     the 4 coarser vertices next to the vertex: diagonal ones for a centre, along the
 //            axes for a midpoint; 16 patterns

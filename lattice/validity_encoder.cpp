@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/validity_encoder.hpp"
+#include "lattice/validity_encoder.hpp"
 
 #include "bitstream/range_encoder.hpp"
-#include "codec/validity_pass.hpp"
+#include "lattice/validity_pass.hpp"
 
 namespace tetrakis {
 

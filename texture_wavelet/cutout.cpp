@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/cutout.hpp"
+
+#include <numeric>
+
+namespace tetrakis {
+
+std::vector<uint8_t> cutoutOf(const Texels& texels) {
+  std::vector<uint8_t> seen;
+  if (texels.channels % 2 != 0) return seen;
+  const size_t count = size_t{texels.width} * texels.height;
+  const auto most = static_cast<uint16_t>((1 << texels.bits) - 1);
+  size_t opaque = 0;
+  seen.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    const uint16_t alpha = texels.samples[(i + 1) * texels.channels - 1];
+    if (alpha != 0 && alpha != most) return {};
+    seen[i] = alpha != 0;
+    opaque += seen[i];
+  }
+  if (opaque == 0 || opaque == count) return {};
+  return seen;
+}
+
+void hideColours(std::span<const uint8_t> seen, std::vector<std::vector<int32_t>>& planes) {
+  const auto count = std::accumulate(seen.begin(), seen.end(), int64_t{0});
+  for (std::vector<int32_t>& plane : planes) {
+    int64_t sum = 0;
+    for (size_t i = 0; i < seen.size(); ++i) sum += seen[i] * plane[i];
+    const auto mean = static_cast<int32_t>((sum + count / 2) / count);
+    for (size_t i = 0; i < seen.size(); ++i) {
+      if (!seen[i]) plane[i] = mean;
+    }
+  }
+}
+
+uint64_t countedSamples(const Texels& texels, std::span<const uint8_t> seen) {
+  if (seen.empty()) return texels.samples.size();
+  const auto opaque = std::accumulate(seen.begin(), seen.end(), uint64_t{0});
+  return seen.size() + opaque * (texels.channels - 1);
+}
+
+double countedSquares(const Texels& original, const Texels& decoded,
+                      std::span<const uint8_t> seen) {
+  double squares = 0;
+  const size_t channels = original.channels;
+  for (size_t i = 0; i < original.samples.size(); ++i) {
+    const bool colour = (i + 1) % channels != 0;
+    if (!seen.empty() && colour && !seen[i / channels]) continue;
+    const double difference = static_cast<double>(original.samples[i]) - decoded.samples[i];
+    squares += difference * difference;
+  }
+  return squares;
+}
+
+}  // namespace tetrakis
