@@ -15,6 +15,7 @@ struct tks_decoder {
   tetrakis::ParsedHeader parsed;
   tetrakis::Demultiplexed payload;
   std::optional<tetrakis::DecodedHeights> heights;  ///< decoded on first use
+  uint32_t threads = 1;
   std::string message;
 };
 

@@ -17,9 +17,14 @@ struct DecodedHeights {
   std::vector<int32_t> corrections;  ///< to the samples; empty where there are none
 };
 
-/// codeword: any prefix of the track. Safe on any bytes.
-DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHeader& header,
-                            const GeometryLayers& layers);
+/// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes.
+DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
+                            const GeometryLayers& layers, uint32_t threads = 1);
+
+/// The same in a window, in time that follows its size where there are regions and no corrections.
+DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHeader& header,
+                                  const GeometryLayers& layers, const Window& window,
+                                  uint32_t threads = 1);
 
 /// The hints (codec/corrections_pass.hpp) of corrections of steps: how many of a vertex and its
 /// four neighbours are significant.

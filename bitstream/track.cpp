@@ -16,27 +16,20 @@ constexpr std::array<int, 3> kDelay = {0, 6, 10};
 }  // namespace
 
 std::vector<Pass> schedule(const std::vector<BandPlan>& plan, int planes) {
-  struct Keyed {
-    int key;
-    Pass pass;
-  };
-  std::vector<Keyed> keyed;
-  keyed.reserve(plan.size() * static_cast<size_t>(planes) * kDelay.size());
+  std::vector<Pass> passes;
+  passes.reserve(plan.size() * static_cast<size_t>(planes) * kDelay.size());
   for (int plane = planes - 1; plane >= 0; --plane) {
     for (size_t band = 0; band < plan.size(); ++band) {
       if (plan[band].shape.empty()) continue;
       for (int kind = 0; kind < 3; ++kind) {
-        keyed.push_back({16 * plane + plan[band].log_norm - kDelay[kind],
-                         {static_cast<uint16_t>(band), static_cast<uint8_t>(plane),
-                          static_cast<PassKind>(kind)}});
+        passes.push_back({static_cast<uint16_t>(band), static_cast<uint8_t>(plane),
+                          static_cast<PassKind>(kind),
+                          16 * plane + plan[band].log_norm - kDelay[static_cast<size_t>(kind)]});
       }
     }
   }
-  std::stable_sort(keyed.begin(), keyed.end(),
-                   [](const Keyed& a, const Keyed& b) { return a.key > b.key; });
-  std::vector<Pass> passes;
-  passes.reserve(keyed.size());
-  for (const Keyed& k : keyed) passes.push_back(k.pass);
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const Pass& a, const Pass& b) { return a.key > b.key; });
   return passes;
 }
 

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture track to image. Integer only.
+// Texture tracks to image. Integer only.
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "bitstream/header.hpp"
+#include "bitstream/packet.hpp"
 #include "texture_wavelet/texels.hpp"
+#include "wavelet/window.hpp"
 
 namespace tetrakis {
 
-/// codeword: any prefix of a texture track. Safe on any bytes and any header that readHeader
-/// accepts.
-Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
+/// codewords: any prefix of each track, one for each of regionsOf(). Safe on any bytes and any
+/// header that readHeader accepts.
+Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, uint32_t threads = 1);
+
+/// The texels of a window, in time that follows its size where there are regions.
+Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
+                           const Window& window, uint32_t threads = 1);
 
 }  // namespace tetrakis

@@ -73,9 +73,20 @@ ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose p
   return chooseLosslessColour(fitted, pointers, texels.width, texels.height);
 }
 
+/// What the header says of tracks that are complete.
+uint64_t wholeBytes(const EncodedTexture& encoded) {
+  uint64_t bytes = 0;
+  if (encoded.header.regions.side_log2 == 0) return 0;
+  for (const EncodedTrack& track : encoded.tracks) {
+    if (!track.complete) return 0;
+    bytes += track.codeword.size();
+  }
+  return bytes;
+}
+
 }  // namespace
 
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit) {
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options) {
   Planes planes = separate(texels);
   const std::vector<int32_t>& typical = planes[texels.channels >= 3 ? 1 : 0];  // green, or grey
   const WaveletHeader wavelet =
@@ -84,20 +95,25 @@ EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t lim
   transformColours(colour, wavelet.fraction_bits, planes);
   const std::vector<double> energies = energiesOf(texels, colour);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};
+  encoded.header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
   const TexturePlan plan(encoded.header);
-  const PlaneLayout& layout = plan.layout();
   const double unit = std::exp2(-2 * wavelet.fraction_bits);
-  std::vector<BandSource> sources;
+  std::vector<TrackSource> sources(plan.regions().size());
+  for (size_t i = 0; i < sources.size(); ++i) sources[i].plan = plan.bands(plan.parts(i));
   for (uint32_t c = 0; c < texels.channels; ++c) {
-    forwardWavelet(specOf(wavelet), planes[c], texels.width, texels.height);
-    for (size_t i = 0; i < layout.size(); ++i) {
-      sources.push_back({gather(planes[c], texels.width, layout.subbands()[i]),
-                         layout.energy(i) * energies[c] * unit});
+    forwardWavelet(specOf(wavelet), planes[c], texels.width, texels.height, {}, options.threads);
+    for (size_t i = 0; i < sources.size(); ++i) {
+      for (const BandPart& part : plan.parts(i)) {
+        const Subband& subband = plan.layout().subbands()[part.subband];
+        sources[i].bands.push_back({gather(planes[c], texels.width, subband, part),
+                                    plan.layout().energy(part.subband) * energies[c] * unit});
+      }
     }
     planes[c] = {};
   }
-  encoded.track = encodeTrack(plan.bands(), sources, limit);
-  encoded.header.planes = static_cast<uint8_t>(encoded.track.planes);
+  encoded.tracks = encodeTracks(sources, options);
+  encoded.header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
+  encoded.header.regions.whole_bytes = wholeBytes(encoded);
   return encoded;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to texture track.
+// Image to texture tracks.
 #pragma once
 
-#include <cstdint>
+#include <vector>
 
 #include "bitstream/header.hpp"
 #include "bitstream/track_encoder.hpp"
@@ -13,10 +13,11 @@ namespace tetrakis {
 
 struct EncodedTexture {
   TextureHeader header;
-  EncodedTrack track;  ///< distortion: squared error summed over all samples of all channels
+  /// Distortion: squared error summed over all samples of all channels.
+  std::vector<EncodedTrack> tracks;
 };
 
-/// Coding stops soon after `limit` bytes. A complete track without fraction bits is lossless.
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit);
+/// Complete tracks without fraction bits are lossless.
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options);
 
 }  // namespace tetrakis

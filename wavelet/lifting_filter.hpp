@@ -34,6 +34,9 @@ struct LiftingFilter {
 
 LiftingFilter liftingFilter(FilterId id);
 
+/// How far from a sample the coefficients lie that it is made of, in places of its level.
+uint32_t synthesisReach(FilterId id);
+
 /// Samples of more bits need 64-bit sums.
 int widestSamples(FilterId id);
 
