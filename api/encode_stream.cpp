@@ -30,7 +30,8 @@ StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const 
     g.sample = static_cast<uint8_t>(heights_->sample);
     g.wavelet = geometry_->wavelet;
     g.regions = geometry_->regions;
-    g.planes = static_cast<uint8_t>(geometry_->tracks.front().planes);
+    if (!geometry_->tracks.empty())
+      g.planes = static_cast<uint8_t>(geometry_->tracks.front().planes);
     g.exact = geometry_->steps.exact;
     g.base = geometry_->steps.base;
     g.step = geometry_->steps.step;
