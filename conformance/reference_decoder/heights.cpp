@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "conformance/reference_decoder/layers.hpp"
+#include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 
@@ -74,21 +75,33 @@ std::vector<int> activityHints(Plane& marks) {
 
 /// What is known of the heights before they become samples.
 struct Surface {
-  std::vector<Subband> subbands;
-  std::vector<Band> bands;
+  std::vector<std::vector<Part>> parts;  ///< by track
+  std::vector<std::vector<Band>> bands;  ///< likewise
   int f = 0;
   Plane plane;
 };
 
-Surface decodeSurface(const GeometryHeader& header, std::span<const uint8_t> coefficients,
+Surface decodeSurface(const GeometryHeader& header,
+                      const std::vector<std::span<const uint8_t>>& coefficients,
                       std::vector<uint8_t> valid) {
   Surface surface;
-  surface.subbands = subbandsOf(header.width, header.height);
-  surface.bands = bandsOf(header.wavelet, surface.subbands, 0);
-  const bool complete = decodeTrack(coefficients, header.planes, surface.bands);
+  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
+  bool counted = true;
+  for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
+    const size_t track = surface.parts.size();
+    surface.parts.push_back(partsOf(subbands, region));
+    surface.bands.push_back(bandsOf(header.wavelet, surface.parts.back(), 0));
+    counted &= decodeTrack(coefficients[track], header.planes, surface.bands.back());
+  }
+  const bool complete = isComplete(header.regions, coefficients, counted);
   surface.f = fractionOf(header.wavelet, header.planes, complete);
   surface.plane = {header.width, header.height, {}, std::move(valid)};
-  synthesise(header.wavelet, surface.subbands, surface.bands, surface.f, surface.plane);
+  surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
+  for (size_t i = 0; i < surface.parts.size(); ++i) {
+    place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
+          surface.plane);
+  }
+  synthesise(header.wavelet, subbands, surface.plane);
   return surface;
 }
 
@@ -96,12 +109,15 @@ Surface decodeSurface(const GeometryHeader& header, std::span<const uint8_t> coe
 Plane significanceOf(const Surface& surface) {
   Plane marks{surface.plane.width, surface.plane.height, {}};
   marks.values.resize(surface.plane.values.size());
-  for (size_t i = 0; i < surface.bands.size(); ++i) {
-    const Subband& subband = surface.subbands[i];
-    for (int r = 0; r < subband.rows; ++r) {
-      for (int a = 0; a < subband.columns; ++a) {
-        const int x = subband.x(a), y = subband.y(r);
-        marks.at(x, y) = surface.plane.isValid(x, y) && surface.bands[i].get(r, a).magnitude > 0;
+  for (size_t track = 0; track < surface.parts.size(); ++track) {
+    for (size_t i = 0; i < surface.parts[track].size(); ++i) {
+      const Part& part = surface.parts[track][i];
+      for (int r = 0; r < part.rows; ++r) {
+        for (int a = 0; a < part.columns; ++a) {
+          const bool significant = surface.bands[track][i].get(r, a).magnitude > 0;
+          marks.at(part.x(a), part.y(r)) =
+              surface.plane.isValid(part.x(a), part.y(r)) && significant;
+        }
       }
     }
   }
@@ -177,13 +193,14 @@ std::vector<uint8_t> bytesOf(const GeometryHeader& header, const std::vector<uin
 }  // namespace
 
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword) {
+                                   const Codewords& codewords) {
+  std::span<const uint8_t> codeword = codewords.at(0);
   std::vector<uint8_t> valid;
   if (layers.validityBytes > 0) {
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
-  const auto coefficients =
-      take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
+  std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
+  coefficients[0] = take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
   Surface surface = decodeSurface(header, coefficients, std::move(valid));
   if (layers.corrections == 1) correctSteps(layers, codeword, surface);
   std::vector<uint32_t> samples = samplesOf(header, surface);

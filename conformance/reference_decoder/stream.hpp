@@ -21,10 +21,17 @@ struct WaveletHeader {
   int fractionBits = 0, sampleBits = 0;
 };
 
+/// FORMAT 2, table Regions.
+struct RegionHeader {
+  int log2 = 0;
+  uint64_t wholeBytes = 0;
+};
+
 struct GeometryHeader {
   int width = 0, height = 0, sample = 0, planes = 0;
   double base = 0, step = 1;
   WaveletHeader wavelet;
+  RegionHeader regions;
 };
 
 /// FORMAT 2, table Layers.
@@ -39,10 +46,14 @@ struct Layers {
 struct TextureHeader {
   int width = 0, height = 0, channels = 0, sample = 0, planes = 0;
   WaveletHeader wavelet;
+  RegionHeader regions;
   std::array<int, 4> centre = {}, priority = {};
   int colourOrder = 0;
   std::array<int, 6> shear = {};
 };
+
+/// The codewords of a component's tracks.
+using Codewords = std::vector<std::vector<uint8_t>>;
 
 /// What a prefix of a stream holds.
 struct Stream {
@@ -50,7 +61,7 @@ struct Stream {
   std::optional<GeometryHeader> geometry;
   Layers layers;
   std::optional<TextureHeader> texture;
-  std::array<std::vector<uint8_t>, 2> codewords;  ///< by track: 0 geometry, 1 texture
+  std::array<Codewords, 2> codewords;  ///< by component: 0 geometry, 1 texture
 };
 
 /// "Arithmetic on samples and coefficients wraps modulo 2^32" (FORMAT, notation).
@@ -60,9 +71,9 @@ constexpr int32_t wrap(int64_t value) {
 
 /// Samples of the header's type, little endian (FORMAT 8).
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword);
+                                   const Codewords& codewords);
 
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword);
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords);
 
 }  // namespace tetrakis::reference

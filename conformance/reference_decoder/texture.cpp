@@ -4,24 +4,25 @@
 #include <array>
 #include <iterator>
 
+#include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 
 namespace tetrakis::reference {
 namespace {
 
-/// FORMAT 9: the bands of all components.
-std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Subband>& subbands) {
+/// FORMAT 9: the bands of all components in one track.
+std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part>& parts) {
   std::vector<Band> all;
   for (int c = 0; c < header.channels; ++c) {
     const bool alpha = header.channels % 2 == 0 && c == header.channels - 1;
     const int kind = alpha ? 2 : c == 0 ? 0 : 1;
     const size_t first = all.size();
-    std::vector<Band> bands = bandsOf(header.wavelet, subbands, first);
+    std::vector<Band> bands = bandsOf(header.wavelet, parts, first);
     for (Band& band : bands) {
       band.logNorm += header.priority[c];
       band.modelClass += 5 * kind;
-      if (c > 0) band.companion = all.size() - subbands.size();
+      if (c > 0) band.companion = all.size() - parts.size();
       all.push_back(std::move(band));
     }
   }
@@ -59,16 +60,27 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
 
 }  // namespace
 
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword) {
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords) {
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
-  std::vector<Band> bands = bandsOfAll(header, subbands);
-  const bool complete = decodeTrack(codeword, header.planes, bands);
+  std::vector<std::vector<Part>> parts;
+  std::vector<std::vector<Band>> bands;
+  bool counted = true;
+  for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
+    parts.push_back(partsOf(subbands, region));
+    bands.push_back(bandsOfAll(header, parts.back()));
+    counted &= decodeTrack(codewords[parts.size() - 1], header.planes, bands.back());
+  }
+  const bool complete = isComplete(header.regions, {codewords.begin(), codewords.end()}, counted);
   const int f = fractionOf(header.wavelet, header.planes, complete);
   std::vector<Plane> planes;
   for (int c = 0; c < header.channels; ++c) {
-    planes.push_back({header.width, header.height, {}});
-    const auto own = std::span(bands).subspan(c * subbands.size(), subbands.size());
-    synthesise(header.wavelet, subbands, own, f, planes.back());
+    Plane& plane = planes.emplace_back(Plane{header.width, header.height, {}});
+    plane.values.resize(static_cast<size_t>(header.width) * header.height);
+    for (size_t i = 0; i < parts.size(); ++i) {
+      const auto own = std::span(bands[i]).subspan(c * parts[i].size(), parts[i].size());
+      place(own, parts[i], f - header.wavelet.fractionBits, plane);
+    }
+    synthesise(header.wavelet, subbands, plane);
   }
   std::vector<uint8_t> samples;
   for (size_t i = 0; i < planes[0].values.size(); ++i) {

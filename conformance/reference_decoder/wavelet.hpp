@@ -39,10 +39,6 @@ std::vector<Subband> subbandsOf(int width, int height);
 /// FORMAT 7, "Norms", without the priority.
 int logNormOf(const WaveletHeader& header, const Subband& subband);
 
-/// The bands of one plane, as they follow `first` others in a track; all but their companions.
-std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                          size_t first);
-
 /// FORMAT 7, "Fraction": f.
 int fractionOf(const WaveletHeader& header, int planes, bool complete);
 
@@ -57,8 +53,7 @@ struct Plane {
   bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
 };
 
-/// Puts the values of the bands, in units of 2^-f, to their places; then the inverse transform.
-void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                std::span<const Band> bands, int f, Plane& plane);
+/// The inverse transform of values that lie at their places.
+void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, Plane& plane);
 
 }  // namespace tetrakis::reference
