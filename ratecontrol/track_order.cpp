@@ -9,8 +9,10 @@ namespace tetrakis {
 
 namespace {
 
-/// Packets of regions are at least this fraction of their track's bytes before them.
-constexpr double kRegionGrowth = 0.2;
+/// Packets of regions are at least this fraction of their track's bytes before them. Smaller than
+/// for one track, because tracks are compared packet by packet: against one region, 2100^2 heights
+/// lose 1.3 % of the bytes at 0.2, 1.1 at 0.12, 0.8 at 0.06 and below.
+constexpr double kRegionGrowth = 0.04;
 
 /// A packet and what it does to the distortion.
 struct Piece {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis decode: heights, texture and mesh out of a stream or a prefix of one.
 #include <algorithm>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,8 +60,19 @@ tks_window texelsOver(const tks_window& samples, const tks_info& info) {
 /// Decodes into staged outputs; the caller commits them when all have succeeded.
 class Decoding {
  public:
-  Decoding(const DecodeArguments& arguments, Decoder& decoder)
-      : arguments_(arguments), decoder_(decoder) {}
+  Decoding(const DecodeArguments& arguments, OpenStream& stream)
+      : arguments_(arguments), decoder_(stream.decoder) {
+    const bool wants_texture = !arguments.texture.empty() || !arguments.mesh.empty();
+    const bool wants_heights = !arguments.height.empty() || !arguments.mesh.empty();
+    const tks_info& info = decoder_.info();
+    if (arguments.threads < 2 || !wants_texture || !wants_heights || !info.has_texture) return;
+    beside_ = std::async(std::launch::async, [this, &stream]() -> Result<ImageFile> {
+      Expected<Decoder> decoder = Decoder::open(octets(stream.bytes));
+      if (!decoder) return toStatus(decoder.error());
+      decoder->setThreads(arguments_.threads);
+      return decodeImage(*decoder, textureWindow());
+    });
+  }
 
   Status writeHeightField() {
     const Result<HeightFile> heights = decodeHeights(decoder_, window());
@@ -70,7 +82,7 @@ class Decoding {
   }
 
   Status writeTexture() {
-    const Result<ImageFile> image = decodeImage(decoder_, textureWindow());
+    const Result<ImageFile>& image = decodedImage();
     if (!image.ok()) return image.status();
     return stage(arguments_.texture, ".png",
                  [&](const std::string& path) { return writeImage(path, *image); });
@@ -85,9 +97,9 @@ class Decoding {
     MeshFile file = placeMesh(*mesh, frameOf(info));
     ImageFile texture;
     if (info.has_texture) {
-      Result<ImageFile> image = decodeImage(decoder_);
+      const Result<ImageFile>& image = decodedImage();
       if (!image.ok()) return image.status();
-      texture = std::move(*image);
+      texture = *image;
       file.texture = &texture;
     }
     return stage(arguments_.mesh, ".glb",
@@ -101,6 +113,12 @@ class Decoding {
   }
 
  private:
+  /// Decoded once, where there are threads beside the heights.
+  const Result<ImageFile>& decodedImage() {
+    if (!image_) image_ = beside_.valid() ? beside_.get() : decodeImage(decoder_, textureWindow());
+    return *image_;
+  }
+
   std::optional<tks_window> window() const {
     if (arguments_.window.empty()) return std::nullopt;
     return windowOf(arguments_);
@@ -132,6 +150,8 @@ class Decoding {
   const DecodeArguments& arguments_;
   Decoder& decoder_;
   std::vector<Output> outputs_;
+  std::optional<Result<ImageFile>> image_;
+  std::future<Result<ImageFile>> beside_;
 };
 
 /// In samples of the heights, if there are any.
@@ -154,7 +174,7 @@ Status decode(const DecodeArguments& arguments) {
   if (!stream.ok()) return stream.status();
   stream->decoder.setThreads(arguments.threads);
   if (Status status = checkWindow(arguments, stream->decoder.info()); !status.ok()) return status;
-  Decoding decoding(arguments, stream->decoder);
+  Decoding decoding(arguments, *stream);
   if (!arguments.height.empty())
     if (Status status = decoding.writeHeightField(); !status.ok()) return status;
   if (!arguments.texture.empty())
