@@ -38,6 +38,7 @@ Json heightsJson(const tks_info& info) {
           {"exact_steps", info.exact_steps != 0},
           {"voids", info.has_voids != 0},
           {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
+          {"regions", info.regions > 0 ? Json(info.regions) : Json()},
           {"max_error", stated(info.max_error)},
           {"rmse", stated(info.heights_rmse)}};
 }
@@ -48,6 +49,7 @@ Json textureJson(const tks_info& info) {
           {"height", info.texture_height},
           {"channels", info.texture_channels},
           {"sample", sampleName(info.texture_sample)},
+          {"regions", info.texture_regions > 0 ? Json(info.texture_regions) : Json()},
           {"psnr", stated(info.texture_psnr)},
           {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};
 }
