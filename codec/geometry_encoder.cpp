@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "bitstream/parallel.hpp"
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -21,16 +22,17 @@ std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint3
   forwardWavelet(spec, plane, width, height, valid, options.threads);
   const PlaneLayout layout(spec, width, height);
   const double unit = std::exp2(-2 * wavelet.fraction_bits);
-  std::vector<TrackSource> tracks;
-  for (const Region& region : regionsOf(width, height, options.region_log2)) {
-    const std::vector<BandPart> parts = layout.parts(region);
-    TrackSource& track = tracks.emplace_back();
+  const std::vector<Region> regions = regionsOf(width, height, options.region_log2);
+  std::vector<TrackSource> tracks(regions.size());
+  parallelFor(options.threads, regions.size(), [&](size_t i) {
+    const std::vector<BandPart> parts = layout.parts(regions[i]);
+    TrackSource& track = tracks[i];
     track.plan = layout.plan(parts, 0, 0, 0);
     for (const BandPart& part : parts) {
       track.bands.push_back({gather(plane, width, layout.subbands()[part.subband], part),
                              layout.energy(part.subband) * unit});
     }
-  }
+  });
   return encodeTracks(tracks, options);
 }
 

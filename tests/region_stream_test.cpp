@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streams in regions, through the C interface: they restore, they may be cut anywhere, and windows
 // hold what the whole holds there.
+#include <sys/resource.h>
+
 #include <cmath>
 
 #include "tests/header_seal.hpp"
@@ -163,6 +165,10 @@ TEST(RegionStream, MeetsItsTargets) {
   const Bytes bounded = encode(&heights, nullptr, bound);
   EXPECT_LE(largestError(heights, Stream(bounded).heights()), 300);
   expectWindows(bounded);
+  const Raster steep = make({Pattern::kRidges, 64, 64, 1, TKS_U16});
+  bound.max_error = 1500;
+  bound.regions = 1;
+  expectWindows(encode(&steep, nullptr, bound));  // corrections of steps
   for (const uint64_t bytes : {600u, 3000u, 9000u}) {
     const Bytes cut = encode(&heights, &image, inRegions(budget(bytes)));
     EXPECT_LE(cut.size(), bytes);
@@ -172,9 +178,9 @@ TEST(RegionStream, MeetsItsTargets) {
 }
 
 TEST(RegionStream, BytesDoNotDependOnThreads) {
-  const Raster heights = make({Pattern::kRidges, 90, 70, 1, TKS_I16});
-  const Raster image = make({Pattern::kRidges, 80, 100, 3, TKS_U8, 7});
-  for (tks_encode_options options : {lossless(), budget(5000)}) {
+  const Raster heights = make({Pattern::kRidges, 50, 44, 1, TKS_I16});
+  const Raster image = make({Pattern::kRidges, 30, 40, 3, TKS_U8, 7});
+  for (tks_encode_options options : {lossless(), budget(2500)}) {
     for (const uint32_t side : {1u, 16u}) {
       options.threads = 1;
       const Bytes one = encode(&heights, &image, inRegions(options, side));
@@ -294,6 +300,41 @@ TEST(RegionStream, SurvivesEveryDamagedByte) {
     }
   }
   EXPECT_GT(opened, bytes.size());
+}
+
+size_t peakMemory() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<size_t>(usage.ru_maxrss) * 1024;
+}
+
+/// However many regions a header declares, opening it takes no memory for them that the limits do
+/// not grant.
+TEST(RegionStream, OpeningTakesNoMemoryThatHeadersDeclare) {
+  const Raster heights = make({Pattern::kFlat, 200, 140, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, inRegions(lossless()));
+  const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+  tks_limits limits = {};
+  limits.size = sizeof limits;
+  limits.max_samples = 1 << 20;
+  const size_t before = peakMemory();
+  size_t refused = 0, opened = 0;
+  for (size_t at = 6; at < header; ++at) {
+    for (const int value : {0x00, 0x04, 0x05, 0x14, 0x7f, 0x80, 0xff}) {
+      for (uint8_t level = 0; level < 12; ++level) {
+        Bytes damaged = bytes;
+        damaged[at] = static_cast<uint8_t>(value);
+        damaged[6] = level;
+        sealHeader(damaged);
+        const tks_status status = Stream(damaged, &limits).status();
+        refused += status == TKS_LIMIT;
+        opened += status == TKS_OK;
+      }
+    }
+  }
+  EXPECT_GT(refused, 0u) << "some of these declare more than the limits";
+  EXPECT_GT(opened, 0u);
+  EXPECT_LT(peakMemory() - before, size_t{8} << 20);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitstream/parallel.hpp"
 #include "texture_wavelet/colour_fit.hpp"
 #include "texture_wavelet/lossless_colour.hpp"
 #include "texture_wavelet/texture_plan.hpp"
@@ -102,13 +103,13 @@ EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackO
   for (size_t i = 0; i < sources.size(); ++i) sources[i].plan = plan.bands(plan.parts(i));
   for (uint32_t c = 0; c < texels.channels; ++c) {
     forwardWavelet(specOf(wavelet), planes[c], texels.width, texels.height, {}, options.threads);
-    for (size_t i = 0; i < sources.size(); ++i) {
+    parallelFor(options.threads, sources.size(), [&](size_t i) {
       for (const BandPart& part : plan.parts(i)) {
         const Subband& subband = plan.layout().subbands()[part.subband];
         sources[i].bands.push_back({gather(planes[c], texels.width, subband, part),
                                     plan.layout().energy(part.subband) * energies[c] * unit});
       }
-    }
+    });
     planes[c] = {};
   }
   encoded.tracks = encodeTracks(sources, options);
