@@ -21,6 +21,7 @@ constexpr uint64_t kDefaultMemory = uint64_t{8} << 30;
 constexpr uint64_t kBytesPerHeight = 24;
 constexpr uint64_t kBytesPerLayer = 6;   // validity or corrections, with their hints
 constexpr uint64_t kBytesPerTexel = 24;  // per channel
+constexpr uint64_t kBytesPerRegion = 64;
 
 Status exceeds(const char* what, uint64_t value, uint64_t limit) {
   return {TKS_LIMIT, "The stream holds " + std::to_string(value) + " " + what + "; the limit is " +
@@ -40,12 +41,14 @@ Status checkLimits(const StreamHeader& header, const tks_limits* limits) {
     if (samples > most_samples) return exceeds("height samples", samples, most_samples);
     const uint64_t layers =
         (header.layers.validity_bytes > 0) + (header.layers.corrections != CorrectionKind::kNone);
-    memory = std::max(memory, samples * (kBytesPerHeight + layers * kBytesPerLayer));
+    memory = std::max(memory, samples * (kBytesPerHeight + layers * kBytesPerLayer) +
+                                  kBytesPerRegion * trackCounts(header)[0].tracks);
   }
   if (header.texture) {
     const uint64_t texels = uint64_t{header.texture->width} * header.texture->height;
     if (texels > most_texels) return exceeds("texels", texels, most_texels);
-    memory = std::max(memory, texels * header.texture->channels * kBytesPerTexel);
+    memory = std::max(memory, texels * header.texture->channels * kBytesPerTexel +
+                                  kBytesPerRegion * trackCounts(header)[1].tracks);
   }
   if (memory > most_memory) {
     return {TKS_LIMIT, "Decoding takes about " + std::to_string(memory) +
@@ -65,8 +68,7 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   const auto available =
       static_cast<size_t>(std::min<uint64_t>(data.size() - start, header.payload_bytes));
   Result<Demultiplexed> payload =
-      demultiplex(data.subspan(start, available), start,
-                  {header.geometry.has_value(), header.texture.has_value()});
+      demultiplex(data.subspan(start, available), start, trackCounts(header));
   if (!payload.ok()) return payload.status();
   decoder.payload = std::move(*payload);
   return {};
@@ -83,8 +85,9 @@ Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
   const StreamHeader& header = decoder.parsed.header;
   if (!header.geometry) return Status(TKS_USAGE, "The stream holds no heights.");
   if (!decoder.heights) {
-    decoder.heights = decodeLayers(decoder.payload.codewords[0], *header.geometry, header.layers,
-                                   decoder.heights_level);
+    decoder.heights =
+        decodeLayers(decoder.payload.codewordsOf(TrackId::kGeometry), *header.geometry,
+                     header.layers, decoder.heights_level, decoder.threads);
   }
   return &*decoder.heights;
 }
@@ -154,7 +157,8 @@ Status decodeTexels(tks_decoder& decoder, void* out, size_t bytes) {
   const size_t wanted = MipLevel(header->width, header->height, level).samples() *
                         header->channels * tks_sample_bytes(sample);
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  const Texels texels = decodeTexture(*header, decoder.payload.codewords[1], level);
+  const Texels texels = decodeTexture(*header, decoder.payload.codewordsOf(TrackId::kTexture),
+                                      level, decoder.threads);
   withSampleType(sample, [&](auto type) {
     std::transform(texels.samples.begin(), texels.samples.end(), static_cast<decltype(type)*>(out),
                    [](int32_t v) { return static_cast<decltype(type)>(v); });
@@ -219,6 +223,16 @@ void fillQuality(const tks_decoder& decoder, tks_info& info) {
   }
 }
 
+uint64_t bytesOf(const std::vector<std::vector<uint8_t>>& codewords) {
+  uint64_t bytes = 0;
+  for (const std::vector<uint8_t>& codeword : codewords) bytes += codeword.size();
+  return bytes;
+}
+
+uint32_t sideOf(const RegionHeader& regions) {
+  return regions.side_log2 == 0 ? 0 : uint32_t{1} << regions.side_log2;
+}
+
 void fillInfo(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info = {};
@@ -230,8 +244,8 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
   info.available_bytes = decoder.data.size();
   info.packets = decoder.payload.heads.size();
-  info.geometry_bytes = decoder.payload.codewords[0].size();
-  info.texture_bytes = decoder.payload.codewords[1].size();
+  info.geometry_bytes = bytesOf(decoder.payload.codewords[0]);
+  info.texture_bytes = bytesOf(decoder.payload.codewords[1]);
   info.has_heights = header.geometry.has_value();
   info.has_texture = header.texture.has_value();
   info.lossless = header.lossless;
@@ -243,6 +257,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.width = mip.size().width;
     info.height = mip.size().height;
     info.coarsest_level = static_cast<uint32_t>(coarsestLevels(header.geometry));
+    info.regions = sideOf(g.regions);
     info.sample = static_cast<tks_sample>(g.sample);
     info.base = g.base;
     info.step = g.step;
@@ -257,6 +272,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.texture_width = mip.size().width;
     info.texture_height = mip.size().height;
     info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevels(header.texture));
+    info.texture_regions = sideOf(header.texture->regions);
     info.texture_channels = header.texture->channels;
     info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;
     info.texture_sample = static_cast<tks_sample>(header.texture->sample);
@@ -342,6 +358,12 @@ tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count)
 
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes) {
   return tetrakis::keeping(decoder, [&] { return tetrakis::decodeTexels(*decoder, out, bytes); });
+}
+
+tks_status tks_set_threads(tks_decoder* decoder, uint32_t threads) {
+  if (decoder == nullptr) return TKS_USAGE;
+  decoder->threads = threads;
+  return TKS_OK;
 }
 
 tks_status tks_verify(tks_decoder* decoder) {

@@ -16,6 +16,7 @@ struct tks_decoder {
   tetrakis::Demultiplexed payload;
   int heights_level = 0, texture_level = 0;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
+  uint32_t threads = 1;
   std::string message;
 };
 

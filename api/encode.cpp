@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The encoding half of the C interface (include/tetrakis/tetrakis.h): arguments, and memory handed
 // to the caller.
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -56,6 +57,11 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
     return misuse("The quality target must be a positive number.");
   }
   if (o.max_error > 0 && !has_heights) return misuse("A maximum error needs heights.");
+  const bool any_region = o.regions <= 1;
+  if (!any_region && (!std::has_single_bit(o.regions) || o.regions < 1u << kLeastRegionLog2 ||
+                      o.regions > 1u << kMostRegionLog2)) {
+    return misuse("The side of regions must be a power of two from 16 to 1048576.");
+  }
   if (!std::isfinite(o.parallax) || o.parallax < 0)
     return misuse("The parallax must not be negative.");
   return {};

@@ -53,7 +53,7 @@ class Cutter {
 
   Corrected correct(uint64_t bytes) const {
     const DecodedGeometry decoded = decodeGeometry(
-        header_, std::span(coefficients_.codeword).first(bytes), heights_.steps.valid);
+        header_, {std::span(coefficients_.codeword).first(bytes)}, heights_.steps.valid);
     const std::vector<int32_t> steps = wholeSteps(decoded);
     Corrected result;
     std::vector<int32_t> corrections(steps.size());
@@ -120,9 +120,9 @@ void EncodeJob::boundHeights() {
   const EncodedHeights exact = *geometry_;
   std::optional<EncodedHeights> best;
   const auto consider = [&] {
-    const size_t bytes = geometry_->track.codeword.size();
+    const uint64_t bytes = bytesOf(geometry_->tracks);
     const bool within = withinBound();
-    if (within && (!best || bytes < best->track.codeword.size())) best = std::move(*geometry_);
+    if (within && (!best || bytes < bytesOf(best->tracks))) best = std::move(*geometry_);
     geometry_ = exact;
     return within;
   };
@@ -135,6 +135,7 @@ void EncodeJob::boundHeights() {
     roundHeights(largest);
     within = consider();
     if (largest == 0) break;
+    if (geometry_->tracks.size() > 1) continue;  // one codeword is cut, not many
     correctHeights(largest);
     within |= consider();
   }
@@ -150,7 +151,7 @@ double EncodeJob::floatSpacing() const {
 }
 
 bool EncodeJob::withinBound() const {
-  const HeightErrors errors = heightErrors(geometry_->track.codeword.size());
+  const HeightErrors errors = heightErrors(bytesOf(geometry_->tracks));
   return errors.largest * std::abs(heights_->scale) <= options_.max_error;
 }
 
@@ -186,7 +187,7 @@ void EncodeJob::encodeRounded() {
 
 void EncodeJob::correctHeights(int32_t largest) {
   EncodedHeights& g = *geometry_;
-  const EncodedTrack whole = encodeCoefficients();
+  const EncodedTrack whole = std::move(encodeCoefficients().front());
   GeometryHeader header = *makeHeader(0, false).geometry;
   header.planes = static_cast<uint8_t>(whole.planes);
   const Cutter cutter(g, header, whole, largest);
@@ -203,10 +204,10 @@ void EncodeJob::correctHeights(int32_t largest) {
     g.layers.corrections = CorrectionKind::kSteps;
     g.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
   }
-  joinLayers(cut);
+  joinLayers({cut});
   // In the account's own measure, which the audit corrects later.
   if (!corrected.codeword.empty()) {
-    g.track.points.back().distortion = distortion * corrected.after / corrected.before;
+    g.tracks.front().points.back().distortion = distortion * corrected.after / corrected.before;
   }
 }
 

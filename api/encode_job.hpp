@@ -10,14 +10,16 @@
 #include "api/height_layers.hpp"
 #include "api/height_steps.hpp"
 #include "bitstream/packet.hpp"
+#include "bitstream/track_encoder.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "texture_wavelet/cutout.hpp"
-#include "texture_wavelet/texture_encoder.hpp"
+#include "texture_wavelet/texture_choice.hpp"
 #include "wavelet/filter_choice.hpp"
 
 namespace tetrakis {
 
-/// The heights in steps, and their track: validity codeword, coefficients, corrections.
+/// The heights in steps, and their tracks. The first holds the validity codeword, coefficients,
+/// corrections; others coefficients alone.
 struct EncodedHeights {
   HeightSteps steps;
   WaveletHeader wavelet;
@@ -27,7 +29,8 @@ struct EncodedHeights {
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
   double left = 0;
-  EncodedTrack track;
+  std::vector<EncodedTrack> tracks;
+  RegionHeader regions;
 
   /// What a sample costs whose validity is not yet known rightly, in squared steps: as much as a
   /// height that is off by a quarter of their range.
@@ -39,6 +42,9 @@ struct HeightErrors {
   double mean_square = 0, largest = 0, range = 0;
 };
 
+Codewords codewordsOf(const std::vector<EncodedTrack>& tracks);
+uint64_t bytesOf(const std::vector<EncodedTrack>& tracks);
+
 class EncodeJob {
  public:
   /// The arguments have passed checkArguments() and outlive the job.
@@ -48,27 +54,33 @@ class EncodeJob {
   Result<std::vector<uint8_t>> run();
 
  private:
-  /// How much of each track the target wants, in bytes of its codeword.
+  /// How much of each component the target wants, in payload bytes of its packets in their order.
   using Needs = std::array<uint64_t, kTracks>;
 
   Status quantise();
-  void encodeSideLayers(bool restore_samples);
   Status encodeTracks();
   bool nearlyExact() const;
   void encodeLosslessIfItFits();
+  Status report(double done) const;
+
+  // encode_heights.cpp: the tracks of the heights.
+  void encodeSideLayers(bool restore_samples);
   void encodeGeometry(Purpose purpose);
-  EncodedTrack encodeCoefficients() const;
-  void joinLayers(const EncodedTrack& coefficients);
+  std::vector<EncodedTrack> encodeCoefficients() const;
+  void joinLayers(std::vector<EncodedTrack> coefficients);
   Purpose geometryPurpose() const;
   Purpose texturePurpose() const;
-  uint64_t trackLimit() const;
+  TrackOptions trackOptions(TrackId component) const;
   bool budgeted() const { return options_.bytes != 0; }
 
+  // encode_order.cpp: the joint order of the packets.
   void order();
   TrackCurve geometryCurve() const;
   TrackCurve textureCurve() const;
   double texelsPerMetre(double step) const;
   double meshFloor() const;
+  const std::vector<EncodedTrack>& tracksOf(TrackId component) const;
+  Codewords cutAt(TrackId component, uint64_t bytes) const;
   DecodedHeights decodedHeights(uint64_t bytes) const;
   Texels decodedTexels(uint64_t bytes) const;
   double geometrySquares(uint64_t bytes) const;
@@ -92,12 +104,12 @@ class EncodeJob {
   bool textureMeetsTarget(uint64_t bytes) const;
   void keepNeeded(const Needs& needs);
 
+  // encode_stream.cpp: the finished stream.
   StreamHeader makeHeader(uint64_t payload_bytes, bool lossless) const;
   Result<std::vector<uint8_t>> assemble() const;
   void keepWithinBudget();
   uint64_t totalPayload() const;
   bool restoresEverything() const;
-  Status report(double done) const;
 
   const tks_heights* heights_;
   const tks_image* image_;

@@ -16,11 +16,11 @@ double worstMeanSquare(double peak, double psnr) {
   return peak * peak / std::pow(10, psnr / 10);
 }
 
-/// Ends of a track's packets, from none on.
+/// Payload bytes up to the end of each of a component's packets, from none on.
 std::vector<uint64_t> endsOf(const std::vector<Packet>& packets, TrackId track) {
   std::vector<uint64_t> ends = {0};
   for (const Packet& packet : packets) {
-    if (packet.track == track) ends.push_back(packet.end);
+    if (packet.track == track) ends.push_back(ends.back() + packet.end - packet.begin);
   }
   return ends;
 }
@@ -98,19 +98,19 @@ uint64_t EncodeJob::textureNeed(const Needs& so_far) const {
     return first(endsOf(packets_, TrackId::kTexture),
                  [&](uint64_t bytes) { return textureMeetsTarget(bytes); });
   }
-  uint64_t need = 0;
+  Needs sent = {};
   for (const Packet& packet : packets_) {
-    if (packet.track == TrackId::kTexture) need = packet.end;
-    if (packet.track == TrackId::kGeometry && packet.end >= so_far[0]) break;
+    sent[static_cast<size_t>(packet.track)] += packet.end - packet.begin;
+    if (packet.track == TrackId::kGeometry && sent[0] >= so_far[0]) break;
   }
-  return need;
+  return sent[1];
 }
 
 Result<EncodeJob::Needs> EncodeJob::needs() const {
   Needs needs = {UINT64_MAX, UINT64_MAX};
   if (options_.bytes != 0 || options_.lossless != 0) return needs;
   if (options_.max_error > 0) {  // the whole track, which was made for it
-    const uint64_t coefficients = geometry_->track.codeword.size() - geometry_->corrections.size();
+    const uint64_t coefficients = bytesOf(geometry_->tracks) - geometry_->corrections.size();
     if (texture_) needs[1] = textureNeed({coefficients, 0});
     return needs;
   }
@@ -124,8 +124,12 @@ Result<EncodeJob::Needs> EncodeJob::needs() const {
 }
 
 void EncodeJob::keepNeeded(const Needs& needs) {
+  Needs sent = {};
   std::erase_if(packets_, [&](const Packet& packet) {
-    return packet.begin >= needs[static_cast<size_t>(packet.track)];
+    const auto component = static_cast<size_t>(packet.track);
+    const uint64_t begin = sent[component];
+    sent[component] += packet.end - packet.begin;
+    return begin >= needs[component];
   });
 }
 

@@ -47,27 +47,69 @@ std::vector<uint8_t> activityHints(const DecodedGeometry& geometry, uint32_t wid
   return hints;
 }
 
-DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHeader& header,
-                            const GeometryLayers& layers, int level) {
-  std::vector<uint8_t> valid;
-  if (layers.validity_bytes > 0) {
-    const auto validity = firstOf(codeword, layers.validity_bytes);
-    valid = decodeValidity(validity, header.width, header.height);
-    codeword = codeword.subspan(validity.size());
+namespace {
+
+/// The tracks taken apart.
+struct Layers {
+  std::span<const uint8_t> validity, corrections;
+  Codewords coefficients;
+
+  Layers(const Codewords& codewords, const GeometryLayers& layers) : coefficients(codewords) {
+    std::span<const uint8_t>& first = coefficients.front();
+    validity = firstOf(first, layers.validity_bytes);
+    first = first.subspan(validity.size());
+    if (layers.corrections == CorrectionKind::kNone) return;
+    corrections = first.subspan(firstOf(first, layers.coefficient_bytes).size());
+    first = first.first(first.size() - corrections.size());
   }
-  const bool corrected = layers.corrections != CorrectionKind::kNone;
-  const auto coefficients = corrected ? firstOf(codeword, layers.coefficient_bytes) : codeword;
-  codeword = codeword.subspan(coefficients.size());
+};
+
+std::vector<uint8_t> validityOf(const Layers& taken, const GeometryHeader& header,
+                                const GeometryLayers& layers) {
+  if (layers.validity_bytes == 0) return {};
+  return decodeValidity(taken.validity, header.width, header.height);
+}
+
+}  // namespace
+
+DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
+                            const GeometryLayers& layers, int level, uint32_t threads) {
+  const Layers taken(codewords, layers);
   DecodedHeights decoded;
-  decoded.geometry = decodeGeometry(header, coefficients, std::move(valid), level);
-  if (codeword.empty() || level > 0) return decoded;
+  decoded.geometry =
+      decodeGeometry(header, taken.coefficients, validityOf(taken, header, layers), level, threads);
+  if (taken.corrections.empty() || level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
-    correctSteps(decoded.geometry, header, layers, codeword);
+    correctSteps(decoded.geometry, header, layers, taken.corrections);
     return decoded;
   }
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(decoded.geometry), header);
-  decoded.corrections =
-      decodeCorrections(codeword, {header.width, header.height, decoded.geometry.valid, hints});
+  decoded.corrections = decodeCorrections(
+      taken.corrections, {header.width, header.height, decoded.geometry.valid, hints});
+  return decoded;
+}
+
+DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHeader& header,
+                                  const GeometryLayers& layers, const Window& window,
+                                  uint32_t threads) {
+  const Layers taken(codewords, layers);
+  DecodedHeights decoded;
+  if (taken.corrections.empty()) {
+    decoded.geometry = decodeGeometryWindow(header, taken.coefficients,
+                                            validityOf(taken, header, layers), window, threads);
+    return decoded;
+  }
+  // Contexts of corrections come from the corrections and heights of the whole plane.
+  const DecodedHeights whole = decodeLayers(codewords, header, layers, 0, threads);
+  const auto cut = [&]<class T>(const std::vector<T>& values) {
+    return values.empty() ? values : crop(std::span(values), header.width, window);
+  };
+  decoded.geometry.width = window.width;
+  decoded.geometry.height = window.height;
+  decoded.geometry.fraction_bits = whole.geometry.fraction_bits;
+  decoded.geometry.heights = cut(whole.geometry.heights);
+  decoded.geometry.valid = cut(whole.geometry.valid);
+  decoded.corrections = cut(whole.corrections);
   return decoded;
 }
 

@@ -17,10 +17,15 @@ struct DecodedHeights {
   std::vector<int32_t> corrections;  ///< to the samples; empty where there are none
 };
 
-/// codeword: any prefix of the track. Safe on any bytes. level: as decodeGeometry takes it; above 0
-/// without corrections, which are those of the samples.
-DecodedHeights decodeLayers(std::span<const uint8_t> codeword, const GeometryHeader& header,
-                            const GeometryLayers& layers, int level = 0);
+/// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes.
+/// level: as decodeGeometry takes it; above 0 without corrections, which are those of the samples.
+DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
+                            const GeometryLayers& layers, int level = 0, uint32_t threads = 1);
+
+/// The same in a window, in time that follows its size where there are regions and no corrections.
+DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHeader& header,
+                                  const GeometryLayers& layers, const Window& window,
+                                  uint32_t threads = 1);
 
 /// The hints (codec/corrections_pass.hpp) of corrections of steps: how many of a vertex and its
 /// four neighbours are significant.

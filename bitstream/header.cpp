@@ -15,7 +15,8 @@ enum Parts : uint8_t {
   kMetadata = 4,
   kIndex = 8,
   kLayers = 16,
-  kAllParts = 31
+  kRegions = 32,
+  kAllParts = 63
 };
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -29,13 +30,36 @@ uint32_t crc32(std::span<const uint8_t> bytes) {
   return ~crc;
 }
 
+bool hasRegions(const StreamHeader& header) {
+  return (header.geometry && !header.geometry->regions.isDefault()) ||
+         (header.texture && !header.texture->regions.isDefault());
+}
+
+bool namesRegions(const StreamHeader& header, TrackId track) {
+  if (track == TrackId::kGeometry) return header.geometry && header.geometry->regions.side_log2 > 0;
+  return header.texture && header.texture->regions.side_log2 > 0;
+}
+
+template <class V>
+void visitIndex(V& v, StreamHeader& header) {
+  uint64_t count = header.index.size();
+  v.varint("packets", count, 1, kMaxHeaderBytes / 2);
+  header.index.resize(v.ok() ? count : 0);
+  for (PacketHead& entry : header.index) {
+    v.varint("index_head", entry.head, 0, UINT64_MAX);
+    if (namesRegions(header, entry.track())) v.varint("index_region", entry.region, 0, UINT32_MAX);
+    v.u8("index_quality", entry.quality, 0, 255);
+    if (!v.ok()) break;
+  }
+}
+
 /// The body: which parts there are, then the parts.
 template <class V>
 void visitBody(V& v, StreamHeader& header) {
   uint8_t parts = static_cast<uint8_t>(
       (header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
       (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex) |
-      (header.layers.isDefault() ? 0 : kLayers));
+      (header.layers.isDefault() ? 0 : kLayers) | (hasRegions(header) ? kRegions : 0));
   v.u8("parts", parts, 1, kAllParts);
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
   v.u8("lossless", header.lossless, 0, 1);
@@ -51,16 +75,11 @@ void visitBody(V& v, StreamHeader& header) {
   }
   if (parts & kMetadata) header.metadata.visit(v);
   if (parts & kLayers) header.layers.visit(v);
-  if (parts & kIndex) {
-    uint64_t count = header.index.size();
-    v.varint("packets", count, 1, kMaxHeaderBytes / 2);
-    header.index.resize(v.ok() ? count : 0);
-    for (PacketHead& entry : header.index) {
-      v.varint("index_head", entry.head, 0, UINT64_MAX);
-      v.u8("index_quality", entry.quality, 0, 255);
-      if (!v.ok()) break;
-    }
+  if (parts & kRegions) {
+    if (header.geometry) header.geometry->regions.visit(v);
+    if (header.texture) header.texture->regions.visit(v);
   }
+  if (parts & kIndex) visitIndex(v, header);
 }
 
 Status needMore(size_t bytes) {
@@ -84,6 +103,17 @@ Status checkLayers(const StreamHeader& header) {
   return {};
 }
 
+Status checkRegions(const StreamHeader& header) {
+  const auto sound = [](const RegionHeader& r) {
+    return r.side_log2 == 0 || r.side_log2 >= kLeastRegionLog2;
+  };
+  if ((!header.geometry || sound(header.geometry->regions)) &&
+      (!header.texture || sound(header.texture->regions))) {
+    return {};
+  }
+  return {TKS_CORRUPT, "Corrupt stream: its regions are smaller than 16 samples."};
+}
+
 Status checkMeaning(const StreamHeader& header) {
   if (!header.geometry && !header.texture) {
     return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
@@ -95,6 +125,7 @@ Status checkMeaning(const StreamHeader& header) {
     }
   }
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
+  if (Status regions = checkRegions(header); !regions.ok()) return regions;
   if (header.texture) {
     const TextureHeader& t = *header.texture;
     if (t.sample != TKS_U8 && t.sample != TKS_U16) {
@@ -109,6 +140,18 @@ Status checkMeaning(const StreamHeader& header) {
 bool Metadata::isDefault() const {
   return scale == 1 && offset == 0 && spacing_x == 0 && spacing_y == 0 && unit.empty() &&
          vertical_datum.empty() && crs.empty();
+}
+
+TrackCounts trackCounts(const StreamHeader& header) {
+  TrackCounts counts;
+  const auto count = [](const auto& part, TrackCount& out) {
+    if (!part) return;
+    out.named = part->regions.side_log2 > 0;
+    out.tracks = regionCount(part->width, part->height, part->regions.side_log2);
+  };
+  count(header.geometry, counts[0]);
+  count(header.texture, counts[1]);
+  return counts;
 }
 
 uint8_t levelFor(const StreamHeader& header) {

@@ -12,6 +12,7 @@
 
 #include "bitstream/fields.hpp"
 #include "bitstream/packet.hpp"
+#include "bitstream/regions.hpp"
 #include "bitstream/status.hpp"
 
 namespace tetrakis {
@@ -38,6 +39,21 @@ struct WaveletHeader {
   }
 };
 
+/// Spatial regions of a component: bitstream/regions.hpp.
+struct RegionHeader {
+  uint8_t side_log2 = 0;     ///< of the regions of the finest levels; 0: one region
+  uint64_t whole_bytes = 0;  ///< bytes of coefficients in all tracks when complete; 0: never sent
+
+  bool isDefault() const { return *this == RegionHeader{}; }
+  bool operator==(const RegionHeader&) const = default;
+
+  template <class V>
+  void visit(V& v) {
+    v.u8("region_log2", side_log2, 0, kMostRegionLog2);
+    if (side_log2 > 0) v.varint("whole_bytes", whole_bytes, 0, UINT64_MAX >> 1);
+  }
+};
+
 /// What corrections are added to.
 enum class CorrectionKind : uint8_t {
   kNone = 0,
@@ -54,6 +70,7 @@ struct GeometryHeader {
   double base = 0, step = 1;
   double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
   WaveletHeader wavelet;
+  RegionHeader regions;  ///< a part of the header of its own
 
   template <class V>
   void visit(V& v) {
@@ -114,6 +131,7 @@ struct TextureHeader {
   std::array<uint16_t, 4> centre{};   ///< one per component
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
+  RegionHeader regions;  ///< a part of the header of its own
   /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
   /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
   uint64_t alpha_bytes = 0;
@@ -182,6 +200,9 @@ struct StreamHeader {
   Metadata metadata;
   std::vector<PacketHead> index;  ///< the heads of all packets, ahead of time
 };
+
+/// Tracks of each component; see demultiplex().
+TrackCounts trackCounts(const StreamHeader& header);
 
 /// Smallest n such that neither component has more than 4^(n + 8) samples.
 uint8_t levelFor(const StreamHeader& header);

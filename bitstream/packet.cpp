@@ -8,6 +8,16 @@
 
 namespace tetrakis {
 
+namespace {
+
+void putHead(const Packet& packet, FieldWriter& writer) {
+  writer.put(packet.head());
+  if (packet.region) writer.put(*packet.region);
+  writer.bytes.push_back(packet.quality);
+}
+
+}  // namespace
+
 uint8_t qualityOf(double rmse) {
   if (!(rmse > 0)) return 0;
   return static_cast<uint8_t>(std::clamp(std::ceil(8 * std::log2(rmse)) + 64, 1.0, 255.0));
@@ -19,19 +29,18 @@ double rmseOf(uint8_t quality) {
 
 size_t overheadOf(const Packet& packet) {
   FieldWriter writer;
-  writer.put(packet.head());
-  return writer.bytes.size() + 1;
+  putHead(packet, writer);
+  return writer.bytes.size();
 }
 
 std::vector<uint8_t> multiplex(std::span<const Packet> packets,
-                               const std::array<std::span<const uint8_t>, kTracks>& codewords,
-                               uint64_t limit) {
+                               const std::array<Codewords, kTracks>& codewords, uint64_t limit) {
   FieldWriter writer;
   for (const Packet& packet : packets) {
-    writer.put(packet.head());
-    writer.bytes.push_back(packet.quality);
-    const auto payload = codewords[static_cast<size_t>(packet.track)].subspan(
-        packet.begin, packet.end - packet.begin);
+    putHead(packet, writer);
+    const auto payload =
+        codewords[static_cast<size_t>(packet.track)][packet.region.value_or(0)].subspan(
+            packet.begin, packet.end - packet.begin);
     writer.bytes.insert(writer.bytes.end(), payload.begin(), payload.end());
     if (writer.bytes.size() >= limit) break;
   }
@@ -39,35 +48,42 @@ std::vector<uint8_t> multiplex(std::span<const Packet> packets,
   return std::move(writer.bytes);
 }
 
+Codewords Demultiplexed::codewordsOf(TrackId track) const {
+  const auto& all = codewords[static_cast<size_t>(track)];
+  return {all.begin(), all.end()};
+}
+
 Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
-                                  const std::array<bool, kTracks>& present) {
+                                  const TrackCounts& counts) {
   Demultiplexed out;
+  for (size_t c = 0; c < kTracks; ++c) out.codewords[c].resize(counts[c].tracks);
   size_t at = 0;
   while (at < payload.size()) {
     FieldReader reader(payload.subspan(at), origin + at);
-    const uint64_t head = reader.take();
-    uint8_t quality = 0;
-    reader.u8("quality", quality, 0, 255);
+    PacketHead head;
+    head.head = reader.take();
+    const auto component = static_cast<size_t>(head.track());
+    const uint64_t length = head.head >> 2;
+    if (counts[component].named) reader.varint("region", head.region, 0, UINT32_MAX);
+    reader.u8("quality", head.quality, 0, 255);
     if (reader.starved()) break;
     if (!reader.ok()) return reader.status();
-    const size_t track = head & 1;
-    const uint64_t length = head >> 2;
-    if (length == 0 || !present[track]) {
+    if (length == 0 || head.region >= counts[component].tracks) {
       return Status(TKS_CORRUPT, "Corrupt stream: the packet at byte " +
                                      std::to_string(origin + at) +
                                      " is empty or of a track that the header does not announce.");
     }
     at += reader.position();
-    out.heads.push_back({head, quality});
+    out.heads.push_back(head);
     const bool complete = length <= payload.size() - at;
-    const bool whole = (head & 2) != 0;
+    const bool whole = (head.head & 2) != 0;
     const size_t available = complete ? static_cast<size_t>(length) : payload.size() - at;
     if (complete || !whole) {
+      std::vector<uint8_t>& codeword = out.codewords[component][head.region];
       const auto from = payload.begin() + static_cast<ptrdiff_t>(at);
-      out.codewords[track].insert(out.codewords[track].end(), from,
-                                  from + static_cast<ptrdiff_t>(available));
+      codeword.insert(codeword.end(), from, from + static_cast<ptrdiff_t>(available));
     }
-    if (complete) out.quality[track] = quality;
+    if (complete) out.quality[component] = head.quality;
     at += available;
   }
   return out;

@@ -26,29 +26,22 @@ bool BandPlan::vacant() const {
 }
 
 std::vector<Pass> schedule(const std::vector<BandPlan>& plan, int planes) {
-  struct Keyed {
-    int key;
-    Pass pass;
-  };
   std::vector<uint16_t> coded;
   for (size_t band = 0; band < plan.size(); ++band) {
     if (!plan[band].vacant()) coded.push_back(static_cast<uint16_t>(band));
   }
-  std::vector<Keyed> keyed;
-  keyed.reserve(plan.size() * static_cast<size_t>(planes) * kDelay.size());
+  std::vector<Pass> passes;
+  passes.reserve(coded.size() * static_cast<size_t>(planes) * kDelay.size());
   for (int plane = planes - 1; plane >= 0; --plane) {
     for (const uint16_t band : coded) {
       for (int kind = 0; kind < 3; ++kind) {
-        keyed.push_back({16 * plane + plan[band].log_norm - kDelay[kind],
-                         {band, static_cast<uint8_t>(plane), static_cast<PassKind>(kind)}});
+        passes.push_back({band, static_cast<uint8_t>(plane), static_cast<PassKind>(kind),
+                          16 * plane + plan[band].log_norm - kDelay[static_cast<size_t>(kind)]});
       }
     }
   }
-  std::stable_sort(keyed.begin(), keyed.end(),
-                   [](const Keyed& a, const Keyed& b) { return a.key > b.key; });
-  std::vector<Pass> passes;
-  passes.reserve(keyed.size());
-  for (const Keyed& k : keyed) passes.push_back(k.pass);
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const Pass& a, const Pass& b) { return a.key > b.key; });
   return passes;
 }
 

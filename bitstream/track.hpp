@@ -37,6 +37,7 @@ struct Pass {
   uint16_t band;
   uint8_t plane;
   PassKind kind;
+  int key;  ///< what passes are ordered by: 16 log2 of norm * 2^plane, less a delay
 };
 
 /// All passes of a track with `planes` bit-planes, in coding order.

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 #include <utility>
 
+#include "bitstream/parallel.hpp"
 #include "bitstream/range_encoder.hpp"
 #include "bitstream/reconstruction.hpp"
 
@@ -118,15 +121,9 @@ class EncodingIo {
   const Occupancy* occupancy_ = nullptr;
 };
 
-int planesOf(const std::vector<Occupancy>& occupancy) {
-  uint32_t all = 0;
-  for (const Occupancy& o : occupancy) all |= o.band;
-  return std::bit_width(all);
-}
-
-double energyOf(const std::vector<BandSource>& sources) {
+double energyOf(const TrackSource& track) {
   double energy = 0;
-  for (const BandSource& source : sources) {
+  for (const BandSource& source : track.bands) {
     double band = 0;
     for (int32_t value : source.values) band += squared(value);
     energy += source.weight * band;
@@ -148,36 +145,111 @@ void append(std::vector<RatePoint>& points, RatePoint point) {
   points.push_back(point);
 }
 
+/// Codes a track pass by pass.
+class TrackCoder {
+ public:
+  explicit TrackCoder(const TrackSource& source) : source_(source) {
+    occupancy_.reserve(source.plan.size());
+    for (size_t i = 0; i < source.plan.size(); ++i)
+      occupancy_.emplace_back(source.plan[i].shape, source.bands[i].values);
+  }
+
+  int planes() const {
+    uint32_t all = 0;
+    for (const Occupancy& o : occupancy_) all |= o.band;
+    return std::bit_width(all);
+  }
+
+  void start(int planes) {
+    track_.planes = planes;
+    state_.emplace(source_.plan, planes);
+    passes_ = schedule(source_.plan, planes);
+    const double energy = energyOf(source_);
+    io_.start(energy);
+    track_.points.push_back({0, energy});
+  }
+
+  int firstKey() const { return passes_.empty() ? kNoKey : passes_.front().key; }
+  bool done() const { return next_ == passes_.size(); }
+  uint64_t bytes() const { return io_.decidedBytes(); }
+
+  /// Runs the passes of this key and above, until the codeword passes `limit` bytes.
+  void run(int least_key, uint64_t limit) {
+    while (!done() && passes_[next_].key >= least_key && bytes() <= limit) {
+      const Pass& pass = passes_[next_++];
+      io_.select(source_.plan[pass.band].shape, source_.bands[pass.band], occupancy_[pass.band]);
+      state_->run(source_.plan, pass, io_);
+      append(track_.points, io_.point());
+    }
+  }
+
+  EncodedTrack finish() {
+    track_.complete = done();
+    track_.codeword = io_.finish();
+    RatePoint last = track_.points.back();
+    last.bytes = track_.codeword.size();
+    if (track_.complete) last.distortion = 0;
+    while (track_.points.size() > 1 && track_.points.back().bytes >= last.bytes)
+      track_.points.pop_back();
+    if (last.bytes > 0) track_.points.push_back(last);
+    return std::move(track_);
+  }
+
+  static constexpr int kNoKey = std::numeric_limits<int>::min();
+
+ private:
+  const TrackSource& source_;
+  std::vector<Occupancy> occupancy_;
+  std::optional<TrackState> state_;
+  std::vector<Pass> passes_;
+  size_t next_ = 0;
+  EncodingIo io_;
+  EncodedTrack track_;
+};
+
+/// All coders together, one bit-plane after the other.
+void runTogether(std::vector<std::optional<TrackCoder>>& coders, uint64_t limit, uint32_t threads) {
+  constexpr int kBitPlane = 16;
+  int key = TrackCoder::kNoKey;
+  for (const auto& coder : coders) key = std::max(key, coder->firstKey());
+  const auto open = [&] {
+    uint64_t bytes = 0;
+    bool done = true;
+    for (const auto& coder : coders) {
+      bytes += coder->bytes();
+      done &= coder->done();
+    }
+    return !done && bytes <= limit;
+  };
+  for (; open(); key -= kBitPlane) {
+    const int least = limit == UINT64_MAX ? TrackCoder::kNoKey : key;
+    parallelFor(threads, coders.size(), [&](size_t i) { coders[i]->run(least, UINT64_MAX); });
+  }
+}
+
 }  // namespace
 
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
                          uint64_t limit) {
-  std::vector<Occupancy> occupancy;
-  occupancy.reserve(plan.size());
-  for (size_t i = 0; i < plan.size(); ++i) occupancy.emplace_back(plan[i].shape, sources[i].values);
-  EncodedTrack track;
-  track.planes = planesOf(occupancy);
-  TrackState state(plan, track.planes);
-  EncodingIo io;
-  io.start(energyOf(sources));
-  track.points.push_back({0, energyOf(sources)});
-  for (const Pass& pass : schedule(plan, track.planes)) {
-    io.select(plan[pass.band].shape, sources[pass.band], occupancy[pass.band]);
-    state.run(plan, pass, io);
-    append(track.points, io.point());
-    if (io.decidedBytes() > limit) {
-      track.complete = false;
-      break;
-    }
+  return std::move(encodeTracks({{plan, sources}}, {limit}).front());
+}
+
+std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
+                                       const TrackOptions& options) {
+  const uint32_t threads = options.threads;
+  std::vector<std::optional<TrackCoder>> coders(sources.size());
+  parallelFor(threads, coders.size(), [&](size_t i) { coders[i].emplace(sources[i]); });
+  int planes = 0;
+  for (const auto& coder : coders) planes = std::max(planes, coder->planes());
+  parallelFor(threads, coders.size(), [&](size_t i) { coders[i]->start(planes); });
+  if (coders.size() == 1) {
+    coders.front()->run(TrackCoder::kNoKey, options.limit);
+  } else {
+    runTogether(coders, options.limit, threads);
   }
-  track.codeword = io.finish();
-  RatePoint last = track.points.back();
-  last.bytes = track.codeword.size();
-  if (track.complete) last.distortion = 0;
-  while (track.points.size() > 1 && track.points.back().bytes >= last.bytes)
-    track.points.pop_back();
-  if (last.bytes > 0) track.points.push_back(last);
-  return track;
+  std::vector<EncodedTrack> tracks;
+  for (auto& coder : coders) tracks.push_back(coder->finish());
+  return tracks;
 }
 
 }  // namespace tetrakis

@@ -33,8 +33,27 @@ struct BandSource {
   double weight = 1;  ///< squared error in the output per squared error of a coefficient
 };
 
-/// sources[i] belongs to plan[i]. Stops after the pass in which the codeword passes `limit` bytes.
+/// What one track is made of: bands[i] belongs to plan[i].
+struct TrackSource {
+  std::vector<BandPlan> plan;
+  std::vector<BandSource> bands;
+};
+
+/// Stops after the pass in which the codeword passes `limit` bytes.
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
                          uint64_t limit);
+
+/// How a component is coded.
+struct TrackOptions {
+  uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
+  int region_log2 = 0;          ///< bitstream/regions.hpp; 0: one track
+  uint32_t threads = 1;         ///< nothing depends on them
+};
+
+/// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks
+/// stop together, at the same key of the order of passes, after a bit-plane in which all codewords
+/// together pass the limit.
+std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
+                                       const TrackOptions& options);
 
 }  // namespace tetrakis

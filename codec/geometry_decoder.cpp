@@ -5,34 +5,43 @@
 #include <bit>
 #include <utility>
 
-#include "bitstream/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"
 #include "wavelet/mip_level.hpp"
+#include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
 
 namespace {
 
-/// Marks the vertices that the band's significant coefficients belong to.
-void markVertices(const Band& band, const Subband& subband, uint32_t width,
+/// Marks the vertices that the part's significant coefficients belong to.
+void markVertices(const Band& band, const Subband& subband, const BandPart& part, uint32_t width,
                   std::vector<uint8_t>& marks) {
-  for (uint32_t row = 0; row < subband.height; ++row) {
-    uint8_t* out = marks.data() + size_t{subband.planeRow(row)} * width;
+  if (band.shape.empty()) return;
+  const bool high_x =
+      subband.orientation == Orientation::kHL || subband.orientation == Orientation::kHH;
+  const size_t first = high_x ? size_t{1} << (subband.splits_x - 1) : 0;
+  for (uint32_t row = 0; row < part.rows; ++row) {
+    uint8_t* out = marks.data() + size_t{subband.planeRow(part.row + row)} * width + first;
     for (uint32_t x = 0; x < band.shape.words(); ++x) {
       uint32_t todo = band.significant[band.shape.word(row, x)];
       for (; todo != 0; todo &= todo - 1) {
-        out[subband.sampleColumn(32 * x + static_cast<uint32_t>(std::countr_zero(todo)))] = 1;
+        const size_t column =
+            part.column + 32 * size_t{x} + static_cast<size_t>(std::countr_zero(todo));
+        out[column << subband.splits_x] = 1;
       }
     }
   }
 }
 
-uint32_t quietLevels(const TrackState& state, std::span<const Subband> subbands) {
-  uint32_t quiet = static_cast<uint32_t>(subbands.front().level);
-  for (size_t i = 1; i < subbands.size(); ++i) {
-    const auto level = static_cast<uint32_t>(subbands[i].level);
-    if (state.bands[i].nonzero) quiet = std::min(quiet, level - 1);
+uint32_t quietLevels(const TrackState& state, std::span<const Subband> subbands,
+                     std::span<const BandPart> parts) {
+  auto quiet = static_cast<uint32_t>(subbands.front().level);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].subband >= subbands.size() || !state.bands[i].nonzero) continue;
+    const Subband& subband = subbands[parts[i].subband];
+    if (subband.orientation == Orientation::kLL) continue;
+    quiet = std::min(quiet, static_cast<uint32_t>(subband.level) - 1);
   }
   return quiet;
 }
@@ -50,31 +59,50 @@ void thin(const MipLevel& mip, std::vector<T>& values) {
   values.resize(mip.samples());
 }
 
+/// What a track of the plan holds, and which bands of it a level needs; empty: none.
+std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart> parts,
+                             Validity valid, uint32_t width, const MipLevel& mip) {
+  std::vector<BandPlan> plan = layout.plan(parts, 0, 0, 0);
+  mip.dropFiner(parts, plan);
+  const auto needed = [](const BandPlan& band) { return band.needed; };
+  if (std::none_of(plan.begin(), plan.end(), needed)) return {};
+  markAbsent(layout, parts, valid, width, plan);
+  return plan;
+}
+
 }  // namespace
 
-DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword,
-                               std::vector<uint8_t> valid, int level) {
+DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
+                               std::vector<uint8_t> valid, int level, uint32_t threads) {
   const WaveletSpec spec = specOf(header.wavelet);
   const PlaneLayout layout(spec, header.width, header.height);
+  const std::vector<Region> regions =
+      regionsOf(header.width, header.height, header.regions.side_log2);
   const MipLevel mip(header.width, header.height, level);
-  std::vector<BandPlan> plan = layout.plan(0, 0, 0);
-  markAbsent(layout, valid, header.width, plan);
-  mip.dropFiner(plan);
-  const TrackState state = decodeTrack(plan, header.planes, codeword);
   const auto [width, height] = mip.low();
+  const uint32_t low_width = width;
+  const std::vector<Subband> subbands = subbandsOf(width, height);
   DecodedGeometry out;
-  out.valid = level == 0 ? std::move(valid) : mip.maskOf(valid, header.width);
-  out.fraction_bits = outputFractionBits(header.wavelet, header.planes, state.complete);
   out.heights.resize(size_t{width} * height);
   out.significant.resize(out.heights.size());
-  const std::vector<Subband> subbands = subbandsOf(width, height);
-  for (size_t i = 0; i < subbands.size(); ++i) {
-    scatter(state.bands[i], out.fraction_bits - header.wavelet.fraction_bits, subbands[i],
-            out.heights, width);
-    markVertices(state.bands[i], subbands[i], width, out.significant);
-  }
-  out.quiet_levels = quietLevels(state, subbands);
-  inverseWavelet(mip.transform(spec), out.heights, width, height, out.valid);
+  std::vector<uint32_t> quiet(regions.size(), static_cast<uint32_t>(subbands.front().level));
+  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
+  out.fraction_bits = tracks.run(
+      codewords,
+      [&](size_t i) { return planOf(layout, layout.parts(regions[i]), valid, header.width, mip); },
+      [&](size_t i, const TrackState& state, int more_bits) {
+        const std::vector<BandPart> parts = layout.parts(regions[i]);
+        for (size_t k = 0; k < parts.size(); ++k) {
+          if (parts[k].subband >= subbands.size()) continue;
+          const Subband& subband = subbands[parts[k].subband];
+          scatter(state.bands[k], more_bits, subband, parts[k], out.heights, low_width);
+          markVertices(state.bands[k], subband, parts[k], low_width, out.significant);
+        }
+        quiet[i] = quietLevels(state, subbands, parts);
+      });
+  out.quiet_levels = *std::min_element(quiet.begin(), quiet.end());
+  out.valid = level == 0 ? std::move(valid) : mip.maskOf(valid, header.width);
+  inverseWavelet(mip.transform(spec), out.heights, width, height, out.valid, threads);
   clearVoids(out);
   mip.normalise(spec, out.heights);
   thin(mip, out.heights);
@@ -82,6 +110,39 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uin
   if (!out.valid.empty()) thin(mip, out.valid);
   out.width = mip.size().width;
   out.height = mip.size().height;
+  return out;
+}
+
+DecodedGeometry decodeGeometryWindow(const GeometryHeader& header, const Codewords& codewords,
+                                     std::span<const uint8_t> valid, const Window& window,
+                                     uint32_t threads) {
+  const WaveletSpec spec = specOf(header.wavelet);
+  const PlaneLayout layout(spec, header.width, header.height);
+  const std::vector<Region> regions =
+      regionsOf(header.width, header.height, header.regions.side_log2);
+  WindowSynthesis synthesis(spec, layout.subbands(), header.width, header.height, window);
+  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
+  DecodedGeometry out;
+  out.fraction_bits = tracks.run(
+      codewords,
+      [&](size_t i) {
+        const std::vector<BandPart> parts = layout.parts(regions[i]);
+        const bool needed = std::any_of(parts.begin(), parts.end(), [&](const BandPart& part) {
+          return synthesis.needs(part);
+        });
+        if (!needed) return std::vector<BandPlan>();
+        return planOf(layout, parts, valid, header.width, MipLevel(header.width, header.height, 0));
+      },
+      [&](size_t i, const TrackState& state, int more_bits) {
+        const std::vector<BandPart> parts = layout.parts(regions[i]);
+        for (size_t k = 0; k < parts.size(); ++k)
+          synthesis.put(state.bands[k], more_bits, parts[k]);
+      });
+  out.heights = synthesis.run(valid);
+  if (!valid.empty()) out.valid = crop(valid, header.width, window);
+  for (size_t i = 0; i < out.valid.size(); ++i) out.heights[i] *= out.valid[i];
+  out.width = window.width;
+  out.height = window.height;
   return out;
 }
 

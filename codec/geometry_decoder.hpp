@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Geometry track to height field. Integer only.
+// Geometry tracks to height field. Integer only.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bitstream/header.hpp"
+#include "bitstream/packet.hpp"
+#include "wavelet/window.hpp"
 
 namespace tetrakis {
 
@@ -20,11 +22,18 @@ struct DecodedGeometry {
   uint32_t quiet_levels = 0;         ///< finest levels of which no coefficient is significant
 };
 
-/// codeword: any prefix of a geometry track's coefficients. valid: of all samples, or empty. level:
-/// every 2^level-th sample in x and y, up to the coarsest (wavelet/mip_level.hpp). Safe on any
-/// bytes and any header that readHeader accepts.
-DecodedGeometry decodeGeometry(const GeometryHeader& header, std::span<const uint8_t> codeword,
-                               std::vector<uint8_t> valid = {}, int level = 0);
+/// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). valid:
+/// width * height, or empty. level: every 2^level-th sample in x and y, up to the coarsest
+/// (wavelet/mip_level.hpp). Safe on any bytes and any header that readHeader accepts.
+DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
+                               std::vector<uint8_t> valid = {}, int level = 0,
+                               uint32_t threads = 1);
+
+/// The same in a window of the plane, in time that follows its size where there are regions. valid:
+/// of the whole plane; out of it come the heights and the validity of the window alone.
+DecodedGeometry decodeGeometryWindow(const GeometryHeader& header, const Codewords& codewords,
+                                     std::span<const uint8_t> valid, const Window& window,
+                                     uint32_t threads = 1);
 
 /// Heights in whole steps, rounding half up.
 std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);

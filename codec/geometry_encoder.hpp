@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Height field to geometry track.
+// Height field to geometry tracks.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "bitstream/header.hpp"
 #include "bitstream/track_encoder.hpp"
@@ -12,9 +13,9 @@ namespace tetrakis {
 
 /// heights: width * height integers. wavelet: from chooseWavelet(). valid: 1 valid, 0 void, one a
 /// height; empty: all are valid. Distortion is in squared height units, summed over the samples.
-/// Coding stops soon after `limit` bytes.
-EncodedTrack encodeGeometry(std::span<const int32_t> heights, uint32_t width, uint32_t height,
-                            const WaveletHeader& wavelet, uint64_t limit,
-                            std::span<const uint8_t> valid = {});
+std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint32_t width,
+                                         uint32_t height, const WaveletHeader& wavelet,
+                                         const TrackOptions& options,
+                                         std::span<const uint8_t> valid = {});
 
 }  // namespace tetrakis

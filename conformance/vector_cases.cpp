@@ -38,6 +38,11 @@ tks_encode_options quality(double psnr) {
   return options;
 }
 
+tks_encode_options inRegions(tks_encode_options options, uint32_t side) {
+  options.regions = side;
+  return options;
+}
+
 tks_encode_options indexed(tks_encode_options options) {
   options.index = 1;
   return options;
@@ -231,6 +236,27 @@ std::vector<VectorCase> jointCases() {
   };
 }
 
+/// Spatial regions, and several groups of them.
+std::vector<VectorCase> regionCases() {
+  VectorCase joint =
+      heightsCase("regions_joint_index_40x33_50x47", "regions of heights and texture, index",
+                  {Pattern::kRidges, 40, 33, 1, TKS_I16}, indexed(inRegions(lossless(), 16)));
+  joint.texture = Recipe{Pattern::kRidges, 50, 47, 3, TKS_U8, 7};
+  VectorCase budgeted = heightsCase(
+      "regions_budget_97x97_128x128", "regions with fraction bits; cut by a byte budget",
+      {Pattern::kRidges, 97, 97, 1, TKS_U16}, inRegions(budget(9000), 32));
+  budgeted.texture = Recipe{Pattern::kRidges, 128, 128, 3, TKS_U8, 7};
+  VectorCase corrected =
+      heightsCase("regions_coast_thirds_60x41", "regions beside validity and corrections",
+                  {Pattern::kRidges, 60, 41, 1, TKS_F32}, inRegions(lossless(), 16));
+  corrected.thirds = true;
+  return {heightsCase("regions_groups_200x70", "two groups of regions below the base",
+                      {Pattern::kSteps, 200, 70, 1, TKS_U8}, inRegions(budget(1500), 16)),
+          heightsCase("regions_long_150x9", "regions side by side; a last one that is longer",
+                      {Pattern::kRidges, 150, 9, 1, TKS_I16}, inRegions(lossless(), 32)),
+          joint, budgeted, withVoids(corrected, samples::VoidShape::kCoast, NAN)};
+}
+
 /// Streams that a decoder must refuse, by the byte that is wrong (docs/FORMAT.md, section 2).
 std::vector<VectorCase> damagedCases() {
   const Recipe heights{Pattern::kRidges, 9, 9, 1, TKS_I16};
@@ -269,6 +295,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : layerCases()) all.push_back(std::move(next));
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
+  for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : damagedCases()) all.push_back(std::move(next));
   return all;
 }

@@ -2,6 +2,7 @@
 #include "ratecontrol/allocation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tetrakis {
 
@@ -9,15 +10,25 @@ namespace {
 
 struct Priced {
   double slope;  // distortion removed per byte
-  Packet packet;
+  std::vector<Packet> packets;
 };
 
 std::vector<Priced> price(const TrackCurve& curve, TrackId track) {
   std::vector<Priced> out;
+  auto next = curve.packets.begin();
+  uint64_t sent = 0;
   for (size_t i = 1; i < curve.points.size(); ++i) {
     const RatePoint &a = curve.points[i - 1], &b = curve.points[i];
-    const Packet packet{track, b.dips, qualityOf(curve.rmse[i]), a.bytes, b.bytes};
-    out.push_back({(a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes), packet});
+    std::vector<Packet> packets;
+    if (curve.packets.empty()) {
+      packets.push_back({track, b.dips, qualityOf(curve.rmse[i]), a.bytes, b.bytes, {}});
+    }
+    for (; sent < b.bytes && next != curve.packets.end(); ++next) {
+      sent += next->end - next->begin;
+      packets.push_back(*next);
+    }
+    out.push_back({(a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes),
+                   std::move(packets)});
   }
   return out;
 }
@@ -33,7 +44,8 @@ std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves) {
   while (g < geometry.size() || t < texture.size()) {
     const bool take_geometry =
         t == texture.size() || (g < geometry.size() && geometry[g].slope >= texture[t].slope);
-    order.push_back(take_geometry ? geometry[g++].packet : texture[t++].packet);
+    const Priced& next = take_geometry ? geometry[g++] : texture[t++];
+    order.insert(order.end(), next.packets.begin(), next.packets.end());
   }
   return order;
 }

@@ -12,11 +12,13 @@
 
 namespace tetrakis {
 
-/// One track as the allocation sees it: hull points in a distortion common to all tracks, and the
-/// RMSE that the packet ending at each point states.
+/// One component as the allocation sees it: hull points in a distortion common to all components,
+/// and the RMSE that the packet ending at each point states. Of a component with several tracks the
+/// packets are given instead, in their order; points lie at their ends.
 struct TrackCurve {
   std::vector<RatePoint> points;  ///< from {0, ...}; convex; fewer than two: no packets
-  std::vector<double> rmse;       ///< one per point
+  std::vector<double> rmse;       ///< one per point, of a single track
+  std::vector<Packet> packets;    ///< of several tracks
 };
 
 /// Steepest slope first; within a track the order of the codeword. Equal slopes: geometry first.

@@ -144,19 +144,21 @@ TEST(Packets, DemultiplexUndoesMultiplexAtEveryCut) {
   std::vector<uint8_t> geometry(700), texture(300);
   for (size_t i = 0; i < geometry.size(); ++i) geometry[i] = static_cast<uint8_t>(i * 7);
   for (size_t i = 0; i < texture.size(); ++i) texture[i] = static_cast<uint8_t>(i * 11);
-  const std::vector<Packet> packets = {{TrackId::kGeometry, false, 90, 0, 40},
-                                       {TrackId::kTexture, true, 80, 0, 300},
-                                       {TrackId::kGeometry, false, 70, 40, 700}};
-  const std::vector<uint8_t> payload = multiplex(packets, {geometry, texture}, UINT64_MAX);
+  const std::vector<Packet> packets = {{TrackId::kGeometry, false, 90, 0, 40, {}},
+                                       {TrackId::kTexture, true, 80, 0, 300, {}},
+                                       {TrackId::kGeometry, false, 70, 40, 700, {}}};
+  const std::vector<uint8_t> payload =
+      multiplex(packets, {Codewords{geometry}, Codewords{texture}}, UINT64_MAX);
   for (size_t cut = 0; cut <= payload.size(); ++cut) {
-    Result<Demultiplexed> out = demultiplex(std::span(payload).first(cut), 0, {true, true});
+    Result<Demultiplexed> out =
+        demultiplex(std::span(payload).first(cut), 0, {{{1, false}, {1, false}}});
     ASSERT_TRUE(out.ok());
-    const auto& g = out->codewords[0];
-    const auto& t = out->codewords[1];
+    const auto& g = out->codewords[0].front();
+    const auto& t = out->codewords[1].front();
     EXPECT_TRUE(std::equal(g.begin(), g.end(), geometry.begin()));
     EXPECT_TRUE(t.empty() || t == texture);  // a whole packet comes whole or not at all
   }
-  EXPECT_FALSE(demultiplex(payload, 0, {true, false}).ok());
+  EXPECT_FALSE(demultiplex(payload, 0, {{{1, false}, {0, false}}}).ok());
 }
 
 TEST(Packets, QualityRoundsUp) {

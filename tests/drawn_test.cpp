@@ -65,7 +65,7 @@ double squaredError(const Texels& a, const Texels& b) {
 }
 
 std::span<const uint8_t> prefixOf(const EncodedTexture& encoded, size_t bytes) {
-  return std::span(encoded.track.codeword).first(bytes);
+  return std::span(encoded.tracks.front().codeword).first(bytes);
 }
 
 TEST(Drawn, IsLosslessAtItsEnd) {
@@ -77,7 +77,8 @@ TEST(Drawn, IsLosslessAtItsEnd) {
           const auto encoded = encodeDrawn(texels);
           if (!encoded) continue;  // too small for texels to be alike
           EXPECT_TRUE(encoded->header.drawn());
-          EXPECT_EQ(decodeTexture(encoded->header, encoded->track.codeword).samples, texels.samples)
+          EXPECT_EQ(decodeTexture(encoded->header, {encoded->tracks.front().codeword}).samples,
+                    texels.samples)
               << size.width << " x " << size.height << " x " << channels << ", " << bits << " bits";
         }
       }
@@ -89,8 +90,9 @@ TEST(Drawn, AThousandColoursComeBack) {
   const Texels texels = drawing({300, 200}, 3, 8, 1500);
   const auto encoded = encodeDrawn(texels);
   ASSERT_TRUE(encoded);
-  EXPECT_EQ(decodeTexture(encoded->header, encoded->track.codeword).samples, texels.samples);
-  EXPECT_LT(encoded->track.codeword.size(), texels.samples.size() / 6);
+  EXPECT_EQ(decodeTexture(encoded->header, {encoded->tracks.front().codeword}).samples,
+            texels.samples);
+  EXPECT_LT(encoded->tracks.front().codeword.size(), texels.samples.size() / 6);
 }
 
 /// What a prefix shows is about what the stated points say: it may know a few vertices of the next
@@ -99,10 +101,10 @@ TEST(Drawn, PointsAreTrue) {
   const Texels texels = drawing({90, 70}, 3, 8, 12);
   const auto encoded = encodeDrawn(texels);
   ASSERT_TRUE(encoded);
-  const std::vector<RatePoint>& points = encoded->track.points;
+  const std::vector<RatePoint>& points = encoded->tracks.front().points;
   ASSERT_GT(points.size(), 4u);
   for (size_t i = 0; i < points.size(); ++i) {
-    const Texels decoded = decodeTexture(encoded->header, prefixOf(*encoded, points[i].bytes));
+    const Texels decoded = decodeTexture(encoded->header, {prefixOf(*encoded, points[i].bytes)});
     EXPECT_LE(squaredError(decoded, texels), 1.15 * points[i].distortion);
     if (i == 0) continue;
     EXPECT_GT(points[i].bytes, points[i - 1].bytes);
@@ -116,8 +118,8 @@ TEST(Drawn, EveryPrefixDecodesAndTexelsStay) {
   const auto encoded = encodeDrawn(texels);
   ASSERT_TRUE(encoded);
   size_t known_before = 0;
-  for (size_t bytes = 0; bytes <= encoded->track.codeword.size(); ++bytes) {
-    const Texels decoded = decodeTexture(encoded->header, prefixOf(*encoded, bytes));
+  for (size_t bytes = 0; bytes <= encoded->tracks.front().codeword.size(); ++bytes) {
+    const Texels decoded = decodeTexture(encoded->header, {prefixOf(*encoded, bytes)});
     size_t right = 0;
     for (size_t i = 0; i < texels.samples.size(); ++i)
       right += decoded.samples[i] == texels.samples[i];
@@ -133,16 +135,16 @@ TEST(Drawn, AnyBytesDecode) {
   const auto encoded = encodeDrawn(texels);
   ASSERT_TRUE(encoded);
   std::mt19937 random(9);
-  for (size_t at = 0; at < encoded->track.codeword.size(); ++at) {
-    std::vector<uint8_t> damaged = encoded->track.codeword;
+  for (size_t at = 0; at < encoded->tracks.front().codeword.size(); ++at) {
+    std::vector<uint8_t> damaged = encoded->tracks.front().codeword;
     damaged[at] = static_cast<uint8_t>(damaged[at] ^ (1 + random() % 255));
-    EXPECT_EQ(decodeTexture(encoded->header, damaged).samples.size(), texels.samples.size());
+    EXPECT_EQ(decodeTexture(encoded->header, {damaged}).samples.size(), texels.samples.size());
   }
   std::vector<uint8_t> wild(3000);
   for (int round = 0; round < 20; ++round) {
     for (uint8_t& byte : wild)
       byte = static_cast<uint8_t>(round == 0 ? 0 : round == 1 ? 255 : random());
-    EXPECT_EQ(decodeTexture(encoded->header, wild).samples.size(), texels.samples.size());
+    EXPECT_EQ(decodeTexture(encoded->header, {wild}).samples.size(), texels.samples.size());
   }
 }
 
@@ -168,8 +170,8 @@ TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
   }
   ASSERT_TRUE(encodeDrawn(lake)) << "alike enough to be tried";
   for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {
-    EXPECT_TRUE(encodeTexture(map, purpose, UINT64_MAX).header.drawn());
-    EXPECT_FALSE(encodeTexture(lake, purpose, UINT64_MAX).header.drawn());
+    EXPECT_TRUE(encodeTexture(map, purpose, {}).header.drawn());
+    EXPECT_FALSE(encodeTexture(lake, purpose, {}).header.drawn());
   }
 }
 

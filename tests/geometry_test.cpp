@@ -35,7 +35,7 @@ Coded encode(const Plane& heights, const Size& size, const WaveletHeader& wavele
   coded.header.width = size.width;
   coded.header.height = size.height;
   coded.header.wavelet = wavelet;
-  coded.track = encodeGeometry(heights, size.width, size.height, wavelet, limit, valid);
+  coded.track = encodeGeometry(heights, size.width, size.height, wavelet, {limit}, valid).front();
   coded.header.planes = static_cast<uint8_t>(coded.track.planes);
   return coded;
 }
@@ -46,7 +46,7 @@ Coded encode(const Plane& heights, const Size& size, int bits, Purpose purpose) 
 }
 
 DecodedGeometry decode(const Coded& coded, std::vector<uint8_t> valid = {}) {
-  return decodeGeometry(coded.header, coded.track.codeword, std::move(valid));
+  return decodeGeometry(coded.header, {coded.track.codeword}, std::move(valid));
 }
 
 Plane waves(const Size& size, double amplitude) {
@@ -152,7 +152,7 @@ TEST(GeometryTrack, StatedDistortionIsCloseToTheRealOne) {
     for (size_t i = 5; i + 1 < points.size(); i += 9) {
       if (points[i].distortion < 100.0 * static_cast<double>(heights.size())) break;
       const auto decoded =
-          decodeGeometry(coded.header, std::span(coded.track.codeword).first(points[i].bytes));
+          decodeGeometry(coded.header, {std::span(coded.track.codeword).first(points[i].bytes)});
       double squares = 0;
       for (size_t k = 0; k < heights.size(); ++k) {
         squares += std::pow(std::ldexp(decoded.heights[k], -decoded.fraction_bits) - heights[k], 2);
@@ -226,7 +226,7 @@ TEST(GeometryTrack, AnyBytesAndHeadersDecode) {
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
     std::vector<uint8_t> valid;
     if (run % 2 == 0) valid = validity(VoidShape::kSpeckle, header.width, header.height);
-    const DecodedGeometry decoded = decodeGeometry(header, bytes, valid);
+    const DecodedGeometry decoded = decodeGeometry(header, {bytes}, valid);
     EXPECT_EQ(decoded.heights.size(), size_t{header.width} * header.height);
     EXPECT_EQ(decoded.significant.size(), decoded.heights.size());
   }

@@ -128,7 +128,9 @@ TEST(MaskedWavelet, AMaskWithoutVoidsIsNoMask) {
       for (const Size& size : kSizes) {
         const WaveletSpec exact = withBits(spec, bits);
         const std::vector<uint8_t> valid(size.count(), 1);
-        const Plane samples = randomPlane(random, size.count(), -(1 << 20), 1 << 20);
+        // Masked sums never wrap: narrow ones agree as long as they do not either.
+        const int32_t bound = bits == kNarrowBits ? 1 << 12 : 1 << 20;
+        const Plane samples = randomPlane(random, size.count(), -bound, bound);
         ASSERT_EQ(forward(exact, samples, size, valid), forward(exact, samples, size));
         ASSERT_EQ(inverse(exact, samples, size, valid), inverse(exact, samples, size));
       }

@@ -61,7 +61,7 @@ TEST(Hull, KeepsPacketsApartAndDipsAlive) {
 }
 
 TrackCurve curveOf(const std::vector<RatePoint>& points) {
-  TrackCurve curve{lowerHull(points, 0), {}};
+  TrackCurve curve{lowerHull(points, 0), {}, {}};
   for (const RatePoint& p : curve.points) curve.rmse.push_back(std::sqrt(p.distortion));
   return curve;
 }

@@ -335,6 +335,48 @@ TEST(Reference, AgreesOnJointStreamsWithMetadataAndIndex) {
   expectAgreementOnPrefixes(stream, 30);
 }
 
+// Several regions, groups of them, and last ones that are longer.
+TEST(Reference, AgreesOnRegions) {
+  constexpr uint32_t kSizes[][2] = {{24, 24}, {39, 40}, {100, 5}, {5, 100}, {71, 60}, {200, 25}};
+  for (const auto& size : kSizes) {
+    const Raster heights = make({Pattern::kRidges, size[0], size[1], 1, TKS_I16, 30});
+    const Raster image = make({Pattern::kRidges, size[1], size[0], 3, TKS_U8, 31});
+    for (tks_encode_options options : {lossless(), budget(900)}) {
+      options.regions = 16;
+      const Bytes stream = encode(&heights, &image, options);
+      SCOPED_TRACE(size[0]);
+      expectAgreementOnPrefixes(stream, 5);
+      for (uint32_t trial = 0; trial < 3; ++trial) {
+        Bytes damaged = stream;
+        const uint32_t h = samples::hash(trial, size[0], 32);
+        damaged[120 + h % (damaged.size() - 120)] ^= static_cast<uint8_t>(1 + (h >> 24) % 255);
+        sealHeader(damaged);
+        expectAgreement(damaged);
+      }
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Reference, AgreesOnRegionsBesideLayers) {
+  for (const samples::VoidShape shape :
+       {samples::VoidShape::kCoast, samples::VoidShape::kSpeckle}) {
+    Raster raster = make({Pattern::kRidges, 45, 40, 1, TKS_F32, 33});
+    const auto valid = samples::validity(shape, 45, 40);
+    for (size_t i = 0; i < valid.size(); ++i) {
+      float v;
+      std::memcpy(&v, raster.data.data() + 4 * i, sizeof v);
+      v = valid[i] ? v / 3 : NAN;
+      std::memcpy(raster.data.data() + 4 * i, &v, sizeof v);
+    }
+    for (tks_encode_options options : {lossless(), budget(700)}) {
+      options.regions = 16;
+      expectAgreementOnLayers(raster.heights(), options);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 /// Streams whose payload is damaged: any bytes are a codeword, so the samples have to agree.
 TEST(Reference, AgreesOnDamagedPayloads) {
   const Raster heights = make({Pattern::kExtreme, 18, 11, 1, TKS_I16, 12});
@@ -402,30 +444,36 @@ TEST(Reference, AgreesOnArbitraryCodewords) {
   }
 }
 
+/// Any value in any byte of the header.
+void expectAgreementOnDamagedHeaders(const Bytes& good) {
+  Stream stream(good);
+  ASSERT_EQ(stream.status(), TKS_OK);
+  for (size_t at = 0; at < stream.info().header_bytes; ++at) {
+    for (const int value : {0, 1, 2, 3, 4, 5, 6, 7, 127, 128, 255, good[at] + 1, good[at] - 1}) {
+      Bytes damaged = good;
+      damaged[at] = static_cast<uint8_t>(value);
+      sealHeader(damaged);
+      SCOPED_TRACE("byte " + std::to_string(at) + " := " + std::to_string(value));
+      expectAgreement(damaged);
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
 // Any value in any byte of the header, under a right checksum: both read the same samples from it,
 // or both refuse for the same reason.
 TEST(Reference, AgreesOnDamagedHeaders) {
   const Raster heights = make({Pattern::kRidges, 9, 7, 1, TKS_I16, 19});
   const Raster image = make({Pattern::kRidges, 6, 9, 3, TKS_U8, 20});
-  Raster cut = make({Pattern::kRidges, 9, 6, 4, TKS_U8, 21});
-  samples::cutOut(cut, samples::validity(samples::VoidShape::kCoast, 9, 6));
   tks_encode_options options = lossless();
   options.index = 1;
-  for (const Bytes& good :
-       {encode(&heights, &image, options), encode(nullptr, &cut, budget(300))}) {
-    Stream stream(good);
-    ASSERT_EQ(stream.status(), TKS_OK);
-    for (size_t at = 0; at < stream.info().header_bytes; ++at) {
-      for (const int value : {0, 1, 2, 3, 4, 5, 6, 7, 127, 128, 255, good[at] + 1, good[at] - 1}) {
-        Bytes damaged = good;
-        damaged[at] = static_cast<uint8_t>(value);
-        sealHeader(damaged);
-        SCOPED_TRACE("byte " + std::to_string(at) + " := " + std::to_string(value));
-        expectAgreement(damaged);
-        if (HasFatalFailure()) return;
-      }
-    }
-  }
+  expectAgreementOnDamagedHeaders(encode(&heights, &image, options));
+  const Raster wide = make({Pattern::kRidges, 25, 7, 1, TKS_I16, 19});
+  options.regions = 16;
+  expectAgreementOnDamagedHeaders(encode(&wide, &image, options));
+  Raster cut = make({Pattern::kRidges, 9, 6, 4, TKS_U8, 21});
+  samples::cutOut(cut, samples::validity(samples::VoidShape::kCoast, 9, 6));
+  expectAgreementOnDamagedHeaders(encode(nullptr, &cut, budget(300)));
 }
 
 TEST(Reference, AgreesOnTheConformanceVectors) {

@@ -41,9 +41,10 @@ TEST(TextureTrack, IsLosslessAtItsEnd) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       for (const int bits : {8, 16}) {
         const Texels texels = makeTexels(width, height, channels, bits, 40);
-        const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossless, UINT64_MAX);
-        ASSERT_TRUE(encoded.track.complete);
-        EXPECT_EQ(decodeTexture(encoded.header, encoded.track.codeword).samples, texels.samples)
+        const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossless, {});
+        ASSERT_TRUE(encoded.tracks.front().complete);
+        EXPECT_EQ(decodeTexture(encoded.header, {encoded.tracks.front().codeword}).samples,
+                  texels.samples)
             << width << " x " << height << " x " << channels << ", " << bits << " bits";
       }
     }
@@ -57,8 +58,9 @@ TEST(TextureTrack, FullRangeNoiseComesBack) {
     for (uint16_t& s : texels.samples) {
       s = static_cast<uint16_t>(random() % 2 == 0 ? 0 : (1 << bits) - 1);
     }
-    const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossless, UINT64_MAX);
-    EXPECT_EQ(decodeTexture(encoded.header, encoded.track.codeword).samples, texels.samples);
+    const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossless, {});
+    EXPECT_EQ(decodeTexture(encoded.header, {encoded.tracks.front().codeword}).samples,
+              texels.samples);
   }
 }
 
@@ -67,23 +69,24 @@ TEST(TextureTrack, LossyTracksEndCloseToTheImage) {
   for (const int bits : {8, 16}) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       const Texels texels = makeTexels(33, 20, channels, bits, 40);
-      const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossy, UINT64_MAX);
-      ASSERT_TRUE(encoded.track.complete);
+      const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossy, {});
+      ASSERT_TRUE(encoded.tracks.front().complete);
       ASSERT_EQ(encoded.header.wavelet.fraction_bits, 4);
-      EXPECT_EQ(decodeTexture(encoded.header, encoded.track.codeword).samples, texels.samples);
+      EXPECT_EQ(decodeTexture(encoded.header, {encoded.tracks.front().codeword}).samples,
+                texels.samples);
     }
   }
 }
 
 TEST(TextureTrack, StatedDistortionIsCloseToTheRealOne) {
   const Texels texels = makeTexels(160, 120, 3, 8, 30);
-  const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossy, UINT64_MAX);
-  const auto& points = encoded.track.points;
+  const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossy, {});
+  const auto& points = encoded.tracks.front().points;
   for (size_t i = 4; i < points.size(); i += 11) {
     if (points[i].distortion < static_cast<double>(texels.samples.size()) / 2)
       break;  // samples are rounded
-    const Texels decoded =
-        decodeTexture(encoded.header, std::span(encoded.track.codeword).first(points[i].bytes));
+    const Texels decoded = decodeTexture(
+        encoded.header, {std::span(encoded.tracks.front().codeword).first(points[i].bytes)});
     const double ratio = squaredError(texels, decoded) / points[i].distortion;
     EXPECT_GT(ratio, 0.6) << i;
     EXPECT_LT(ratio, 1.5) << i;
@@ -92,12 +95,13 @@ TEST(TextureTrack, StatedDistortionIsCloseToTheRealOne) {
 
 TEST(TextureTrack, StopsSoonAfterItsLimitWithTheSameBytes) {
   const Texels texels = makeTexels(90, 70, 3, 8, 60);
-  const EncodedTexture full = encodeTexture(texels, Purpose::kLossy, UINT64_MAX),
-                       cut = encodeTexture(texels, Purpose::kLossy, 3000);
-  ASSERT_FALSE(cut.track.complete);
-  ASSERT_GE(cut.track.codeword.size(), 3000u);
-  EXPECT_TRUE(std::equal(cut.track.codeword.begin(), cut.track.codeword.begin() + 3000,
-                         full.track.codeword.begin()));
+  const EncodedTexture full = encodeTexture(texels, Purpose::kLossy, {}),
+                       cut = encodeTexture(texels, Purpose::kLossy, {3000});
+  ASSERT_FALSE(cut.tracks.front().complete);
+  ASSERT_GE(cut.tracks.front().codeword.size(), 3000u);
+  EXPECT_TRUE(std::equal(cut.tracks.front().codeword.begin(),
+                         cut.tracks.front().codeword.begin() + 3000,
+                         full.tracks.front().codeword.begin()));
 }
 
 TEST(TextureTrack, GreyInRgbCostsLittleMoreThanGrey) {
@@ -106,9 +110,9 @@ TEST(TextureTrack, GreyInRgbCostsLittleMoreThanGrey) {
   for (uint16_t s : grey.samples) colour.samples.insert(colour.samples.end(), 3, s);
   const double ratio =
       static_cast<double>(
-          encodeTexture(colour, Purpose::kLossless, UINT64_MAX).track.codeword.size()) /
+          encodeTexture(colour, Purpose::kLossless, {}).tracks.front().codeword.size()) /
       static_cast<double>(
-          encodeTexture(grey, Purpose::kLossless, UINT64_MAX).track.codeword.size());
+          encodeTexture(grey, Purpose::kLossless, {}).tracks.front().codeword.size());
   EXPECT_LT(ratio, 1.02);
 }
 
@@ -130,7 +134,7 @@ TEST(TextureTrack, AnyBytesAndHeadersDecodeIntoRange) {
     header.wavelet.bits = static_cast<uint8_t>(random() % 33);
     std::vector<uint8_t> bytes(random() % 400);
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
-    const Texels texels = decodeTexture(header, bytes);
+    const Texels texels = decodeTexture(header, {bytes});
     ASSERT_EQ(texels.samples.size(), size_t{header.width} * header.height * header.channels);
     for (const uint16_t s : texels.samples) ASSERT_EQ(s >> texels.bits, 0);
   }

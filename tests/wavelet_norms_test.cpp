@@ -76,7 +76,7 @@ double measuredEnergy(const WaveletSpec& spec, const Size& size, const Subband& 
 void expectNorms(const Size& size) {
   for (const WaveletSpec& spec : allSpecs()) {
     const PlaneLayout layout(spec, size.width, size.height);
-    const std::vector<BandPlan> plan = layout.plan(0, 0, 0);
+    const std::vector<BandPlan> plan = layout.plan(layout.wholeParts(), 0, 0, 0);
     for (size_t i = 0; i < layout.size(); ++i) {
       const Subband& band = layout.subbands()[i];
       // Synthesis functions are some twenty coefficients wide; no room for the ends.
@@ -126,7 +126,7 @@ TEST(PlaneLayout, ParentsCoverTheirChildren) {
   for (uint32_t height = 1; height <= 40; ++height) {
     for (uint32_t width = 1; width <= 70; width += 3) {
       const PlaneLayout layout(uniform(FilterId::kLong), width, height);
-      const std::vector<BandPlan> plan = layout.plan(100, 7, 5);
+      const std::vector<BandPlan> plan = layout.plan(layout.wholeParts(), 100, 7, 5);
       for (const BandPlan& band : plan) {
         ASSERT_TRUE(band.models >= 5 && band.models < 5 + kPlaneModels);
         if (band.parent == BandPlan::kNone) continue;
@@ -150,9 +150,10 @@ TEST(PlaneLayout, GatherAndScatterTakeEveryValueOnce) {
     const Plane plane = randomPlane(random, size.count(), -5000, 5000);
     const PlaneLayout layout(uniform(FilterId::kShort), size.width, size.height);
     Plane back(size.count(), 99999);
-    for (const Subband& subband : layout.subbands()) {
-      const std::vector<int32_t> values = gather(plane, size.width, subband);
-      Band band(shapeOf(subband), subband.orientation);
+    for (const BandPart& part : layout.wholeParts()) {
+      const Subband& subband = layout.subbands()[part.subband];
+      const std::vector<int32_t> values = gather(plane, size.width, subband, part);
+      Band band(part.shape(), subband.orientation);
       band.plane = 0;
       band.nonzero = true;
       for (uint32_t row = 0; row < subband.height; ++row) {
@@ -165,7 +166,7 @@ TEST(PlaneLayout, GatherAndScatterTakeEveryValueOnce) {
           if (values[cell] != 0) band.significant[band.shape.word(row, column / 32)] |= bit;
         }
       }
-      scatter(band, 0, subband, back, size.width);
+      scatter(band, 0, subband, part, back, size.width);
     }
     EXPECT_EQ(back, plane) << size;
   }

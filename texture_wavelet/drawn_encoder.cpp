@@ -136,7 +136,7 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels) {
   encoded.header.channels = static_cast<uint8_t>(texels.channels);
   encoded.header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
   encoded.header.planes = kDrawnPlanes;
-  encoded.track = io.finish();
+  encoded.tracks.push_back(io.finish());
   return encoded;
 }
 

@@ -25,20 +25,27 @@ double distortionAt(const EncodedTrack& track, uint64_t bytes) {
   return std::lerp(low.distortion, high.distortion, part);
 }
 
+/// Whether the wavelet restores every sample within so many bytes.
+bool restoresWithin(const Texels& texels, uint64_t bytes, uint32_t threads) {
+  return encodeByWavelet(texels, Purpose::kLossless, {bytes, 0, threads}).tracks.front().complete;
+}
+
 }  // namespace
 
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit) {
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options) {
   std::optional<EncodedTexture> drawn = encodeDrawn(texels);
-  if (!drawn) return encodeByWavelet(texels, purpose, limit);
-  const uint64_t bytes = drawn->track.codeword.size(), reach = limit / 2;
+  if (!drawn) return encodeByWavelet(texels, purpose, options);
+  const EncodedTrack& track = drawn->tracks.front();
+  const uint64_t bytes = track.codeword.size(), reach = options.limit / 2;
   if (bytes > reach) {
-    EncodedTexture wavelet = encodeByWavelet(texels, purpose, limit);
-    return distortionAt(drawn->track, reach) < distortionAt(wavelet.track, reach) ? *drawn
-                                                                                  : wavelet;
+    const TrackOptions one_track{options.limit, 0, options.threads};
+    const EncodedTexture wavelet = encodeByWavelet(texels, purpose, one_track);
+    if (distortionAt(track, reach) < distortionAt(wavelet.tracks.front(), reach)) return *drawn;
+  } else if (!restoresWithin(texels, purpose == Purpose::kLossless ? bytes : 2 * bytes,
+                             options.threads)) {
+    return *drawn;
   }
-  const uint64_t room = purpose == Purpose::kLossless ? bytes : 2 * bytes;
-  const bool better = !encodeByWavelet(texels, Purpose::kLossless, room).track.complete;
-  return better ? *drawn : encodeByWavelet(texels, purpose, limit);
+  return encodeByWavelet(texels, purpose, options);
 }
 
 }  // namespace tetrakis

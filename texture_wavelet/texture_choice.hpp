@@ -6,8 +6,9 @@
 
 namespace tetrakis {
 
-/// By wavelet, or drawn where that is better. limit: as for encodeByWavelet(); half of it is what a
-/// budget has room for. A complete track without fraction bits that hides nothing is lossless.
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, uint64_t limit);
+/// By wavelet, or drawn in one track where that is better. options: as for encodeByWavelet(); half
+/// of the limit is what a budget has room for. Complete tracks without fraction bits that hide
+/// nothing are lossless.
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options);
 
 }  // namespace tetrakis

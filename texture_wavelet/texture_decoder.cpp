@@ -5,11 +5,12 @@
 #include <memory>
 #include <utility>
 
-#include "bitstream/track_decoder.hpp"
+#include "bitstream/parallel.hpp"
 #include "lattice/validity_decoder.hpp"
 #include "texture_wavelet/drawn_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/mip_level.hpp"
+#include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -19,23 +20,24 @@ namespace {
 /// Samples that go through the colour transform together: few enough for the cache.
 constexpr size_t kChunk = 2048;
 
-/// Components to interleaved samples.
+/// Components, of as many samples as `texels` has places, to interleaved samples.
 void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* const> planes,
-            Texels& texels) {
+            uint32_t threads, Texels& texels) {
   const size_t count = size_t{texels.width} * texels.height, channels = texels.channels;
   const int32_t most = (1 << texels.bits) - 1;
   const ColourTransform colour = colourOf(header);
-  std::vector<int32_t*> chunk(planes.size());
-  for (size_t first = 0; first < count; first += kChunk) {
-    const size_t size = std::min(kChunk, count - first);
+  texels.samples.resize(count * channels);
+  parallelFor(threads, (count + kChunk - 1) / kChunk, [&](size_t i) {
+    const size_t first = i * kChunk, size = std::min(kChunk, count - first);
+    std::vector<int32_t*> chunk(planes.size());
     for (size_t c = 0; c < planes.size(); ++c) chunk[c] = planes[c] + first;
     inverseColour(colour, chunk, size, fraction_bits);
     uint16_t* out = texels.samples.data() + first * channels;
     for (size_t c = 0; c < planes.size(); ++c) {
-      for (size_t i = 0; i < size; ++i)
-        out[i * channels + c] = static_cast<uint16_t>(std::clamp(chunk[c][i], 0, most));
+      for (size_t k = 0; k < size; ++k)
+        out[k * channels + c] = static_cast<uint16_t>(std::clamp(chunk[c][k], 0, most));
     }
-  }
+  });
 }
 
 /// Alpha is the last channel.
@@ -45,74 +47,172 @@ void finishAlpha(std::span<const uint8_t> seen, Texels& texels) {
     texels.samples[(i + 1) * texels.channels - 1] = seen[i] != 0 ? most : uint16_t{0};
 }
 
-/// What the decoder knows of a texture track ahead of the inverse transform.
-struct Coefficients {
-  TrackState state;
+Texels emptyTexels(const TextureHeader& header, uint32_t width, uint32_t height) {
+  return {width, height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
+}
+
+/// The tracks taken apart.
+struct Layers {
   std::vector<uint8_t> seen;  ///< of all texels: 1 where alpha is not 0; empty: not a cut-out
+  Codewords coefficients;
+
+  Layers(const TextureHeader& header, const Codewords& codewords) : coefficients(codewords) {
+    if (header.alpha_bytes == 0) return;
+    std::span<const uint8_t>& first = coefficients.front();
+    const auto alpha =
+        first.first(static_cast<size_t>(std::min<uint64_t>(header.alpha_bytes, first.size())));
+    seen = decodeValidity(alpha, header.width, header.height);
+    first = first.subspan(alpha.size());
+  }
 };
 
-Coefficients decodeCoefficients(const TextureHeader& header, const TexturePlan& plan,
-                                const MipLevel& mip, std::span<const uint8_t> codeword) {
-  std::vector<uint8_t> seen;
-  if (header.alpha_bytes > 0) {
-    const auto alpha = codeword.first(
-        static_cast<size_t>(std::min<uint64_t>(header.alpha_bytes, codeword.size())));
-    seen = decodeValidity(alpha, header.width, header.height);
-    codeword = codeword.subspan(alpha.size());
-  }
-  std::vector<BandPlan> bands = plan.bands();
-  const size_t each = plan.layout().size();
-  for (size_t first = 0; first < bands.size(); first += each) {
-    const auto component = std::span(bands).subspan(first, each);
-    if (header.hidden) markAbsent(plan.layout(), seen, header.width, component);
-    mip.dropFiner(component);
-  }
-  return {decodeTrack(bands, header.planes, codeword), std::move(seen)};
+/// Which texels the coefficients leave out: those of which the colours are hidden.
+Validity codedOf(const TextureHeader& header, std::span<const uint8_t> seen) {
+  return header.hidden ? Validity(seen) : Validity();
 }
 
-/// A component of the level, in the low band's array.
-void restorePlane(const TextureHeader& header, const MipLevel& mip, std::span<const Band> bands,
-                  int fraction_bits, Validity seen, std::span<int32_t> plane) {
-  const auto [width, height] = mip.low();
-  const std::vector<Subband> subbands = subbandsOf(width, height);
-  for (size_t i = 0; i < subbands.size(); ++i) {
-    scatter(bands[i], fraction_bits - header.wavelet.fraction_bits, subbands[i], plane, width);
-  }
-  const WaveletSpec spec = specOf(header.wavelet);
-  inverseWavelet(mip.transform(spec), plane, width, height, seen);
-  for (size_t i = 0; i < seen.size(); ++i) plane[i] *= seen[i];
-  mip.normalise(spec, plane);
-  mip.thin(plane);
+/// What a track holds, and which bands of it a level needs; empty: none.
+std::vector<BandPlan> planOf(const TexturePlan& plan, std::span<const BandPart> parts,
+                             Validity coded, uint32_t width, const MipLevel& mip) {
+  std::vector<BandPlan> bands = plan.bands(parts, coded, width);
+  for (size_t first = 0; first < bands.size(); first += parts.size())
+    mip.dropFiner(parts, std::span(bands).subspan(first, parts.size()));
+  const auto needed = [](const BandPlan& band) { return band.needed; };
+  if (std::none_of(bands.begin(), bands.end(), needed)) bands.clear();
+  return bands;
 }
+
+/// The planes of a level, in the low band's arrays.
+class Planes {
+ public:
+  Planes(const TextureHeader& header, const MipLevel& mip)
+      : header_(header),
+        mip_(mip),
+        count_(size_t{mip.low().width} * mip.low().height),
+        subbands_(subbandsOf(mip.low().width, mip.low().height)),
+        planes_(header.components()) {
+    for (auto& plane : planes_) {
+      // One track fills the plane; of several some may be missing.
+      plane.reset(header.regions.side_log2 == 0 ? new int32_t[count_] : new int32_t[count_]());
+      pointers_.push_back(plane.get());
+    }
+  }
+
+  void put(const TrackState& state, std::span<const BandPart> parts, int more_bits) {
+    for (size_t k = 0; k < state.bands.size(); ++k) {
+      const BandPart& part = parts[k % parts.size()];
+      if (part.subband >= subbands_.size()) continue;
+      scatter(state.bands[k], more_bits, subbands_[part.subband], part,
+              {pointers_[k / parts.size()], count_}, mip_.low().width);
+    }
+  }
+
+  std::span<int32_t* const> restore(Validity coded, uint32_t threads) {
+    const WaveletSpec spec = specOf(header_.wavelet);
+    for (int32_t* plane : pointers_) {
+      const std::span<int32_t> values(plane, count_);
+      inverseWavelet(mip_.transform(spec), values, mip_.low().width, mip_.low().height, coded,
+                     threads);
+      for (size_t i = 0; i < coded.size(); ++i) plane[i] *= coded[i];
+      mip_.normalise(spec, values);
+      mip_.thin(values);
+    }
+    return pointers_;
+  }
+
+ private:
+  const TextureHeader& header_;
+  const MipLevel& mip_;
+  size_t count_;
+  std::vector<Subband> subbands_;
+  std::vector<std::unique_ptr<int32_t[]>> planes_;
+  std::vector<int32_t*> pointers_;
+};
 
 }  // namespace
 
-Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
-  if (header.drawn()) return decodeDrawn(header, codeword, level);
+Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level,
+                     uint32_t threads) {
+  if (header.drawn()) return decodeDrawn(header, codewords.front(), level);
+  const Layers layers(header, codewords);
   const TexturePlan plan(header);
   const MipLevel mip(header.width, header.height, level);
-  Coefficients known = decodeCoefficients(header, plan, mip, codeword);
-  std::vector<uint8_t> seen = mip.maskOf(known.seen, header.width);
-  known.seen.clear();
-  const int fraction_bits = outputFractionBits(header.wavelet, header.planes, known.state.complete);
-  const size_t count = size_t{mip.low().width} * mip.low().height, each = plan.layout().size();
-  std::vector<std::unique_ptr<int32_t[]>> planes(header.components());
-  std::vector<int32_t*> pointers;
-  for (size_t c = 0; c < planes.size(); ++c) {
-    planes[c].reset(new int32_t[count]);  // every value is written: the bands fill the plane
-    pointers.push_back(planes[c].get());
-    restorePlane(header, mip, std::span(known.state.bands).subspan(c * each, each), fraction_bits,
-                 header.hidden ? Validity(seen) : Validity(), {planes[c].get(), count});
-  }
-  known.state.bands.clear();
-  const auto [columns, rows] = mip.size();
-  Texels texels{columns, rows, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
-  texels.samples.resize(size_t{columns} * rows * header.channels);
-  finish(header, fraction_bits, pointers, texels);
+  Planes planes(header, mip);
+  const Validity coded = codedOf(header, layers.seen);
+  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
+  const int fraction_bits = tracks.run(
+      layers.coefficients,
+      [&](size_t i) { return planOf(plan, plan.parts(i), coded, header.width, mip); },
+      [&](size_t i, const TrackState& state, int more_bits) {
+        planes.put(state, plan.parts(i), more_bits);
+      });
+  std::vector<uint8_t> seen = mip.maskOf(layers.seen, header.width);
+  const auto pointers = planes.restore(codedOf(header, seen), threads);
+  Texels texels = emptyTexels(header, mip.size().width, mip.size().height);
+  finish(header, fraction_bits, pointers, threads, texels);
   if (!seen.empty()) {
     mip.thin(std::span(seen));
     finishAlpha(std::span(seen).first(mip.samples()), texels);
   }
+  return texels;
+}
+
+namespace {
+
+/// Of an image that is decoded whole.
+Texels crop(const Texels& whole, const Window& window) {
+  Texels part{window.width, window.height, whole.channels, whole.bits, {}};
+  const size_t channels = whole.channels;
+  for (uint32_t y = 0; y < window.height; ++y) {
+    const auto from =
+        whole.samples.begin() +
+        static_cast<ptrdiff_t>((size_t{window.y + y} * whole.width + window.x) * channels);
+    part.samples.insert(part.samples.end(), from,
+                        from + static_cast<ptrdiff_t>(window.width * channels));
+  }
+  return part;
+}
+
+}  // namespace
+
+Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
+                           const Window& window, uint32_t threads) {
+  if (header.drawn()) return crop(decodeDrawn(header, codewords.front(), 0), window);
+  const Layers layers(header, codewords);
+  const Validity coded = codedOf(header, layers.seen);
+  const TexturePlan plan(header);
+  std::vector<WindowSynthesis> synthesis(
+      header.components(), WindowSynthesis(specOf(header.wavelet), plan.layout().subbands(),
+                                           header.width, header.height, window));
+  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
+  const int fraction_bits = tracks.run(
+      layers.coefficients,
+      [&](size_t i) {
+        const std::vector<BandPart> parts = plan.parts(i);
+        const bool needed = std::any_of(parts.begin(), parts.end(), [&](const BandPart& part) {
+          return synthesis.front().needs(part);
+        });
+        return needed ? plan.bands(parts, coded, header.width) : std::vector<BandPlan>();
+      },
+      [&](size_t i, const TrackState& state, int more_bits) {
+        const std::vector<BandPart> parts = plan.parts(i);
+        for (size_t k = 0; k < state.bands.size(); ++k)
+          synthesis[k / parts.size()].put(state.bands[k], more_bits, parts[k % parts.size()]);
+      });
+  const std::vector<uint8_t> seen =
+      layers.seen.empty() ? layers.seen
+                          : crop(std::span<const uint8_t>(layers.seen), header.width, window);
+  const Validity hidden = codedOf(header, seen);
+  std::vector<std::vector<int32_t>> planes(header.components());
+  parallelFor(threads, planes.size(), [&](size_t c) {
+    planes[c] = synthesis[c].run(coded);
+    for (size_t i = 0; i < hidden.size(); ++i) planes[c][i] *= hidden[i];
+  });
+  std::vector<int32_t*> pointers;
+  for (std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
+  Texels texels = emptyTexels(header, window.width, window.height);
+  finish(header, fraction_bits, pointers, threads, texels);
+  finishAlpha(seen, texels);
   return texels;
 }
 

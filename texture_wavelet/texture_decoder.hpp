@@ -3,15 +3,22 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "bitstream/header.hpp"
+#include "bitstream/packet.hpp"
 #include "texture_wavelet/texels.hpp"
+#include "wavelet/window.hpp"
 
 namespace tetrakis {
 
-/// codeword: any prefix of a texture track. level: every 2^level-th texel in x and y, up to the
-/// coarsest (wavelet/mip_level.hpp). Safe on any bytes and any header that readHeader accepts.
-Texels decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword, int level = 0);
+/// codewords: any prefix of each track, one for each of regionsOf(). level: every 2^level-th texel
+/// in x and y, up to the coarsest (wavelet/mip_level.hpp). Safe on any bytes and any header that
+/// readHeader accepts.
+Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level = 0,
+                     uint32_t threads = 1);
+
+/// The texels of a window, in time that follows its size where there are regions.
+Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
+                           const Window& window, uint32_t threads = 1);
 
 }  // namespace tetrakis

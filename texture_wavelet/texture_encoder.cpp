@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bitstream/parallel.hpp"
 #include "lattice/validity_encoder.hpp"
 #include "texture_wavelet/colour_fit.hpp"
 #include "texture_wavelet/cutout.hpp"
@@ -93,6 +94,17 @@ WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, c
   return wavelet;
 }
 
+/// What the header says of tracks that are complete.
+uint64_t wholeBytes(const EncodedTexture& encoded) {
+  uint64_t bytes = 0;
+  if (encoded.header.regions.side_log2 == 0) return 0;
+  for (const EncodedTrack& track : encoded.tracks) {
+    if (!track.complete) return 0;
+    bytes += track.codeword.size();
+  }
+  return bytes;
+}
+
 /// The mask of a cut-out goes first: what it hides is worth as much as alphas that are all wrong.
 void prepend(std::span<const uint8_t> mask, double worth, EncodedTrack& track) {
   track.codeword.insert(track.codeword.begin(), mask.begin(), mask.end());
@@ -100,31 +112,34 @@ void prepend(std::span<const uint8_t> mask, double worth, EncodedTrack& track) {
   track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth});
 }
 
-EncodedTrack encodePlanes(const EncodedTexture& encoded, std::span<const double> energies,
-                          Validity coded, Planes& planes, uint64_t limit) {
-  const TextureHeader& header = encoded.header;
+std::vector<EncodedTrack> encodePlanes(const TextureHeader& header,
+                                       std::span<const double> energies, Validity coded,
+                                       const TrackOptions& options, Planes& planes) {
   const TexturePlan plan(header);
   const PlaneLayout& layout = plan.layout();
   const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
-  std::vector<BandPlan> bands = plan.bands();
-  std::vector<BandSource> sources;
+  std::vector<TrackSource> sources(plan.regions().size());
+  for (size_t i = 0; i < sources.size(); ++i)
+    sources[i].plan = plan.bands(plan.parts(i), coded, header.width);
   for (size_t c = 0; c < planes.size(); ++c) {
     for (size_t i = 0; i < coded.size(); ++i) planes[c][i] *= coded[i];
-    forwardWavelet(specOf(header.wavelet), planes[c], header.width, header.height, coded);
-    markAbsent(layout, coded, header.width,
-               std::span(bands).subspan(c * layout.size(), layout.size()));
-    for (size_t i = 0; i < layout.size(); ++i) {
-      sources.push_back({gather(planes[c], header.width, layout.subbands()[i]),
-                         layout.energy(i) * energies[c] * unit});
-    }
+    forwardWavelet(specOf(header.wavelet), planes[c], header.width, header.height, coded,
+                   options.threads);
+    parallelFor(options.threads, sources.size(), [&](size_t i) {
+      for (const BandPart& part : plan.parts(i)) {
+        sources[i].bands.push_back(
+            {gather(planes[c], header.width, layout.subbands()[part.subband], part),
+             layout.energy(part.subband) * energies[c] * unit});
+      }
+    });
     planes[c] = {};
   }
-  return encodeTrack(bands, sources, limit);
+  return encodeTracks(sources, options);
 }
 
 }  // namespace
 
-EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, uint64_t limit) {
+EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options) {
   std::vector<uint8_t> seen = cutoutOf(texels);
   const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
   Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
@@ -133,16 +148,19 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, uint64_t l
   const ColourTransform colour = fitColours(planes, texels, purpose);
   const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
   const std::vector<double> energies = energiesOf(planes.size(), colour);
-  EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}, {}};
-  encoded.header.hidden = hidden;
+  EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};
+  TextureHeader& header = encoded.header;
+  header.hidden = hidden;
+  header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
   std::vector<uint8_t> mask;
   if (!seen.empty()) mask = encodeValidity(seen, texels.width, texels.height);
-  encoded.header.alpha_bytes = mask.size();
-  encoded.track = encodePlanes(encoded, energies, coded, planes, limit);
-  encoded.header.planes = static_cast<uint8_t>(encoded.track.planes);
+  header.alpha_bytes = mask.size();
+  encoded.tracks = encodePlanes(header, energies, coded, options, planes);
+  header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
+  header.regions.whole_bytes = wholeBytes(encoded);
   if (!mask.empty()) {
     const double most = (1 << texels.bits) - 1;
-    prepend(mask, most * most * static_cast<double>(seen.size()), encoded.track);
+    prepend(mask, most * most * static_cast<double>(seen.size()), encoded.tracks.front());
   }
   if (hidden) encoded.seen = std::move(seen);
   return encoded;

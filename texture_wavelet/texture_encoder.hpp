@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to texture track, by wavelet.
+// Image to texture tracks, by wavelet.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ namespace tetrakis {
 
 struct EncodedTexture {
   TextureHeader header;
-  EncodedTrack track;  ///< distortion: squared error summed over the samples that count
+  /// Distortion: squared error summed over the samples that count.
+  std::vector<EncodedTrack> tracks;
   /// Where colours are hidden, 1 for each texel whose colours are not; else empty.
-  std::vector<uint8_t> seen;
+  std::vector<uint8_t> seen = {};
 };
 
-/// Coding stops soon after `limit` bytes. An alpha of two values becomes a cut-out: a mask ahead of
-/// the coefficients; colours that it hides are coded for Purpose::kLossless alone. A complete track
-/// without fraction bits that hides nothing is lossless.
-EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, uint64_t limit);
+/// An alpha of two values becomes a cut-out: a mask ahead of the coefficients of the first track;
+/// colours that it hides are coded for Purpose::kLossless alone. Complete tracks without fraction
+/// bits that hide nothing are lossless.
+EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options);
 
 }  // namespace tetrakis

@@ -16,16 +16,25 @@ uint32_t modelsOf(uint32_t component, uint32_t channels) {
 }  // namespace
 
 TexturePlan::TexturePlan(const TextureHeader& header)
-    : layout_(specOf(header.wavelet), header.width, header.height) {
-  const auto per_component = static_cast<int>(layout_.size());
-  for (uint32_t c = 0; c < header.components(); ++c) {
-    const auto first = static_cast<int>(bands_.size());
-    for (BandPlan band : layout_.plan(first, static_cast<int>(header.priority[c]),
-                                      modelsOf(c, header.components()))) {
-      if (c > 0) band.component = static_cast<int>(bands_.size()) - per_component;
-      bands_.push_back(band);
+    : layout_(specOf(header.wavelet), header.width, header.height),
+      regions_(regionsOf(header.width, header.height, header.regions.side_log2)) {
+  for (uint32_t c = 0; c < header.components(); ++c)
+    components_.push_back({static_cast<int>(header.priority[c]), modelsOf(c, header.components())});
+}
+
+std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts, Validity coded,
+                                         uint32_t width) const {
+  std::vector<BandPlan> bands;
+  for (const Component& component : components_) {
+    const auto first = static_cast<int>(bands.size());
+    std::vector<BandPlan> plan = layout_.plan(parts, first, component.priority, component.models);
+    markAbsent(layout_, parts, coded, width, plan);
+    for (BandPlan& band : plan) {
+      if (first > 0) band.component = static_cast<int>(bands.size() - parts.size());
+      bands.push_back(std::move(band));
     }
   }
+  return bands;
 }
 
 ColourTransform colourOf(const TextureHeader& header) {

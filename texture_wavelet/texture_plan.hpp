@@ -3,6 +3,7 @@
 // magnitudes of the next. Shared by encoder and decoder.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "bitstream/header.hpp"
@@ -15,13 +16,23 @@ class TexturePlan {
  public:
   explicit TexturePlan(const TextureHeader& header);
 
-  /// Bands of component c are layout().size() * c onwards, in the order of layout().subbands().
-  const std::vector<BandPlan>& bands() const { return bands_; }
   const PlaneLayout& layout() const { return layout_; }
+  /// Tracks, which hold the same part of every component.
+  const std::vector<Region>& regions() const { return regions_; }
+  std::vector<BandPart> parts(size_t region) const { return layout_.parts(regions_[region]); }
+  /// Bands of component c are parts.size() * c onwards, in the order of the parts of a region.
+  /// coded: of all texels, 0 where they are void; empty: none. width: of the plane.
+  std::vector<BandPlan> bands(std::span<const BandPart> parts, Validity coded,
+                              uint32_t width) const;
 
  private:
+  struct Component {
+    int priority;
+    uint32_t models;
+  };
   PlaneLayout layout_;
-  std::vector<BandPlan> bands_;
+  std::vector<Region> regions_;
+  std::vector<Component> components_;
 };
 
 /// The component transform of a header.

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "bitstream/status.hpp"
 #include "tools/scene.hpp"
@@ -55,6 +57,18 @@ inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
 inline CLI::Option* addTriangles(CLI::App& app, uint32_t& triangles, const std::string& help) {
   return app.add_option("--triangles", triangles, help)
       ->check(silent(CLI::Range(uint32_t{1}, std::numeric_limits<uint32_t>::max())))
+      ->type_name("N");
+}
+
+/// As many threads as the machine has.
+inline uint32_t hardwareThreads() {
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+/// --threads N.
+inline void addThreads(CLI::App& app, uint32_t& threads) {
+  app.add_option("--threads", threads, "Threads (default: all); the result never depends on it")
+      ->check(silent(CLI::Range(1u, 1024u)))
       ->type_name("N");
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis decode: heights, texture and mesh out of a stream or a prefix of one.
 #include <algorithm>
+#include <future>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,7 +20,9 @@ struct DecodeArguments {
   std::string height, texture, mesh;
   uint32_t triangles = 0, level = 0;
   bool coded_mesh = false;
-  CameraChoice camera;  ///< default: the whole mesh
+  CameraChoice camera;           ///< default: the whole mesh
+  std::vector<uint32_t> window;  ///< x, y, width, height; empty: everything
+  uint32_t threads = hardwareThreads();
   bool force = false;
 };
 
@@ -33,21 +38,51 @@ Status checkOutputs(const DecodeArguments& arguments) {
   return Status();
 }
 
+tks_window windowOf(const DecodeArguments& arguments) {
+  const std::vector<uint32_t>& w = arguments.window;
+  return {w[0], w[1], w[2], w[3]};
+}
+
+/// The texels over a window of samples: the image covers the ground from the first sample to the
+/// last. Rounded outwards.
+tks_window texelsOver(const tks_window& samples, const tks_info& info) {
+  const auto side = [](uint64_t first, uint64_t count, uint64_t all, uint64_t texels) {
+    const uint64_t begin = std::min(first * texels / (all - 1), texels - 1);
+    const uint64_t end = ((first + count - 1) * texels + all - 2) / (all - 1);
+    return std::pair(static_cast<uint32_t>(begin),
+                     static_cast<uint32_t>(std::clamp(end, begin + 1, texels) - begin));
+  };
+  const auto [x, width] = side(samples.x, samples.width, info.width, info.texture_width);
+  const auto [y, height] = side(samples.y, samples.height, info.height, info.texture_height);
+  return {x, y, width, height};
+}
+
 /// Decodes into staged outputs; the caller commits them when all have succeeded.
 class Decoding {
  public:
-  Decoding(const DecodeArguments& arguments, Decoder& decoder)
-      : arguments_(arguments), decoder_(decoder) {}
+  Decoding(const DecodeArguments& arguments, OpenStream& stream)
+      : arguments_(arguments), decoder_(stream.decoder) {
+    const bool wants_texture = !arguments.texture.empty() || !arguments.mesh.empty();
+    const bool wants_heights = !arguments.height.empty() || !arguments.mesh.empty();
+    const tks_info& info = decoder_.info();
+    if (arguments.threads < 2 || !wants_texture || !wants_heights || !info.has_texture) return;
+    beside_ = std::async(std::launch::async, [this, &stream]() -> Result<ImageFile> {
+      Expected<Decoder> decoder = Decoder::open(octets(stream.bytes));
+      if (!decoder) return toStatus(decoder.error());
+      decoder->setThreads(arguments_.threads);
+      return decodeImage(*decoder, textureWindow());
+    });
+  }
 
   Status writeHeightField() {
-    const Result<HeightFile> heights = decodeHeights(decoder_);
+    const Result<HeightFile> heights = decodeHeights(decoder_, window());
     if (!heights.ok()) return heights.status();
     return stage(arguments_.height, ".tif",
                  [&](const std::string& path) { return writeHeights(path, *heights); });
   }
 
   Status writeTexture() {
-    const Result<ImageFile> image = decodeImage(decoder_);
+    const Result<ImageFile>& image = decodedImage();
     if (!image.ok()) return image.status();
     return stage(arguments_.texture, ".png",
                  [&](const std::string& path) { return writeImage(path, *image); });
@@ -62,9 +97,9 @@ class Decoding {
     MeshFile file = placeMesh(*mesh, frameOf(info));
     ImageFile texture;
     if (info.has_texture) {
-      Result<ImageFile> image = decodeImage(decoder_);
+      const Result<ImageFile>& image = decodedImage();
       if (!image.ok()) return image.status();
-      texture = std::move(*image);
+      texture = *image;
       file.texture = &texture;
     }
     return stage(arguments_.mesh, ".glb",
@@ -78,6 +113,23 @@ class Decoding {
   }
 
  private:
+  /// Decoded once, where there are threads beside the heights.
+  const Result<ImageFile>& decodedImage() {
+    if (!image_) image_ = beside_.valid() ? beside_.get() : decodeImage(decoder_, textureWindow());
+    return *image_;
+  }
+
+  std::optional<tks_window> window() const {
+    if (arguments_.window.empty()) return std::nullopt;
+    return windowOf(arguments_);
+  }
+
+  std::optional<tks_window> textureWindow() const {
+    const tks_info& info = decoder_.info();
+    if (!window() || !info.has_heights || !info.has_texture) return window();
+    return texelsOver(*window(), info);
+  }
+
   Result<Mesh> chosenMesh() {
     const bool coded = arguments_.coded_mesh;
     if (!arguments_.camera.isDefault())
@@ -98,17 +150,35 @@ class Decoding {
   const DecodeArguments& arguments_;
   Decoder& decoder_;
   std::vector<Output> outputs_;
+  std::optional<Result<ImageFile>> image_;
+  std::future<Result<ImageFile>> beside_;
 };
+
+/// In samples of the heights, if there are any.
+Status checkWindow(const DecodeArguments& arguments, const tks_info& info) {
+  if (arguments.window.empty()) return Status();
+  const tks_window w = windowOf(arguments);
+  const uint64_t width = info.has_heights ? info.width : info.texture_width;
+  const uint64_t height = info.has_heights ? info.height : info.texture_height;
+  if (w.width > 0 && w.height > 0 && uint64_t{w.x} + w.width <= width &&
+      uint64_t{w.y} + w.height <= height) {
+    return Status();
+  }
+  return Status(TKS_USAGE, "--window must lie inside the " + std::to_string(width) + " x " +
+                               std::to_string(height) + " samples");
+}
 
 Status decode(const DecodeArguments& arguments) {
   if (Status status = checkOutputs(arguments); !status.ok()) return status;
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
+  stream->decoder.setThreads(arguments.threads);
+  if (Status status = checkWindow(arguments, stream->decoder.info()); !status.ok()) return status;
   const uint32_t heights_level = arguments.height.empty() ? 0 : arguments.level,
                  texture_level = arguments.texture.empty() ? 0 : arguments.level;
   const Expected<void> set = stream->decoder.setLevels(heights_level, texture_level);
   if (!set) return toStatus(set.error());
-  Decoding decoding(arguments, stream->decoder);
+  Decoding decoding(arguments, *stream);
   if (!arguments.height.empty())
     if (Status status = decoding.writeHeightField(); !status.ok()) return status;
   if (!arguments.texture.empty())
@@ -150,6 +220,12 @@ void addDecode(CLI::App& app, CommandLine& line) {
       ->type_name("NAME")
       ->needs(mesh)
       ->excludes(cameras);
+  verb.add_option("--window", arguments->window, "Only these samples, and the texels over them")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X,Y,W,H")
+      ->excludes(mesh);
+  addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] { line.action = [arguments] { return decode(*arguments); }; });
 }

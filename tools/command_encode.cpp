@@ -2,6 +2,7 @@
 // tetrakis encode: heights, a texture or both into one embedded stream.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -27,7 +28,8 @@ struct EncodeArguments {
   double psnr = 0;
   std::string max_error;
   bool lossless = false;
-  uint32_t triangles = 0, threads = 1;
+  uint32_t triangles = 0, threads = hardwareThreads();
+  std::string regions = "auto";
   double step = 0;
   std::optional<double> scale, offset, nodata;
   std::string spacing;
@@ -103,6 +105,16 @@ Result<double> parallax(const EncodeArguments& arguments, const HeightFile& heig
   return std::max(parallaxOf(*cameras), kLeastParallax);
 }
 
+/// As tks_encode_options says it; the library refuses sides that it does not take.
+Result<uint32_t> parseRegions(const std::string& text) {
+  if (text == "auto") return 0;
+  if (text == "off") return 1;
+  uint32_t side = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
+  if (error == std::errc() && end == text.data() + text.size() && side > 1) return side;
+  return Status(TKS_USAGE, "--regions takes auto, off or a power of two, not '" + text + "'");
+}
+
 Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
                                          const Reference& inputs) {
   tks_encode_options options = makeEncodeOptions();
@@ -112,6 +124,9 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   options.triangles = arguments.triangles;
   options.threads = arguments.threads;
   options.index = arguments.index;
+  const Result<uint32_t> regions = parseRegions(arguments.regions);
+  if (!regions.ok()) return regions.status();
+  options.regions = *regions;
   if (!arguments.max_error.empty()) {
     const Result<double> bound = parseLength(arguments.max_error, inputs.heights->unit);
     if (!bound.ok()) return bound.status();
@@ -271,10 +286,10 @@ void addTargets(CLI::App& verb, EncodeArguments& arguments) {
 void addTuning(CLI::App& verb, EncodeArguments& arguments) {
   addTriangles(verb, arguments.triangles, "Meshes will be drawn with at most so many triangles");
   addCameraOptions(verb, arguments.cameras);
-  verb.add_option("--threads", arguments.threads, "Threads; the bytes never depend on it")
-      ->capture_default_str()
-      ->check(silent(CLI::Range(1u, 1024u)))
-      ->type_name("N");
+  verb.add_option("--regions", arguments.regions,
+                  "Spatial regions, for windows: auto, off, or their side (a power of two)")
+      ->type_name("SIDE");
+  addThreads(verb, arguments.threads);
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
 }
 

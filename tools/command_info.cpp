@@ -38,6 +38,7 @@ Json heightsJson(const tks_info& info) {
           {"exact_steps", info.exact_steps != 0},
           {"voids", info.has_voids != 0},
           {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
+          {"regions", info.regions > 0 ? Json(info.regions) : Json()},
           {"max_error", stated(info.max_error)},
           {"rmse", stated(info.heights_rmse)}};
 }
@@ -49,6 +50,7 @@ Json textureJson(const tks_info& info) {
           {"channels", info.texture_channels},
           {"sample", sampleName(info.texture_sample)},
           {"cutout", info.texture_cutout != 0},
+          {"regions", info.texture_regions > 0 ? Json(info.texture_regions) : Json()},
           {"psnr", stated(info.texture_psnr)},
           {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};
 }

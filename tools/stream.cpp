@@ -38,14 +38,14 @@ Result<OpenStream> openStream(const StreamSource& source) {
   return OpenStream{std::move(*bytes), std::move(*decoder)};
 }
 
-Result<HeightFile> decodeHeights(Decoder& decoder) {
+Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_window>& window) {
   const tks_info& info = decoder.info();
   if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
-  Expected<std::vector<std::byte>> samples = decoder.heights();
+  Expected<std::vector<std::byte>> samples = window ? decoder.heights(*window) : decoder.heights();
   if (!samples) return toStatus(samples.error());
   HeightFile file;
-  file.width = info.width;
-  file.height = info.height;
+  file.width = window ? window->width : info.width;
+  file.height = window ? window->height : info.height;
   file.sample = info.sample;
   file.data = std::move(*samples);
   file.scale = info.scale;
@@ -63,14 +63,14 @@ Result<HeightFile> decodeHeights(Decoder& decoder) {
   return file;
 }
 
-Result<ImageFile> decodeImage(Decoder& decoder) {
+Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>& window) {
   const tks_info& info = decoder.info();
   if (!info.has_texture) return Status(TKS_USAGE, "the stream has no texture");
-  Expected<std::vector<std::byte>> texels = decoder.texture();
+  Expected<std::vector<std::byte>> texels = window ? decoder.texture(*window) : decoder.texture();
   if (!texels) return toStatus(texels.error());
   ImageFile file;
-  file.width = info.texture_width;
-  file.height = info.texture_height;
+  file.width = window ? window->width : info.texture_width;
+  file.height = window ? window->height : info.texture_height;
   file.channels = info.texture_channels;
   file.sample = info.texture_sample;
   file.data = std::move(*texels);

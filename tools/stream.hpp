@@ -36,10 +36,11 @@ std::span<const uint8_t> octets(std::span<const std::byte> bytes);
 /// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
 
-/// Decoded heights with the metadata of the stream. TKS_USAGE if the stream has none.
-Result<HeightFile> decodeHeights(Decoder& decoder);
+/// Decoded heights with the metadata of the stream, of a window of samples or all of them.
+/// TKS_USAGE if the stream has none, or not that window.
+Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_window>& window = {});
 
-/// Decoded texture. TKS_USAGE if the stream has none.
-Result<ImageFile> decodeImage(Decoder& decoder);
+/// Decoded texture, of a window of texels or all of it. TKS_USAGE as above.
+Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>& window = {});
 
 }  // namespace tetrakis::tools

@@ -2,6 +2,7 @@
 #include "wavelet/band_plan.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bitstream/reconstruction.hpp"
 
@@ -26,55 +27,87 @@ BandShape shapeOf(const Subband& subband) {
 PlaneLayout::PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height)
     : subbands_(subbandsOf(width, height)), norms_(spec, subbands_.front().level) {}
 
-std::vector<BandPlan> PlaneLayout::plan(int first, int priority, uint32_t models) const {
-  std::vector<BandPlan> bands;
+std::vector<BandPart> PlaneLayout::parts(const Region& region) const {
+  std::vector<BandPart> parts;
   for (size_t i = 0; i < subbands_.size(); ++i) {
     const Subband& subband = subbands_[i];
+    if (!(subband.orientation == Orientation::kLL ? region.isBase() : region.holds(subband.level)))
+      continue;
+    // Sides of regions are multiples of 2^splits, so that low and high bands are cut alike.
+    const auto range = [](uint32_t begin, uint32_t end, int splits, uint32_t size) {
+      const uint32_t first = std::min(begin >> splits, size);
+      const uint64_t round_up = (uint64_t{1} << splits) - 1;
+      const auto last = static_cast<uint32_t>(std::min<uint64_t>((end + round_up) >> splits, size));
+      return std::pair(first, last - first);
+    };
+    const auto [column, columns] = range(region.x0, region.x1, subband.splits_x, subband.width);
+    const auto [row, rows] = range(region.y0, region.y1, subband.splits_y, subband.height);
+    parts.push_back({i, column, row, columns, rows});
+  }
+  return parts;
+}
+
+std::vector<BandPart> PlaneLayout::wholeParts() const {
+  constexpr uint32_t kEnd = uint32_t{1} << 31;
+  return parts({1, Region::kAll, 0, 0, kEnd, kEnd});
+}
+
+std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int first, int priority,
+                                        uint32_t models) const {
+  std::vector<BandPlan> bands;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Subband& subband = subbands_[parts[i].subband];
     BandPlan band;
-    band.shape = shapeOf(subband);
+    band.shape = parts[i].shape();
     band.orientation = subband.orientation;
     band.log_norm = norms_.log16(subband) + priority;
     band.models = models + modelsOf(subband);
-    const bool has_parent = i > kBandsPerLevel && !shapeOf(subbands_[i - kBandsPerLevel]).empty();
-    if (has_parent) band.parent = first + static_cast<int>(i - kBandsPerLevel);
+    const size_t parent = i - kBandsPerLevel;  // LL is nobody's
+    const bool has_parent = i >= kBandsPerLevel &&
+                            subbands_[parts[parent].subband].orientation != Orientation::kLL &&
+                            !parts[parent].shape().empty();
+    if (has_parent) band.parent = first + static_cast<int>(parent);
     bands.push_back(band);
   }
   return bands;
 }
 
-void markAbsent(const PlaneLayout& layout, Validity valid, uint32_t width,
-                std::span<BandPlan> bands) {
+void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Validity valid,
+                uint32_t width, std::span<BandPlan> bands) {
   if (valid.empty()) return;
   for (size_t i = 0; i < bands.size(); ++i) {
-    const Subband& subband = layout.subbands()[i];
+    const BandPart& part = parts[i];
+    const Subband& subband = layout.subbands()[part.subband];
     const BandShape& shape = bands[i].shape;
     bands[i].absent.assign(shape.wordCells(), 0);
-    for (uint32_t row = 0; row < subband.height; ++row) {
-      const uint8_t* samples = valid.data() + size_t{subband.planeRow(row)} * width;
-      for (uint32_t column = 0; column < subband.width; ++column) {
-        const uint32_t absent = samples[subband.sampleColumn(column)] == 0;
+    for (uint32_t row = 0; row < part.rows; ++row) {
+      const uint8_t* samples = valid.data() + size_t{subband.planeRow(part.row + row)} * width;
+      for (uint32_t column = 0; column < part.columns; ++column) {
+        const uint32_t absent = samples[subband.sampleColumn(part.column + column)] == 0;
         bands[i].absent[shape.word(row, column / 32)] |= absent << column % 32;
       }
     }
   }
 }
 
-std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width,
-                            const Subband& subband) {
-  const BandShape shape = shapeOf(subband);
+std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband,
+                            const BandPart& part) {
+  const BandShape shape = part.shape();
   std::vector<int32_t> values(shape.cells(), 0);
-  for (uint32_t row = 0; row < subband.height; ++row) {
-    const int32_t* from = plane.data() + size_t{subband.planeRow(row)} * width + subband.x;
-    std::copy_n(from, subband.width, values.data() + shape.cell(row, 0));
+  for (uint32_t row = 0; row < part.rows; ++row) {
+    const int32_t* from =
+        plane.data() + size_t{subband.planeRow(part.row + row)} * width + subband.x + part.column;
+    std::copy_n(from, part.columns, values.data() + shape.cell(row, 0));
   }
   return values;
 }
 
-void scatter(const Band& band, int fraction_bits, const Subband& subband, std::span<int32_t> plane,
-             uint32_t width) {
+void scatter(const Band& band, int fraction_bits, const Subband& subband, const BandPart& part,
+             std::span<int32_t> plane, uint32_t width) {
   const Reconstruction values(band, fraction_bits);
-  for (uint32_t row = 0; row < subband.height; ++row) {
-    values.row(row, plane.data() + size_t{subband.planeRow(row)} * width + subband.x);
+  for (uint32_t row = 0; row < part.rows; ++row) {
+    values.row(row, plane.data() + size_t{subband.planeRow(part.row + row)} * width + subband.x +
+                        part.column);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/regions.hpp"
 #include "bitstream/track.hpp"
 #include "wavelet/norms.hpp"
 #include "wavelet/subbands.hpp"
@@ -15,15 +16,28 @@ namespace tetrakis {
 /// Classes of contexts that the bands of one plane use: levels 1, 2, 3, all coarser ones, and LL.
 inline constexpr uint32_t kPlaneModels = 5;
 
+/// A rectangle of a subband's coefficients: what one track holds of it.
+struct BandPart {
+  size_t subband = 0;  ///< index in PlaneLayout::subbands()
+  uint32_t column = 0, row = 0, columns = 0, rows = 0;
+
+  BandShape shape() const { return {rows, columns}; }
+};
+
 /// The subbands of planes of one size under one transform.
 class PlaneLayout {
  public:
   PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height);
 
-  /// One entry for each subband, in coding order. The indices of parents count from `first`, the
+  /// What a region holds, in coding order; without regions every subband as a whole.
+  std::vector<BandPart> parts(const Region& region) const;
+  std::vector<BandPart> wholeParts() const;
+
+  /// One entry for each part of a region. The indices of parents count from `first`, the
   /// place that the first entry will have in the plan of the track.
   /// priority: added to every log_norm; models: class of contexts of the first band.
-  std::vector<BandPlan> plan(int first, int priority, uint32_t models) const;
+  std::vector<BandPlan> plan(std::span<const BandPart> parts, int first, int priority,
+                             uint32_t models) const;
 
   const std::vector<Subband>& subbands() const { return subbands_; }
   size_t size() const { return subbands_.size(); }
@@ -37,17 +51,18 @@ class PlaneLayout {
 
 BandShape shapeOf(const Subband& subband);
 
-/// Marks the coefficients of void samples as absent. bands: the layout's, in its order. valid:
-/// width * height; empty: there are no voids.
-void markAbsent(const PlaneLayout& layout, Validity valid, uint32_t width,
-                std::span<BandPlan> bands);
+/// Marks the coefficients of void samples as absent. bands: those of the parts. valid: width *
+/// height of the plane; empty: there are no voids.
+void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Validity valid,
+                uint32_t width, std::span<BandPlan> bands);
 
-/// The subband's coefficients in the cell layout of its shape.
-std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband);
+/// The part's coefficients in the cell layout of its shape.
+std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband,
+                            const BandPart& part);
 
-/// Puts what is known of the subband's coefficients into the plane, with `fraction_bits` binary
+/// Puts what is known of the part's coefficients into the plane, with `fraction_bits` binary
 /// places more than they were coded with.
-void scatter(const Band& band, int fraction_bits, const Subband& subband, std::span<int32_t> plane,
-             uint32_t width);
+void scatter(const Band& band, int fraction_bits, const Subband& subband, const BandPart& part,
+             std::span<int32_t> plane, uint32_t width);
 
 }  // namespace tetrakis

@@ -45,6 +45,13 @@ int64_t inverseGain(FilterId id) {
   return id == FilterId::kOrthogonal ? 888933380 : int64_t{1} << 30;
 }
 
+uint32_t synthesisReach(FilterId id) {
+  uint32_t reach = 0;
+  for (const LiftingStep& step : liftingFilter(id).steps)
+    reach += static_cast<uint32_t>(2 * step.pairs - 1);
+  return reach;
+}
+
 int widestSamples(FilterId id) {
   return id == FilterId::kOrthogonal ? 16 : 20;
 }

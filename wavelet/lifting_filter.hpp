@@ -37,6 +37,9 @@ LiftingFilter liftingFilter(FilterId id);
 /// What the low band of constants has to be multiplied by to be those constants, in units of 2^-30.
 int64_t inverseGain(FilterId id);
 
+/// How far from a sample the coefficients lie that it is made of, in places of its level.
+uint32_t synthesisReach(FilterId id);
+
 /// Samples of more bits need 64-bit sums.
 int widestSamples(FilterId id);
 

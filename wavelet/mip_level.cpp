@@ -25,10 +25,9 @@ WaveletSpec MipLevel::transform(const WaveletSpec& whole) const {
   return spec;
 }
 
-void MipLevel::dropFiner(std::span<BandPlan> bands) const {
-  for (BandPlan& band : bands.last(kBandsPerLevel * static_cast<size_t>(level_))) {
-    band.needed = false;
-  }
+void MipLevel::dropFiner(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
+  const size_t kept = subbandsOf(low_.width, low_.height).size();
+  for (size_t i = 0; i < bands.size(); ++i) bands[i].needed = parts[i].subband < kept;
 }
 
 std::vector<uint8_t> MipLevel::maskOf(Validity valid, uint32_t width) const {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/track.hpp"
+#include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet.hpp"
 
 namespace tetrakis {
@@ -29,8 +29,8 @@ class MipLevel {
   /// The transform of the low band.
   WaveletSpec transform(const WaveletSpec& whole) const;
 
-  /// Of the bands of one component, in the order of PlaneLayout, says which are not needed.
-  void dropFiner(std::span<BandPlan> bands) const;
+  /// Says which bands are not needed. bands: those of the parts.
+  void dropFiner(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
   /// The validity of the low band's samples. valid, width: of the whole plane.
   std::vector<uint8_t> maskOf(Validity valid, uint32_t width) const;

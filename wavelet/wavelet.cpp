@@ -3,7 +3,9 @@
 #include "wavelet/wavelet.hpp"
 
 #include <cassert>
+#include <functional>
 
+#include "bitstream/parallel.hpp"
 #include "wavelet/lifting.hpp"
 
 namespace tetrakis {
@@ -31,7 +33,7 @@ void doubleValues(const LowBand& low) {
 
 void halveValues(const LowBand& low) {
   for (uint32_t y = 0; y < low.extent.height; ++y) {
-    for (int32_t& v : low.row(y)) v = static_cast<int32_t>(static_cast<uint32_t>(v) + 1) >> 1;
+    for (int32_t& v : low.row(y)) v = halved(v);
   }
 }
 
@@ -50,33 +52,55 @@ std::vector<LowBand> lowBands(std::span<int32_t> plane, uint32_t width, uint32_t
 /// One level of the transform: rows, then columns; backwards the other way round.
 class LevelTransform {
  public:
-  LevelTransform(const WaveletSpec& spec, Validity valid, uint32_t plane_width)
-      : spec_(spec), valid_(valid), plane_width_(plane_width), row_(plane_width) {}
+  LevelTransform(const WaveletSpec& spec, Validity valid, uint32_t plane_width, uint32_t threads)
+      : spec_(spec), valid_(valid), plane_width_(plane_width), threads_(threads) {}
 
   void run(int level, const LowBand& whole, const LowBand& low, Direction direction) {
     const FilterId id = spec_.filter(level);
-    const bool wide = spec_.wide(level), analysis = direction == Direction::kAnalysis;
+    // With voids all sums are wide, so that they do not depend on where the voids are.
+    const bool wide = spec_.wide(level) || !valid_.empty();
+    const bool analysis = direction == Direction::kAnalysis;
     const bool rows = low.extent.width < whole.extent.width;
     const bool columns = low.extent.height < whole.extent.height;
     if (rows && analysis) liftRows(whole, id, direction, wide);
-    if (columns) {
-      if (valid_.empty()) {
-        liftColumns(whole.rows(), id, direction, wide);
-      } else {
-        masked(whole).liftColumns(id, direction, wide, rows);
-      }
-    }
+    if (columns) liftColumns(whole, id, direction, wide, rows);
     if (rows && !analysis) liftRows(whole, id, direction, wide);
   }
 
  private:
+  /// Rows or columns that a thread takes at a time.
+  static constexpr uint32_t kChunk = 256;
+
   void liftRows(const LowBand& whole, FilterId id, Direction direction, bool wide) {
-    if (!valid_.empty()) return masked(whole).liftRows(row_, id, direction, wide);
-    for (uint32_t y = 0; y < whole.extent.height; ++y) {
-      const std::span<int32_t> row = whole.row(y);
-      direction == Direction::kAnalysis ? row_.analyse(row.data(), whole.extent.width, id, wide)
-                                        : row_.synthesise(row.data(), whole.extent.width, id, wide);
+    if (!valid_.empty()) {
+      RowLifting lifting(whole.extent.width);
+      return masked(whole).liftRows(lifting, id, direction, wide);
     }
+    inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
+      RowLifting lifting(whole.extent.width);
+      for (uint32_t y = begin; y < end; ++y) {
+        const std::span<int32_t> row = whole.row(y);
+        direction == Direction::kAnalysis
+            ? lifting.analyse(row.data(), whole.extent.width, id, wide)
+            : lifting.synthesise(row.data(), whole.extent.width, id, wide);
+      }
+    });
+  }
+  void liftColumns(const LowBand& whole, FilterId id, Direction direction, bool wide,
+                   bool split_rows) {
+    if (!valid_.empty()) return masked(whole).liftColumns(id, direction, wide, split_rows);
+    const RowSet rows = whole.rows();
+    inChunks(rows.width, [&](uint32_t begin, uint32_t end) {
+      tetrakis::liftColumns({rows.first + begin, rows.pitch, rows.count, end - begin}, id,
+                            direction, wide);
+    });
+  }
+  void inChunks(uint32_t count, const std::function<void(uint32_t, uint32_t)>& lift) {
+    const uint32_t chunk = threads_ > 1 ? kChunk : count;
+    parallelFor(threads_, (count + chunk - 1) / chunk, [&](size_t i) {
+      const auto begin = static_cast<uint32_t>(i) * chunk;
+      lift(begin, std::min(count, begin + chunk));
+    });
   }
   MaskedLifting masked(const LowBand& whole) const {
     return {valid_, plane_width_, whole.rows(), whole.splits_x, whole.splits_y};
@@ -84,17 +108,29 @@ class LevelTransform {
 
   const WaveletSpec& spec_;
   Validity valid_;
-  uint32_t plane_width_;
-  RowLifting row_;
+  uint32_t plane_width_, threads_;
 };
 
 }  // namespace
 
+int32_t halved(int32_t value) {
+  return static_cast<int32_t>(static_cast<uint32_t>(value) + 1) >> 1;
+}
+
+void inverseLevel(const WaveletSpec& spec, int level, std::span<int32_t> block, Extent whole,
+                  Extent low, Validity valid) {
+  const LowBand whole_band{block.data(), whole.width, whole, 0, 0};
+  const LowBand low_band{block.data(), whole.width, low, low.width < whole.width,
+                         low.height < whole.height};
+  LevelTransform(spec, valid, whole.width, 1)
+      .run(level, whole_band, low_band, Direction::kSynthesis);
+}
+
 void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid) {
+                    uint32_t height, Validity valid, uint32_t threads) {
   assert(plane.size() == size_t{width} * height && width > 0 && height > 0);
   const std::vector<LowBand> bands = lowBands(plane, width, height);
-  LevelTransform transform(spec, valid, width);
+  LevelTransform transform(spec, valid, width, threads);
   for (size_t l = 1; l < bands.size(); ++l) {
     transform.run(static_cast<int>(l), bands[l - 1], bands[l], Direction::kAnalysis);
     if (spec.doubles(static_cast<int>(l))) doubleValues(bands[l]);
@@ -102,10 +138,10 @@ void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t 
 }
 
 void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid) {
+                    uint32_t height, Validity valid, uint32_t threads) {
   assert(plane.size() == size_t{width} * height && width > 0 && height > 0);
   const std::vector<LowBand> bands = lowBands(plane, width, height);
-  LevelTransform transform(spec, valid, width);
+  LevelTransform transform(spec, valid, width, threads);
   for (size_t l = bands.size() - 1; l >= 1; --l) {
     if (spec.doubles(static_cast<int>(l))) halveValues(bands[l]);
     transform.run(static_cast<int>(l), bands[l - 1], bands[l], Direction::kSynthesis);

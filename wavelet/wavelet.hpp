@@ -48,10 +48,19 @@ struct WaveletSpec {
 /// In place: width * height samples to coefficients, laid out as subbandsOf() says. Exactly undone
 /// by inverseWavelet of the same spec and validity. Voids are left alone.
 void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid = {});
+                    uint32_t height, Validity valid = {}, uint32_t threads = 1);
 
 /// Coefficients to samples. Defined for all values.
 void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid = {});
+                    uint32_t height, Validity valid = {}, uint32_t threads = 1);
+
+/// One level of the inverse, of a block that stands for itself: whole.width * whole.height values
+/// of which the first of a row and the even rows make up its low band (wavelet/subbands.hpp).
+/// valid: of the block.
+void inverseLevel(const WaveletSpec& spec, int level, std::span<int32_t> block, Extent whole,
+                  Extent low, Validity valid = {});
+
+/// Undoes the doubling of a value of the low band.
+int32_t halved(int32_t value);
 
 }  // namespace tetrakis

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "conformance/reference_decoder/layers.hpp"
+#include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 
@@ -74,24 +75,37 @@ std::vector<int> activityHints(Plane& marks) {
 
 /// What is known of the heights before they become samples.
 struct Surface {
-  std::vector<Subband> subbands;
-  std::vector<Band> bands;
+  std::vector<std::vector<Part>> parts;  ///< by track
+  std::vector<std::vector<Band>> bands;  ///< likewise
   int f = 0;
   Plane plane;
 };
 
-Surface decodeSurface(const GeometryHeader& header, std::span<const uint8_t> coefficients,
+Surface decodeSurface(const GeometryHeader& header,
+                      const std::vector<std::span<const uint8_t>>& coefficients,
                       std::vector<uint8_t> valid, int level) {
   Surface surface;
-  surface.subbands = subbandsOf(header.width, header.height);
-  surface.bands = bandsOf(header.wavelet, surface.subbands, 0);
+  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   surface.plane = {header.width, header.height, {}, std::move(valid)};
-  markAbsent(surface.subbands, surface.plane, surface.bands);
-  dropFiner(surface.subbands, level, surface.bands);
-  const bool complete = decodeTrack(coefficients, header.planes, surface.bands);
+  surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
+  bool counted = true;
+  for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
+    const size_t track = surface.parts.size();
+    surface.parts.push_back(partsOf(subbands, region));
+    std::vector<Band>& bands = surface.bands.emplace_back();
+    bands = bandsOf(header.wavelet, surface.parts.back(), 0);
+    markAbsent(surface.parts.back(), surface.plane, bands);
+    dropFiner(surface.parts.back(), level, bands);
+    counted &= decodeTrack(coefficients[track], header.planes, bands);
+  }
+  const bool complete = isComplete(header.regions, coefficients, counted);
   surface.f = fractionOf(header.wavelet, header.planes, complete);
-  synthesise(header.wavelet, surface.subbands, surface.bands, {surface.f, level}, surface.plane);
-  if (level > 0) surface.plane = levelOf(header.wavelet, surface.subbands, level, surface.plane);
+  for (size_t i = 0; i < surface.parts.size(); ++i) {
+    place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
+          surface.plane);
+  }
+  synthesise(header.wavelet, subbands, level, surface.plane);
+  if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);
   return surface;
 }
 
@@ -99,11 +113,15 @@ Surface decodeSurface(const GeometryHeader& header, std::span<const uint8_t> coe
 Plane significanceOf(const Surface& surface) {
   Plane marks{surface.plane.width, surface.plane.height, {}};
   marks.values.resize(surface.plane.values.size());
-  for (size_t i = 0; i < surface.bands.size(); ++i) {
-    const Subband& subband = surface.subbands[i];
-    for (int r = 0; r < subband.rows; ++r) {
-      for (int a = 0; a < subband.columns; ++a) {
-        marks.at(subband.x(a), subband.y(r)) = surface.bands[i].get(r, a).magnitude > 0;
+  for (size_t track = 0; track < surface.parts.size(); ++track) {
+    for (size_t i = 0; i < surface.parts[track].size(); ++i) {
+      const Part& part = surface.parts[track][i];
+      for (int r = 0; r < part.rows; ++r) {
+        for (int a = 0; a < part.columns; ++a) {
+          const bool significant = surface.bands[track][i].get(r, a).magnitude > 0;
+          marks.at(part.x(a), part.y(r)) =
+              surface.plane.isValid(part.x(a), part.y(r)) && significant;
+        }
       }
     }
   }
@@ -179,14 +197,15 @@ std::vector<uint8_t> bytesOf(const GeometryHeader& header, const std::vector<uin
 }  // namespace
 
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword, int level) {
+                                   const Codewords& codewords, int level) {
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
+  std::span<const uint8_t> codeword = codewords.at(0);
   std::vector<uint8_t> valid;
   if (layers.validityBytes > 0) {
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
-  const auto coefficients =
-      take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
+  std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
+  coefficients[0] = take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
   Surface surface = decodeSurface(header, coefficients, std::move(valid), level);
   if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
   std::vector<uint32_t> samples = samplesOf(header, surface);

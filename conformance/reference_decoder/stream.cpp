@@ -2,6 +2,8 @@
 // Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 12).
 #include "conformance/reference_decoder/stream.hpp"
 
+#include "conformance/reference_decoder/regions.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -151,15 +153,31 @@ TextureHeader readTexture(Reader& in) {
   return t;
 }
 
+/// FORMAT 2, table Regions, of one component.
+RegionHeader readRegions(Reader& in) {
+  RegionHeader regions;
+  regions.log2 = in.u8(0, 20);
+  if (regions.log2 > 0) regions.wholeBytes = in.varint(0, INT64_MAX);
+  if (regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
+  return regions;
+}
+
+/// FORMAT 3: whether packets of a component say which track they belong to.
+bool namesTracks(const Stream& stream, uint64_t component) {
+  if (component == 0) return stream.geometry && stream.geometry->regions.log2 > 0;
+  return stream.texture && stream.texture->regions.log2 > 0;
+}
+
 /// FORMAT 2, Metadata and Index: they decode nothing, but their syntax counts.
 void skipMetadata(Reader& in) {
   for (int i = 0; i < 4; ++i) in.f64();
   for (int i = 0; i < 3; ++i) in.take(in.varint(0, UINT64_MAX));
 }
 
-void skipIndex(Reader& in) {
+void skipIndex(Reader& in, const Stream& stream) {
   for (uint64_t left = in.varint(1, 1 << 19); left > 0; --left) {
-    in.varint(0, UINT64_MAX);
+    const uint64_t head = in.varint(0, UINT64_MAX);
+    if (namesTracks(stream, head & 1)) in.varint(0, UINT32_MAX);
     in.byte();
   }
 }
@@ -180,7 +198,7 @@ int levelOf(const Stream& stream) {
 /// FORMAT 2, Body. Returns `payload_bytes`.
 uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
-  const int parts = in.u8(1, 31);
+  const int parts = in.u8(1, 63);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
   in.u8(0, 1);               // lossless
   in.varint(0, UINT32_MAX);  // triangles
@@ -189,7 +207,9 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (parts & 2) stream.texture = readTexture(in);
   if (parts & 4) skipMetadata(in);
   if (parts & 16) stream.layers = readLayers(in, stream.geometry);
-  if (parts & 8) skipIndex(in);
+  if (parts & 32 && stream.geometry) stream.geometry->regions = readRegions(in);
+  if (parts & 32 && stream.texture) stream.texture->regions = readRegions(in);
+  if (parts & 8) skipIndex(in, stream);
   if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
   return payloadBytes;
 }
@@ -210,19 +230,31 @@ std::span<const uint8_t> readHeader(std::span<const uint8_t> prefix, Stream& str
   return in.rest().first(std::min<uint64_t>(payloadBytes, in.rest().size()));
 }
 
+/// One codeword for each track of either component.
+void makeCodewords(Stream& stream) {
+  const auto count = [](const auto& c) {
+    return c ? regionsOf(c->width, c->height, c->regions.log2).size() : 0;
+  };
+  stream.codewords[0].resize(count(stream.geometry));
+  stream.codewords[1].resize(count(stream.texture));
+}
+
 /// FORMAT 3: the payload of each packet goes to the codeword of its track.
 Outcome readPackets(std::span<const uint8_t> payload, Stream& stream) {
+  makeCodewords(stream);
   Reader in(payload);
   while (!in.rest().empty()) {
     const uint64_t head = in.varint(0, UINT64_MAX);
+    const uint64_t length = head >> 2, component = head & 1;
+    const uint64_t track = namesTracks(stream, component) ? in.varint(0, UINT32_MAX) : 0;
     in.byte();  // quality
     if (in.outcome() == Outcome::kTruncated) break;
-    const uint64_t length = head >> 2, track = head & 1;
-    const bool whole = head & 2, announced = track == 0 ? !!stream.geometry : !!stream.texture;
+    const bool whole = head & 2, announced = track < stream.codewords[component].size();
     if (in.outcome() != Outcome::kDone || length == 0 || !announced) return Outcome::kCorrupt;
     if (whole && length > in.rest().size()) break;
     const auto bytes = in.take(std::min<uint64_t>(length, in.rest().size()));
-    stream.codewords[track].insert(stream.codewords[track].end(), bytes.begin(), bytes.end());
+    std::vector<uint8_t>& codeword = stream.codewords[component][track];
+    codeword.insert(codeword.end(), bytes.begin(), bytes.end());
   }
   return Outcome::kDone;
 }

@@ -21,10 +21,17 @@ struct WaveletHeader {
   int fractionBits = 0, sampleBits = 0;
 };
 
+/// FORMAT 2, table Regions.
+struct RegionHeader {
+  int log2 = 0;
+  uint64_t wholeBytes = 0;
+};
+
 struct GeometryHeader {
   int width = 0, height = 0, sample = 0, planes = 0;
   double base = 0, step = 1;
   WaveletHeader wavelet;
+  RegionHeader regions;
 };
 
 /// FORMAT 2, table Layers.
@@ -41,10 +48,14 @@ struct TextureHeader {
   uint64_t alphaBytes = 0;  ///< 0: no cut-out
   bool hidden = false;
   WaveletHeader wavelet;
+  RegionHeader regions;
   std::array<int, 4> centre = {}, priority = {};
   int colourOrder = 0;
   std::array<int, 6> shear = {};
 };
+
+/// The codewords of a component's tracks.
+using Codewords = std::vector<std::vector<uint8_t>>;
 
 /// What a prefix of a stream holds.
 struct Stream {
@@ -52,7 +63,7 @@ struct Stream {
   std::optional<GeometryHeader> geometry;
   Layers layers;
   std::optional<TextureHeader> texture;
-  std::array<std::vector<uint8_t>, 2> codewords;  ///< by track: 0 geometry, 1 texture
+  std::array<Codewords, 2> codewords;  ///< by component: 0 geometry, 1 texture
 };
 
 /// "Arithmetic on samples and coefficients wraps modulo 2^32" (FORMAT, notation).
@@ -62,10 +73,10 @@ constexpr int32_t wrap(int64_t value) {
 
 /// Samples of the header's type, little endian (FORMAT 8).
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
-                                   std::span<const uint8_t> codeword, int level);
+                                   const Codewords& codewords, int level);
 
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
                                    int level);
 
 /// The same for kDrawnPlanes (FORMAT 9.1).

@@ -96,18 +96,4 @@ int logNormOf(const WaveletHeader& header, const Subband& subband) {
   return (norm + 8) >> 4;
 }
 
-std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                          size_t first) {
-  std::vector<Band> bands;
-  for (size_t i = 0; i < subbands.size(); ++i) {
-    const Subband& subband = subbands[i];
-    Band band(subband.rows, subband.columns, subband.orientation);
-    if (!band.empty()) band.logNorm = logNormOf(header, subband);
-    band.modelClass = subband.orientation == kLL ? 4 : std::min(subband.level, 4) - 1;
-    if (i >= 4) band.parent = first + i - 3;
-    bands.push_back(band);
-  }
-  return bands;
-}
-
 }  // namespace tetrakis::reference

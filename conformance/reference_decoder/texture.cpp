@@ -5,24 +5,25 @@
 #include <iterator>
 
 #include "conformance/reference_decoder/layers.hpp"
+#include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 
 namespace tetrakis::reference {
 namespace {
 
-/// FORMAT 9: the bands of all components.
-std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Subband>& subbands) {
+/// FORMAT 9: the bands of all components in one track.
+std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part>& parts) {
   std::vector<Band> all;
   for (int c = 0; c < header.components; ++c) {
     const bool alpha = header.components % 2 == 0 && c == header.components - 1;
     const int kind = alpha ? 2 : c == 0 ? 0 : 1;
     const size_t first = all.size();
-    std::vector<Band> bands = bandsOf(header.wavelet, subbands, first);
+    std::vector<Band> bands = bandsOf(header.wavelet, parts, first);
     for (Band& band : bands) {
       band.logNorm += header.priority[c];
       band.modelClass += 5 * kind;
-      if (c > 0) band.companion = all.size() - subbands.size();
+      if (c > 0) band.companion = all.size() - parts.size();
       all.push_back(std::move(band));
     }
   }
@@ -60,31 +61,45 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
 
 }  // namespace
 
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
                                    int level) {
-  if (header.planes == kDrawnPlanes) return decodeDrawn(header, codeword, level);
+  std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
+  if (header.planes == kDrawnPlanes) return decodeDrawn(header, coefficients[0], level);
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   level = std::min(level, subbands.front().level);
   Plane seen{header.width, header.height, {}};  // its validity: where alpha is not 0
   if (header.alphaBytes > 0) {
-    const auto mask = codeword.first(std::min<uint64_t>(header.alphaBytes, codeword.size()));
+    const auto mask =
+        coefficients[0].first(std::min<uint64_t>(header.alphaBytes, coefficients[0].size()));
     seen.valid = decodeValidity(mask, header.width, header.height);
-    codeword = codeword.subspan(mask.size());
+    coefficients[0] = coefficients[0].subspan(mask.size());
   }
-  std::vector<Band> bands = bandsOfAll(header, subbands);
-  const auto bandsOfComponent = [&](int c) {
-    return std::span(bands).subspan(c * subbands.size(), subbands.size());
-  };
-  for (int c = 0; c < header.components && header.hidden; ++c)
-    markAbsent(subbands, seen, bandsOfComponent(c));
-  dropFiner(subbands, level, bands);
-  const bool complete = decodeTrack(codeword, header.planes, bands);
+  std::vector<std::vector<Part>> parts;
+  std::vector<std::vector<Band>> bands;
+  bool counted = true;
+  for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
+    parts.push_back(partsOf(subbands, region));
+    bands.push_back(bandsOfAll(header, parts.back()));
+    for (int c = 0; c < header.components; ++c) {
+      const auto own =
+          std::span(bands.back()).subspan(c * parts.back().size(), parts.back().size());
+      if (header.hidden) markAbsent(parts.back(), seen, own);
+      dropFiner(parts.back(), level, own);
+    }
+    counted &= decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
+  }
+  const bool complete = isComplete(header.regions, coefficients, counted);
   const int f = fractionOf(header.wavelet, header.planes, complete);
   std::vector<Plane> planes;
   for (int c = 0; c < header.components; ++c) {
     Plane plane{header.width, header.height, {}};
     if (header.hidden) plane.valid = seen.valid;
-    synthesise(header.wavelet, subbands, bandsOfComponent(c), {f, level}, plane);
+    plane.values.resize(static_cast<size_t>(header.width) * header.height);
+    for (size_t i = 0; i < parts.size(); ++i) {
+      const auto own = std::span(bands[i]).subspan(c * parts[i].size(), parts[i].size());
+      place(own, parts[i], f - header.wavelet.fractionBits, plane);
+    }
+    synthesise(header.wavelet, subbands, level, plane);
     planes.push_back(levelOf(header.wavelet, subbands, level, plane));
   }
   const int columns = planes[0].width, rows = planes[0].height;

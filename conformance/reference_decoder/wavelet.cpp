@@ -78,8 +78,7 @@ void synthesisePlaces(const WaveletHeader& header, int level, const Places& plac
     line.valid.push_back(plane.isValid(x, y));
   }
   const Filter& filter = filterOf(header, level);
-  const bool voids = std::find(line.valid.begin(), line.valid.end(), false) != line.valid.end();
-  const bool exact = voids || level > 3 || header.sampleBits > filter.widest;
+  const bool exact = !plane.valid.empty() || level > 3 || header.sampleBits > filter.widest;
   synthesiseLine(filter, exact, line);
   for (int i = 0; i < places.count; ++i)
     plane.at(places.x + i * places.stepX, places.y + i * places.stepY) = line.values[size_t(i)];
@@ -125,34 +124,10 @@ int fractionOf(const WaveletHeader& header, int planes, bool complete) {
   return std::clamp(19 - planes, 0, 4);
 }
 
-void markAbsent(const std::vector<Subband>& subbands, const Plane& plane, std::span<Band> bands) {
-  for (size_t i = 0; i < subbands.size(); ++i) {
-    for (int r = 0; r < subbands[i].rows; ++r) {
-      for (int a = 0; a < subbands[i].columns; ++a)
-        bands[i].at(r, a).absent = !plane.isValid(subbands[i].x(a), subbands[i].y(r));
-    }
-  }
-}
-
-void dropFiner(const std::vector<Subband>& subbands, int level, std::span<Band> bands) {
-  for (size_t i = 0; i < bands.size(); ++i) {
-    const Subband& subband = subbands[i % subbands.size()];
-    bands[i].needed = subband.orientation == kLL || subband.level > level;
-  }
-}
-
-void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                std::span<const Band> bands, Target target, Plane& plane) {
-  plane.values.assign(static_cast<size_t>(plane.width) * plane.height, 0);
-  for (size_t i = 0; i < subbands.size(); ++i) {
-    const Subband& subband = subbands[i];
-    for (int r = 0; r < subband.rows; ++r) {
-      for (int a = 0; a < subband.columns; ++a)
-        plane.at(subband.x(a), subband.y(r)) = bands[i].value(r, a, target.f - header.fractionBits);
-    }
-  }
+void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,
+                Plane& plane) {
   for (const Subband& subband : subbands) {
-    if (subband.orientation == kHH && subband.level > target.level)
+    if (subband.orientation == kHH && subband.level > target)
       synthesiseLevel(header, subband, plane);
   }
 }

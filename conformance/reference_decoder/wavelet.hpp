@@ -39,10 +39,6 @@ std::vector<Subband> subbandsOf(int width, int height);
 /// FORMAT 7, "Norms", without the priority.
 int logNormOf(const WaveletHeader& header, const Subband& subband);
 
-/// The bands of one plane, as they follow `first` others in a track; all but their companions.
-std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                          size_t first);
-
 /// FORMAT 7, "Fraction": f.
 int fractionOf(const WaveletHeader& header, int planes, bool complete);
 
@@ -57,21 +53,9 @@ struct Plane {
   bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
 };
 
-/// FORMAT 7, "Places": coefficients of voids do not exist.
-void markAbsent(const std::vector<Subband>& subbands, const Plane& plane, std::span<Band> bands);
-
-/// FORMAT 7.1: marks the bands that a level does not need. bands: of one component after another.
-void dropFiner(const std::vector<Subband>& subbands, int level, std::span<Band> bands);
-
-/// How far the inverse transform goes, and its unit 2^-f.
-struct Target {
-  int f, level;
-};
-
-/// Puts the values of the bands to their places; then the inverse transform of the levels above
-/// the target's.
-void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                std::span<const Band> bands, Target target, Plane& plane);
+/// The inverse transform, of the levels above the target alone, of values that lie at their places.
+void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,
+                Plane& plane);
 
 /// FORMAT 7.1: what the inverse transform down to a level has made, as an image of its own.
 Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,

@@ -102,6 +102,9 @@ typedef struct tks_encode_options {
   double parallax;   /* screen-space weight of heights: texture metres shifted per metre of height
                         error (cotangent of the view's elevation); 0: the default oblique view */
   uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
+  uint32_t regions;  /* side of the spatial regions by which windows can be decoded, in samples (of
+                        either component): a power of two from 16 to 2^20; 1: none; 0: chosen, none
+                        up to 1025 x 1025 heights, 2048 x 2048 texels, or heights with max_error */
   int index;         /* non-zero: write the front index (byte ranges of every packet) */
   tks_progress progress;
   void* user;
@@ -147,7 +150,7 @@ typedef struct tks_info {
   uint64_t stream_bytes;   /* what the encoder wrote, header included */
   uint64_t available_bytes;/* what tks_open was given */
   uint64_t packets;        /* packets begun in the available bytes */
-  uint64_t geometry_bytes, texture_bytes; /* payload available of either track */
+  uint64_t geometry_bytes, texture_bytes; /* payload available of either component */
   int has_heights, has_texture;
   uint32_t width, height;  /* heights, of the level that is set; 0 when absent */
   uint32_t coarsest_level; /* of the heights, for tks_set_levels */
@@ -162,6 +165,7 @@ typedef struct tks_info {
   double nodata;
   double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
   uint32_t triangles;      /* the encoder's triangle budget; 0: none */
+  uint32_t regions, texture_regions; /* side of the spatial regions; 0: none */
   uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
   uint32_t texture_coarsest_level;
   int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are not kept */
@@ -199,6 +203,26 @@ tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count)
 
 /* Writes texture_width * texture_height * texture_channels samples of info.texture_sample. */
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes);
+
+/* A rectangle of samples, or of texels. */
+typedef struct tks_window {
+  uint32_t x, y, width, height;
+} tks_window;
+
+/* The same samples as the three functions above give there, and no others: window->width *
+ * window->height of them, row by row. The window lies inside and holds a sample, else TKS_USAGE. Of
+ * streams with regions only those are decoded that reach the window; all of them where the stream
+ * holds corrections (of floats that no step restores, or to a largest error). */
+tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
+                                     size_t bytes);
+tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
+                                     size_t count);
+tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* window, void* out,
+                                     size_t bytes);
+
+/* How many threads decoding may use from now on: 0 or 1 is one, and the default. What is decoded
+ * never depends on it. */
+tks_status tks_set_threads(tks_decoder* decoder, uint32_t threads);
 
 /* Checks the whole stream's syntax; TKS_TRUNCATED if it is a prefix. */
 tks_status tks_verify(tks_decoder* decoder);

@@ -3,6 +3,7 @@
 // throws nothing but std::bad_alloc. The trust contract is that of tetrakis.h.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -219,6 +220,26 @@ class Decoder {
     return texels;
   }
 
+  /// The same in a window: tks_decode_heights_window and its siblings say what it may be.
+  Expected<std::vector<std::byte>> heights(const tks_window& window) {
+    return windowBytes(tks_decode_heights_window, window, tks_sample_bytes(info_.sample));
+  }
+  Expected<std::vector<float>> surface(const tks_window& window) {
+    const bool possible = window.width <= info_.width && window.height <= info_.height;
+    std::vector<float> heights(possible ? size_t{window.width} * window.height : 0);
+    const tks_status status =
+        tks_decode_surface_window(decoder_.get(), &window, heights.data(), heights.size());
+    if (status != TKS_OK) return error(status);
+    return heights;
+  }
+  Expected<std::vector<std::byte>> texture(const tks_window& window) {
+    return windowBytes(tks_decode_texture_window, window,
+                       tks_sample_bytes(info_.texture_sample) * info_.texture_channels);
+  }
+
+  /// Threads that decoding may use; the result does not depend on them.
+  void setThreads(uint32_t threads) { tks_set_threads(decoder_.get(), threads); }
+
   /// The mesh that the stream itself codes: closure of its significant vertices.
   Expected<Mesh> codedMesh() { return mesh(TKS_MESH_CODED, 0); }
 
@@ -245,6 +266,18 @@ class Decoder {
   explicit Decoder(tks_decoder* decoder) : decoder_(decoder) {}
 
   Error error(tks_status status) const { return {status, tks_message(decoder_.get())}; }
+
+  Expected<std::vector<std::byte>> windowBytes(tks_status (*decode)(tks_decoder*, const tks_window*,
+                                                                    void*, size_t),
+                                               const tks_window& window, size_t place_bytes) {
+    // A window that cannot be is refused; nothing is allocated for it.
+    const bool possible = window.width <= std::max(info_.width, info_.texture_width) &&
+                          window.height <= std::max(info_.height, info_.texture_height);
+    std::vector<std::byte> out(possible ? size_t{window.width} * window.height * place_bytes : 0);
+    const tks_status status = decode(decoder_.get(), &window, out.data(), out.size());
+    if (status != TKS_OK) return error(status);
+    return out;
+  }
 
   Expected<Mesh> mesh(tks_mesh_kind kind, uint32_t max_triangles) {
     tks_mesh result{};

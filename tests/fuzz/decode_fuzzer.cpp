@@ -31,6 +31,18 @@ void checkMesh(const tetrakis::Expected<tetrakis::Mesh>& mesh, const tks_info& i
   }
 }
 
+/// A window of one column holds what the whole holds there.
+void checkWindow(const tetrakis::Expected<std::vector<std::byte>>& window,
+                 const std::vector<std::byte>& whole, const tks_info& info) {
+  if (!window) std::abort();
+  const size_t sample = tks_sample_bytes(info.sample), row_bytes = info.width * sample;
+  for (size_t i = 0; i < window->size(); ++i) {
+    const size_t row = info.height / 2 + i / sample;
+    const size_t at = row * row_bytes + info.width / 3 * sample + i % sample;
+    if ((*window)[i] != whole[at]) std::abort();
+  }
+}
+
 }  // namespace
 
 /// Random bytes never pass the header's checksum: every other mutant gets the right one.
@@ -50,6 +62,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto second = decoder->heights();
     if (static_cast<bool>(first) != static_cast<bool>(second)) std::abort();
     if (first && *first != *second) std::abort();
+    const tks_window column = {info.width / 3, info.height / 2, 1, 1 + info.height / 3};
+    if (first) checkWindow(decoder->heights(column), *first, info);
     checkMesh(decoder->codedMesh(), info);
     checkMesh(decoder->budgetMesh(100), info);
   }

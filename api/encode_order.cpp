@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// The joint order of the packets: what every byte of either track is worth to a viewer.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "api/encode_job.hpp"
+#include "codec/decimation.hpp"
+#include "codec/geometry_decoder.hpp"
+#include "ratecontrol/audit.hpp"
+#include "ratecontrol/hull.hpp"
+#include "ratecontrol/screen_model.hpp"
+#include "ratecontrol/track_order.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// A packet is at least this fraction of its track's bytes before it: heads stay below 1 %.
+constexpr double kPacketGrowth = 0.1;
+
+template <class T>
+double squaredDistance(const std::vector<T>& a, const std::vector<T>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const double difference = static_cast<double>(a[i]) - b[i];
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+/// Raises the first point so that the first `opening` bytes are worth the most of all: what they
+/// hold, the rest needs.
+void favour(std::vector<RatePoint>& points, uint64_t opening) {
+  double steepest = 0;
+  const auto opened = std::find_if(points.begin(), points.end(),
+                                   [&](const RatePoint& p) { return p.bytes >= opening; });
+  if (opened == points.begin() || opened == points.end()) return;
+  for (auto p = opened + 1; p != points.end(); ++p) {
+    const auto bytes = static_cast<double>(p->bytes - opened->bytes);
+    steepest = std::max(steepest, (opened->distortion - p->distortion) / bytes);
+  }
+  const double worth = 1.01 * steepest * static_cast<double>(opened->bytes);
+  points.front().distortion = std::max(points.front().distortion, opened->distortion + worth);
+}
+
+/// The hull of a track in the common distortion, with the RMSE that each packet states. opening:
+/// bytes that come first whatever they cost.
+template <class MeanSquare, class Cost>
+TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost cost,
+                  uint64_t opening = 0) {
+  std::map<uint64_t, double> rmse;
+  for (RatePoint& point : points) {
+    rmse[point.bytes] = std::sqrt(mean_square(point.distortion));
+    point.distortion = cost(point.distortion);
+  }
+  favour(points, opening);
+  TrackCurve curve;
+  curve.points = lowerHull(points, kPacketGrowth);
+  for (const RatePoint& point : curve.points) curve.rmse.push_back(rmse[point.bytes]);
+  return curve;
+}
+
+/// The same of several tracks, whose packets are in an order of their own.
+template <class MeanSquare, class Cost>
+TrackCurve priced(OrderedTracks tracks, MeanSquare mean_square, Cost cost, uint64_t opening = 0) {
+  for (size_t i = 0; i < tracks.packets.size(); ++i) {
+    const double squares = tracks.points[i + 1].distortion;
+    tracks.packets[i].quality = qualityOf(std::sqrt(mean_square(squares)));
+  }
+  for (RatePoint& point : tracks.points) point.distortion = cost(point.distortion);
+  favour(tracks.points, opening);
+  return {lowerHull(tracks.points, 0), {}, std::move(tracks.packets)};
+}
+
+double metresPerUnit(const char* unit) {
+  const std::string name = unit ? unit : "";
+  return name == "ft"   ? 0.3048
+         : name == "cm" ? 0.01
+         : name == "mm" ? 0.001
+         : name == "km" ? 1000
+                        : 1;
+}
+
+}  // namespace
+
+const std::vector<EncodedTrack>& EncodeJob::tracksOf(TrackId component) const {
+  return component == TrackId::kGeometry ? geometry_->tracks : texture_->tracks;
+}
+
+/// What the first bytes of a component's packets hold.
+Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
+  Codewords all = codewordsOf(tracksOf(component));
+  if (all.size() == 1) return {all.front().first(bytes)};
+  if (bytes >= bytesOf(tracksOf(component))) return all;
+  Codewords cut(all.size());
+  for (const Packet& packet : packets_) {
+    if (packet.track != component) continue;
+    const uint64_t taken = std::min(bytes, packet.end - packet.begin);
+    cut[*packet.region] = all[*packet.region].first(packet.begin + taken);
+    bytes -= taken;
+    if (bytes == 0) break;
+  }
+  return cut;
+}
+
+DecodedHeights EncodeJob::decodedHeights(uint64_t bytes) const {
+  const StreamHeader header = makeHeader(0, false);
+  return decodeLayers(cutAt(TrackId::kGeometry, bytes), *header.geometry, header.layers, 0,
+                      options_.threads);
+}
+
+Texels EncodeJob::decodedTexels(uint64_t bytes) const {
+  const StreamHeader header = makeHeader(0, false);
+  return decodeTexture(*header.texture, cutAt(TrackId::kTexture, bytes), 0, options_.threads);
+}
+
+/// Sum of squared errors in steps, voids that are not known among them.
+double EncodeJob::geometrySquares(uint64_t bytes) const {
+  const EncodedHeights& g = *geometry_;
+  const DecodedGeometry decoded = decodedHeights(bytes).geometry;
+  const std::vector<int32_t> steps = wholeSteps(decoded);
+  const bool restored =
+      g.layers.corrections == CorrectionKind::kSamples && bytes == bytesOf(g.tracks);
+  double squares = restored ? 0 : g.left;
+  if (g.validity.empty()) return squares + squaredDistance(steps, g.steps.steps);
+  for (size_t i = 0; i < decoded.valid.size(); ++i) {
+    const double difference = static_cast<double>(steps[i]) - g.steps.steps[i];
+    const bool known = decoded.valid[i] == g.steps.valid[i];
+    squares += known ? difference * difference : g.validityWorth();
+  }
+  return squares;
+}
+
+double EncodeJob::textureSquares(uint64_t bytes) const {
+  return countedSquares(texels_, decodedTexels(bytes), texture_->seen);
+}
+
+TrackCurve EncodeJob::geometryCurve() const {
+  if (!geometry_) return {};
+  const auto samples = std::max<size_t>(geometry_->steps.validCount(), 1);
+  const double step =
+      geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
+  const double floor = meshFloor();
+  const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
+  const auto useful = [&](double squares) { return std::max(mean_square(squares), floor); };
+  const uint64_t opening = geometry_->validity.size();
+  const auto curve = [&](const auto& cost) {
+    if (geometry_->tracks.size() > 1) {
+      return priced(orderTracks(TrackId::kGeometry, geometry_->tracks,
+                                {opening, geometry_->corrections.size()}),
+                    mean_square, cost, opening);
+    }
+    return priced(audit(geometry_->tracks.front(), geometry_->steps.steps.size(), budgeted(),
+                        [&](uint64_t bytes) { return geometrySquares(bytes); }),
+                  mean_square, cost, opening);
+  };
+  if (image_ == nullptr) return curve(useful);
+  const ScreenModel model(texels_, texelsPerMetre(step));
+  return curve([&](double squares) { return model.cost(useful(squares) * step * step); });
+}
+
+/// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes
+/// no longer help: a mesh of that many triangles is itself off by sixteen times as much, so that
+/// its RMSE would fall by 3 % at most. 0 without a budget.
+double EncodeJob::meshFloor() const {
+  if (options_.triangles == 0) return 0;
+  const Result<MeshSequence> sequence =
+      decimate({heights_->width, heights_->height, geometry_->steps.steps});
+  if (!sequence.ok()) return 0;
+  const double squares = sequence->squaredError(sequence->bestPrefix(options_.triangles));
+  return squares / static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1)) / 16;
+}
+
+/// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to
+/// be ten times as wide as it is high.
+double EncodeJob::texelsPerMetre(double step) const {
+  const double relief = std::exp2(geometry_->steps.range_bits) * step;
+  const double side = std::max(heights_->width, heights_->height) - 1;
+  const double spacing = heights_->spacing_x > 0 ? heights_->spacing_x : 10 * relief / side;
+  const double texel = spacing * (heights_->width - 1) / image_->width;
+  return (options_.parallax > 0 ? options_.parallax : kDefaultParallax) / texel;
+}
+
+TrackCurve EncodeJob::textureCurve() const {
+  if (!texture_) return {};
+  const uint64_t samples = countedSamples(texels_, texture_->seen);
+  const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
+  const uint64_t opening = texture_->header.alpha_bytes;
+  if (texture_->tracks.size() > 1) {
+    return priced(orderTracks(TrackId::kTexture, texture_->tracks, {opening, 0}), mean_square,
+                  mean_square, opening);
+  }
+  return priced(audit(texture_->tracks.front(), texels_.samples.size(), budgeted(),
+                      [&](uint64_t bytes) { return textureSquares(bytes); }),
+                mean_square, mean_square, opening);
+}
+
+void EncodeJob::order() {
+  packets_ = allocate({geometryCurve(), textureCurve()});
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Independent pieces of work on several threads. What comes out never depends on their number.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+namespace tetrakis {
+
+/// Calls work(i) once for every i < count, on at most `threads` threads (0 counts as 1), the
+/// caller's among them. Calls must not write what another one touches. Throws what a call throws
+/// (one of them), after all threads have ended; where the system refuses threads, fewer do the
+/// work.
+void parallelFor(uint32_t threads, size_t count, const std::function<void(size_t)>& work);
+
+}  // namespace tetrakis

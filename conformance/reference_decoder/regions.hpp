@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: spatial regions and the tracks of a component (docs/FORMAT.md, section 5.1).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "conformance/reference_decoder/stream.hpp"
+#include "conformance/reference_decoder/wavelet.hpp"
+
+namespace tetrakis::reference {
+
+/// Which coefficients a track holds.
+struct Region {
+  bool base;                  ///< LL and every level from firstLevel on, of the whole plane
+  int firstLevel, lastLevel;  ///< lastLevel: not of the base
+  int64_t x0, y0, x1, y1;     ///< samples; x1 and y1 are outside
+};
+
+std::vector<Region> regionsOf(int width, int height, int log2);
+
+/// The rows and columns of a subband whose samples lie in a region.
+struct Part {
+  Subband subband;
+  int firstRow = 0, firstColumn = 0, rows = 0, columns = 0;
+
+  int x(int a) const { return subband.x(firstColumn + a); }
+  int y(int r) const { return subband.y(firstRow + r); }
+};
+
+std::vector<Part> partsOf(const std::vector<Subband>& subbands, const Region& region);
+
+/// The bands of one plane in one track, as they follow `first` others; all but their companions.
+std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& parts,
+                          size_t first);
+
+/// FORMAT 7, "Places": coefficients of voids do not exist.
+void markAbsent(const std::vector<Part>& parts, const Plane& plane, std::span<Band> bands);
+
+/// FORMAT 7.1: marks the bands that a level does not need.
+void dropFiner(const std::vector<Part>& parts, int level, std::span<Band> bands);
+
+/// FORMAT 7, "Fraction": whether no decision is missing. counted: every decision of the only track
+/// did.
+bool isComplete(const RegionHeader& header, const std::vector<std::span<const uint8_t>>& codewords,
+                bool counted);
+
+/// Puts the values of bands, in units of 2^-e, to their places.
+void place(std::span<const Band> bands, const std::vector<Part>& parts, int e, Plane& plane);
+
+}  // namespace tetrakis::reference

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/track_order.hpp"
+
+#include <algorithm>
+
+#include "ratecontrol/hull.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// Packets of regions are at least this fraction of their track's bytes before them. Smaller than
+/// for one track, because tracks are compared packet by packet: against one region, 2100^2 heights
+/// lose 1.3 % of the bytes at 0.2, 1.1 at 0.12, 0.8 at 0.06 and below.
+constexpr double kRegionGrowth = 0.04;
+
+/// A packet and what it does to the distortion.
+struct Piece {
+  double slope;  ///< distortion removed per byte
+  Packet packet;
+  double removed;
+};
+
+Piece pieceBetween(const RatePoint& a, const RatePoint& b, TrackId component, size_t track) {
+  const double removed = a.distortion - b.distortion;
+  return {removed / static_cast<double>(b.bytes - a.bytes),
+          {component, b.dips, 0, a.bytes, b.bytes, static_cast<uint32_t>(track)},
+          removed};
+}
+
+void appendHull(std::span<const RatePoint> points, TrackId component, size_t track,
+                std::vector<Piece>& pieces) {
+  const std::vector<RatePoint> hull = lowerHull(points, kRegionGrowth);
+  for (size_t i = 1; i < hull.size(); ++i)
+    pieces.push_back(pieceBetween(hull[i - 1], hull[i], component, track));
+}
+
+}  // namespace
+
+OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> tracks,
+                          const FixedBytes& fixed) {
+  std::span<const RatePoint> base = tracks.front().points;
+  std::vector<Piece> pieces;
+  const size_t opening = fixed.opening > 0 ? 1 : 0, closing = fixed.closing > 0 ? 1 : 0;
+  if (opening > 0) pieces.push_back(pieceBetween(base[0], base[1], component, 0));
+  appendHull(base.subspan(opening, base.size() - opening - closing), component, 0, pieces);
+  for (size_t i = 1; i < tracks.size(); ++i) appendHull(tracks[i].points, component, i, pieces);
+  // Hulls are convex: a stable sort keeps every codeword in order.
+  std::stable_sort(pieces.begin() + static_cast<ptrdiff_t>(opening), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.slope > b.slope; });
+  if (closing > 0) pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));
+  // Summed from the end, so that rounding leaves every packet but the last something to do.
+  OrderedTracks order;
+  order.packets.resize(pieces.size());
+  order.points.resize(pieces.size() + 1);
+  double left = 0;
+  uint64_t bytes = 0;
+  for (const EncodedTrack& track : tracks) left += track.points.back().distortion;
+  for (const Piece& piece : pieces) bytes += piece.packet.end - piece.packet.begin;
+  order.points.back() = {bytes, left};
+  for (size_t i = pieces.size(); i-- > 0;) {
+    left += pieces[i].removed;
+    bytes -= pieces[i].packet.end - pieces[i].packet.begin;
+    order.points[i] = {bytes, left};
+    order.packets[i] = pieces[i].packet;
+  }
+  return order;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes the tracks of a component one region after the other, or on several threads, so that the
+// state of no more than one region a thread is kept.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "bitstream/header.hpp"
+#include "bitstream/track.hpp"
+
+namespace tetrakis {
+
+/// What the header says about the tracks of a component.
+struct RegionDecoder {
+  const WaveletHeader& wavelet;
+  const RegionHeader& regions;
+  int planes;
+  uint32_t threads;
+
+  /// The plan of a track; empty: it is not wanted.
+  using PlanOf = std::function<std::vector<BandPlan>(size_t track)>;
+  /// Takes what is known of a track, with so many binary places more than it was coded with.
+  /// Tracks of which nothing is known are left out: all their coefficients are 0. Called for
+  /// different tracks at the same time.
+  using Take = std::function<void(size_t track, const TrackState& state, int more_bits)>;
+
+  /// Returns the fraction bits of the values taken (docs/FORMAT.md, section 7).
+  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
+};
+
+}  // namespace tetrakis
