@@ -77,13 +77,25 @@ constexpr std::pair<uint32_t, uint32_t> kSizes[] = {{2, 2},   {3, 17}, {5, 40},
 
 TEST(MipLevels, ReferenceDecoderAgreesOnEverySize) {
   for (const auto& [width, height] : kSizes) {
-    for (const uint64_t bytes : {uint64_t{0}, uint64_t{900}}) {
-      SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
-      const Raster heights = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
-      const Raster image = make({Pattern::kRidges, height, width, 4, TKS_U8, 4});
-      expectAgreementOnPrefixes(encode(&heights, &image, bytes == 0 ? lossless() : budget(bytes)));
-      if (HasFatalFailure()) return;
+    for (tks_encode_options options : {lossless(), budget(900)}) {
+      for (const uint32_t regions : {1u, 16u}) {
+        SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+        options.regions = regions;
+        const Raster heights = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
+        const Raster image = make({Pattern::kRidges, height, width, 4, TKS_U8, 4});
+        expectAgreementOnPrefixes(encode(&heights, &image, options));
+        if (HasFatalFailure()) return;
+      }
     }
+  }
+}
+
+TEST(MipLevels, ReferenceDecoderAgreesOnDrawnTextures) {
+  for (const auto& [width, height] : kSizes) {
+    SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+    const Raster image = make({Pattern::kSteps, width, height, 3, TKS_U8, 4});
+    expectAgreementOnPrefixes(encode(nullptr, &image, lossless()));
+    if (HasFatalFailure()) return;
   }
 }
 

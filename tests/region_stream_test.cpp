@@ -126,6 +126,19 @@ TEST(RegionStream, RestoresAndItsWindowsFit) {
   }
 }
 
+TEST(RegionStream, CutOutsAndDrawings) {
+  for (const uint32_t channels : {2u, 4u}) {
+    for (const tks_encode_options& options : {lossless(), budget(2500)}) {
+      Raster cut = make({Pattern::kRidges, 83, 60, channels, TKS_U8, 5});
+      samples::cutOut(cut, samples::validity(samples::VoidShape::kCoast, 83, 60));
+      expectWindows(encode(nullptr, &cut, inRegions(options)));
+      const Raster drawing = make({Pattern::kSteps, 83, 60, channels, TKS_U8, 5});
+      expectWindows(encode(nullptr, &drawing, inRegions(options)));
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 TEST(RegionStream, VoidsAndCorrections) {
   for (const samples::VoidShape shape : samples::kVoidShapes) {
     const Coast coast(shape);
@@ -249,6 +262,9 @@ TEST(RegionStream, RefusesWindowsThatAreNone) {
   EXPECT_EQ(tks_decode_heights_window(stream.get(), nullptr, out.data(), 32), TKS_USAGE);
   EXPECT_EQ(tks_decode_heights_window(nullptr, &w, out.data(), 32), TKS_USAGE);
   EXPECT_EQ(tks_decode_texture_window(stream.get(), &w, out.data(), 16), TKS_USAGE);
+  EXPECT_EQ(tks_decode_heights_window(stream.get(), &w, out.data(), 32), TKS_OK);
+  ASSERT_EQ(tks_set_levels(stream.get(), 1, 0), TKS_OK);
+  EXPECT_EQ(tks_decode_heights_window(stream.get(), &w, out.data(), 32), TKS_USAGE);
   EXPECT_EQ(tks_set_threads(nullptr, 1), TKS_USAGE);
 }
 
