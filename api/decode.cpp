@@ -275,6 +275,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.texture_regions = sideOf(header.texture->regions);
     info.texture_channels = header.texture->channels;
     info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;
+    info.texture_drawn = header.texture->drawn() ? 1 : header.texture->overlay_bytes > 0 ? 2 : 0;
     info.texture_sample = static_cast<tks_sample>(header.texture->sample);
   }
   const Metadata& m = header.metadata;

@@ -187,7 +187,7 @@ TrackCurve EncodeJob::textureCurve() const {
   if (!texture_) return {};
   const uint64_t samples = countedSamples(texels_, texture_->seen);
   const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
-  const uint64_t opening = texture_->header.alpha_bytes;
+  const uint64_t opening = texture_->header.alpha_bytes + texture_->header.overlay_bytes;
   if (texture_->tracks.size() > 1) {
     return priced(orderTracks(TrackId::kTexture, texture_->tracks, {opening, 0}), mean_square,
                   mean_square, opening);

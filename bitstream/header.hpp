@@ -136,6 +136,8 @@ struct TextureHeader {
   /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
   uint64_t alpha_bytes = 0;
   uint8_t hidden = 0;  ///< of a cut-out: colours where alpha is 0 are not coded
+  /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
+  uint64_t overlay_bytes = 0;
 
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
@@ -147,13 +149,17 @@ struct TextureHeader {
     v.u8("channels", kind, 1, 6);
     channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
     v.u8("texture_sample", sample, 0, TKS_U16);
-    v.u8("texture_planes", planes, 0, kDrawnPlanes);
+    const uint8_t overlaid = kDrawnPlanes + 1;
+    uint8_t coding = static_cast<uint8_t>(planes + (overlay_bytes > 0 ? overlaid : 0));
+    v.u8("texture_planes", coding, 0, kDrawnPlanes + overlaid - 1);
+    planes = coding % overlaid;
     if (drawn()) return;
     wavelet.visit(v);
     if (kind > 4) {
       v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
       v.u8("hidden", hidden, 0, 1);
     }
+    if (coding >= overlaid) v.varint("overlay_bytes", overlay_bytes, 1, UINT64_MAX >> 1);
     for (size_t c = 0; c < components() && v.ok(); ++c) {
       v.varint("centre", centre[c], 0, 0xffff);
       v.zigzag("priority", priority[c], kMaxPriority);

@@ -74,6 +74,11 @@ VectorCase withVoids(VectorCase vector_case, samples::VoidShape shape, double no
   return vector_case;
 }
 
+VectorCase drawnOver(VectorCase vector_case, samples::VoidShape shape) {
+  vector_case.overlay = shape;
+  return vector_case;
+}
+
 VectorCase asCutout(VectorCase vector_case, samples::VoidShape shape) {
   vector_case.cutout = shape;
   return vector_case;
@@ -210,6 +215,13 @@ std::vector<VectorCase> textureCases() {
                   image(Pattern::kSteps, 70, 33, 1, TKS_U8), lossless()),
       textureCase("drawn_rgba16_45x60", "drawn: four channels of 16 bits",
                   image(Pattern::kSteps, 45, 60, 4, TKS_U16), lossless()),
+      drawnOver(textureCase("overlay_rgb_64x50", "drawn over an image: its wavelet stops there",
+                            image(Pattern::kRidges, 64, 50, 3, TKS_U8), lossless()),
+                samples::VoidShape::kCoast),
+      drawnOver(textureCase("overlay_rgba16_budget_90x40",
+                            "drawn over four channels of 16 bits, cut by a byte budget",
+                            image(Pattern::kRidges, 90, 40, 4, TKS_U16), budget(3000)),
+                samples::VoidShape::kCoast),
       textureCase("texture_budget_128x128", "texture alone, cut by a byte budget",
                   image(Pattern::kRidges, 128, 128, 3, TKS_U8), budget(8000)),
   };
@@ -318,6 +330,10 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     if (vector_case.cutout)
       samples::cutOut(picture,
                       samples::validity(*vector_case.cutout, picture.width, picture.height));
+    if (vector_case.overlay) {
+      samples::drawOver(picture,
+                        samples::validity(*vector_case.overlay, picture.width, picture.height));
+    }
     image = picture.image();
   }
   const auto stream = encode(vector_case.heights ? &heights : nullptr,

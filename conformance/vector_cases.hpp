@@ -23,8 +23,9 @@ struct VectorCase {
   double scale = 1, offset = 0;
   bool thirds = false;  ///< heights are divided by 3, which leaves them without a common step
   std::optional<samples::VoidShape> voids;
-  std::optional<samples::VoidShape> cutout;  ///< alpha is 0 there, else the largest value
-  double nodata = NAN;                       ///< the value of voids; a number is declared
+  std::optional<samples::VoidShape> cutout;   ///< alpha is 0 there, else the largest value
+  std::optional<samples::VoidShape> overlay;  ///< drawn over there
+  double nodata = NAN;                        ///< the value of voids; a number is declared
   int damaged_byte = -1;  ///< inverted after encoding; such a stream must not open
 };
 

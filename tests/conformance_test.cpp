@@ -101,6 +101,7 @@ void addTools(const StreamHeader& header, Tools& tools) {
       tools.insert("drawn");
     } else {
       addWavelet(header.texture->wavelet, tools);
+      if (header.texture->overlay_bytes > 0) tools.insert("overlay");
     }
   }
   if (!header.index.empty()) tools.insert("index");
@@ -116,9 +117,9 @@ TEST_F(Vectors, VisitEveryToolOfTheHeader) {
     const auto parsed = readHeader(*stream);
     if (parsed.ok()) addTools(parsed->header, tools);
   }
-  Tools wanted{
-      "level 2 differs", "level 3 differs", "fraction bits 0", "fraction bits 4", "wide sums",
-      "nodata",          "index",           "texels 0",        "texels 2",        "drawn"};
+  Tools wanted{"level 2 differs", "level 3 differs", "fraction bits 0", "fraction bits 4",
+               "wide sums",       "nodata",          "index",           "texels 0",
+               "texels 2",        "drawn",           "overlay"};
   wanted.insert({"cut-out", "cut-out that hides"});
   for (int i = 0; i < 4; ++i) wanted.insert("filter " + std::to_string(i));
   for (int i = 1; i <= 4; ++i) wanted.insert("channels " + std::to_string(i));

@@ -90,6 +90,16 @@ TEST(MipLevels, ReferenceDecoderAgreesOnEverySize) {
   }
 }
 
+TEST(MipLevels, ReferenceDecoderAgreesOnOverlays) {
+  for (const uint32_t regions : {1u, 16u}) {
+    Raster image = make({Pattern::kRidges, 61, 44, 3, TKS_U8, 4});
+    samples::drawOver(image, samples::validity(samples::VoidShape::kCoast, 61, 44));
+    tks_encode_options options = lossless();
+    options.regions = regions;
+    expectAgreementOnPrefixes(encode(nullptr, &image, options));
+  }
+}
+
 TEST(MipLevels, ReferenceDecoderAgreesOnDrawnTextures) {
   for (const auto& [width, height] : kSizes) {
     SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));

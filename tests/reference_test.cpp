@@ -316,6 +316,29 @@ TEST(Reference, AgreesOnDrawnTextures) {
   }
 }
 
+/// Overlays whole, cut, damaged and in regions.
+TEST(Reference, AgreesOnOverlays) {
+  for (uint32_t trial = 0; trial < 16; ++trial) {
+    const uint32_t width = 30 + 13 * (trial % 4), height = 31;
+    Raster image =
+        make({Pattern::kRidges, width, height, 1 + trial % 4, trial < 8 ? TKS_U8 : TKS_U16, trial});
+    samples::drawOver(image, samples::validity(samples::VoidShape::kCoast, width, height));
+    tks_encode_options options = trial % 2 == 0 ? lossless() : budget(1000);
+    options.regions = trial % 3 == 0 ? 16 : 1;
+    SCOPED_TRACE(trial);
+    Bytes stream = encode(nullptr, &image, options);
+    expectAgreementOnPrefixes(stream, 30);
+    const auto header = static_cast<size_t>(Stream(stream).info().header_bytes);
+    for (uint32_t k = 0; k < 12; ++k) {
+      const uint32_t h = samples::hash(trial, k, 33);
+      stream[header + 2 + h % (k < 6 ? 60 : stream.size() - header - 2)] =
+          static_cast<uint8_t>(h >> 24);
+      expectAgreement(stream);
+    }
+    if (HasFatalFailure()) return;
+  }
+}
+
 TEST(Reference, AgreesOnJointStreamsWithMetadataAndIndex) {
   const Raster heights = make({Pattern::kRidges, 20, 33, 1, TKS_U16, 10});
   const Raster image = make({Pattern::kRidges, 28, 20, 3, TKS_U8, 11});

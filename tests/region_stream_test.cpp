@@ -126,12 +126,15 @@ TEST(RegionStream, RestoresAndItsWindowsFit) {
   }
 }
 
-TEST(RegionStream, CutOutsAndDrawings) {
+TEST(RegionStream, CutOutsOverlaysAndDrawings) {
   for (const uint32_t channels : {2u, 4u}) {
     for (const tks_encode_options& options : {lossless(), budget(2500)}) {
       Raster cut = make({Pattern::kRidges, 83, 60, channels, TKS_U8, 5});
       samples::cutOut(cut, samples::validity(samples::VoidShape::kCoast, 83, 60));
       expectWindows(encode(nullptr, &cut, inRegions(options)));
+      Raster drawn_over = make({Pattern::kRidges, 83, 60, channels, TKS_U8, 5});
+      samples::drawOver(drawn_over, samples::validity(samples::VoidShape::kCoast, 83, 60));
+      expectWindows(encode(nullptr, &drawn_over, inRegions(options)));
       const Raster drawing = make({Pattern::kSteps, 83, 60, channels, TKS_U8, 5});
       expectWindows(encode(nullptr, &drawing, inRegions(options)));
       if (HasFatalFailure()) return;

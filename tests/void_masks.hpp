@@ -63,4 +63,15 @@ inline void cutOut(Raster& image, const std::vector<uint8_t>& seen) {
   }
 }
 
+/// Draws over the texels where `photograph` is 0: stripes of two colours, 24 texels wide.
+inline void drawOver(Raster& image, const std::vector<uint8_t>& photograph) {
+  const size_t bytes = tks_sample_bytes(image.sample) * image.channels;
+  for (size_t i = 0; i < photograph.size(); ++i) {
+    const bool even = i % image.width / 24 % 2 == 0;
+    if (!photograph[i]) {
+      std::fill_n(image.data.data() + i * bytes, bytes, even ? std::byte{0xff} : std::byte{0x20});
+    }
+  }
+}
+
 }  // namespace tetrakis::samples

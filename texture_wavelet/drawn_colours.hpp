@@ -18,6 +18,9 @@ inline constexpr int kColourIndexBits = 12;
 inline constexpr size_t kMostColours = size_t{1} << kColourIndexBits;
 inline constexpr ColourIndex kNoColour = 0xffff;
 
+/// Of an overlay: the first colour of its list, grey, which is not shown.
+inline constexpr ColourIndex kSeeThrough = 0;
+
 class DrawnColours {
  public:
   size_t size() const { return colours_.size(); }

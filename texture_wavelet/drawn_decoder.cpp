@@ -43,10 +43,14 @@ void thin(uint32_t step, Texels& texels) {
   texels.height = (texels.height - 1) / step + 1;
 }
 
+Texels formatOf(const TextureHeader& header) {
+  return {header.width, header.height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
+}
+
 }  // namespace
 
 Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
-  Texels texels{header.width, header.height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
+  Texels texels = formatOf(header);
   const size_t count = size_t{header.width} * header.height;
   std::vector<ColourIndex> indices(count, kNoColour);
   DrawnColours colours;
@@ -57,6 +61,17 @@ Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codewor
   fillDrawn(indices, colours, step, texels);
   thin(step, texels);
   return texels;
+}
+
+DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t> codeword) {
+  DrawnOverlay overlay;
+  const Texels format = formatOf(header);
+  overlay.indices.assign(size_t{header.width} * header.height, kNoColour);
+  overlay.colours.add(greyOf(format));
+  DecodingIo io(codeword);
+  DrawnPass<DecodingIo>(format, overlay.indices, overlay.colours, io).run();
+  std::replace(overlay.indices.begin(), overlay.indices.end(), kNoColour, kSeeThrough);
+  return overlay;
 }
 
 }  // namespace tetrakis

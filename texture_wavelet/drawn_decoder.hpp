@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "bitstream/header.hpp"
+#include "texture_wavelet/drawn_colours.hpp"
 #include "texture_wavelet/texels.hpp"
 
 namespace tetrakis {
@@ -13,5 +15,14 @@ namespace tetrakis {
 /// codeword: any prefix of the track of a texture with header.drawn(). Safe on any bytes. level: as
 /// for decodeTexture(); texels of finer levels are not decoded.
 Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level);
+
+/// What lies over a photograph.
+struct DrawnOverlay {
+  std::vector<ColourIndex> indices;  ///< of every texel; kSeeThrough where nothing is known
+  DrawnColours colours;
+};
+
+/// codeword: any prefix of that of a texture's overlay. Safe on any bytes.
+DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t> codeword);
 
 }  // namespace tetrakis

@@ -19,18 +19,23 @@ struct Numbered {
   std::vector<DrawnColour> colours;
 };
 
-std::optional<Numbered> number(const Texels& texels) {
+/// coded: 1 for texels that are seen through, which get the number 0; empty: none.
+std::optional<Numbered> number(const Texels& texels, std::span<const uint8_t> coded) {
   Numbered out;
+  if (!coded.empty()) out.colours.push_back(greyOf(texels));
   out.numbers.resize(size_t{texels.width} * texels.height);
   std::unordered_map<uint64_t, ColourIndex> known;
   const uint16_t* from = texels.samples.data();
-  for (ColourIndex& n : out.numbers) {
+  for (size_t i = 0; i < out.numbers.size(); ++i) {
     DrawnColour colour{};
     uint64_t key = 0;
     for (uint32_t c = 0; c < texels.channels; ++c) {
       colour[c] = *from++;
       key = key << 16 | colour[c];
     }
+    ColourIndex& n = out.numbers[i];
+    n = kSeeThrough;
+    if (!coded.empty() && coded[i] != 0) continue;
     const auto [entry, added] = known.emplace(key, static_cast<ColourIndex>(out.colours.size()));
     if (added) {
       if (out.colours.size() == kMostColours) return {};
@@ -44,14 +49,16 @@ std::optional<Numbered> number(const Texels& texels) {
 /// Colours have an index from the moment on when they are first coded.
 class EncodingIo {
  public:
-  EncodingIo(const Texels& texels, const Numbered& image, std::span<const ColourIndex> indices,
-             const DrawnColours& colours)
-      : texels_(texels),
-        image_(image),
+  /// measured: the image, to measure what prefixes show of it; null: that does not matter.
+  EncodingIo(const Numbered& image, std::span<const ColourIndex> indices,
+             const DrawnColours& colours, const Texels* measured)
+      : image_(image),
         indices_(indices),
         colours_(colours),
+        measured_(measured),
         index_(image.colours.size(), kNoColour) {
-    measure(0);
+    for (ColourIndex i = 0; i < colours.size(); ++i) index_[i] = i;
+    if (measured_ != nullptr) measure(0);
   }
 
   ColourIndex target(size_t texel) {
@@ -71,14 +78,19 @@ class EncodingIo {
   }
   bool stopped() const { return false; }
   void levelDone(const Level& level) {
-    const bool measured = level.kind == LevelKind::kMidpoints && level.step <= kCoarsestMeasured;
-    if (measured && level.step > 1) measure(encoder_.decidedBytes());
+    if (measured_ == nullptr || level.kind != LevelKind::kMidpoints) return;
+    if (level.step > 1 && level.step <= kCoarsestMeasured) measure(encoder_.decidedBytes());
   }
 
-  EncodedTrack finish() {
+  std::vector<uint8_t> finish() {
+    std::vector<uint8_t> codeword = encoder_.finish();
+    if (codeword.empty()) codeword.push_back(0);
+    return codeword;
+  }
+
+  EncodedTrack finishTrack() {
     EncodedTrack track;
-    track.codeword = encoder_.finish();
-    if (track.codeword.empty()) track.codeword.push_back(0);
+    track.codeword = finish();
     track.points = std::move(points_);
     track.points.push_back({track.codeword.size(), 0});
     track.planes = kDrawnPlanes;
@@ -90,12 +102,13 @@ class EncodingIo {
 
   /// What a decoder reaches that knows the colours so far.
   void measure(uint64_t bytes) {
-    Texels decoded{texels_.width, texels_.height, texels_.channels, texels_.bits, {}};
-    decoded.samples.resize(texels_.samples.size());
+    const Texels& texels = *measured_;
+    Texels decoded{texels.width, texels.height, texels.channels, texels.bits, {}};
+    decoded.samples.resize(texels.samples.size());
     fillDrawn(indices_, colours_, 1, decoded);
     double squares = 0;
     for (size_t i = 0; i < decoded.samples.size(); ++i) {
-      const double difference = double{1} * decoded.samples[i] - texels_.samples[i];
+      const double difference = double{1} * decoded.samples[i] - texels.samples[i];
       squares += difference * difference;
     }
     const bool first = points_.empty();
@@ -104,10 +117,10 @@ class EncodingIo {
       points_.push_back({bytes, squares});
   }
 
-  const Texels& texels_;
   const Numbered& image_;
   std::span<const ColourIndex> indices_;
   const DrawnColours& colours_;
+  const Texels* measured_;
   std::vector<ColourIndex> index_;  ///< of each number
   RangeEncoder encoder_;
   std::vector<RatePoint> points_;
@@ -124,11 +137,11 @@ bool looksDrawn(const Numbered& image, size_t width) {
 }  // namespace
 
 std::optional<EncodedTexture> encodeDrawn(const Texels& texels) {
-  const std::optional<Numbered> image = number(texels);
+  const std::optional<Numbered> image = number(texels, {});
   if (!image || !looksDrawn(*image, texels.width)) return {};
   std::vector<ColourIndex> indices(image->numbers.size(), kNoColour);
   DrawnColours colours;
-  EncodingIo io(texels, *image, indices, colours);
+  EncodingIo io(*image, indices, colours, &texels);
   DrawnPass<EncodingIo>(texels, indices, colours, io).run();
   EncodedTexture encoded;
   encoded.header.width = texels.width;
@@ -136,8 +149,19 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels) {
   encoded.header.channels = static_cast<uint8_t>(texels.channels);
   encoded.header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
   encoded.header.planes = kDrawnPlanes;
-  encoded.tracks.push_back(io.finish());
+  encoded.tracks.push_back(io.finishTrack());
   return encoded;
+}
+
+std::vector<uint8_t> encodeOverlay(const Texels& texels, std::span<const uint8_t> coded) {
+  const std::optional<Numbered> image = number(texels, coded);
+  if (!image) return {};
+  std::vector<ColourIndex> indices(image->numbers.size(), kNoColour);
+  DrawnColours colours;
+  colours.add(greyOf(texels));
+  EncodingIo io(*image, indices, colours, nullptr);
+  DrawnPass<EncodingIo>(texels, indices, colours, io).run();
+  return io.finish();
 }
 
 }  // namespace tetrakis

@@ -2,7 +2,10 @@
 // Image to the track of a drawn texture.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "texture_wavelet/texture_encoder.hpp"
 
@@ -11,5 +14,9 @@ namespace tetrakis {
 /// Lossless, whole. Nothing if there are more than kMostColours colours, or if fewer than half of
 /// the texels are like the one before or above them: that is no drawing.
 std::optional<EncodedTexture> encodeDrawn(const Texels& texels);
+
+/// The codeword of an overlay: the colours of the texels that are 0 in `coded`, and which those
+/// are. Empty if they have too many colours.
+std::vector<uint8_t> encodeOverlay(const Texels& texels, std::span<const uint8_t> coded);
 
 }  // namespace tetrakis

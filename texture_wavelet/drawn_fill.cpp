@@ -19,11 +19,6 @@ class Filling {
     for (uint32_t c = 0; c < texels_.channels; ++c) to[c] = colour[c];
   }
 
-  void grey(uint32_t x, uint32_t y) {
-    const auto half = static_cast<uint16_t>(1u << (texels_.bits - 1));
-    copy(x, y, {half, half, half, half});
-  }
-
   void interpolate(uint32_t x, uint32_t y, const Stencil& stencil) {
     std::array<uint32_t, 4> sums{};
     uint32_t count = 0;
@@ -49,6 +44,11 @@ class Filling {
 
 }  // namespace
 
+DrawnColour greyOf(const Texels& format) {
+  const auto half = static_cast<uint16_t>(1u << (format.bits - 1));
+  return {half, half, half, half};
+}
+
 void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
                Texels& texels) {
   Filling filling(texels);
@@ -65,7 +65,7 @@ void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours
         if (index != kNoColour) {
           filling.copy(x, y, colours[index]);
         } else if (level.kind == LevelKind::kRoots) {
-          filling.grey(x, y);
+          filling.copy(x, y, greyOf(texels));
         } else {
           filling.interpolate(x, y, stencil);
         }

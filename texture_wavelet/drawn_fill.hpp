@@ -9,6 +9,9 @@
 
 namespace tetrakis {
 
+/// The middle of the range in every channel.
+DrawnColour greyOf(const Texels& format);
+
 /// Writes the samples of all texels of levels whose step is at least `finest`; the format of texels
 /// and the size of its samples are set. indices: width * height, row by row. A texel without one is
 /// the mean of the coarser vertices next to it; a root, grey.

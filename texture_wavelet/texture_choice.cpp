@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "texture_wavelet/drawn_encoder.hpp"
+#include "texture_wavelet/overlay.hpp"
 
 namespace tetrakis {
 
@@ -30,11 +33,34 @@ bool restoresWithin(const Texels& texels, uint64_t bytes, uint32_t threads) {
   return encodeByWavelet(texels, Purpose::kLossless, {bytes, 0, threads}).tracks.front().complete;
 }
 
+uint64_t bytesOf(const EncodedTexture& encoded) {
+  uint64_t bytes = 0;
+  for (const EncodedTrack& track : encoded.tracks) bytes += track.codeword.size();
+  return bytes;
+}
+
+/// With an overlay or without. Both are coded in one track to compare them: all of it for the last
+/// bit, else what a budget has room for.
+EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
+                                const TrackOptions& options) {
+  const std::vector<uint8_t> photograph = photographOf(texels);
+  if (photograph.empty()) return encodeByWavelet(texels, purpose, options);
+  const TrackOptions one_track{options.limit, 0, options.threads};
+  EncodedTexture plain = encodeByWavelet(texels, purpose, one_track),
+                 overlaid = encodeByWavelet(texels, purpose, one_track, photograph);
+  const uint64_t reach = std::min({options.limit / 2, bytesOf(plain), bytesOf(overlaid)});
+  const double worse = distortionAt(plain.tracks.front(), reach),
+               better = distortionAt(overlaid.tracks.front(), reach);
+  const bool pays = worse != better ? better < worse : bytesOf(overlaid) < bytesOf(plain);
+  if (options.region_log2 == 0) return pays ? std::move(overlaid) : std::move(plain);
+  return encodeByWavelet(texels, purpose, options, pays ? photograph : std::vector<uint8_t>());
+}
+
 }  // namespace
 
 EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options) {
   std::optional<EncodedTexture> drawn = encodeDrawn(texels);
-  if (!drawn) return encodeByWavelet(texels, purpose, options);
+  if (!drawn) return encodePhotograph(texels, purpose, options);
   const EncodedTrack& track = drawn->tracks.front();
   const uint64_t bytes = track.codeword.size(), reach = options.limit / 2;
   if (bytes > reach) {
@@ -45,7 +71,7 @@ EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackO
                              options.threads)) {
     return *drawn;
   }
-  return encodeByWavelet(texels, purpose, options);
+  return encodePhotograph(texels, purpose, options);
 }
 
 }  // namespace tetrakis

@@ -51,25 +51,46 @@ Texels emptyTexels(const TextureHeader& header, uint32_t width, uint32_t height)
   return {width, height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
 }
 
+/// The first so many bytes, which are taken off.
+std::span<const uint8_t> take(uint64_t bytes, std::span<const uint8_t>& codeword) {
+  const auto taken =
+      codeword.first(static_cast<size_t>(std::min<uint64_t>(bytes, codeword.size())));
+  codeword = codeword.subspan(taken.size());
+  return taken;
+}
+
 /// The tracks taken apart.
 struct Layers {
   std::vector<uint8_t> seen;  ///< of all texels: 1 where alpha is not 0; empty: not a cut-out
+  DrawnOverlay overlay;
+  std::vector<uint8_t> coded;  ///< of all texels: 1 where coefficients count; empty: everywhere
   Codewords coefficients;
 
   Layers(const TextureHeader& header, const Codewords& codewords) : coefficients(codewords) {
-    if (header.alpha_bytes == 0) return;
     std::span<const uint8_t>& first = coefficients.front();
-    const auto alpha =
-        first.first(static_cast<size_t>(std::min<uint64_t>(header.alpha_bytes, first.size())));
-    seen = decodeValidity(alpha, header.width, header.height);
-    first = first.subspan(alpha.size());
+    if (header.alpha_bytes > 0)
+      seen = decodeValidity(take(header.alpha_bytes, first), header.width, header.height);
+    if (header.hidden) coded = seen;
+    if (header.overlay_bytes == 0) return;
+    overlay = decodeOverlay(header, take(header.overlay_bytes, first));
+    if (coded.empty()) coded.assign(overlay.indices.size(), 1);
+    for (size_t i = 0; i < coded.size(); ++i) coded[i] &= overlay.indices[i] == kSeeThrough;
+  }
+
+  /// Draws over texels that lie `step` apart in the whole image, from (x0, y0) on.
+  void paint(uint32_t width, uint32_t x0, uint32_t y0, uint32_t step, Texels& texels) const {
+    if (overlay.indices.empty()) return;
+    uint16_t* out = texels.samples.data();
+    for (uint32_t y = 0; y < texels.height; ++y) {
+      const ColourIndex* row = overlay.indices.data() + (y0 + size_t{y} * step) * width + x0;
+      for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
+        const ColourIndex index = row[size_t{x} * step];
+        if (index == kSeeThrough) continue;
+        std::copy_n(overlay.colours[index].begin(), texels.channels, out);
+      }
+    }
   }
 };
-
-/// Which texels the coefficients leave out: those of which the colours are hidden.
-Validity codedOf(const TextureHeader& header, std::span<const uint8_t> seen) {
-  return header.hidden ? Validity(seen) : Validity();
-}
 
 /// What a track holds, and which bands of it a level needs; empty: none.
 std::vector<BandPlan> planOf(const TexturePlan& plan, std::span<const BandPart> parts,
@@ -138,7 +159,7 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, in
   const TexturePlan plan(header);
   const MipLevel mip(header.width, header.height, level);
   Planes planes(header, mip);
-  const Validity coded = codedOf(header, layers.seen);
+  const Validity coded = layers.coded;
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
   const int fraction_bits = tracks.run(
       layers.coefficients,
@@ -146,14 +167,15 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, in
       [&](size_t i, const TrackState& state, int more_bits) {
         planes.put(state, plan.parts(i), more_bits);
       });
-  std::vector<uint8_t> seen = mip.maskOf(layers.seen, header.width);
-  const auto pointers = planes.restore(codedOf(header, seen), threads);
+  const auto pointers = planes.restore(mip.maskOf(layers.coded, header.width), threads);
   Texels texels = emptyTexels(header, mip.size().width, mip.size().height);
   finish(header, fraction_bits, pointers, threads, texels);
+  std::vector<uint8_t> seen = mip.maskOf(layers.seen, header.width);
   if (!seen.empty()) {
     mip.thin(std::span(seen));
     finishAlpha(std::span(seen).first(mip.samples()), texels);
   }
+  layers.paint(header.width, 0, 0, uint32_t{1} << level, texels);
   return texels;
 }
 
@@ -179,7 +201,7 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
                            const Window& window, uint32_t threads) {
   if (header.drawn()) return crop(decodeDrawn(header, codewords.front(), 0), window);
   const Layers layers(header, codewords);
-  const Validity coded = codedOf(header, layers.seen);
+  const Validity coded = layers.coded;
   const TexturePlan plan(header);
   std::vector<WindowSynthesis> synthesis(
       header.components(), WindowSynthesis(specOf(header.wavelet), plan.layout().subbands(),
@@ -199,20 +221,21 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
         for (size_t k = 0; k < state.bands.size(); ++k)
           synthesis[k / parts.size()].put(state.bands[k], more_bits, parts[k % parts.size()]);
       });
-  const std::vector<uint8_t> seen =
-      layers.seen.empty() ? layers.seen
-                          : crop(std::span<const uint8_t>(layers.seen), header.width, window);
-  const Validity hidden = codedOf(header, seen);
+  const auto cropped = [&](std::span<const uint8_t> mask) {
+    return mask.empty() ? std::vector<uint8_t>() : crop(mask, header.width, window);
+  };
+  const std::vector<uint8_t> inside = cropped(coded);
   std::vector<std::vector<int32_t>> planes(header.components());
   parallelFor(threads, planes.size(), [&](size_t c) {
     planes[c] = synthesis[c].run(coded);
-    for (size_t i = 0; i < hidden.size(); ++i) planes[c][i] *= hidden[i];
+    for (size_t i = 0; i < inside.size(); ++i) planes[c][i] *= inside[i];
   });
   std::vector<int32_t*> pointers;
   for (std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
   Texels texels = emptyTexels(header, window.width, window.height);
   finish(header, fraction_bits, pointers, threads, texels);
-  finishAlpha(seen, texels);
+  finishAlpha(cropped(layers.seen), texels);
+  layers.paint(header.width, window.x, window.y, 1, texels);
   return texels;
 }
 

@@ -9,6 +9,7 @@
 #include "lattice/validity_encoder.hpp"
 #include "texture_wavelet/colour_fit.hpp"
 #include "texture_wavelet/cutout.hpp"
+#include "texture_wavelet/drawn_encoder.hpp"
 #include "texture_wavelet/lossless_colour.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -105,10 +106,10 @@ uint64_t wholeBytes(const EncodedTexture& encoded) {
   return bytes;
 }
 
-/// The mask of a cut-out goes first: what it hides is worth as much as alphas that are all wrong.
-void prepend(std::span<const uint8_t> mask, double worth, EncodedTrack& track) {
-  track.codeword.insert(track.codeword.begin(), mask.begin(), mask.end());
-  for (RatePoint& point : track.points) point.bytes += mask.size();
+/// The mask of a cut-out, or the overlay, goes first: without it alphas, or colours, are all wrong.
+void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track) {
+  track.codeword.insert(track.codeword.begin(), opening.begin(), opening.end());
+  for (RatePoint& point : track.points) point.bytes += opening.size();
   track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth});
 }
 
@@ -139,12 +140,13 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header,
 
 }  // namespace
 
-EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options) {
-  std::vector<uint8_t> seen = cutoutOf(texels);
+EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
+                               std::span<const uint8_t> photograph) {
+  std::vector<uint8_t> seen = photograph.empty() ? cutoutOf(texels) : std::vector<uint8_t>();
   const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
   Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
-  if (hidden) hideColours(seen, planes);
-  const Validity coded = hidden ? Validity(seen) : Validity();
+  const Validity coded = hidden ? Validity(seen) : Validity(photograph);
+  if (!coded.empty()) hideColours(coded, planes);
   const ColourTransform colour = fitColours(planes, texels, purpose);
   const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
   const std::vector<double> energies = energiesOf(planes.size(), colour);
@@ -158,9 +160,14 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   encoded.tracks = encodePlanes(header, energies, coded, options, planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   header.regions.whole_bytes = wholeBytes(encoded);
-  if (!mask.empty()) {
-    const double most = (1 << texels.bits) - 1;
+  const double most = (1 << texels.bits) - 1;
+  if (!seen.empty())
     prepend(mask, most * most * static_cast<double>(seen.size()), encoded.tracks.front());
+  if (!photograph.empty()) {
+    const std::vector<uint8_t> overlay = encodeOverlay(texels, photograph);
+    header.overlay_bytes = overlay.size();
+    prepend(overlay, most * most / 4 * static_cast<double>(texels.samples.size()),
+            encoded.tracks.front());
   }
   if (hidden) encoded.seen = std::move(seen);
   return encoded;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bitstream/header.hpp"
@@ -22,7 +23,9 @@ struct EncodedTexture {
 
 /// An alpha of two values becomes a cut-out: a mask ahead of the coefficients of the first track;
 /// colours that it hides are coded for Purpose::kLossless alone. Complete tracks without fraction
-/// bits that hide nothing are lossless.
-EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options);
+/// bits that hide nothing are lossless. photograph: from photographOf(), what else is the overlay,
+/// which then comes first in place of a cut-out; empty: no overlay.
+EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
+                               std::span<const uint8_t> photograph = {});
 
 }  // namespace tetrakis

@@ -70,6 +70,8 @@ class Decoding {
       Expected<Decoder> decoder = Decoder::open(octets(stream.bytes));
       if (!decoder) return toStatus(decoder.error());
       decoder->setThreads(arguments_.threads);
+      if (const Expected<void> set = decoder->setLevels(0, arguments_.level); !set)
+        return toStatus(set.error());
       return decodeImage(*decoder, textureWindow());
     });
   }
@@ -201,10 +203,11 @@ void addDecode(CLI::App& app, CommandLine& line) {
   CLI::Option* const mesh =
       verb.add_option("--mesh", arguments->mesh, "Mesh in metres (.glb .obj .ply)")
           ->type_name("OUT.glb");
-  verb.add_option("--level", arguments->level,
-                  "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
-      ->type_name("K")
-      ->excludes(mesh);
+  CLI::Option* const level =
+      verb.add_option("--level", arguments->level,
+                      "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
+          ->type_name("K")
+          ->excludes(mesh);
   CLI::Option* const triangles =
       addTriangles(verb, arguments->triangles, "At most so many triangles; else every sample")
           ->needs(mesh);
@@ -224,7 +227,8 @@ void addDecode(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->expected(4)
       ->type_name("X,Y,W,H")
-      ->excludes(mesh);
+      ->excludes(mesh)
+      ->excludes(level);
   addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] { line.action = [arguments] { return decode(*arguments); }; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis info: what a stream, or a prefix of one, says about itself.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -43,12 +44,16 @@ Json heightsJson(const tks_info& info) {
           {"rmse", stated(info.heights_rmse)}};
 }
 
+/// What texture_drawn stands for.
+constexpr std::array<const char*, 3> kCodings = {"wavelet", "drawn", "overlay"};
+
 Json textureJson(const tks_info& info) {
   if (!info.has_texture) return {};
   return {{"width", info.texture_width},
           {"height", info.texture_height},
           {"channels", info.texture_channels},
           {"sample", sampleName(info.texture_sample)},
+          {"coding", kCodings.at(static_cast<size_t>(info.texture_drawn))},
           {"cutout", info.texture_cutout != 0},
           {"regions", info.texture_regions > 0 ? Json(info.texture_regions) : Json()},
           {"psnr", stated(info.texture_psnr)},

@@ -43,14 +43,20 @@ class DrawnDecoder {
         rival_(1 << 18),
         pattern_(6 << 14) {}
 
-  std::vector<Colour> decode() {
-    try {
-      forEachVertex([&](bool centre, int s, int x, int y) {
-        const std::vector<Candidate> candidates = candidatesOf(centre, s, x, y);
-        indices_[at(x, y)] = next(candidates, centre);
-      });
-    } catch (TrackEnd) {
+  /// FORMAT 9.2: the list begins with grey, which is what is seen through.
+  std::vector<std::optional<Colour>> decodeOverlay() {
+    colours_.push_back({half_, half_, half_, half_});
+    decodeIndices();
+    std::vector<std::optional<Colour>> texels;
+    for (const int index : indices_) {
+      texels.push_back(index > 0 ? std::optional(colours_[static_cast<size_t>(index)])
+                                 : std::nullopt);
     }
+    return texels;
+  }
+
+  std::vector<Colour> decode() {
+    decodeIndices();
     std::vector<Colour> texels(indices_.size());
     forEachVertex([&](bool centre, int s, int x, int y) {
       const int index = indices_[at(x, y)];
@@ -61,6 +67,16 @@ class DrawnDecoder {
   }
 
  private:
+  void decodeIndices() {
+    try {
+      forEachVertex([&](bool centre, int s, int x, int y) {
+        const std::vector<Candidate> candidates = candidatesOf(centre, s, x, y);
+        indices_[at(x, y)] = next(candidates, centre);
+      });
+    } catch (TrackEnd) {
+    }
+  }
+
   bool inside(int x, int y) const {
     return x >= 0 && x < header_.width && y >= 0 && y < header_.height;
   }
@@ -227,6 +243,11 @@ class DrawnDecoder {
 };
 
 }  // namespace
+
+std::vector<std::optional<Colour>> decodeOverlay(const TextureHeader& header,
+                                                 std::span<const uint8_t> codeword) {
+  return DrawnDecoder(header, codeword).decodeOverlay();
+}
 
 std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,
                                  int level) {

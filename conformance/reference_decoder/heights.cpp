@@ -177,13 +177,6 @@ void putVoids(const GeometryHeader& header, const Layers& layers, const Plane& p
   }
 }
 
-/// Takes up to `count` bytes off the front.
-std::span<const uint8_t> take(std::span<const uint8_t>& codeword, uint64_t count) {
-  const auto taken = codeword.first(std::min<uint64_t>(count, codeword.size()));
-  codeword = codeword.subspan(taken.size());
-  return taken;
-}
-
 std::vector<uint8_t> bytesOf(const GeometryHeader& header, const std::vector<uint32_t>& samples) {
   constexpr int kBytes[] = {1, 1, 2, 2, 4, 4, 4};
   std::vector<uint8_t> bytes;

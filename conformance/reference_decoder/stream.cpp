@@ -135,13 +135,15 @@ TextureHeader readTexture(Reader& in) {
   t.channels = t.components + cutout;
   t.sample = in.u8(kU8, kU16);
   if (t.sample == kI8) in.fail(Outcome::kCorrupt);
-  t.planes = in.u8(0, kDrawnPlanes);
+  const int coding = in.u8(0, 62);
+  t.planes = coding % 32;
   if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
   if (cutout) {
     t.alphaBytes = in.varint(1, INT64_MAX);
     t.hidden = in.u8(0, 1);
   }
+  if (coding >= 32) t.overlayBytes = in.varint(1, INT64_MAX);
   for (int i = 0; i < t.components; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));
     t.priority[i] = in.zigzag(128);

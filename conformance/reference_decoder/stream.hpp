@@ -45,7 +45,8 @@ struct Layers {
 
 struct TextureHeader {
   int width = 0, height = 0, channels = 0, components = 0, sample = 0, planes = 0;
-  uint64_t alphaBytes = 0;  ///< 0: no cut-out
+  uint64_t alphaBytes = 0;    ///< 0: no cut-out
+  uint64_t overlayBytes = 0;  ///< 0: no overlay
   bool hidden = false;
   WaveletHeader wavelet;
   RegionHeader regions;
@@ -82,6 +83,10 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
 /// The same for kDrawnPlanes (FORMAT 9.1).
 std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,
                                  int level);
+
+/// FORMAT 9.2: at every texel nothing if it is seen through, or its colour.
+std::vector<std::optional<std::array<int, 4>>> decodeOverlay(const TextureHeader& header,
+                                                             std::span<const uint8_t> codeword);
 
 inline constexpr int kDrawnPlanes = 31;
 

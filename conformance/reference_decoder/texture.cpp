@@ -68,11 +68,16 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   level = std::min(level, subbands.front().level);
   Plane seen{header.width, header.height, {}};  // its validity: where alpha is not 0
-  if (header.alphaBytes > 0) {
-    const auto mask =
-        coefficients[0].first(std::min<uint64_t>(header.alphaBytes, coefficients[0].size()));
-    seen.valid = decodeValidity(mask, header.width, header.height);
-    coefficients[0] = coefficients[0].subspan(mask.size());
+  if (header.alphaBytes > 0)
+    seen.valid =
+        decodeValidity(take(coefficients[0], header.alphaBytes), header.width, header.height);
+  Plane coded{header.width, header.height, {}};  // its validity: where coefficients count
+  if (header.hidden) coded.valid = seen.valid;
+  std::vector<std::optional<std::array<int, 4>>> overlay;
+  if (header.overlayBytes > 0) {
+    overlay = decodeOverlay(header, take(coefficients[0], header.overlayBytes));
+    coded.valid.resize(overlay.size(), 1);
+    for (size_t i = 0; i < overlay.size(); ++i) coded.valid[i] &= !overlay[i];
   }
   std::vector<std::vector<Part>> parts;
   std::vector<std::vector<Band>> bands;
@@ -83,7 +88,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     for (int c = 0; c < header.components; ++c) {
       const auto own =
           std::span(bands.back()).subspan(c * parts.back().size(), parts.back().size());
-      if (header.hidden) markAbsent(parts.back(), seen, own);
+      markAbsent(parts.back(), coded, own);
       dropFiner(parts.back(), level, own);
     }
     counted &= decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
@@ -93,7 +98,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   std::vector<Plane> planes;
   for (int c = 0; c < header.components; ++c) {
     Plane plane{header.width, header.height, {}};
-    if (header.hidden) plane.valid = seen.valid;
+    plane.valid = coded.valid;
     plane.values.resize(static_cast<size_t>(header.width) * header.height);
     for (size_t i = 0; i < parts.size(); ++i) {
       const auto own = std::span(bands[i]).subspan(c * parts[i].size(), parts[i].size());
@@ -108,11 +113,12 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     for (int x = 0; x < columns; ++x) {
       const bool there = seen.isValid(x << level, y << level);
       std::array<int32_t, 4> texel = {};
-      for (size_t c = 0; c < planes.size() && (there || !header.hidden); ++c)
+      for (size_t c = 0; c < planes.size() && coded.isValid(x << level, y << level); ++c)
         texel[c] = planes[c].at(x, y);
       texel = finish(header, texel, f);
       if (header.alphaBytes > 0)
         texel[planes.size()] = !there ? 0 : header.sample == kU8 ? 255 : 65535;
+      if (!overlay.empty()) texel = overlay[seen.index(x << level, y << level)].value_or(texel);
       for (int c = 0; c < header.channels; ++c) {
         samples.push_back(static_cast<uint8_t>(texel[c]));
         if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What somebody has drawn over a photograph: lettering, boundaries, borders without data, water in
+// one colour. A wavelet rings along all of it. Encoder only.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "texture_wavelet/texels.hpp"
+
+namespace tetrakis {
+
+/// For each texel 1 if it belongs to the photograph, 0 to the overlay; empty if there is none worth
+/// trying. Colours of an overlay fill many texels, of which at least half are like the one before.
+std::vector<uint8_t> photographOf(const Texels& texels);
+
+}  // namespace tetrakis
