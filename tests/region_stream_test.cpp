@@ -353,7 +353,8 @@ TEST(RegionStream, OpeningTakesNoMemoryThatHeadersDeclare) {
   }
   EXPECT_GT(refused, 0u) << "some of these declare more than the limits";
   EXPECT_GT(opened, 0u);
-  EXPECT_LT(peakMemory() - before, size_t{8} << 20);
+  // Sanitizers keep what was freed for a while; a million regions would take far more.
+  EXPECT_LT(peakMemory() - before, size_t{64} << 20);
 }
 
 }  // namespace
