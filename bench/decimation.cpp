@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_decimation DIR...: meshes of height fields, beside Martini, Delatin, meshoptimizer and
 // Draco.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +8,7 @@
 
 #include "bench/decimation_quality.hpp"
 #include "bench/decimation_speed.hpp"
+#include "bench/options.hpp"
 #include "bench/results.hpp"
 #include "tools/files.hpp"
 
@@ -205,10 +205,7 @@ int main(int argc, char** argv) {
   app.add_option("--node", options.node, "Folder with the npm packages of Martini and Delatin")
       ->capture_default_str();
   app.add_flag("!--no-bytes", options.bytes, "Leaves out streams and Draco: faster");
-  app.add_option("--runs", options.runs, "Runs that each median of times is taken of")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
+  addRunOptions(app, options);
   CLI11_PARSE(app, argc, argv);
 
   const Status status = run(options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line that bench_geometry and bench_texture share.
+// Parts of the command line that benches share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -19,6 +19,15 @@ inline void addComparisonOptions(CLI::App& app, ComparisonOptions& options) {
       ->capture_default_str();
   app.add_option("--files", options.filters, "Only files whose path holds one of these texts")
       ->delimiter(',');
+  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
+}
+
+/// What benches that measure time share. Options: holds `runs` and `csv`.
+template <class Options>
+void addRunOptions(CLI::App& app, Options& options) {
+  app.add_option("--runs", options.runs, "Runs that each median of times is taken of")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
 }
 

@@ -4,7 +4,6 @@
 // runs, medians of processor time; all stores must read the same heights.
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -13,6 +12,7 @@
 #include <numeric>
 #include <random>
 
+#include "bench/options.hpp"
 #include "bench/quadtree_peers.hpp"
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
@@ -279,10 +279,7 @@ int main(int argc, char** argv) {
   app.add_option("--side", options.side, "Samples a side")
       ->check(CLI::Range(65, 4097))
       ->capture_default_str();
-  app.add_option("--runs", options.runs, "Runs that each median is taken of")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
+  addRunOptions(app, options);
   CLI11_PARSE(app, argc, argv);
 
   const Status status = run(options);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_regions [HEIGHT [IMAGE]]: what spatial regions cost in bytes, what windows of a stream cost
 // to decode, and what a second thread gains.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <functional>
 
 #include "bench/bjontegaard.hpp"
+#include "bench/options.hpp"
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -264,10 +264,7 @@ int main(int argc, char** argv) {
   app.add_option("--side", options.side, "Samples a side; files are cut or mirrored to it")
       ->check(CLI::Range(64u, 16385u))
       ->capture_default_str();
-  app.add_option("--runs", options.runs, "Runs that each median is taken of")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
+  tetrakis::bench::addRunOptions(app, options);
   CLI11_PARSE(app, argc, argv);
 
   const Status status = run(options);

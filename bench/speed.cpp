@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_speed [HEIGHT IMAGE]: encoding and decoding, one thread, beside OpenJPEG in one process:
 // alternating runs, medians of the processor time, and their ratio.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -9,6 +8,7 @@
 
 #include "bench/child_memory.hpp"
 #include "bench/openjpeg_peer.hpp"
+#include "bench/options.hpp"
 #include "bench/results.hpp"
 #include "bench/tetrakis_peer.hpp"
 #include "tools/files.hpp"
@@ -222,10 +222,7 @@ int main(int argc, char** argv) {
   CLI::Option* heights = app.add_option("HEIGHT", options.heights, "Height file");
   CLI::Option* image = app.add_option("IMAGE", options.image, "Image of the same footprint");
   heights->needs(image);
-  app.add_option("--runs", options.runs, "Runs that each median is taken of")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
+  addRunOptions(app, options);
   CLI11_PARSE(app, argc, argv);
 
   const Status status = run(options);

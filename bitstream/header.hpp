@@ -126,9 +126,8 @@ struct TextureHeader {
   uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
   uint8_t colour_order = 0;
-  std::array<int64_t, 6>
-      colour_shears{};                ///< read and written where there are 3 components or more
-  std::array<uint16_t, 4> centre{};   ///< one per component
+  std::array<int64_t, 6> colour_shears{};  ///< with 3 components or more
+  std::array<uint16_t, 4> centre{};        ///< one per component
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
   RegionHeader regions;  ///< a part of the header of its own

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/drawn_encoder.hpp"
 
+#include <cassert>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -155,7 +156,7 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels) {
 
 std::vector<uint8_t> encodeOverlay(const Texels& texels, std::span<const uint8_t> coded) {
   const std::optional<Numbered> image = number(texels, coded);
-  if (!image) return {};
+  assert(image.has_value());
   std::vector<ColourIndex> indices(image->numbers.size(), kNoColour);
   DrawnColours colours;
   colours.add(greyOf(texels));

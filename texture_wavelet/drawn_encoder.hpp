@@ -16,7 +16,7 @@ namespace tetrakis {
 std::optional<EncodedTexture> encodeDrawn(const Texels& texels);
 
 /// The codeword of an overlay: the colours of the texels that are 0 in `coded`, and which those
-/// are. Empty if they have too many colours.
+/// are. They have fewer than kMostColours.
 std::vector<uint8_t> encodeOverlay(const Texels& texels, std::span<const uint8_t> coded);
 
 }  // namespace tetrakis

@@ -11,7 +11,8 @@
 namespace tetrakis {
 
 /// For each texel 1 if it belongs to the photograph, 0 to the overlay; empty if there is none worth
-/// trying. Colours of an overlay fill many texels, of which at least half are like the one before.
+/// trying. Each of its colours fills at least 1/2000 of the texels, and half of those
+/// are like the one before.
 std::vector<uint8_t> photographOf(const Texels& texels);
 
 }  // namespace tetrakis

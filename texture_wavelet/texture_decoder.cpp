@@ -150,6 +150,20 @@ class Planes {
   std::vector<int32_t*> pointers_;
 };
 
+/// Of an image that is decoded whole.
+Texels crop(const Texels& whole, const Window& window) {
+  Texels part{window.width, window.height, whole.channels, whole.bits, {}};
+  const size_t channels = whole.channels;
+  for (uint32_t y = 0; y < window.height; ++y) {
+    const auto from =
+        whole.samples.begin() +
+        static_cast<ptrdiff_t>((size_t{window.y + y} * whole.width + window.x) * channels);
+    part.samples.insert(part.samples.end(), from,
+                        from + static_cast<ptrdiff_t>(window.width * channels));
+  }
+  return part;
+}
+
 }  // namespace
 
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level,
@@ -178,24 +192,6 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, in
   layers.paint(header.width, 0, 0, uint32_t{1} << level, texels);
   return texels;
 }
-
-namespace {
-
-/// Of an image that is decoded whole.
-Texels crop(const Texels& whole, const Window& window) {
-  Texels part{window.width, window.height, whole.channels, whole.bits, {}};
-  const size_t channels = whole.channels;
-  for (uint32_t y = 0; y < window.height; ++y) {
-    const auto from =
-        whole.samples.begin() +
-        static_cast<ptrdiff_t>((size_t{window.y + y} * whole.width + window.x) * channels);
-    part.samples.insert(part.samples.end(), from,
-                        from + static_cast<ptrdiff_t>(window.width * channels));
-  }
-  return part;
-}
-
-}  // namespace
 
 Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
                            const Window& window, uint32_t threads) {

@@ -20,10 +20,6 @@ uint32_t modelsOf(const Subband& subband) {
 
 }  // namespace
 
-BandShape shapeOf(const Subband& subband) {
-  return {subband.height, subband.width};
-}
-
 PlaneLayout::PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height)
     : subbands_(subbandsOf(width, height)), norms_(spec, subbands_.front().level) {}
 
@@ -45,11 +41,6 @@ std::vector<BandPart> PlaneLayout::parts(const Region& region) const {
     parts.push_back({i, column, row, columns, rows});
   }
   return parts;
-}
-
-std::vector<BandPart> PlaneLayout::wholeParts() const {
-  constexpr uint32_t kEnd = uint32_t{1} << 31;
-  return parts({1, Region::kAll, 0, 0, kEnd, kEnd});
 }
 
 std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int first, int priority,

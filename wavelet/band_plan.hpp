@@ -29,9 +29,8 @@ class PlaneLayout {
  public:
   PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height);
 
-  /// What a region holds, in coding order; without regions every subband as a whole.
+  /// What a region holds, in coding order.
   std::vector<BandPart> parts(const Region& region) const;
-  std::vector<BandPart> wholeParts() const;
 
   /// One entry for each part of a region. The indices of parents count from `first`, the
   /// place that the first entry will have in the plan of the track.
@@ -48,8 +47,6 @@ class PlaneLayout {
   std::vector<Subband> subbands_;
   SynthesisNorms norms_;
 };
-
-BandShape shapeOf(const Subband& subband);
 
 /// Marks the coefficients of void samples as absent. bands: those of the parts. valid: width *
 /// height of the plane; empty: there are no voids.
