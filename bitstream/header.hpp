@@ -126,8 +126,9 @@ struct TextureHeader {
   uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
   uint8_t colour_order = 0;
-  std::array<int64_t, 6> colour_shears{};  ///< with 3 components or more
-  std::array<uint16_t, 4> centre{};        ///< one per component
+  /// With 3 components or more: of samples, then those of coefficients.
+  std::vector<std::array<int64_t, 6>> colour_shears{{}};
+  std::array<uint16_t, 4> centre{};   ///< one per component
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
   RegionHeader regions;  ///< a part of the header of its own
@@ -164,12 +165,19 @@ struct TextureHeader {
       v.zigzag("priority", priority[c], kMaxPriority);
     }
     if (components() < 3) return;
-    v.u8("colour_order", colour_order, 0, 5);
-    for (int64_t& shear : colour_shears) v.zigzag("colour_shear", shear, INT16_MAX);
+    auto colour = static_cast<uint8_t>(colour_order + kOrders * (colour_shears.size() - 1));
+    v.u8("colour", colour, 0, kOrders * kMostShears - 1);
+    colour_order = colour % kOrders;
+    colour_shears.resize(colour / kOrders + size_t{1});
+    for (auto& shears : colour_shears) {
+      for (int64_t& shear : shears) v.zigzag("colour_shear", shear, INT16_MAX);
+    }
   }
   bool drawn() const { return planes == kDrawnPlanes; }
 
   static constexpr int64_t kMaxPriority = 128;
+  static constexpr uint8_t kOrders = 6;      ///< of channels
+  static constexpr uint8_t kMostShears = 8;  ///< sets of shears
 };
 
 /// What the heights mean on the ground.

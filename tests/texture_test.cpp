@@ -126,8 +126,10 @@ TEST(TextureTrack, AnyBytesAndHeadersDecodeIntoRange) {
     header.sample = random() % 2 == 0 ? TKS_U8 : TKS_U16;
     header.planes = static_cast<uint8_t>(random() % 31);
     header.colour_order = static_cast<uint8_t>(random() % 6);
-    for (int64_t& shear : header.colour_shears)
-      shear = static_cast<int64_t>(random() % 65535) - 32767;
+    header.colour_shears.resize(1 + random() % 8);
+    for (auto& shears : header.colour_shears) {
+      for (int64_t& shear : shears) shear = static_cast<int64_t>(random() % 65535) - 32767;
+    }
     for (int64_t& priority : header.priority) priority = static_cast<int64_t>(random() % 257) - 128;
     for (uint8_t& filter : header.wavelet.filters) filter = static_cast<uint8_t>(random() % 4);
     header.wavelet.fraction_bits = static_cast<uint8_t>(random() % (kMaxFractionBits + 1));

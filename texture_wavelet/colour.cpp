@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <type_traits>
 
 namespace tetrakis {
 namespace {
@@ -18,42 +19,48 @@ const std::array<uint8_t, 3>& orderOf(const ColourTransform& transform) {
   return kChannelOrders[transform.order % kChannelOrders.size()];
 }
 
-struct Weights {
-  uint32_t first, second;
-};
-
-template <bool kForward>
+/// Sum: int32_t (wraps) or int64_t.
+template <class Sum, bool kForward>
 void shear(int32_t* __restrict target, const int32_t* __restrict first,
-           const int32_t* __restrict second, Weights weights, size_t count) {
-  constexpr uint32_t kHalf = 1u << (kShearFractionBits - 1);
+           const int32_t* __restrict second, std::array<int16_t, 2> weights, size_t count) {
+  using Unsigned = std::make_unsigned_t<Sum>;
+  constexpr Unsigned kHalf = 1u << (kShearFractionBits - 1);
+  const auto weight0 = static_cast<Unsigned>(Sum{weights[0]});
+  const auto weight1 = static_cast<Unsigned>(Sum{weights[1]});
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t sum = weights.first * static_cast<uint32_t>(first[i]) +
-                         weights.second * static_cast<uint32_t>(second[i]) + kHalf;
-    const auto change = static_cast<uint32_t>(static_cast<int32_t>(sum) >> kShearFractionBits);
+    const Unsigned sum = weight0 * static_cast<Unsigned>(Sum{first[i]}) +
+                         weight1 * static_cast<Unsigned>(Sum{second[i]}) + kHalf;
+    const auto change = static_cast<uint32_t>(static_cast<Sum>(sum) >> kShearFractionBits);
     const auto value = static_cast<uint32_t>(target[i]);
     target[i] = static_cast<int32_t>(kForward ? value + change : value - change);
   }
 }
 
-template <bool kForward>
-void shearAll(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count) {
+template <class Sum, bool kForward>
+void shearAll(const Shears& shears, std::span<int32_t* const> planes, size_t count) {
   for (size_t i = 0; i < kSteps.size(); ++i) {
     const size_t index = kForward ? i : kSteps.size() - 1 - i;
     const Step& step = kSteps[index];
-    const Weights weights = {static_cast<uint32_t>(int32_t{transform.shears[2 * index]}),
-                             static_cast<uint32_t>(int32_t{transform.shears[2 * index + 1]})};
-    shear<kForward>(planes[step.plane], planes[step.first], planes[step.second], weights, count);
+    shear<Sum, kForward>(planes[step.plane], planes[step.first], planes[step.second],
+                         {shears[2 * index], shears[2 * index + 1]}, count);
   }
 }
 
+/// Of a level; none: identity.
+const Shears* shearsAt(const ColourTransform& transform, int level) {
+  if (level < 2 || transform.level_shears.empty()) return nullptr;
+  const size_t last = transform.level_shears.size() - 1;
+  return &transform.level_shears[std::min(static_cast<size_t>(level - 2), last)];
+}
+
 /// The same steps without rounding, on one colour whose channels are in order.
-void shearExactly(const ColourTransform& transform, bool forward, std::array<double, 3>& colour) {
+void shearExactly(const Shears& shears, bool forward, std::array<double, 3>& colour) {
   for (size_t i = 0; i < kSteps.size(); ++i) {
     const size_t index = forward ? i : kSteps.size() - 1 - i;
     const Step& step = kSteps[index];
-    const double change = (transform.shears[2 * index] * colour[step.first] +
-                           transform.shears[2 * index + 1] * colour[step.second]) /
-                          (1 << kShearFractionBits);
+    const double change =
+        (shears[2 * index] * colour[step.first] + shears[2 * index + 1] * colour[step.second]) /
+        (1 << kShearFractionBits);
     colour[step.plane] += forward ? change : -change;
   }
 }
@@ -99,7 +106,7 @@ void forwardColour(const ColourTransform& transform, std::span<int32_t* const> p
   const auto& order = orderOf(transform);
   swapPlanes(planes[0], planes[order[0]], count);
   swapPlanes(planes[1], planes[secondPartner(order)], count);
-  shearAll<true>(transform, planes, count);
+  shearAll<int32_t, true>(transform.shears, planes, count);
 }
 
 void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
@@ -108,7 +115,7 @@ void inverseColour(const ColourTransform& transform, std::span<int32_t* const> p
   assert(fraction_bits >= 0 && fraction_bits <= 8);
   if (planes.size() >= 3) {
     const auto& order = orderOf(transform);
-    shearAll<false>(transform, planes, count);
+    shearAll<int32_t, false>(transform.shears, planes, count);
     swapPlanes(planes[1], planes[secondPartner(order)], count);
     swapPlanes(planes[0], planes[order[0]], count);
   }
@@ -118,24 +125,38 @@ void inverseColour(const ColourTransform& transform, std::span<int32_t* const> p
   }
 }
 
-Matrix3 colourMatrix(const ColourTransform& transform) {
+void forwardLevelColour(const ColourTransform& transform, int level,
+                        std::span<int32_t* const> planes, size_t count) {
+  if (const Shears* shears = shearsAt(transform, level))
+    shearAll<int64_t, true>(*shears, planes, count);
+}
+
+void inverseLevelColour(const ColourTransform& transform, int level,
+                        std::span<int32_t* const> planes, size_t count) {
+  if (const Shears* shears = shearsAt(transform, level))
+    shearAll<int64_t, false>(*shears, planes, count);
+}
+
+Matrix3 colourMatrix(const ColourTransform& transform, int level) {
   Matrix3 matrix{};
   const auto& order = orderOf(transform);
   for (size_t j = 0; j < 3; ++j) {
     std::array<double, 3> colour{};
     colour[j] = 1;
-    shearExactly(transform, true, colour);
+    shearExactly(transform.shears, true, colour);
+    if (const Shears* shears = shearsAt(transform, level)) shearExactly(*shears, true, colour);
     for (size_t i = 0; i < 3; ++i) matrix[i][order[j]] = colour[i];
   }
   return matrix;
 }
 
-std::array<double, 3> componentEnergies(const ColourTransform& transform) {
+std::array<double, 3> componentEnergies(const ColourTransform& transform, int level) {
   std::array<double, 3> energies{};
   for (size_t i = 0; i < 3; ++i) {
     std::array<double, 3> colour{};
     colour[i] = 1;
-    shearExactly(transform, false, colour);
+    if (const Shears* shears = shearsAt(transform, level)) shearExactly(*shears, false, colour);
+    shearExactly(transform.shears, false, colour);
     for (double channel : colour) energies[i] += channel * channel;
   }
   return energies;

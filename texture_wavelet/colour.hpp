@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace tetrakis {
 
@@ -26,11 +27,18 @@ inline constexpr int kShearFractionBits = 10;
 inline constexpr std::array<std::array<uint8_t, 3>, 6> kChannelOrders = {
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 
+/// In units of 2^-kShearFractionBits; all 0: identity.
+using Shears = std::array<int16_t, 6>;
+
 /// Parameters of the transform, as they stand in the stream header. Every value is legal.
 struct ColourTransform {
   std::array<uint16_t, 4> centre{};  ///< subtracted from each channel
   uint8_t order = 0;                 ///< index into kChannelOrders, taken modulo 6
-  std::array<int16_t, 6> shears{};   ///< in units of 2^-kShearFractionBits; all 0: identity
+  Shears shears{};                   ///< of samples
+  /// Of coefficients, on top: [i] of level i + 2, the last of all coarser levels and the low band.
+  std::vector<Shears> level_shears;
+
+  static constexpr size_t kMostLevelShears = 7;
 };
 
 /// Samples to components, in place. planes: 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGB, alpha)
@@ -47,12 +55,21 @@ void forwardColour(const ColourTransform& transform, std::span<int32_t* const> p
 void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
                    int fraction_bits);
 
+/// The same shears of coefficients of one level, in place: three planes of `count` values. Sums are
+/// of 64 bits, because low bands outgrow samples. Exactly undone by inverseLevelColour.
+void forwardLevelColour(const ColourTransform& transform, int level,
+                        std::span<int32_t* const> planes, size_t count);
+void inverseLevelColour(const ColourTransform& transform, int level,
+                        std::span<int32_t* const> planes, size_t count);
+
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-/// The linear version of the shears: component i = sum_j matrix[i][j] * (channel j - centre[j]).
-Matrix3 colourMatrix(const ColourTransform& transform);
+/// The linear version of the shears: component i = sum_j matrix[i][j] * (channel j - centre[j]),
+/// for coefficients of a level (level 1: for samples too).
+Matrix3 colourMatrix(const ColourTransform& transform, int level = 1);
 
-/// Squared RGB error, summed over the three channels, for a unit squared error in each component.
-std::array<double, 3> componentEnergies(const ColourTransform& transform);
+/// Squared RGB error, summed over the three channels, for a unit squared error in each component of
+/// a level's coefficients.
+std::array<double, 3> componentEnergies(const ColourTransform& transform, int level = 1);
 
 }  // namespace tetrakis

@@ -2,17 +2,12 @@
 // Rotation of the colour axes that needs the fewest bits.
 //
 // A wavelet coefficient c coded with a step T costs about log2(1 + |c| / T) bits. The sum of that
-// over Haar details of all scales ranks rotations as a coder does; the variances of a KLT do not,
-// because they are ruled by a few strong edges or by the coarsest scales. Starting from the fixed
-// rotation to (sum, red - blue, green - magenta), plane rotations walk to the minimum.
-//
-// Measured with this transform on ten images at 0.03 to 3 bits a texel, bytes at equal RGB PSNR and
-// lossless bytes, against the fixed rotation:
-//
-//   KLT of the colours   -0.3 %  +13.0 %        T = mean / 2   -3.1 %   +2.3 %
-//   KLT of gradients     -2.5 %   -0.3 %        T = mean / 4   -3.1 %   +1.5 %
-//                                               T = mean / 8   -2.5 %   +0.9 %
+// over Haar details ranks rotations as a coder does; the variances of a KLT do not, because a few
+// strong edges rule them. Starting from the fixed rotation to (sum, red - blue, green - magenta),
+// plane rotations walk to the minimum. T is the mean of |c|, or 1 where every bit will be coded;
+// between a half and an eighth of the mean the bytes hardly change.
 #include "texture_wavelet/colour_fit.hpp"
+#include "texture_wavelet/colour_level_fit.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -25,82 +20,9 @@
 namespace tetrakis {
 namespace {
 
-using Colour = std::array<float, 3>;
-
-constexpr size_t kBlocksPerScale = 2048;  // details are sampled: three of each block
-
 Matrix3 fixedRotation() {
   const double s3 = std::sqrt(1.0 / 3), s2 = std::sqrt(0.5), s6 = std::sqrt(1.0 / 6);
   return {{{s3, s3, s3}, {s2, 0, -s2}, {-s6, 2 * s6, -s6}}};
-}
-
-struct Image {
-  size_t width = 0, height = 0;
-  std::vector<Colour> colours;
-};
-
-/// Halves an image, read through colour_at(index), and samples its orthonormal Haar details. Values
-/// are `gain` times means over the pixels of the original.
-template <class ColourAt>
-Image halve(size_t width, size_t height, float gain, ColourAt colour_at,
-            std::vector<Colour>& details) {
-  Image half{width / 2, height / 2, {}};
-  half.colours.resize(half.width * half.height);
-  // Odd, so that the sampled blocks do not line up in columns.
-  const size_t stride = (half.colours.size() / kBlocksPerScale) | 1;
-  for (size_t i = 0; i < half.colours.size(); ++i) {
-    const size_t corner = (i / half.width) * 2 * width + (i % half.width) * 2;
-    const Colour a = colour_at(corner), b = colour_at(corner + 1);
-    const Colour c = colour_at(corner + width), d = colour_at(corner + width + 1);
-    Colour rows{}, columns{}, diagonal{};
-    for (size_t k = 0; k < 3; ++k) {
-      half.colours[i][k] = (a[k] + b[k] + c[k] + d[k]) / 4;
-      rows[k] = (a[k] - b[k] + c[k] - d[k]) * gain / 2;
-      columns[k] = (a[k] + b[k] - c[k] - d[k]) * gain / 2;
-      diagonal[k] = (a[k] - b[k] - c[k] + d[k]) * gain / 2;
-    }
-    if (i % stride == 0) details.insert(details.end(), {rows, columns, diagonal});
-  }
-  return half;
-}
-
-std::vector<Colour> sampleDetails(std::span<const int32_t* const> planes, uint32_t width,
-                                  uint32_t height) {
-  std::vector<Colour> details;
-  if (std::min(width, height) < 2) return details;
-  const auto pixel = [&](size_t i) {
-    return Colour{static_cast<float>(planes[0][i]), static_cast<float>(planes[1][i]),
-                  static_cast<float>(planes[2][i])};
-  };
-  Image image = halve(width, height, 1, pixel, details);
-  for (float gain = 2; std::min(image.width, image.height) >= 2; gain *= 2) {
-    const auto colour_at = [&](size_t i) { return image.colours[i]; };
-    image = halve(image.width, image.height, gain, colour_at, details);
-  }
-  return details;
-}
-
-double meanMagnitude(const std::vector<Colour>& details) {
-  double sum = 0;
-  for (const Colour& d : details) sum += std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
-  return details.empty() ? 0 : sum / (3 * static_cast<double>(details.size()));
-}
-
-double component(const std::array<double, 3>& row, const Colour& colour) {
-  return row[0] * colour[0] + row[1] * colour[1] + row[2] * colour[2];
-}
-
-/// Estimated bits of one component of the details.
-double rateOf(const std::array<double, 3>& row, const std::vector<Colour>& details, double step) {
-  double bits = 0, product = 1;
-  for (const Colour& d : details) {
-    product *= 1 + std::abs(component(row, d)) / step;
-    if (product > 1e200) {  // one logarithm for many factors
-      bits += std::log2(product);
-      product = 1;
-    }
-  }
-  return bits + std::log2(product);
 }
 
 void rotateRows(Matrix3& rotation, size_t p, size_t q, double angle) {
@@ -114,14 +36,14 @@ void rotateRows(Matrix3& rotation, size_t p, size_t q, double angle) {
 
 /// Rotates rows p and q by +-angle for as long as that saves bits. Returns whether it did.
 bool descend(Matrix3& rotation, std::array<double, 3>& rates, size_t p, size_t q, double angle,
-             const std::vector<Colour>& details, double step) {
+             const ColourDetails& details, double step) {
   bool moved = false;
   for (double turn : {angle, -angle}) {
     for (;;) {
       Matrix3 turned = rotation;
       rotateRows(turned, p, q, turn);
-      const double rate_p = rateOf(turned[p], details, step);
-      const double rate_q = rateOf(turned[q], details, step);
+      const double rate_p = bitsAlong(turned[p], details, step);
+      const double rate_q = bitsAlong(turned[q], details, step);
       if (!(rate_p + rate_q < (rates[p] + rates[q]) * (1 - 1e-9))) break;
       rotation = turned;
       rates[p] = rate_p;
@@ -132,13 +54,13 @@ bool descend(Matrix3& rotation, std::array<double, 3>& rates, size_t p, size_t q
   return moved;
 }
 
-Matrix3 cheapestRotation(const std::vector<Colour>& details) {
+/// Walks from a rotation to the nearest that needs the fewest bits.
+Matrix3 cheapestRotation(Matrix3 rotation, const ColourDetails& details, Purpose purpose) {
   constexpr double kFirstAngle = 0.2, kLastAngle = 0.005;
-  Matrix3 rotation = fixedRotation();
-  const double step = meanMagnitude(details) / 4;
+  const double step = purpose == Purpose::kLossless ? 1 : meanMagnitude(details);
   if (step == 0) return rotation;
   std::array<double, 3> rates{};
-  for (size_t i = 0; i < 3; ++i) rates[i] = rateOf(rotation[i], details, step);
+  for (size_t i = 0; i < 3; ++i) rates[i] = bitsAlong(rotation[i], details, step);
   for (double angle = kFirstAngle; angle > kLastAngle; angle /= 2) {
     for (bool moved = true; moved;) {
       moved = false;
@@ -151,13 +73,37 @@ Matrix3 cheapestRotation(const std::vector<Colour>& details) {
 }
 
 /// Moves the row of the greatest energy to the front.
-void putLumaFirst(Matrix3& rotation, const std::vector<Colour>& details) {
+void putLumaFirst(Matrix3& rotation, const ColourDetails& details) {
   std::array<double, 3> energies{};
-  for (const Colour& d : details) {
-    for (size_t i = 0; i < 3; ++i) energies[i] += std::pow(component(rotation[i], d), 2);
+  for (const Colour& d : details.samples) {
+    for (size_t i = 0; i < 3; ++i)
+      energies[i] +=
+          std::pow(rotation[i][0] * d[0] + rotation[i][1] * d[1] + rotation[i][2] * d[2], 2);
   }
   const auto strongest = std::max_element(energies.begin(), energies.end()) - energies.begin();
   std::swap(rotation[0], rotation[static_cast<size_t>(strongest)]);
+}
+
+ColourDetails pooled(std::span<const ColourDetails> details) {
+  ColourDetails all;
+  for (const ColourDetails& scale : details)
+    all.samples.insert(all.samples.end(), scale.samples.begin(), scale.samples.end());
+  return all;
+}
+
+/// One for each level. Each starts from that of the finer level, so that components keep their
+/// places.
+std::vector<Matrix3> fitRotations(std::span<const ColourDetails> details, Purpose purpose) {
+  std::vector<Matrix3> rotations;
+  for (const ColourDetails& scale : details) {
+    if (rotations.empty()) {
+      rotations.push_back(cheapestRotation(fixedRotation(), scale, purpose));
+      putLumaFirst(rotations.front(), scale);
+    } else {
+      rotations.push_back(cheapestRotation(rotations.back(), scale, purpose));
+    }
+  }
+  return rotations;
 }
 
 /// A choice of shears for a rotation: the order of the channels, and whether c1 is row 2.
@@ -203,20 +149,42 @@ void setRotation(ColourTransform& transform, const Matrix3& rotation) {
   }
 }
 
-ColourTransform fitColour(std::span<const int32_t* const> planes, uint32_t width, uint32_t height) {
+ColourAxes fitAxes(std::span<const int32_t* const> planes, uint32_t width, uint32_t height,
+                   Purpose purpose) {
+  ColourAxes axes;
+  axes.details = sampleDetails(planes, width, height);
+  axes.overall = fixedRotation();
+  if (axes.details.empty()) return axes;
+  const ColourDetails all = pooled(axes.details);
+  axes.overall = cheapestRotation(fixedRotation(), all, purpose);
+  putLumaFirst(axes.overall, all);
+  axes.levels = fitRotations(axes.details, purpose);
+  return axes;
+}
+
+ColourTransform centred(std::span<const int32_t* const> planes, size_t count) {
   ColourTransform transform;
-  const size_t count = size_t{width} * height;
   for (size_t p = 0; p < planes.size(); ++p) {
     const int64_t sum = std::accumulate(planes[p], planes[p] + count, int64_t{0});
     const auto pixels = static_cast<int64_t>(count);
     transform.centre[p] = static_cast<uint16_t>((sum + pixels / 2) / pixels);
   }
-  if (planes.size() < 3) return transform;
-  const std::vector<Colour> details = sampleDetails(planes, width, height);
-  Matrix3 rotation = cheapestRotation(details);
-  putLumaFirst(rotation, details);
-  setRotation(transform, rotation);
   return transform;
+}
+
+ColourTransform fitColour(std::span<const int32_t* const> planes, uint32_t width, uint32_t height) {
+  ColourTransform best = centred(planes, size_t{width} * height);
+  if (planes.size() < 3) return best;
+  const ColourAxes axes = fitAxes(planes, width, height, Purpose::kLossy);
+  setRotation(best, axes.overall);
+  if (axes.details.empty()) return best;
+  // The finest details are where most bits go at the rates of interest: a step of their size.
+  const double step = meanMagnitude(axes.details.front());
+  double least = turnLevels(best, axes, step);
+  ColourTransform other = best;
+  other.level_shears.clear();
+  setRotation(other, axes.levels.front());
+  return turnLevels(other, axes, step) < least ? other : best;
 }
 
 }  // namespace tetrakis

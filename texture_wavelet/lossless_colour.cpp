@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "texture_wavelet/colour_fit.hpp"
+#include "texture_wavelet/colour_level_fit.hpp"
 #include "wavelet/typical_parts.hpp"
 
 namespace tetrakis {
@@ -15,8 +18,8 @@ constexpr int16_t kOne = 1 << kShearFractionBits;
 
 /// Differences to channel kChannelOrders[order][0], and its mean with them: RCT (ISO/IEC 15444-1,
 /// G.2) where that is green.
-ColourTransform reversible(const ColourTransform& fitted, uint8_t order) {
-  ColourTransform transform = fitted;
+ColourTransform reversible(const ColourTransform& none, uint8_t order) {
+  ColourTransform transform = none;
   transform.order = order;
   transform.shears = {0, -kOne, 0, -kOne, kOne / 4, kOne / 4};
   return transform;
@@ -66,25 +69,29 @@ double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
 
 }  // namespace
 
-ColourTransform chooseLosslessColour(const ColourTransform& fitted,
-                                     std::span<const int32_t* const> planes, uint32_t width,
+ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, uint32_t width,
                                      uint32_t height) {
-  if (planes.size() < 3) return fitted;
-  ColourTransform none = fitted;
-  none.shears = {};
+  const ColourTransform none = centred(planes, size_t{width} * height);
+  if (planes.size() < 3) return none;
+  const ColourAxes axes = fitAxes(planes, width, height, Purpose::kLossless);
+  // One order for each channel that may come first; that of the other two makes no difference.
+  std::vector<ColourTransform> candidates = {none, reversible(none, 0), reversible(none, 2),
+                                             reversible(none, 4)};
+  setRotation(candidates.emplace_back(none), axes.overall);
+  if (!axes.levels.empty()) setRotation(candidates.emplace_back(none), axes.levels.front());
   std::vector<Sample> samples;
   for (const Part& part : typicalParts(width, height))
     samples.push_back(sampleOf(part, planes, width));
-  ColourTransform best = fitted;
-  double least = bitsOf(samples, fitted);
-  // One order for each channel that may come first; that of the other two makes no difference.
-  for (const ColourTransform& candidate :
-       {reversible(fitted, 0), reversible(fitted, 2), reversible(fitted, 4), none}) {
+  ColourTransform best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ColourTransform& candidate : candidates) {
     const double bits = bitsOf(samples, candidate);
     if (bits >= least) continue;
     least = bits;
     best = candidate;
   }
+  constexpr double kStep = 1;  // what is left when the last bits are coded
+  turnLevels(best, axes, kStep);
   return best;
 }
 

@@ -2,11 +2,13 @@
 #include "texture_wavelet/texture_decoder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
 #include "bitstream/parallel.hpp"
 #include "lattice/validity_decoder.hpp"
+#include "texture_wavelet/colour_levels.hpp"
 #include "texture_wavelet/drawn_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/mip_level.hpp"
@@ -130,6 +132,7 @@ class Planes {
 
   std::span<int32_t* const> restore(Validity coded, uint32_t threads) {
     const WaveletSpec spec = specOf(header_.wavelet);
+    inverseColourLevels(colourOf(header_), subbands_, mip_.level(), pointers_, mip_.low().width);
     for (int32_t* plane : pointers_) {
       const std::span<int32_t> values(plane, count_);
       inverseWavelet(mip_.transform(spec), values, mip_.low().width, mip_.low().height, coded,
@@ -149,6 +152,22 @@ class Planes {
   std::vector<std::unique_ptr<int32_t[]>> planes_;
   std::vector<int32_t*> pointers_;
 };
+
+/// The shears of every level, of what a window needs.
+void inverseColourLevels(const ColourTransform& colour, std::span<const Subband> subbands,
+                         std::span<WindowSynthesis> planes) {
+  if (planes.size() < 3) return;
+  for (const Subband& subband : subbands) {
+    const uint32_t rows = planes.front().rows(subband);
+    for (uint32_t row = 0; row < rows; ++row) {
+      const auto values = planes[0].row(subband, row);
+      inverseLevelColour(colour, subband.level,
+                         std::array{values.data(), planes[1].row(subband, row).data(),
+                                    planes[2].row(subband, row).data()},
+                         values.size());
+    }
+  }
+}
 
 /// Of an image that is decoded whole.
 Texels crop(const Texels& whole, const Window& window) {
@@ -217,6 +236,7 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
         for (size_t k = 0; k < state.bands.size(); ++k)
           synthesis[k / parts.size()].put(state.bands[k], more_bits, parts[k % parts.size()]);
       });
+  inverseColourLevels(colourOf(header), plan.layout().subbands(), synthesis);
   const auto cropped = [&](std::span<const uint8_t> mask) {
     return mask.empty() ? std::vector<uint8_t>() : crop(mask, header.width, window);
   };

@@ -8,6 +8,7 @@
 #include "bitstream/parallel.hpp"
 #include "lattice/validity_encoder.hpp"
 #include "texture_wavelet/colour_fit.hpp"
+#include "texture_wavelet/colour_levels.hpp"
 #include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/drawn_encoder.hpp"
 #include "texture_wavelet/lossless_colour.hpp"
@@ -30,8 +31,19 @@ Planes separate(const Texels& texels, uint32_t channels) {
   return planes;
 }
 
+/// Squared error of all channels per squared error of each component's coefficients of a level;
+/// alpha counts like a colour.
+std::vector<double> energiesOf(size_t components, const ColourTransform& colour, int level) {
+  std::vector<double> energies(components, 1.0);
+  if (components >= 3) {
+    const std::array<double, 3> rgb = componentEnergies(colour, level);
+    std::copy(rgb.begin(), rgb.end(), energies.begin());
+  }
+  return energies;
+}
+
 TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
-                         const WaveletHeader& wavelet, const std::vector<double>& energies) {
+                         const WaveletHeader& wavelet, size_t components) {
   TextureHeader header;
   header.width = texels.width;
   header.height = texels.height;
@@ -40,22 +52,15 @@ TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
   header.wavelet = wavelet;
   header.centre = colour.centre;
   header.colour_order = colour.order;
-  for (size_t i = 0; i < colour.shears.size(); ++i) header.colour_shears[i] = colour.shears[i];
-  for (size_t c = 0; c < energies.size(); ++c) {
+  std::copy(colour.shears.begin(), colour.shears.end(), header.colour_shears.front().begin());
+  for (const Shears& shears : colour.level_shears)
+    std::copy(shears.begin(), shears.end(), header.colour_shears.emplace_back().begin());
+  const std::vector<double> energies = energiesOf(components, colour, 1);
+  for (size_t c = 0; c < components; ++c) {
     const double priority = std::round(8 * std::log2(energies[c]));
     header.priority[c] = static_cast<int64_t>(std::clamp(priority, -128.0, 128.0));
   }
   return header;
-}
-
-/// Squared error of all channels per squared error of each component; alpha counts like a colour.
-std::vector<double> energiesOf(size_t components, const ColourTransform& colour) {
-  std::vector<double> energies(components, 1.0);
-  if (components >= 3) {
-    const std::array<double, 3> rgb = componentEnergies(colour);
-    std::copy(rgb.begin(), rgb.end(), energies.begin());
-  }
-  return energies;
 }
 
 /// Samples that go through the colour transform together: few enough for the cache.
@@ -73,9 +78,8 @@ void transformColours(const ColourTransform& colour, int fraction_bits, Planes& 
 ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose purpose) {
   std::vector<const int32_t*> pointers;
   for (const std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
-  const ColourTransform fitted = fitColour(pointers, texels.width, texels.height);
-  if (purpose == Purpose::kLossy) return fitted;
-  return chooseLosslessColour(fitted, pointers, texels.width, texels.height);
+  const auto fit = purpose == Purpose::kLossy ? fitColour : chooseLosslessColour;
+  return fit(pointers, texels.width, texels.height);
 }
 
 /// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of
@@ -113,24 +117,30 @@ void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track
   track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth});
 }
 
-std::vector<EncodedTrack> encodePlanes(const TextureHeader& header,
-                                       std::span<const double> energies, Validity coded,
-                                       const TrackOptions& options, Planes& planes) {
+std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const ColourTransform& colour,
+                                       Validity coded, const TrackOptions& options,
+                                       Planes& planes) {
   const TexturePlan plan(header);
   const PlaneLayout& layout = plan.layout();
   const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
   std::vector<TrackSource> sources(plan.regions().size());
   for (size_t i = 0; i < sources.size(); ++i)
     sources[i].plan = plan.bands(plan.parts(i), coded, header.width);
-  for (size_t c = 0; c < planes.size(); ++c) {
-    for (size_t i = 0; i < coded.size(); ++i) planes[c][i] *= coded[i];
-    forwardWavelet(specOf(header.wavelet), planes[c], header.width, header.height, coded,
+  std::vector<int32_t*> pointers;
+  for (std::vector<int32_t>& plane : planes) {
+    for (size_t i = 0; i < coded.size(); ++i) plane[i] *= coded[i];
+    forwardWavelet(specOf(header.wavelet), plane, header.width, header.height, coded,
                    options.threads);
+    pointers.push_back(plane.data());
+  }
+  forwardColourLevels(colour, layout.subbands(), 0, pointers, header.width);
+  for (size_t c = 0; c < planes.size(); ++c) {
     parallelFor(options.threads, sources.size(), [&](size_t i) {
       for (const BandPart& part : plan.parts(i)) {
-        sources[i].bands.push_back(
-            {gather(planes[c], header.width, layout.subbands()[part.subband], part),
-             layout.energy(part.subband) * energies[c] * unit});
+        const Subband& subband = layout.subbands()[part.subband];
+        const double energy = energiesOf(planes.size(), colour, subband.level)[c];
+        sources[i].bands.push_back({gather(planes[c], header.width, subband, part),
+                                    layout.energy(part.subband) * energy * unit});
       }
     });
     planes[c] = {};
@@ -149,15 +159,14 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   if (!coded.empty()) hideColours(coded, planes);
   const ColourTransform colour = fitColours(planes, texels, purpose);
   const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
-  const std::vector<double> energies = energiesOf(planes.size(), colour);
-  EncodedTexture encoded{makeHeader(texels, colour, wavelet, energies), {}};
+  EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
   TextureHeader& header = encoded.header;
   header.hidden = hidden;
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
   std::vector<uint8_t> mask;
   if (!seen.empty()) mask = encodeValidity(seen, texels.width, texels.height);
   header.alpha_bytes = mask.size();
-  encoded.tracks = encodePlanes(header, energies, coded, options, planes);
+  encoded.tracks = encodePlanes(header, colour, coded, options, planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   header.regions.whole_bytes = wholeBytes(encoded);
   const double most = (1 << texels.bits) - 1;

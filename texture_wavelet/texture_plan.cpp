@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/texture_plan.hpp"
 
+#include <algorithm>
+
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -41,9 +43,15 @@ ColourTransform colourOf(const TextureHeader& header) {
   ColourTransform transform;
   transform.centre = header.centre;
   transform.order = header.colour_order;
-  for (size_t i = 0; i < transform.shears.size(); ++i) {
-    transform.shears[i] = static_cast<int16_t>(header.colour_shears[i]);
-  }
+  const auto shears_at = [&](size_t i) {
+    Shears shears;
+    std::transform(header.colour_shears[i].begin(), header.colour_shears[i].end(), shears.begin(),
+                   [](int64_t shear) { return static_cast<int16_t>(shear); });
+    return shears;
+  };
+  transform.shears = shears_at(0);
+  for (size_t i = 1; i < header.colour_shears.size(); ++i)
+    transform.level_shears.push_back(shears_at(i));
   return transform;
 }
 

@@ -20,6 +20,8 @@ class MipLevel {
 
   static int coarsestLevel(uint32_t width, uint32_t height);
 
+  int level() const { return level_; }
+
   /// ceil(width / 2^level) x ceil(height / 2^level).
   Extent size() const { return size_; }
   size_t samples() const { return size_t{size_.width} * size_.height; }

@@ -94,6 +94,15 @@ void WindowSynthesis::put(const Band& band, int fraction_bits, const BandPart& p
   }
 }
 
+uint32_t WindowSynthesis::rows(const Subband& subband) {
+  return targetOf(subband).rows.size();
+}
+
+std::span<int32_t> WindowSynthesis::row(const Subband& subband, uint32_t row) {
+  const Target target = targetOf(subband);
+  return {target.values->data() + target.first + row * target.row_pitch, target.columns.size()};
+}
+
 void WindowSynthesis::copyLow(const std::vector<int32_t>& low, int number) {
   Level& level = levels_[static_cast<size_t>(number - 1)];
   const size_t columns = level.x.low.size(), width = level.x.block.size();

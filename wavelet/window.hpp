@@ -43,6 +43,10 @@ class WindowSynthesis {
   /// As scatter(), of what is needed. Parts that do not overlap may be put at the same time.
   void put(const Band& band, int fraction_bits, const BandPart& part);
 
+  /// The coefficients of a subband that are needed: how many rows, and each in place.
+  uint32_t rows(const Subband& subband);
+  std::span<int32_t> row(const Subband& subband, uint32_t row);
+
   /// The samples of the window, row by row. valid: of the whole plane, or empty.
   std::vector<int32_t> run(Validity valid);
 

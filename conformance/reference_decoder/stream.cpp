@@ -149,8 +149,12 @@ TextureHeader readTexture(Reader& in) {
     t.priority[i] = in.zigzag(128);
   }
   if (t.components >= 3) {
-    t.colourOrder = in.u8(0, 5);
-    for (int& h : t.shear) h = in.zigzag(32767);
+    const int colour = in.u8(0, 47);
+    t.colourOrder = colour % 6;
+    t.shears.resize(colour / 6 + 1);
+    for (auto& shears : t.shears) {
+      for (int& h : shears) h = in.zigzag(32767);
+    }
   }
   return t;
 }

@@ -52,7 +52,7 @@ struct TextureHeader {
   RegionHeader regions;
   std::array<int, 4> centre = {}, priority = {};
   int colourOrder = 0;
-  std::array<int, 6> shear = {};
+  std::vector<std::array<int, 6>> shears;  ///< of samples, of level 2, 3, ...
 };
 
 /// The codewords of a component's tracks.

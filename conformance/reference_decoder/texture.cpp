@@ -30,14 +30,34 @@ std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part
   return all;
 }
 
-/// FORMAT 9, "Inverse component transform", at one texel.
-void unshear(const std::array<int, 6>& h, std::array<int32_t, 4>& c) {
-  const auto shear = [](int64_t h0, int64_t a, int64_t h1, int64_t b) {
-    return wrap(h0 * a + h1 * b + 512) >> 10;
+/// FORMAT 9, "Inverse component transform", at one place. Sums of samples wrap at 32 bits.
+enum class Sums { kOfSamples, kOfCoefficients };
+
+void unshear(const std::array<int, 6>& h, Sums sums, std::array<int32_t*, 3> c) {
+  const auto shear = [&](int64_t h0, int64_t a, int64_t h1, int64_t b) {
+    const int64_t sum = h0 * a + h1 * b + 512;
+    return (sums == Sums::kOfSamples ? wrap(sum) : sum) >> 10;
   };
-  c[0] = wrap(int64_t{c[0]} - shear(h[4], c[1], h[5], c[2]));
-  c[2] = wrap(int64_t{c[2]} - shear(h[2], c[1], h[3], c[0]));
-  c[1] = wrap(int64_t{c[1]} - shear(h[0], c[2], h[1], c[0]));
+  *c[0] = wrap(*c[0] - shear(h[4], *c[1], h[5], *c[2]));
+  *c[2] = wrap(*c[2] - shear(h[2], *c[1], h[3], *c[0]));
+  *c[1] = wrap(*c[1] - shear(h[0], *c[2], h[1], *c[0]));
+}
+
+/// FORMAT 9, "Levels": before the inverse wavelet.
+void unshearLevels(const TextureHeader& header, const std::vector<Subband>& subbands,
+                   std::vector<Plane>& planes) {
+  if (header.shears.size() < 2) return;
+  for (const Subband& band : subbands) {
+    if (band.level < 2) continue;
+    const size_t set = std::min<size_t>(band.level - 1, header.shears.size() - 1);
+    for (int r = 0; r < band.rows; ++r) {
+      for (int a = 0; a < band.columns; ++a) {
+        const int x = band.x(a), y = band.y(r);
+        unshear(header.shears[set], Sums::kOfCoefficients,
+                {&planes[0].at(x, y), &planes[1].at(x, y), &planes[2].at(x, y)});
+      }
+    }
+  }
 }
 
 /// The samples of one texel, by channel.
@@ -46,7 +66,7 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
                                     {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   std::array<int32_t, 4> channels = planes;
   if (header.components >= 3) {
-    unshear(header.shear, planes);
+    unshear(header.shears[0], Sums::kOfSamples, {&planes[0], &planes[1], &planes[2]});
     for (size_t i = 0; i < 3; ++i) {
       channels[kOrders[header.colourOrder][i]] = planes[i];
     }
@@ -104,8 +124,12 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
       const auto own = std::span(bands[i]).subspan(c * parts[i].size(), parts[i].size());
       place(own, parts[i], f - header.wavelet.fractionBits, plane);
     }
+    planes.push_back(std::move(plane));
+  }
+  unshearLevels(header, subbands, planes);
+  for (Plane& plane : planes) {
     synthesise(header.wavelet, subbands, level, plane);
-    planes.push_back(levelOf(header.wavelet, subbands, level, plane));
+    plane = levelOf(header.wavelet, subbands, level, plane);
   }
   const int columns = planes[0].width, rows = planes[0].height;
   std::vector<uint8_t> samples;

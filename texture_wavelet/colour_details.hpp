@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the axes of colour are fitted to: orthonormal Haar details of all scales. Encoder only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tetrakis {
+
+using Colour = std::array<float, 3>;
+
+/// Details of one scale.
+struct ColourDetails {
+  std::vector<Colour> samples;
+  double weight = 1;  ///< coefficients of the image that each stands for
+};
+
+/// [i]: of level i + 1, some thousands at most. planes: 3 or more of width * height samples. Empty
+/// where the image has less than two rows or columns.
+std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, uint32_t width,
+                                         uint32_t height);
+
+/// Mean over samples and channels; 0 if there are none.
+double meanMagnitude(const ColourDetails& details);
+
+/// Estimated bits of all coefficients along one axis, a unit vector: log2(1 + |c| / step) each.
+double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step);
+
+}  // namespace tetrakis
