@@ -65,7 +65,7 @@ int32_t Reconstruction::significant(size_t cell, int plane) const {
     uint32_t near = 0, far = 0;
     for (ptrdiff_t n : neighbours_.near) near += std::min(m[n] >> plane, 30u);
     for (ptrdiff_t n : neighbours_.far) far += std::min(m[n] >> plane, 30u);
-    value += fraction(kCentroid[static_cast<size_t>(localClass(2 * near + far))], plane);
+    value += fraction(kCentroid[kLocalClass[std::min(2 * near + far, 255u)]], plane);
   }
   return band_.sign[cell] * value;
 }
