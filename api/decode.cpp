@@ -110,12 +110,10 @@ Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
   const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
   if (!decoded.ok()) return decoded.status();
   const StreamHeader& header = decoder.parsed.header;
-  const DecodedGeometry& geometry = (*decoded)->geometry;
-  const size_t wanted =
-      geometry.heights.size() * tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample));
+  const size_t wanted = (*decoded)->geometry.heights.size() *
+                        tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample));
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  fromSteps(wholeSteps(geometry), *header.geometry, header.layers,
-            {geometry.valid, (*decoded)->corrections}, out);
+  fromSteps(**decoded, *header.geometry, header.layers, out);
   return {};
 }
 

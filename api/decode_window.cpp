@@ -56,8 +56,7 @@ Status heightsWindow(const tks_decoder& decoder, const WindowRequest& request) {
       !s.ok())
     return s;
   const DecodedHeights decoded = windowOf(decoder, request.asked());
-  fromSteps(wholeSteps(decoded.geometry), g, header.layers,
-            {decoded.geometry.valid, decoded.corrections}, request.out);
+  fromSteps(decoded, g, header.layers, request.out);
   return {};
 }
 

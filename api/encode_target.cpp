@@ -47,12 +47,10 @@ HeightErrors EncodeJob::heightErrors(uint64_t bytes) const {
   const DecodedHeights decoded = decodedHeights(bytes);
   const StreamHeader header = makeHeader(0, false);
   const std::vector<uint8_t>& valid = geometry_->steps.valid;
-  const std::vector<int32_t> steps = wholeSteps(decoded.geometry);
   return withSampleType(heights_->sample, [&](auto type) {
     using T = decltype(type);
-    std::vector<T> samples(steps.size());
-    fromSteps(steps, *header.geometry, header.layers, {decoded.geometry.valid, decoded.corrections},
-              samples.data());
+    std::vector<T> samples(decoded.geometry.heights.size());
+    fromSteps(decoded, *header.geometry, header.layers, samples.data());
     const T* truth = static_cast<const T*>(heights_->data);
     const SampleRange range = rangeOf(*heights_, valid);
     HeightErrors errors;

@@ -20,6 +20,10 @@ namespace {
 constexpr double kMostSteps = 1 << 26;
 constexpr double kLossySteps = 1 << 20;  // finer than any lossy stream resolves
 
+/// Holds the samples of T, and cheaply made of doubles.
+template <class T>
+using Whole = std::conditional_t<sizeof(T) < sizeof(int32_t), int32_t, int64_t>;
+
 template <class T>
 T restore(double base, double step, int32_t q) {
   const double value = base + static_cast<double>(q) * step;
@@ -28,7 +32,11 @@ T restore(double base, double step, int32_t q) {
   } else {
     const double low = static_cast<double>(std::numeric_limits<T>::min());
     const double high = static_cast<double>(std::numeric_limits<T>::max());
-    return static_cast<T>(std::clamp(std::round(value), low, high));
+    // Half away from zero, without a call of the library for each sample.
+    const double inside = std::clamp(value, low, high);
+    const auto whole = static_cast<Whole<T>>(inside);
+    const double rest = inside - static_cast<double>(whole);
+    return static_cast<T>(whole + (rest >= 0.5) - (rest <= -0.5));
   }
 }
 
@@ -209,21 +217,24 @@ Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs) 
   return result;
 }
 
-void fromSteps(const std::vector<int32_t>& steps, const GeometryHeader& header,
-               const GeometryLayers& layers, const SampleLayers& decoded, void* out) {
+void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
+               const GeometryLayers& layers, void* out) {
+  const DecodedGeometry& geometry = decoded.geometry;
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     T* samples = static_cast<T*>(out);
-    for (size_t i = 0; i < steps.size(); ++i)
-      samples[i] = restore<T>(header.base, header.step, steps[i]);
+    for (size_t i = 0; i < geometry.heights.size(); ++i) {
+      const int32_t q = wholeStep(geometry.heights[i], geometry.fraction_bits);
+      samples[i] = restore<T>(header.base, header.step, q);
+    }
     for (size_t i = 0; i < decoded.corrections.size(); ++i) {
       const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
       samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
     }
     if (layers.validity_bytes == 0) return;
     const T nodata = voidSample<T>(layers);
-    for (size_t i = 0; i < decoded.valid.size(); ++i) {
-      if (!decoded.valid[i]) {
+    for (size_t i = 0; i < geometry.valid.size(); ++i) {
+      if (!geometry.valid[i]) {
         samples[i] = nodata;
       } else if (samples[i] == nodata) {
         samples[i] = besides(nodata);

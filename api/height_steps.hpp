@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "api/height_layers.hpp"
 #include "bitstream/header.hpp"
 #include "bitstream/status.hpp"
 
@@ -37,17 +38,11 @@ struct StepNeeds {
 /// sample is infinite, or the given step needs more than 2^26 steps.
 Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
 
-/// What makes samples of steps, besides the header's base and step. Empty spans: nothing to do.
-struct SampleLayers {
-  std::span<const uint8_t> valid;
-  std::span<const int32_t> corrections;  ///< of CorrectionKind::kSamples
-};
-
-/// Writes steps.size() samples of header.sample. steps as decoded; integers saturate at their
+/// Writes samples of header.sample, one for each height of `decoded`; integers saturate at their
 /// type's range. Voids become layers.nodata or NaN; a height that would be that value becomes the
 /// next sample.
-void fromSteps(const std::vector<int32_t>& steps, const GeometryHeader& header,
-               const GeometryLayers& layers, const SampleLayers& decoded, void* out);
+void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
+               const GeometryLayers& layers, void* out);
 
 /// The hints (codec/corrections_pass.hpp) of corrections to samples that these steps become.
 std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header);

@@ -91,7 +91,7 @@ struct Band {
   int plane = 31;                     ///< bit-plane of the last pass; nothing is known below
   bool nonzero = false;               ///< the band holds a significant coefficient
   ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
-  ZeroedArray<uint16_t> scaled;       ///< magnitude >> plane, held below 2^15
+  ZeroedArray<uint8_t> scaled;        ///< magnitude >> plane, held below 2^7
   ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1
   ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
   ZeroedArray<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known, or absent

@@ -4,8 +4,8 @@
 // parts of 13 DEMs, up to 1.3 % on those of 257 x 257.
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "bitstream/adaptive_bit.hpp"
@@ -27,11 +27,18 @@ struct BandModels {
   AdaptiveBit band;
 };
 
-/// Class of a sum of the neighbours' magnitudes: 2 * near + far, in units of 2^plane.
-inline int localClass(uint32_t sum) {
-  constexpr std::array<uint8_t, 31> kClasses = {0, 1, 2, 3, 4, 5, 5, 6, 6, 6, 7, 7, 7, 7, 8, 8,
-                                                8, 8, 8, 8, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 10};
-  return kClasses[std::min(sum, 30u)];
-}
+/// What one neighbour adds to a sum at most: classes end at 30.
+inline constexpr uint8_t kMostLocal = 30;
+
+/// Class of a sum of the neighbours' magnitudes: 2 * near + far, in units of 2^plane, of which each
+/// product is at most kMostLocal.
+inline constexpr auto kLocalClass = [] {
+  constexpr std::array<uint8_t, kMostLocal> kFirst = {0, 1, 2, 3, 4, 5, 5, 6, 6, 6, 7, 7, 7, 7, 8,
+                                                      8, 8, 8, 8, 8, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9};
+  std::array<uint8_t, 256> table{};
+  for (size_t sum = 0; sum < table.size(); ++sum)
+    table[sum] = sum < kFirst.size() ? kFirst[sum] : 10;
+  return table;
+}();
 
 }  // namespace tetrakis

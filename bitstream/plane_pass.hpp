@@ -12,6 +12,7 @@
 //
 // The passes are written once. Io is the encoder's or the decoder's side of a decision:
 //   bool magnitudeBit(AdaptiveBit&, size_t cell, int plane)   bit `plane` of the magnitude
+//   bool refinedBit(AdaptiveBit&, size_t cell, int plane)     the same of a significant one
 //   bool signBit(AdaptiveBit&, size_t cell, bool flip)        negative, xor flip
 //   bool blockBit(AdaptiveBit&, uint32_t y, uint32_t x, int plane)   a magnitude of the block
 //                                                                    reaches 2^plane
@@ -22,6 +23,8 @@
 //   bool stopped()                                            the last decision did not count
 //   void learned(size_t cell, uint32_t before, uint32_t after, int plane)   known bits of a
 //                                                                           magnitude
+//   Plenty                              a faster Io, made of an Io& for a while
+//   bool hasPlenty(size_t decisions)    it may be used for so many decisions
 #pragma once
 
 #include <algorithm>
@@ -32,6 +35,7 @@
 
 #include "bitstream/band.hpp"
 #include "bitstream/band_models.hpp"
+#include "bitstream/local_sums.hpp"
 
 namespace tetrakis {
 
@@ -56,17 +60,17 @@ class PlanePass {
     if (!band_.nonzero) {
       if (kind != PassKind::kRest || !bandBecomesNonzero()) return;
     }
-    for (uint32_t y = 0; y < band_.blockRows(); ++y) {
-      for (uint32_t x = 0; x < band_.shape.words(); ++x) {
-        block(kind, y, x);
-        if (io_.stopped()) return;
-      }
+    switch (kind) {
+      case PassKind::kLikely:
+        return blocks<PassKind::kLikely>();
+      case PassKind::kRest:
+        return blocks<PassKind::kRest>();
+      case PassKind::kRefine:
+        return blocks<PassKind::kRefine>();
     }
   }
 
  private:
-  using Sums = std::array<uint16_t, 33>;  // the last one is never used, only added to
-
   void beginPlane() {
     band_.plane = plane_;
     if (!band_.nonzero) return;
@@ -74,9 +78,9 @@ class PlanePass {
     for (uint32_t row = 0; row < band_.shape.rows; ++row) {
       for (uint32_t x = 0; x < band_.shape.words(); ++x) {
         if (band_.significant[band_.shape.word(row, x)] == 0) continue;
-        uint16_t* scaled = band_.scaled.data() + band_.shape.cell(row, 32 * x);
+        uint8_t* scaled = band_.scaled.data() + band_.shape.cell(row, 32 * x);
         for (uint32_t i = 0; i < 32; ++i)
-          scaled[i] = static_cast<uint16_t>(scaled[i] < 0x4000 ? 2 * scaled[i] : scaled[i]);
+          scaled[i] = static_cast<uint8_t>(2 * std::min<uint8_t>(scaled[i], 0x3f));
       }
     }
   }
@@ -87,29 +91,35 @@ class PlanePass {
     return band_.nonzero;
   }
 
-  void block(PassKind kind, uint32_t y, uint32_t x) {
+  template <PassKind kKind>
+  void blocks() {
+    for (uint32_t y = 0; y < band_.blockRows(); ++y) {
+      for (uint32_t x = 0; x < band_.shape.words(); ++x) {
+        block<kKind>(y, x);
+        if (io_.stopped()) return;
+      }
+    }
+  }
+
+  template <PassKind kKind>
+  void block(uint32_t y, uint32_t x) {
     uint8_t& nonzero = band_.block(y, x);
     const uint32_t begin = y * Band::kBlockRows,
                    end = std::min(begin + Band::kBlockRows, band_.shape.rows);
     if (!nonzero) {
-      if (kind != PassKind::kRest || isVacant(begin, end, x)) return;
+      if (kKind != PassKind::kRest || isVacant(begin, end, x)) return;
       const bool bit = band_.block_nonzero.size() == 1 ||
                        io_.blockBit(models_.block[blockContext(y, x)], y, x, plane_);
       if (io_.stopped()) return;
       if (!bit) return markVisited(begin, end, x);
       nonzero = 1;
     }
+    const uint32_t valid = band_.shape.valid(x);
     for (uint32_t row = begin; row < end && !io_.stopped(); ++row) {
-      switch (kind) {
-        case PassKind::kLikely:
-          significanceRow<true>(row, x);
-          break;
-        case PassKind::kRest:
-          significanceRow<false>(row, x);
-          break;
-        case PassKind::kRefine:
-          refinementRow(row, x);
-          break;
+      if (kKind == PassKind::kRefine) {
+        refinementRow(row, x);
+      } else {
+        significanceRow<kKind>(row, x, valid);
       }
     }
   }
@@ -136,66 +146,72 @@ class PlanePass {
     return at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
   }
 
-  /// 2 (near) + 1 (far) weighted sums of the known magnitudes around 32 cells, in units of 2^plane.
-  void localSums(size_t first, Sums& sums) const {
-    const ptrdiff_t row = band_.shape.stride();
-    const uint16_t* here = band_.scaled.data() + first;
-    const uint16_t *above = here - row, *below = here + row;
-    for (ptrdiff_t i = 0; i < 32; ++i) {
-      const int near = here[i - 1] + here[i + 1] + above[i] + below[i];
-      const int far = above[i - 1] + above[i + 1] + below[i - 1] + below[i + 1];
-      const int sum = 2 * near + far;
-      sums[static_cast<size_t>(i)] = static_cast<uint16_t>(std::min(sum, 0x7fff));
-    }
-  }
-
-  /// Expected magnitude: the parent's (same place, one level coarser) and that of the same place in
-  /// another component, doubled, in units of 2^plane.
-  int hintClass(uint32_t row, uint32_t column) const {
-    uint32_t hint = 0;
-    if (parent_ != nullptr) hint += parent_->magnitude[parent_->shape.cell(row / 2, column / 2)];
-    if (component_ != nullptr) hint += component_->magnitude[component_->shape.cell(row, column)];
-    return std::min<int>(std::bit_width((2 * hint) >> plane_), BandModels::kHint - 1);
+  /// Class of the magnitude that is expected from hints: theirs, doubled, in units of 2^plane.
+  size_t hintClass(uint32_t hint) const {
+    constexpr uint32_t kMost = (1u << (BandModels::kHint - 1)) - 1;
+    return static_cast<size_t>(std::bit_width(std::min((2 * hint) >> plane_, kMost)));
   }
 
   /// One row of 32 columns while significance is coded.
   struct Row {
-    uint32_t row, column;  ///< of the first cell
-    size_t word, first;    ///< indices of the word and of the first cell
-    uint32_t todo;         ///< columns still to be coded
-    uint32_t near;         ///< columns with a significant neighbour
+    size_t word, first;         ///< indices of the word and of the first cell
+    const uint32_t* parent;     ///< hints: magnitudes of the same place one level coarser, ...
+    const uint32_t* component;  ///< ... and in another component
+    uint32_t todo;              ///< columns still to be coded
+    uint32_t near;              ///< columns with a significant neighbour
     uint32_t visited;
-    Sums sums;
+    LocalSums sums;
+
+    uint32_t hint(uint32_t i) const { return parent[i / 2] + component[i]; }
+    uint32_t groupHint(uint32_t i) const {
+      const uint32_t *p = parent + i / 2, *c = component + i;
+      return p[0] | p[1] | c[0] | c[1] | c[2] | c[3];
+    }
   };
 
-  template <bool kLikelyOnly>
-  void significanceRow(uint32_t row, uint32_t x) {
+  static const uint32_t* hints(const Band* band, uint32_t row, uint32_t column) {
+    static constexpr std::array<uint32_t, 32> kNone{};
+    return band == nullptr ? kNone.data() : band->magnitude.data() + band->shape.cell(row, column);
+  }
+
+  template <PassKind kKind>
+  void significanceRow(uint32_t row, uint32_t x, uint32_t valid) {
     Row r;
     r.word = band_.shape.word(row, x);
     r.visited = band_.visited[r.word];
-    const uint32_t free = ~band_.significant[r.word] & ~r.visited & band_.shape.valid(x);
+    const uint32_t free = ~band_.significant[r.word] & ~r.visited & valid;
     if (free == 0) return;
     r.near = band_.nearSignificant(r.word);
-    r.todo = kLikelyOnly ? free & r.near : free;
+    r.todo = kKind == PassKind::kLikely ? free & r.near : free;
     if (r.todo == 0) return;
-    r.row = row;
-    r.column = 32 * x;
     r.first = band_.shape.cell(row, 32 * x);
-    localSums(r.first, r.sums);
+    r.parent = hints(parent_, row / 2, 16 * x);
+    r.component = hints(component_, row, 32 * x);
+    localSums(band_, r.first, r.sums);
+    if (io_.hasPlenty(kRowDecisions)) {
+      typename Io::Plenty io(io_);
+      significance<kKind>(r, free, io);
+    } else {
+      significance<kKind>(r, free, io_);
+    }
+    band_.visited[r.word] = r.visited;
+  }
+
+  template <PassKind kKind, class RowIo>
+  void significance(Row& r, uint32_t free, RowIo& io) {
     while (r.todo != 0) {
       const auto i = static_cast<uint32_t>(std::countr_zero(r.todo));
-      if (!kLikelyOnly && isQuietGroup(r, i)) {
-        if (!quietGroup(r, i)) break;
+      if (kKind == PassKind::kRest && isQuietGroup(r, i)) {
+        if (!quietGroup(r, i, io)) return;
         continue;
       }
       r.todo &= r.todo - 1;
-      const int local = localClass(r.sums[i]), hint = hintClass(row, r.column + i);
-      const bool bit = io_.magnitudeBit(models_.significance[local][hint], r.first + i, plane_);
-      if (io_.stopped() || (bit && !becomeSignificant(r, i))) break;
+      AdaptiveBit& model = models_.significance[kLocalClass[r.sums[i]]][hintClass(r.hint(i))];
+      const bool bit = io.magnitudeBit(model, r.first + i, plane_);
+      if (io.stopped() || (bit && !becomeSignificant(r, i, io))) return;
       r.visited |= uint32_t{1} << i;
-      if (kLikelyOnly && bit) r.todo |= free & (uint32_t{2} << i);
+      if (kKind == PassKind::kLikely && bit) r.todo |= free & (uint32_t{2} << i);
     }
-    band_.visited[r.word] = r.visited;
   }
 
   static bool isQuietGroup(const Row& r, uint32_t i) {
@@ -203,18 +219,19 @@ class PlanePass {
   }
 
   /// Four columns from i on: whether any becomes significant, and which is the first.
-  bool quietGroup(Row& r, uint32_t i) {
+  template <class RowIo>
+  bool quietGroup(Row& r, uint32_t i, RowIo& io) {
     const size_t cell = r.first + i;
     uint32_t done = 4;  // columns that are settled
-    const bool any = io_.groupBit(models_.group[groupHint(r.row, r.column + i)], cell, plane_);
-    if (io_.stopped()) return false;
+    const bool any = io.groupBit(models_.group[hintClass(r.groupHint(i))], cell, plane_);
+    if (io.stopped()) return false;
     if (any) {
-      const bool high = io_.placeBit(models_.group_place[0], cell, 1, plane_);
-      if (io_.stopped()) return false;
-      const bool low = io_.placeBit(models_.group_place[1 + high], cell, 0, plane_);
-      if (io_.stopped()) return false;
+      const bool high = io.placeBit(models_.group_place[0], cell, 1, plane_);
+      if (io.stopped()) return false;
+      const bool low = io.placeBit(models_.group_place[1 + high], cell, 0, plane_);
+      if (io.stopped()) return false;
       done = 2 * high + low + 1;
-      if (!becomeSignificant(r, i + done - 1)) return false;
+      if (!becomeSignificant(r, i + done - 1, io)) return false;
     }
     const uint32_t settled = ((uint32_t{1} << done) - 1) << i;
     r.visited |= settled;
@@ -222,20 +239,8 @@ class PlanePass {
     return true;
   }
 
-  int groupHint(uint32_t row, uint32_t column) const {
-    uint32_t hint = 0;
-    if (parent_ != nullptr) {
-      const uint32_t* m = parent_->magnitude.data() + parent_->shape.cell(row / 2, column / 2);
-      hint |= m[0] | m[1];
-    }
-    if (component_ != nullptr) {
-      const uint32_t* m = component_->magnitude.data() + component_->shape.cell(row, column);
-      hint |= m[0] | m[1] | m[2] | m[3];
-    }
-    return std::min<int>(std::bit_width((2 * hint) >> plane_), BandModels::kHint - 1);
-  }
-
-  bool becomeSignificant(Row& r, uint32_t i) {
+  template <class RowIo>
+  bool becomeSignificant(Row& r, uint32_t i, RowIo& io) {
     const size_t cell = r.first + i;
     const int8_t* s = band_.sign.data() + cell;
     const auto& near = neighbours_.near;
@@ -243,44 +248,60 @@ class PlanePass {
         3 * std::clamp(s[near[0]] + s[near[1]], -1, 1) + std::clamp(s[near[2]] + s[near[3]], -1, 1);
     const bool flip = context < 0;
     if (flip) context = -context;
-    const bool negative = io_.signBit(models_.sign[context], cell, flip);
-    if (io_.stopped()) return false;
+    const bool negative = io.signBit(models_.sign[static_cast<size_t>(context)], cell, flip);
+    if (io.stopped()) return false;
     band_.magnitude[cell] = uint32_t{1} << plane_;
     band_.scaled[cell] = 1;
-    band_.sign[cell] = negative ? -1 : 1;
+    band_.sign[cell] = static_cast<int8_t>(1 - 2 * negative);
     band_.significant[r.word] |= uint32_t{1} << i;
     r.near |= uint32_t{2} << i;
-    r.sums[i + 1] = static_cast<uint16_t>(r.sums[i + 1] + 2);
-    io_.learned(cell, 0, uint32_t{1} << plane_, plane_);
+    r.sums[i + 1] = static_cast<uint8_t>(r.sums[i + 1] + 2);
+    io.learned(cell, 0, uint32_t{1} << plane_, plane_);
     return true;
   }
 
   void refinementRow(uint32_t row, uint32_t x) {
     const size_t word = band_.shape.word(row, x);
-    uint32_t todo = band_.significant[word] & ~band_.visited[word];
+    const uint32_t todo = band_.significant[word] & ~band_.visited[word];
     if (todo == 0) return;
     const size_t first = band_.shape.cell(row, 32 * x);
-    Sums sums;
-    localSums(first, sums);
-    uint32_t visited = band_.visited[word];
-    while (todo != 0) {
+    LocalSums sums;
+    localSums(band_, first, sums);
+    if (io_.hasPlenty(kRowDecisions)) {
+      typename Io::Plenty io(io_);
+      band_.visited[word] |= refinement(first, todo, sums, io);
+    } else {
+      band_.visited[word] |= refinement(first, todo, sums, io_);
+    }
+  }
+
+  /// By the known bits, from the highest: 1, 2 or 3, more.
+  size_t refinementContext(uint32_t known, uint8_t sum) const {
+    const size_t local = kLocalClass[sum];
+    return known == 1 ? local / 2 : known < 4 ? 6 + (local > 6) : 8;
+  }
+
+  /// Returns the columns that were refined.
+  template <class RowIo>
+  uint32_t refinement(size_t first, uint32_t columns, LocalSums& sums, RowIo& io) {
+    for (uint32_t todo = columns; todo != 0; todo &= todo - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(todo));
-      todo &= todo - 1;
       const size_t cell = first + i;
-      const uint32_t known = band_.scaled[cell] / 2;
-      const int local = localClass(sums[i]);
-      const int context = known == 1 ? local / 2 : known < 4 ? 6 + (local > 6) : 8;
-      const bool bit = io_.magnitudeBit(models_.refinement[context], cell, plane_);
-      if (io_.stopped()) break;
-      visited |= uint32_t{1} << i;
+      const size_t context = refinementContext(band_.scaled[cell] / 2u, sums[i]);
+      const bool bit = io.refinedBit(models_.refinement[context], cell, plane_);
+      if (io.stopped()) return columns & ~todo;
       const uint32_t before = band_.magnitude[cell], after = before | uint32_t{bit} << plane_;
       band_.magnitude[cell] = after;
-      band_.scaled[cell] = static_cast<uint16_t>(band_.scaled[cell] | uint16_t{bit});
-      sums[i + 1] = static_cast<uint16_t>(sums[i + 1] + 2 * bit);
-      io_.learned(cell, before, after, plane_);
+      band_.scaled[cell] = static_cast<uint8_t>(band_.scaled[cell] | uint8_t{bit});
+      sums[i + 1] = static_cast<uint8_t>(sums[i + 1] + 2 * bit);
+      io.learned(cell, before, after, plane_);
     }
-    band_.visited[word] = visited;
+    return columns;
   }
+
+  /// Of a row of 32 columns: the most decisions are a group, a place, a sign, and three times
+  /// significance with sign, for every four columns.
+  static constexpr size_t kRowDecisions = 8 * 10;
 
   Band& band_;
   BandModels& models_;

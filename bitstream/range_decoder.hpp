@@ -27,10 +27,19 @@ class RangeDecoder {
     return bit;
   }
 
+  bool decodeUncertain(AdaptiveBit& model) { return decode(model); }
+
   bool decodeEven() { return split(1u << (AdaptiveBit::kPrecision - 1)); }
 
   /// The available bytes do not decide the decision asked for last.
   bool exhausted() const { return exhausted_; }
+
+  /// No byte of the next so many decisions of models is missing.
+  bool hasPlenty(size_t decisions) const {
+    return static_cast<size_t>(end_ - next_) >= kMostBytes * decisions;
+  }
+
+  class Plenty;
 
  private:
   bool split(uint32_t zero) {
@@ -65,12 +74,73 @@ class RangeDecoder {
   }
 
   static constexpr uint32_t kRenormalise = 1u << 24;
+  /// A decision leaves at least 2^24 * kFloor / 2^16 > 2^12 of the range.
+  static constexpr size_t kMostBytes = 2;
+  static_assert((uint64_t{kRenormalise} * AdaptiveBit::kFloor) >> AdaptiveBit::kPrecision >=
+                kRenormalise >> (8 * kMostBytes));
+
   const uint8_t* next_;
   const uint8_t* end_;
   uint32_t code_ = 0;  ///< offset inside the interval, missing bytes read as zeros
   uint32_t range_ = 0xffffffff;
   uint32_t slack_ = 0;  ///< what missing bytes could add to code_ if they were all ones
   bool exhausted_ = false;
+};
+
+/// Decodes while RangeDecoder::hasPlenty() holds, without asking for missing bytes and with its
+/// state in registers; the decoder that it is made from goes on behind it once it is gone.
+class RangeDecoder::Plenty {
+ public:
+  explicit Plenty(RangeDecoder& decoder)
+      : decoder_(decoder), next_(decoder.next_), code_(decoder.code_), range_(decoder.range_) {}
+  Plenty(const Plenty&) = delete;
+  Plenty& operator=(const Plenty&) = delete;
+  ~Plenty() {
+    decoder_.next_ = next_;
+    decoder_.code_ = code_;
+    decoder_.range_ = range_;
+  }
+
+  bool decode(AdaptiveBit& model) {
+    const uint32_t bound = boundOf(model);
+    const bool bit = code_ >= bound;
+    if (bit) {
+      code_ -= bound;
+      range_ -= bound;
+    } else {
+      range_ = bound;
+    }
+    renormalise();
+    model.update(bit);
+    return bit;
+  }
+
+  /// The same without a branch on the decision: for those that nobody can predict.
+  bool decodeUncertain(AdaptiveBit& model) {
+    const uint32_t bound = boundOf(model);
+    const bool bit = code_ >= bound;
+    const uint32_t mask = 0u - uint32_t{bit};
+    code_ -= bound & mask;
+    range_ = bound + ((range_ - 2 * bound) & mask);
+    renormalise();
+    model.update(bit);
+    return bit;
+  }
+
+ private:
+  uint32_t boundOf(const AdaptiveBit& model) const {
+    return static_cast<uint32_t>((uint64_t{range_} * model.zero()) >> AdaptiveBit::kPrecision);
+  }
+  void renormalise() {
+    while (range_ < kRenormalise) {
+      range_ <<= 8;
+      code_ = code_ << 8 | *next_++;
+    }
+  }
+
+  RangeDecoder& decoder_;
+  const uint8_t* next_;
+  uint32_t code_, range_;
 };
 
 }  // namespace tetrakis

@@ -2,10 +2,9 @@
 #include "bitstream/reconstruction.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
-#include "bitstream/band_models.hpp"
+#include "bitstream/local_sums.hpp"
 
 namespace tetrakis {
 
@@ -30,23 +29,29 @@ Reconstruction::Reconstruction(const Band& band, int fraction_bits)
     : band_(band),
       fraction_bits_(fraction_bits),
       neighbours_(band.shape, band.orientation),
-      weights_(weightsOf(band.orientation)) {}
+      weights_(weightsOf(band.orientation)) {
+  for (int above = 0; above < 2; ++above) {
+    const int plane = band.plane + above;
+    if (plane == 0) continue;  // nothing is left open
+    PlaneTables& tables = tables_[static_cast<size_t>(above)];
+    for (size_t i = 0; i < kCentroid.size(); ++i) tables.rest[i] = fraction(kCentroid[i], plane);
+    for (int hint = -kMostHint; hint <= kMostHint; ++hint)
+      tables.guess[static_cast<size_t>(hint + kMostHint)] = fraction(hint, plane);
+  }
+}
 
 void Reconstruction::row(uint32_t row, int32_t* values) const {
   const BandShape& shape = band_.shape;
   for (uint32_t x = 0; x < shape.words(); ++x) {
-    const uint32_t count = std::min(32u, shape.columns - 32 * x);
+    const uint32_t count = std::min(32u, shape.columns - 32 * x), valid = shape.valid(x);
     const size_t word = shape.word(row, x), first = shape.cell(row, 32 * x);
-    const uint32_t significant_here = band_.significant[word], visited = band_.visited[word];
-    uint32_t todo = (significant_here | band_.nearSignificant(word)) & shape.valid(x);
+    const uint32_t here = band_.significant[word] & valid, visited = band_.visited[word];
+    const uint32_t beside = band_.nearSignificant(word) & valid & ~here;
     int32_t* out = values + 32 * x;
     std::fill_n(out, count, 0);
-    for (; todo != 0; todo &= todo - 1) {
-      const auto i = static_cast<uint32_t>(std::countr_zero(todo));
-      const int plane = band_.plane + 1 - static_cast<int>((visited >> i) & 1);
-      out[i] = (significant_here >> i) & 1 ? significant(first + i, plane)
-                                           : insignificant(first + i, plane);
-    }
+    if ((here & visited) != 0) significant<0>(first, here & visited, out);
+    if ((here & ~visited) != 0) significant<1>(first, here & ~visited, out);
+    if (beside != 0) insignificant(first, beside, visited, out);
   }
 }
 
@@ -58,26 +63,39 @@ int32_t Reconstruction::fraction(int sixtyfourths, int plane) const {
   return sixtyfourths < 0 ? -value : value;
 }
 
-int32_t Reconstruction::significant(size_t cell, int plane) const {
-  const uint32_t* m = band_.magnitude.data() + cell;
-  auto value = static_cast<int32_t>(*m << fraction_bits_);
-  if (plane > 0) {
-    uint32_t near = 0, far = 0;
-    for (ptrdiff_t n : neighbours_.near) near += std::min(m[n] >> plane, 30u);
-    for (ptrdiff_t n : neighbours_.far) far += std::min(m[n] >> plane, 30u);
-    value += fraction(kCentroid[static_cast<size_t>(localClass(2 * near + far))], plane);
+/// Of those of 32 columns that are known down to plane band.plane + kAbove.
+template <int kAbove>
+void Reconstruction::significant(size_t first, uint32_t columns, int32_t* out) const {
+  LocalSums sums;
+  localSums<kAbove>(band_, first, sums);
+  const std::array<int32_t, BandModels::kLocal>& rest = tables_[kAbove].rest;
+  const uint32_t* magnitude = band_.magnitude.data() + first;
+  const int8_t* sign = band_.sign.data() + first;
+  for (; columns != 0; columns &= columns - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(columns));
+    const auto open = static_cast<uint32_t>(rest[kLocalClass[sums[i]]]);
+    const uint32_t value = (magnitude[i] << fraction_bits_) + open;
+    out[i] = static_cast<int32_t>(sign[i] < 0 ? 0u - value : value);
   }
-  return band_.sign[cell] * value;
 }
 
-int32_t Reconstruction::insignificant(size_t cell, int plane) const {
-  if (plane == 0) return 0;
-  const int8_t* s = band_.sign.data() + cell;
+void Reconstruction::insignificant(size_t first, uint32_t columns, uint32_t visited,
+                                   int32_t* out) const {
+  const int8_t* s = band_.sign.data() + first;
   const auto &near = neighbours_.near, &far = neighbours_.far;
-  return fraction(weights_.along * (s[near[0]] + s[near[1]]) +
-                      weights_.across * (s[near[2]] + s[near[3]]) +
-                      weights_.diagonal * (s[far[0]] + s[far[1]] + s[far[2]] + s[far[3]]),
-                  plane);
+  std::array<int16_t, 32> hints;
+  for (ptrdiff_t i = 0; i < 32; ++i) {
+    const int along = s[i + near[0]] + s[i + near[1]], across = s[i + near[2]] + s[i + near[3]];
+    const int diagonal = s[i + far[0]] + s[i + far[1]] + s[i + far[2]] + s[i + far[3]];
+    hints[static_cast<size_t>(i)] =
+        static_cast<int16_t>(kMostHint + weights_.along * along + weights_.across * across +
+                             weights_.diagonal * diagonal);
+  }
+  for (; columns != 0; columns &= columns - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(columns));
+    const size_t above = ~(visited >> i) & 1;
+    out[i] = tables_[above].guess[static_cast<size_t>(hints[i])];
+  }
 }
 
 }  // namespace tetrakis

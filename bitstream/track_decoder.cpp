@@ -8,28 +8,46 @@ namespace tetrakis {
 namespace {
 
 /// The decoder's side of PlanePass: every decision comes out of the codeword.
-class DecodingIo {
- public:
-  explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
-  bool magnitudeBit(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
-  bool signBit(AdaptiveBit& model, size_t, bool flip) { return decoder_.decode(model) != flip; }
-  bool blockBit(AdaptiveBit& model, uint32_t, uint32_t, int) { return decoder_.decode(model); }
-  bool groupBit(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
-  bool placeBit(AdaptiveBit& model, size_t, uint32_t, int) { return decoder_.decode(model); }
-  bool bandBit(AdaptiveBit& model, int) { return decoder_.decode(model); }
-  bool stopped() const { return decoder_.exhausted(); }
-  void learned(size_t, uint32_t, uint32_t, int) {}
+template <class Decoder>
+struct Decisions {
+  Decoder decoder;
 
- private:
-  RangeDecoder decoder_;
+  bool magnitudeBit(AdaptiveBit& model, size_t, int) { return decoder.decode(model); }
+  bool refinedBit(AdaptiveBit& model, size_t, int) { return decoder.decodeUncertain(model); }
+  bool signBit(AdaptiveBit& model, size_t, bool flip) {
+    return decoder.decodeUncertain(model) != flip;
+  }
+  bool groupBit(AdaptiveBit& model, size_t, int) { return decoder.decode(model); }
+  bool placeBit(AdaptiveBit& model, size_t, uint32_t, int) {
+    return decoder.decodeUncertain(model);
+  }
+  void learned(size_t, uint32_t, uint32_t, int) {}
 };
+
+struct DecodingIo;
+
+/// While bytes are far from missing.
+struct PlentyIo : Decisions<RangeDecoder::Plenty> {
+  explicit PlentyIo(DecodingIo& io);
+  static constexpr bool stopped() { return false; }
+};
+
+struct DecodingIo : Decisions<RangeDecoder> {
+  using Plenty = PlentyIo;
+  bool blockBit(AdaptiveBit& model, uint32_t, uint32_t, int) { return decoder.decode(model); }
+  bool bandBit(AdaptiveBit& model, int) { return decoder.decode(model); }
+  bool stopped() const { return decoder.exhausted(); }
+  bool hasPlenty(size_t decisions) const { return decoder.hasPlenty(decisions); }
+};
+
+PlentyIo::PlentyIo(DecodingIo& io) : Decisions{RangeDecoder::Plenty(io.decoder)} {}
 
 }  // namespace
 
 TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
                        std::span<const uint8_t> codeword) {
   TrackState state(plan, planes);
-  DecodingIo io(codeword);
+  DecodingIo io{{RangeDecoder(codeword)}};
   std::vector<Pass> passes = schedule(plan, planes);
   while (!passes.empty() && !plan[passes.back().band].needed) passes.pop_back();
   for (const Pass& pass : passes) {

@@ -45,6 +45,8 @@ struct Occupancy {
 /// answer, and keeps the account of the squared error.
 class EncodingIo {
  public:
+  using Plenty = EncodingIo&;
+  static constexpr bool hasPlenty(size_t) { return false; }
   void select(const BandShape& shape, const BandSource& source, const Occupancy& occupancy) {
     words_ = shape.words();
     values_ = source.values.data();
@@ -55,6 +57,9 @@ class EncodingIo {
     const bool bit = (magnitudeOf(values_[cell]) >> plane) & 1;
     encoder_.encode(model, bit);
     return bit;
+  }
+  bool refinedBit(AdaptiveBit& model, size_t cell, int plane) {
+    return magnitudeBit(model, cell, plane);
   }
   bool signBit(AdaptiveBit& model, size_t cell, bool flip) {
     const bool negative = values_[cell] < 0;

@@ -148,10 +148,7 @@ DecodedGeometry decodeGeometryWindow(const GeometryHeader& header, const Codewor
 
 std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded) {
   std::vector<int32_t> steps = decoded.heights;
-  const int bits = decoded.fraction_bits;
-  if (bits == 0) return steps;
-  const int64_t half = int64_t{1} << (bits - 1);
-  for (int32_t& q : steps) q = static_cast<int32_t>((q + half) >> bits);
+  for (int32_t& q : steps) q = wholeStep(q, decoded.fraction_bits);
   return steps;
 }
 

@@ -35,7 +35,13 @@ DecodedGeometry decodeGeometryWindow(const GeometryHeader& header, const Codewor
                                      std::span<const uint8_t> valid, const Window& window,
                                      uint32_t threads = 1);
 
-/// Heights in whole steps, rounding half up.
+/// A height in units of 2^-fraction_bits steps in whole steps, rounding half up.
+inline int32_t wholeStep(int32_t height, int fraction_bits) {
+  if (fraction_bits == 0) return height;
+  return (height >> fraction_bits) + ((height >> (fraction_bits - 1)) & 1);
+}
+
+/// All heights in whole steps.
 std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);
 
 }  // namespace tetrakis

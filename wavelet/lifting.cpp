@@ -2,64 +2,12 @@
 #include "wavelet/lifting.hpp"
 
 #include <algorithm>
-#include <array>
-#include <type_traits>
+
+#include "wavelet/lifting_kernel.hpp"
 
 namespace tetrakis {
 
 namespace {
-
-/// The two samples of each pair, for all targets of a call: pair k of target j is
-/// before[k][j] + after[k][j].
-struct Sources {
-  std::array<const int32_t*, kMaxPairs> before, after;
-};
-
-template <class Sum, size_t kPairs, bool kAdd>
-void lift(int32_t* __restrict target, const Sources& sources, const LiftingStep& step, int shift,
-          size_t count) {
-  using Unsigned = std::make_unsigned_t<Sum>;
-  const Sources from = sources;
-  std::array<Unsigned, kPairs> weights;
-  for (size_t k = 0; k < kPairs; ++k) weights[k] = static_cast<Unsigned>(Sum{step.weights[k]});
-  const Unsigned half = Unsigned{1} << (shift - 1);
-  for (size_t j = 0; j < count; ++j) {
-    Unsigned sum = half;
-    for (size_t k = 0; k < kPairs; ++k) {
-      sum += weights[k] * (static_cast<Unsigned>(Sum{from.before[k][j]}) +
-                           static_cast<Unsigned>(Sum{from.after[k][j]}));
-    }
-    const auto change = static_cast<uint32_t>(static_cast<Sum>(sum) >> shift);
-    const auto value = static_cast<uint32_t>(target[j]);
-    target[j] = static_cast<int32_t>(kAdd ? value + change : value - change);
-  }
-}
-
-template <class Sum, bool kAdd>
-void liftPairs(int32_t* target, const Sources& sources, const LiftingStep& step, int shift,
-               size_t count) {
-  switch (step.pairs) {
-    case 1:
-      return lift<Sum, 1, kAdd>(target, sources, step, shift, count);
-    case 2:
-      return lift<Sum, 2, kAdd>(target, sources, step, shift, count);
-    case 3:
-      return lift<Sum, 3, kAdd>(target, sources, step, shift, count);
-    default:
-      return lift<Sum, kMaxPairs, kAdd>(target, sources, step, shift, count);
-  }
-}
-
-void liftPairs(int32_t* target, const Sources& sources, const LiftingStep& step, int shift,
-               size_t count, Direction direction, bool wide) {
-  if (direction == Direction::kAnalysis) {
-    wide ? liftPairs<int64_t, true>(target, sources, step, shift, count)
-         : liftPairs<int32_t, true>(target, sources, step, shift, count);
-  } else {
-    wide ? liftPairs<int64_t, false>(target, sources, step, shift, count)
-         : liftPairs<int32_t, false>(target, sources, step, shift, count);
-  }
-}
 
 /// Position p of a signal of n >= 2 samples that is mirrored about both ends.
 ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
@@ -86,13 +34,13 @@ void liftColumns(const RowSet& rows, FilterId id, Direction direction, bool wide
       const ptrdiff_t index = direction == Direction::kAnalysis ? s : steps - 1 - s;
       if (t < 0 || t >= n || (t + index) % 2 == 0) continue;  // step 0 changes odd rows
       const LiftingStep& step = filter.steps[static_cast<size_t>(index)];
-      Sources sources{};
+      LiftingSources sources{};
       for (size_t k = 0; k < step.pairs; ++k) {
         const auto distance = static_cast<ptrdiff_t>(2 * k + 1);
         sources.before[k] = row(t - distance);
         sources.after[k] = row(t + distance);
       }
-      liftPairs(row(t), sources, step, filter.shift, rows.width, direction, wide);
+      liftStep(row(t), sources, {step, filter.shift, direction, wide}, rows.width);
     }
   }
 }
@@ -111,14 +59,14 @@ void RowLifting::run(ptrdiff_t length, FilterId id, Direction direction, bool wi
       source[-m] = source[mirror(parity - 2 * m, length) / 2];
       source[count - 1 + m] = source[mirror(parity + 2 * (count - 1 + m), length) / 2];
     }
-    Sources sources{};
+    LiftingSources sources{};
     for (size_t k = 0; k < step.pairs; ++k) {
       const auto distance = static_cast<ptrdiff_t>(k);
       sources.before[k] = source - distance - parity;
       sources.after[k] = source + distance + 1 - parity;
     }
-    liftPairs(predicts ? high() : low(), sources, step, filter.shift,
-              static_cast<size_t>(predicts ? highs : lows), direction, wide);
+    liftStep(predicts ? high() : low(), sources, {step, filter.shift, direction, wide},
+             static_cast<size_t>(predicts ? highs : lows));
   }
 }
 

@@ -12,11 +12,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "wavelet/lifting_filter.hpp"
+#include "wavelet/lifting_kernel.hpp"
 
 namespace tetrakis {
-
-enum class Direction : uint8_t { kAnalysis, kSynthesis };
 
 /// Rows of equal length at equal distances.
 struct RowSet {

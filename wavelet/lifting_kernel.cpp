@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wavelet/lifting_kernel.hpp"
+
+#include <type_traits>
+
+namespace tetrakis {
+
+namespace {
+
+template <class Sum, size_t kPairs, bool kAdd>
+void lift(int32_t* __restrict target, const LiftingSources& sources, const LiftingRule& rule,
+          size_t count) {
+  using Unsigned = std::make_unsigned_t<Sum>;
+  const LiftingSources from = sources;
+  const int shift = rule.shift;
+  std::array<Unsigned, kPairs> weights;
+  for (size_t k = 0; k < kPairs; ++k) weights[k] = static_cast<Unsigned>(Sum{rule.step.weights[k]});
+  const Unsigned half = Unsigned{1} << (shift - 1);
+  for (size_t j = 0; j < count; ++j) {
+    Unsigned sum = half;
+    for (size_t k = 0; k < kPairs; ++k) {
+      sum += weights[k] * (static_cast<Unsigned>(Sum{from.before[k][j]}) +
+                           static_cast<Unsigned>(Sum{from.after[k][j]}));
+    }
+    const auto change = static_cast<uint32_t>(static_cast<Sum>(sum) >> shift);
+    const auto value = static_cast<uint32_t>(target[j]);
+    target[j] = static_cast<int32_t>(kAdd ? value + change : value - change);
+  }
+}
+
+template <class Sum, bool kAdd>
+void liftPairs(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
+               size_t count) {
+  switch (rule.step.pairs) {
+    case 1:
+      return lift<Sum, 1, kAdd>(target, sources, rule, count);
+    case 2:
+      return lift<Sum, 2, kAdd>(target, sources, rule, count);
+    case 3:
+      return lift<Sum, 3, kAdd>(target, sources, rule, count);
+    default:
+      return lift<Sum, kMaxPairs, kAdd>(target, sources, rule, count);
+  }
+}
+
+}  // namespace
+
+void liftStep(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
+              size_t count) {
+  const size_t done = liftStepVectors(target, sources, rule, count);
+  LiftingSources rest = sources;
+  for (size_t k = 0; k < rule.step.pairs; ++k) {
+    rest.before[k] += done;
+    rest.after[k] += done;
+  }
+  liftStepScalar(target + done, rest, rule, count - done);
+}
+
+void liftStepScalar(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
+                    size_t count) {
+  if (rule.direction == Direction::kAnalysis) {
+    rule.wide ? liftPairs<int64_t, true>(target, sources, rule, count)
+              : liftPairs<int32_t, true>(target, sources, rule, count);
+  } else {
+    rule.wide ? liftPairs<int64_t, false>(target, sources, rule, count)
+              : liftPairs<int32_t, false>(target, sources, rule, count);
+  }
+}
+
+}  // namespace tetrakis
