@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A track: the bands of one component (geometry, or texture), coded into one codeword. The order of
-// its passes follows from the norms of the bands alone, so it costs no bits, and each pass improves
-// the surface or image by about the same factor as its neighbours in the order.
+// A track: the bands of one component (geometry, or texture), coded into one codeword.
 #pragma once
 
 #include <cstdint>
@@ -33,27 +31,17 @@ struct BandPlan {
 /// Bit-planes a coefficient may have: magnitudes stay below 2^30.
 inline constexpr int kMaxPlanes = 30;
 
-struct Pass {
-  uint16_t band;
-  uint8_t plane;
-  PassKind kind;
-  int key;  ///< what passes are ordered by: 16 log2 of norm * 2^plane, less a delay
-};
-
-/// All passes of a track with `planes` bit-planes, in coding order.
-std::vector<Pass> schedule(const std::vector<BandPlan>& plan, int planes);
-
 /// Bands and contexts: the state that encoder and decoder build in step.
 struct TrackState {
   TrackState(const std::vector<BandPlan>& plan, int planes);
 
-  /// Runs one pass of the plan that the state was made from.
+  /// Runs one pass of a band of the plan that the state was made from.
   template <class Io>
-  void run(const std::vector<BandPlan>& plan, const Pass& pass, Io& io) {
-    const BandPlan& band = plan[pass.band];
+  void run(const std::vector<BandPlan>& plan, size_t index, PassKind kind, int plane, Io& io) {
+    const BandPlan& band = plan[index];
     const auto at = [&](int i) { return i < 0 ? nullptr : &bands[static_cast<size_t>(i)]; };
-    PlanePass<Io>(bands[pass.band], models[band.models], at(band.parent), at(band.component), io)
-        .run(pass.kind, pass.plane);
+    PlanePass<Io>(bands[index], models[band.models], at(band.parent), at(band.component), io)
+        .run(kind, plane);
   }
 
   std::vector<Band> bands;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/track_decoder.hpp"
 
+#include "bitstream/pass_queue.hpp"
 #include "bitstream/range_decoder.hpp"
 
 namespace tetrakis {
@@ -48,11 +49,13 @@ TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
                        std::span<const uint8_t> codeword) {
   TrackState state(plan, planes);
   DecodingIo io{{RangeDecoder(codeword)}};
-  std::vector<Pass> passes = schedule(plan, planes);
-  while (!passes.empty() && !plan[passes.back().band].needed) passes.pop_back();
-  for (const Pass& pass : passes) {
-    state.run(plan, pass, io);
+  PassQueue passes(plan, planes);
+  while (passes.needed()) {
+    const Pass& pass = passes.front();
+    const size_t band = pass.band;
+    state.run(plan, band, pass.kind, pass.plane, io);
     if (io.stopped()) return state;
+    passes.pop(state.bands[band]);
   }
   state.complete = true;
   return state;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bitstream/parallel.hpp"
+#include "bitstream/pass_queue.hpp"
 #include "bitstream/range_encoder.hpp"
 #include "bitstream/reconstruction.hpp"
 
@@ -168,22 +169,24 @@ class TrackCoder {
   void start(int planes) {
     track_.planes = planes;
     state_.emplace(source_.plan, planes);
-    passes_ = schedule(source_.plan, planes);
+    passes_.emplace(source_.plan, planes);
     const double energy = energyOf(source_);
     io_.start(energy);
     track_.points.push_back({0, energy});
   }
 
-  int firstKey() const { return passes_.empty() ? kNoKey : passes_.front().key; }
-  bool done() const { return next_ == passes_.size(); }
+  int firstKey() const { return done() ? kNoKey : passes_->front().key; }
+  bool done() const { return passes_->empty(); }
   uint64_t bytes() const { return io_.decidedBytes(); }
 
   /// Runs the passes of this key and above, until the codeword passes `limit` bytes.
   void run(int least_key, uint64_t limit) {
-    while (!done() && passes_[next_].key >= least_key && bytes() <= limit) {
-      const Pass& pass = passes_[next_++];
-      io_.select(source_.plan[pass.band].shape, source_.bands[pass.band], occupancy_[pass.band]);
-      state_->run(source_.plan, pass, io_);
+    while (!done() && firstKey() >= least_key && bytes() <= limit) {
+      const Pass& pass = passes_->front();
+      const size_t band = pass.band;
+      io_.select(source_.plan[band].shape, source_.bands[band], occupancy_[band]);
+      state_->run(source_.plan, band, pass.kind, pass.plane, io_);
+      passes_->pop(state_->bands[band]);
       append(track_.points, io_.point());
     }
   }
@@ -206,8 +209,7 @@ class TrackCoder {
   const TrackSource& source_;
   std::vector<Occupancy> occupancy_;
   std::optional<TrackState> state_;
-  std::vector<Pass> passes_;
-  size_t next_ = 0;
+  std::optional<PassQueue> passes_;
   EncodingIo io_;
   EncodedTrack track_;
 };

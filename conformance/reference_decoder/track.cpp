@@ -23,22 +23,57 @@ struct Pass {
 };
 
 /// FORMAT 5, "Order of passes".
-std::vector<Pass> orderPasses(int planes, const std::vector<Band>& bands) {
-  std::vector<Pass> passes;
-  for (size_t b = 0; b < bands.size(); ++b) {
-    if (bands[b].empty()) continue;
-    for (int p = 0; p < planes; ++p) {
-      const int key = 16 * p + bands[b].logNorm;
-      passes.push_back({key, p, b, kLikely});
-      passes.push_back({key - 6, p, b, kRest});
-      passes.push_back({key - 10, p, b, kRefine});
+class PassOrder {
+ public:
+  PassOrder(int planes, const std::vector<Band>& bands) : bands_(bands) {
+    for (size_t b = 0; b < bands.size() && planes > 0; ++b) {
+      if (!bands[b].empty()) makePending(b, planes - 1, kLikely);
     }
   }
-  std::sort(passes.begin(), passes.end(), [](const Pass& x, const Pass& y) {
-    return std::tuple(-x.key, -x.plane, x.band) < std::tuple(-y.key, -y.plane, y.band);
-  });
-  return passes;
-}
+
+  bool neededPending() const {
+    return std::any_of(pending_.begin(), pending_.end(),
+                       [&](const Pass& p) { return bands_[p.band].needed; });
+  }
+
+  Pass next() const {
+    return *std::min_element(pending_.begin(), pending_.end(), [](const Pass& x, const Pass& y) {
+      return std::tuple(-x.key, -x.plane, x.band, x.kind) <
+             std::tuple(-y.key, -y.plane, y.band, y.kind);
+    });
+  }
+
+  void hasRun(const Pass& pass) {
+    const auto same = [&](const Pass& p) { return p.band == pass.band; };
+    pending_.erase(std::find_if(pending_.begin(), pending_.end(),
+                                [&](const Pass& p) { return same(p) && p.kind == pass.kind; }));
+    if (pass.kind == kLikely) {
+      makePending(pass.band, pass.plane, kRest);
+      makePending(pass.band, pass.plane, kRefine);
+    } else if (pass.plane > 0 && std::none_of(pending_.begin(), pending_.end(), same)) {
+      makePending(pass.band, pass.plane - 1, kLikely);
+    }
+  }
+
+ private:
+  void makePending(size_t band, int plane, Kind kind) {
+    constexpr int kLikelyDelay[] = {0, 1, 3, 3, 4, 5, 5, 6, 6, 6, 6, 6, 6, 6, 6};
+    constexpr int kRestDelay[] = {8, 8, 8, 9, 10, 10, 11, 12, 12, 12, 13, 13, 13, 13, 13};
+    uint32_t existing = 0, significant = 0;
+    for (const Coefficient& c : bands_[band].coefficients) {
+      existing += !c.absent;
+      significant += c.magnitude > 0;
+    }
+    const int d = std::min<int>(std::bit_width(existing / std::max(1u, significant)), 15);
+    const int delay = kind == kRefine   ? 12
+                      : kind == kLikely ? kLikelyDelay[d - 1]
+                                        : kRestDelay[d - 1];
+    pending_.push_back({16 * plane + bands_[band].logNorm - delay, plane, band, kind});
+  }
+
+  const std::vector<Band>& bands_;
+  std::vector<Pass> pending_;
+};
 
 /// Decodes one track. Its functions return false, or nothing, when the track ends.
 class TrackDecoder {
@@ -212,10 +247,11 @@ bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band
     for (Coefficient& c : band.coefficients) c.plane = planes;
   }
   TrackDecoder decoder(codeword, bands);
-  std::vector<Pass> passes = orderPasses(planes, bands);
-  while (!passes.empty() && !bands[passes.back().band].needed) passes.pop_back();
-  for (const Pass& pass : passes) {
+  PassOrder passes(planes, bands);
+  while (passes.neededPending()) {
+    const Pass pass = passes.next();
     if (!decoder.run(pass)) return false;
+    passes.hasRun(pass);
   }
   return true;
 }
