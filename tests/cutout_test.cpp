@@ -124,7 +124,7 @@ TEST(Cutout, PsnrTargetsCountWhatIsSeen) {
     const double reached = 10 * std::log10(255 * 255 / meanSquare(image, stream.texture()));
     EXPECT_GE(reached, 36);
     EXPECT_LT(reached, 41);
-    EXPECT_NEAR(stream.info().texture_psnr, reached, 0.8);
+    EXPECT_NEAR(stream.info().texture_psnr, reached, 1);  // stated in steps of 0.75 dB
   }
 }
 
