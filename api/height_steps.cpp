@@ -20,7 +20,7 @@ namespace {
 constexpr double kMostSteps = 1 << 26;
 constexpr double kLossySteps = 1 << 20;  // finer than any lossy stream resolves
 
-/// Holds the samples of T, and cheaply made of doubles.
+/// Holds twice the samples of T; small ones are made of doubles several at a time.
 template <class T>
 using Whole = std::conditional_t<sizeof(T) < sizeof(int32_t), int32_t, int64_t>;
 
@@ -32,11 +32,11 @@ T restore(double base, double step, int32_t q) {
   } else {
     const double low = static_cast<double>(std::numeric_limits<T>::min());
     const double high = static_cast<double>(std::numeric_limits<T>::max());
-    // Half away from zero, without a call of the library for each sample.
-    const double inside = std::clamp(value, low, high);
-    const auto whole = static_cast<Whole<T>>(inside);
-    const double rest = inside - static_cast<double>(whole);
-    return static_cast<T>(whole + (rest >= 0.5) - (rest <= -0.5));
+    // Half away from zero, as vectors can do it: by twice the value, which is exact.
+    const double above = low > value ? low : value, inside = high < above ? high : above;
+    const auto twice = static_cast<Whole<T>>(2 * inside);
+    const auto sign = twice >> (8 * sizeof(twice) - 1);  // 0 or -1
+    return static_cast<T>((twice + (sign | 1)) / 2);
   }
 }
 
@@ -223,10 +223,10 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     T* samples = static_cast<T*>(out);
-    for (size_t i = 0; i < geometry.heights.size(); ++i) {
-      const int32_t q = wholeStep(geometry.heights[i], geometry.fraction_bits);
-      samples[i] = restore<T>(header.base, header.step, q);
-    }
+    const double base = header.base, step = header.step;
+    const int fraction_bits = geometry.fraction_bits;
+    for (size_t i = 0; i < geometry.heights.size(); ++i)
+      samples[i] = restore<T>(base, step, wholeStep(geometry.heights[i], fraction_bits));
     for (size_t i = 0; i < decoded.corrections.size(); ++i) {
       const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
       samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
