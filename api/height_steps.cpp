@@ -20,10 +20,6 @@ namespace {
 constexpr double kMostSteps = 1 << 26;
 constexpr double kLossySteps = 1 << 20;  // finer than any lossy stream resolves
 
-/// Holds the samples of T, and cheaply made of doubles.
-template <class T>
-using Whole = std::conditional_t<sizeof(T) < sizeof(int32_t), int32_t, int64_t>;
-
 template <class T>
 T restore(double base, double step, int32_t q) {
   const double value = base + static_cast<double>(q) * step;
@@ -32,12 +28,58 @@ T restore(double base, double step, int32_t q) {
   } else {
     const double low = static_cast<double>(std::numeric_limits<T>::min());
     const double high = static_cast<double>(std::numeric_limits<T>::max());
-    // Half away from zero, without a call of the library for each sample.
-    const double inside = std::clamp(value, low, high);
-    const auto whole = static_cast<Whole<T>>(inside);
-    const double rest = inside - static_cast<double>(whole);
-    return static_cast<T>(whole + (rest >= 0.5) - (rest <= -0.5));
+    return static_cast<T>(std::clamp(std::round(value), low, high));
   }
+}
+
+/// Of integer samples of up to 16 bits with a whole base and step: what restore() computes is a
+/// whole number that doubles hold exactly, so that 32-bit integers do as well once q is kept where
+/// it makes a difference.
+template <class T>
+class IntegerScale {
+ public:
+  IntegerScale(double base, double step)
+      : applies_(isWhole(base) && isWhole(step)),
+        base_(applies_ ? static_cast<int32_t>(base) : 0),
+        step_(applies_ ? static_cast<int32_t>(step) : 1),
+        least_(quotient(kLow - base_) - 1),
+        most_(quotient(kHigh - base_) + 1) {}
+
+  bool applies() const { return applies_; }
+  T restore(int32_t q) const {
+    const int32_t sample = base_ + std::min(std::max(q, least_), most_) * step_;
+    return static_cast<T>(std::min(std::max(sample, kLow), kHigh));
+  }
+
+ private:
+  /// All sums stay below 2^30.
+  static constexpr double kMost = 1 << 26;
+  static constexpr int32_t kLow = std::numeric_limits<T>::min();
+  static constexpr int32_t kHigh = std::numeric_limits<T>::max();
+
+  static bool isWhole(double x) { return std::abs(x) <= kMost && x == std::floor(x); }
+  /// Truncated.
+  int32_t quotient(int32_t difference) const { return difference / step_; }
+
+  bool applies_;
+  int32_t base_, step_, least_, most_;
+};
+
+template <class T>
+void restoreAll(const DecodedGeometry& geometry, const GeometryHeader& header, T* samples) {
+  const int32_t* heights = geometry.heights.data();
+  const size_t count = geometry.heights.size();
+  const int fraction_bits = geometry.fraction_bits;
+  if constexpr (std::is_integral_v<T> && sizeof(T) < sizeof(int32_t)) {
+    const IntegerScale<T> scale(header.base, header.step);
+    if (scale.applies()) {
+      for (size_t i = 0; i < count; ++i)
+        samples[i] = scale.restore(wholeStep(heights[i], fraction_bits));
+      return;
+    }
+  }
+  for (size_t i = 0; i < count; ++i)
+    samples[i] = restore<T>(header.base, header.step, wholeStep(heights[i], fraction_bits));
 }
 
 template <class T>
@@ -223,10 +265,7 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     T* samples = static_cast<T*>(out);
-    for (size_t i = 0; i < geometry.heights.size(); ++i) {
-      const int32_t q = wholeStep(geometry.heights[i], geometry.fraction_bits);
-      samples[i] = restore<T>(header.base, header.step, q);
-    }
+    restoreAll(geometry, header, samples);
     for (size_t i = 0; i < decoded.corrections.size(); ++i) {
       const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
       samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);

@@ -107,7 +107,7 @@ Status addTasks(const std::string& name, StreamSource source, uint64_t bytes,
   }
   decode.elements = encode.elements;
   encode.tetrakis = [=] { return encodeTetrakis(source, bytes).status(); };
-  decode.tetrakis = [=] { return decodeTetrakis(streams->tetrakis).status(); };
+  decode.tetrakis = [=] { return decodeTetrakisSamples(streams->tetrakis); };
   encode.openjpeg = [=] {
     size_t next = 0;
     for (const Raster* raster : {source.heights, source.image}) {

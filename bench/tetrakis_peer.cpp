@@ -50,13 +50,28 @@ Status decodeSurface(tks_decoder* decoder, const tks_info& info, std::vector<flo
   return {};
 }
 
-Status decodeImage(tks_decoder* decoder, const tks_info& info, std::vector<uint16_t>& out) {
-  std::vector<uint8_t> bytes(size_t{info.texture_width} * info.texture_height *
-                             info.texture_channels);
-  const tks_status code = tks_decode_texture(decoder, bytes.data(), bytes.size());
-  if (code != TKS_OK) return {code, tks_message(decoder)};
-  out.assign(bytes.begin(), bytes.end());
-  return {};
+Status decodeImage(tks_decoder* decoder, const tks_info& info, std::vector<uint8_t>& out) {
+  out.resize(size_t{info.texture_width} * info.texture_height * info.texture_channels);
+  const tks_status code = tks_decode_texture(decoder, out.data(), out.size());
+  return code == TKS_OK ? Status() : Status(code, tks_message(decoder));
+}
+
+struct Opened {
+  DecoderPtr decoder;
+  tks_info info;
+};
+
+Result<Opened> openTetrakis(std::span<const uint8_t> stream) {
+  Message message{};
+  tks_decoder* handle = nullptr;
+  const tks_status code =
+      tks_open(stream.data(), stream.size(), nullptr, &handle, message.data(), message.size());
+  if (code != TKS_OK) return Status(code, message.data());
+  Opened opened{DecoderPtr(handle, &tks_close), {}};
+  opened.info.size = sizeof(opened.info);
+  const tks_status informed = tks_get_info(handle, &opened.info);
+  if (informed != TKS_OK) return Status(informed, tks_message(handle));
+  return opened;
 }
 
 }  // namespace
@@ -87,26 +102,34 @@ Result<std::vector<uint8_t>> encodeTetrakis(const StreamSource& source, uint64_t
 }
 
 Result<DecodedStream> decodeTetrakis(std::span<const uint8_t> prefix) {
-  Message message{};
-  tks_decoder* handle = nullptr;
-  const tks_status opened =
-      tks_open(prefix.data(), prefix.size(), nullptr, &handle, message.data(), message.size());
-  if (opened != TKS_OK) return Status(opened, message.data());
-  const DecoderPtr decoder(handle, &tks_close);
-  tks_info info{};
-  info.size = sizeof(info);
-  const tks_status informed = tks_get_info(handle, &info);
-  if (informed != TKS_OK) return Status(informed, tks_message(handle));
-
+  const Result<Opened> opened = openTetrakis(prefix);
+  if (!opened.ok()) return opened.status();
+  const tks_info& info = opened->info;
+  tks_decoder* decoder = opened->decoder.get();
   DecodedStream out;
   out.geometry_bytes = info.geometry_bytes;
   out.texture_bytes = info.texture_bytes;
   Status status;
-  if (info.has_heights) status = decodeHeights(handle, info, out.heights);
-  if (status.ok() && info.has_heights) status = decodeSurface(handle, info, out.surface);
-  if (status.ok() && info.has_texture) status = decodeImage(handle, info, out.image);
+  std::vector<uint8_t> image;
+  if (info.has_heights) status = decodeHeights(decoder, info, out.heights);
+  if (status.ok() && info.has_heights) status = decodeSurface(decoder, info, out.surface);
+  if (status.ok() && info.has_texture) status = decodeImage(decoder, info, image);
   if (!status.ok()) return status;
+  out.image.assign(image.begin(), image.end());
   return out;
+}
+
+Status decodeTetrakisSamples(std::span<const uint8_t> stream) {
+  const Result<Opened> opened = openTetrakis(stream);
+  if (!opened.ok()) return opened.status();
+  std::vector<uint16_t> heights;
+  std::vector<uint8_t> image;
+  Status status;
+  if (opened->info.has_heights)
+    status = decodeHeights(opened->decoder.get(), opened->info, heights);
+  if (status.ok() && opened->info.has_texture)
+    status = decodeImage(opened->decoder.get(), opened->info, image);
+  return status;
 }
 
 Result<PeerCurves> TetrakisPeer::curves(const Raster& raster,

@@ -34,6 +34,9 @@ struct DecodedStream {
 /// TKS_TRUNCATED when the prefix is too short to hold the stream's header.
 Result<DecodedStream> decodeTetrakis(std::span<const uint8_t> prefix);
 
+/// The same for its samples alone, as they were given: what is timed.
+Status decodeTetrakisSamples(std::span<const uint8_t> stream);
+
 class TetrakisPeer : public Peer {
  public:
   explicit TetrakisPeer(RasterKind kind) : kind_(kind) {}

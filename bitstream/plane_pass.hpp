@@ -149,7 +149,8 @@ class PlanePass {
   /// Class of the magnitude that is expected from hints: theirs, doubled, in units of 2^plane.
   size_t hintClass(uint32_t hint) const {
     constexpr uint32_t kMost = (1u << (BandModels::kHint - 1)) - 1;
-    return static_cast<size_t>(std::bit_width(std::min((2 * hint) >> plane_, kMost)));
+    // Of 2 n + 1, which is never 0: without a branch.
+    return static_cast<size_t>(std::bit_width(2 * std::min((2 * hint) >> plane_, kMost) + 1) - 1);
   }
 
   /// One row of 32 columns while significance is coded.

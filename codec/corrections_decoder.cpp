@@ -11,7 +11,8 @@ class DecodingIo {
  public:
   explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
   bool more(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
-  bool negative(size_t) { return decoder_.decodeEven(); }
+  bool negative(AdaptiveBit& model, size_t, bool flip) { return decoder_.decode(model) != flip; }
+  bool high(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
   bool low(size_t, int) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
 

@@ -15,8 +15,21 @@ class EncodingIo {
     encoder_.encode(model, bit);
     return bit;
   }
-  bool negative(size_t sample) { return even(corrections_[sample] < 0); }
-  bool low(size_t sample, int position) { return even((magnitude(sample) >> position) & 1); }
+  bool negative(AdaptiveBit& model, size_t sample, bool flip) {
+    const bool negative = corrections_[sample] < 0;
+    encoder_.encode(model, negative != flip);
+    return negative;
+  }
+  bool high(AdaptiveBit& model, size_t sample, int position) {
+    const bool bit = (magnitude(sample) >> position) & 1;
+    encoder_.encode(model, bit);
+    return bit;
+  }
+  bool low(size_t sample, int position) {
+    const bool bit = (magnitude(sample) >> position) & 1;
+    encoder_.encodeEven(bit);
+    return bit;
+  }
   bool stopped() const { return false; }
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
@@ -24,10 +37,6 @@ class EncodingIo {
   uint32_t magnitude(size_t sample) const {
     const auto bits = static_cast<uint32_t>(corrections_[sample]);
     return corrections_[sample] < 0 ? 0u - bits : bits;
-  }
-  bool even(bool bit) {
-    encoder_.encodeEven(bit);
-    return bit;
   }
 
   std::span<const int32_t> corrections_;

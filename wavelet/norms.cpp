@@ -39,14 +39,19 @@ void undo(const LiftingStep& step, int shift, bool predicts, const Signal& sourc
     begin = std::min(begin, target.origin);
     end = std::max(end, target.origin + static_cast<ptrdiff_t>(target.values.size()));
   }
+  // With zeros around it, so that the loop need not ask.
+  const ptrdiff_t first = begin + left - (reach - 1);
+  std::vector<int64_t> padded(static_cast<size_t>(end - begin + 2 * reach - 1));
+  std::copy(source.values.begin(), source.values.end(), padded.begin() + (source.origin - first));
   Signal result{begin, std::vector<int64_t>(static_cast<size_t>(end - begin))};
-  for (ptrdiff_t i = begin; i < end; ++i) {
+  std::copy(target.values.begin(), target.values.end(),
+            result.values.begin() + (target.values.empty() ? 0 : target.origin - begin));
+  for (ptrdiff_t i = 0; i < end - begin; ++i) {
+    const int64_t* nearest = padded.data() + i + reach - 1;
     int64_t sum = int64_t{1} << (shift - 1);
-    for (ptrdiff_t k = 0; k < reach; ++k) {
-      sum += step.weights[static_cast<size_t>(k)] *
-             (source.at(i + left - k) + source.at(i + left + 1 + k));
-    }
-    result.values[static_cast<size_t>(i - begin)] = target.at(i) - (sum >> shift);
+    for (ptrdiff_t k = 0; k < reach; ++k)
+      sum += step.weights[static_cast<size_t>(k)] * (nearest[-k] + nearest[1 + k]);
+    result.values[static_cast<size_t>(i)] -= sum >> shift;
   }
   target = std::move(result);
 }
