@@ -133,7 +133,7 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header,
              layout.energy(part.subband) * energies[c] * unit});
       }
     });
-    planes[c] = {};
+    planes[c] = std::vector<int32_t>();  // {} would keep its memory
   }
   return encodeTracks(sources, options);
 }
