@@ -62,6 +62,8 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
                       o.regions > 1u << kMostRegionLog2)) {
     return misuse("The side of regions must be a power of two from 16 to 1048576.");
   }
+  if (o.weights != TKS_WEIGHTS_PSNR && o.weights != TKS_WEIGHTS_VISUAL)
+    return misuse("The weights of the texture are unknown.");
   if (!std::isfinite(o.parallax) || o.parallax < 0)
     return misuse("The parallax must not be negative.");
   return {};

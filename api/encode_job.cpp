@@ -133,6 +133,7 @@ TrackOptions EncodeJob::trackOptions(TrackId component) const {
   track.region_log2 = component == TrackId::kGeometry ? geometryRegions(*heights_, options_)
                                                       : textureRegions(*image_, options_);
   track.threads = options_.threads;
+  track.visual = component == TrackId::kTexture && options_.weights == TKS_WEIGHTS_VISUAL;
   return track;
 }
 

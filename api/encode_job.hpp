@@ -12,6 +12,7 @@
 #include "bitstream/packet.hpp"
 #include "bitstream/track_encoder.hpp"
 #include "ratecontrol/allocation.hpp"
+#include "ratecontrol/audit.hpp"
 #include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 #include "wavelet/filter_choice.hpp"
@@ -81,10 +82,12 @@ class EncodeJob {
   double meshFloor() const;
   const std::vector<EncodedTrack>& tracksOf(TrackId component) const;
   Codewords cutAt(TrackId component, uint64_t bytes) const;
-  DecodedHeights decodedHeights(uint64_t bytes) const;
-  Texels decodedTexels(uint64_t bytes) const;
-  double geometrySquares(uint64_t bytes) const;
-  double textureSquares(uint64_t bytes) const;
+  AuditScope auditScope(uint64_t samples) const;
+  // memory: of calls for fewer bytes of a component with one track.
+  DecodedHeights decodedHeights(uint64_t bytes, TrackMemory* memory = nullptr) const;
+  Texels decodedTexels(uint64_t bytes, TrackMemory* memory = nullptr) const;
+  double geometrySquares(uint64_t bytes, TrackMemory* memory = nullptr) const;
+  double textureSquares(uint64_t bytes, TrackMemory* memory = nullptr) const;
 
   // encode_bound.cpp: heights within a largest error.
   void boundHeights();

@@ -7,7 +7,6 @@
 #include "api/encode_job.hpp"
 #include "codec/decimation.hpp"
 #include "codec/geometry_decoder.hpp"
-#include "ratecontrol/audit.hpp"
 #include "ratecontrol/hull.hpp"
 #include "ratecontrol/screen_model.hpp"
 #include "ratecontrol/track_order.hpp"
@@ -45,20 +44,25 @@ void favour(std::vector<RatePoint>& points, uint64_t opening) {
   points.front().distortion = std::max(points.front().distortion, opened->distortion + worth);
 }
 
-/// The hull of a track in the common distortion, with the RMSE that each packet states. opening:
-/// bytes that come first whatever they cost.
+/// The packets of a track and its hull in the common distortion. opening: bytes that come first
+/// whatever they cost.
 template <class MeanSquare, class Cost>
-TrackCurve priced(std::vector<RatePoint> points, MeanSquare mean_square, Cost cost,
+TrackCurve priced(TrackId track, std::vector<RatePoint> points, MeanSquare mean_square, Cost cost,
                   uint64_t opening = 0) {
-  std::map<uint64_t, double> rmse;
+  std::map<uint64_t, uint8_t> quality;
   for (RatePoint& point : points) {
-    rmse[point.bytes] = std::sqrt(mean_square(point.distortion));
+    quality[point.bytes] = qualityOf(std::sqrt(mean_square(point.distortion)));
     point.distortion = cost(point.distortion);
   }
   favour(points, opening);
-  TrackCurve curve;
-  curve.points = lowerHull(points, kPacketGrowth);
-  for (const RatePoint& point : curve.points) curve.rmse.push_back(rmse[point.bytes]);
+  TrackCurve curve{lowerHull(points, kPacketGrowth), {}};
+  uint64_t begin = 0;
+  for (size_t i = 1; i < curve.points.size(); ++i) {
+    for (const RatePoint& end : packetEnds(points, curve.points[i - 1], curve.points[i])) {
+      curve.packets.push_back({track, end.dips, quality[end.bytes], begin, end.bytes, {}});
+      begin = end.bytes;
+    }
+  }
   return curve;
 }
 
@@ -71,7 +75,7 @@ TrackCurve priced(OrderedTracks tracks, MeanSquare mean_square, Cost cost, uint6
   }
   for (RatePoint& point : tracks.points) point.distortion = cost(point.distortion);
   favour(tracks.points, opening);
-  return {lowerHull(tracks.points, 0), {}, std::move(tracks.packets)};
+  return {lowerHull(tracks.points, 0), std::move(tracks.packets)};
 }
 
 double metresPerUnit(const char* unit) {
@@ -105,21 +109,26 @@ Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
   return cut;
 }
 
-DecodedHeights EncodeJob::decodedHeights(uint64_t bytes) const {
+DecodedHeights EncodeJob::decodedHeights(uint64_t bytes, TrackMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
   return decodeLayers(cutAt(TrackId::kGeometry, bytes), *header.geometry, header.layers, 0,
-                      options_.threads);
+                      options_.threads, memory);
 }
 
-Texels EncodeJob::decodedTexels(uint64_t bytes) const {
+Texels EncodeJob::decodedTexels(uint64_t bytes, TrackMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
-  return decodeTexture(*header.texture, cutAt(TrackId::kTexture, bytes), 0, options_.threads);
+  return decodeTexture(*header.texture, cutAt(TrackId::kTexture, bytes), 0, options_.threads,
+                       memory);
+}
+
+AuditScope EncodeJob::auditScope(uint64_t samples) const {
+  return {samples, budgeted() ? options_.bytes : UINT64_MAX};
 }
 
 /// Sum of squared errors in steps, voids that are not known among them.
-double EncodeJob::geometrySquares(uint64_t bytes) const {
+double EncodeJob::geometrySquares(uint64_t bytes, TrackMemory* memory) const {
   const EncodedHeights& g = *geometry_;
-  const DecodedGeometry decoded = decodedHeights(bytes).geometry;
+  const DecodedGeometry decoded = decodedHeights(bytes, memory).geometry;
   const std::vector<int32_t> steps = wholeSteps(decoded);
   const bool restored =
       g.layers.corrections == CorrectionKind::kSamples && bytes == bytesOf(g.tracks);
@@ -133,8 +142,8 @@ double EncodeJob::geometrySquares(uint64_t bytes) const {
   return squares;
 }
 
-double EncodeJob::textureSquares(uint64_t bytes) const {
-  return countedSquares(texels_, decodedTexels(bytes), texture_->seen);
+double EncodeJob::textureSquares(uint64_t bytes, TrackMemory* memory) const {
+  return countedSquares(texels_, decodedTexels(bytes, memory), texture_->seen);
 }
 
 TrackCurve EncodeJob::geometryCurve() const {
@@ -152,8 +161,10 @@ TrackCurve EncodeJob::geometryCurve() const {
                                 {opening, geometry_->corrections.size()}),
                     mean_square, cost, opening);
     }
-    return priced(audit(geometry_->tracks.front(), geometry_->steps.steps.size(), budgeted(),
-                        [&](uint64_t bytes) { return geometrySquares(bytes); }),
+    TrackMemory memory;
+    return priced(TrackId::kGeometry,
+                  audit(geometry_->tracks.front(), auditScope(geometry_->steps.steps.size()),
+                        [&](uint64_t bytes) { return geometrySquares(bytes, &memory); }),
                   mean_square, cost, opening);
   };
   if (image_ == nullptr) return curve(useful);
@@ -192,8 +203,10 @@ TrackCurve EncodeJob::textureCurve() const {
     return priced(orderTracks(TrackId::kTexture, texture_->tracks, {opening, 0}), mean_square,
                   mean_square, opening);
   }
-  return priced(audit(texture_->tracks.front(), texels_.samples.size(), budgeted(),
-                      [&](uint64_t bytes) { return textureSquares(bytes); }),
+  TrackMemory memory;
+  return priced(TrackId::kTexture,
+                audit(texture_->tracks.front(), auditScope(texels_.samples.size()),
+                      [&](uint64_t bytes) { return textureSquares(bytes, &memory); }),
                 mean_square, mean_square, opening);
 }
 

@@ -73,11 +73,12 @@ std::vector<uint8_t> validityOf(const Layers& taken, const GeometryHeader& heade
 }  // namespace
 
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
-                            const GeometryLayers& layers, int level, uint32_t threads) {
+                            const GeometryLayers& layers, int level, uint32_t threads,
+                            TrackMemory* memory) {
   const Layers taken(codewords, layers);
   DecodedHeights decoded;
-  decoded.geometry =
-      decodeGeometry(header, taken.coefficients, validityOf(taken, header, layers), level, threads);
+  decoded.geometry = decodeGeometry(header, taken.coefficients, validityOf(taken, header, layers),
+                                    level, threads, memory);
   if (taken.corrections.empty() || level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
     correctSteps(decoded.geometry, header, layers, taken.corrections);

@@ -18,9 +18,11 @@ struct DecodedHeights {
 };
 
 /// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes.
-/// level: as decodeGeometry takes it; above 0 without corrections, which are those of the samples.
+/// level, memory: as decodeGeometry takes them; above 0 without corrections, which are those of the
+/// samples.
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
-                            const GeometryLayers& layers, int level = 0, uint32_t threads = 1);
+                            const GeometryLayers& layers, int level = 0, uint32_t threads = 1,
+                            TrackMemory* memory = nullptr);
 
 /// The same in a window, in time that follows its size where there are regions and no corrections.
 DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHeader& header,

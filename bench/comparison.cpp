@@ -86,16 +86,24 @@ double psnrOf(double mse, double peak) {
 Result<PeerResult> measure(const Peer& peer, const Raster& raster, RateWindow window, double peak) {
   const Result<PeerCurves> curves = peer.curves(raster, byteTargets(raster, window));
   if (!curves.ok()) return curves.status();
-  const double bits_per_byte = 8 / static_cast<double>(raster.pixels());
-  std::vector<std::vector<RatePoint>> measured;
-  for (const std::vector<CodedPoint>& setting : curves->settings) {
-    std::vector<RatePoint>& points = measured.emplace_back();
-    for (const CodedPoint& p : setting) {
+  const auto points_of = [&](const std::vector<CodedPoint>& coded) {
+    const double bits_per_byte = 8 / static_cast<double>(raster.pixels());
+    std::vector<RatePoint> points;
+    for (const CodedPoint& p : coded)
       points.push_back({static_cast<double>(p.bytes) * bits_per_byte, psnrOf(p.mse, peak)});
-    }
-  }
+    return points;
+  };
+  std::vector<std::vector<RatePoint>> measured;
+  for (const std::vector<CodedPoint>& setting : curves->settings)
+    measured.push_back(points_of(setting));
   PeerResult result;
   result.points = upperEnvelope(measured);
+  const auto against_made = [&](const std::vector<RatePoint>& cuts) {
+    const auto difference = rateDifference(points_of(curves->made), cuts, window);
+    return difference.ok() ? std::optional(*difference) : std::nullopt;
+  };
+  result.cuts = against_made(result.points);
+  result.lossless_cuts = against_made(points_of(curves->lossless_cuts));
   result.lossless_bytes = curves->lossless_bytes;
   return result;
 }

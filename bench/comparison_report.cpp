@@ -50,14 +50,28 @@ void ComparisonReport::addPeer(const std::string& codec, const PeerResult& resul
   }
   addErrors(codec, result.points);
   std::printf("\n");
+  addCuts(codec, result);
   std::fflush(stdout);
   lines_.push_back({codec, result});
+}
+
+void ComparisonReport::addCuts(const std::string& codec, const PeerResult& result) {
+  if (!result.cuts || !result.lossless_cuts) return;
+  const double cuts = percentOf(*result.cuts), lossless = percentOf(*result.lossless_cuts);
+  std::printf(
+      "    cuts: %+.2f%%, of the lossless stream %+.2f%%, against streams made for each length\n",
+      cuts, lossless);
+  add(codec, "cuts_bd_rate_percent", cuts);
+  add(codec, "lossless_cuts_bd_rate_percent", lossless);
 }
 
 void ComparisonReport::finishFile() {
   for (const Line& line : lines_) {
     Total& total = totalOf(line.codec);
     if (line.result.difference) total.differences.push_back(percentOf(*line.result.difference));
+    if (line.result.cuts) total.cuts.push_back(percentOf(*line.result.cuts));
+    if (line.result.lossless_cuts)
+      total.lossless_cuts.push_back(percentOf(*line.result.lossless_cuts));
     total.lossless_bytes += static_cast<double>(line.result.lossless_bytes);
   }
   ++files_;
@@ -67,7 +81,7 @@ void ComparisonReport::finishFile() {
 ComparisonReport::Total& ComparisonReport::totalOf(const std::string& codec) {
   const auto found = std::find_if(totals_.begin(), totals_.end(),
                                   [&](const Total& total) { return total.codec == codec; });
-  return found != totals_.end() ? *found : totals_.emplace_back(Total{codec, {}, 0});
+  return found != totals_.end() ? *found : totals_.emplace_back(Total{codec, {}, {}, {}, 0});
 }
 
 void ComparisonReport::addSummary(const std::string& anchor, RateWindow window) {
@@ -80,14 +94,22 @@ void ComparisonReport::addMeans(const std::string& anchor, RateWindow window) {
   std::printf("\nMean BD-rate against %s, %g to %g bits (negative: fewer bytes)\n", anchor.c_str(),
               window.low, window.high);
   item_ = "mean";
+  for (const Total& total : totals_) addMean(total.codec, "bd_rate_percent", total.differences);
+  std::printf("Mean BD-rate of cuts against streams made for each length\n");
   for (const Total& total : totals_) {
-    const std::vector<double>& values = total.differences;
-    if (values.empty()) continue;
-    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-    const double mean = sum / static_cast<double>(values.size());
-    std::printf("  %-12s %+8.2f%% over %zu files\n", total.codec.c_str(), mean, values.size());
-    add(total.codec, "bd_rate_percent", mean);
+    addMean(total.codec, "cuts_bd_rate_percent", total.cuts);
+    addMean(total.codec, "lossless_cuts_bd_rate_percent", total.lossless_cuts);
   }
+}
+
+void ComparisonReport::addMean(const std::string& codec, const char* quantity,
+                               const std::vector<double>& values) {
+  if (values.empty()) return;
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  const double mean = sum / static_cast<double>(values.size());
+  std::printf("  %-12s %+8.2f%% over %zu files (%s)\n", codec.c_str(), mean, values.size(),
+              quantity);
+  add(codec, quantity, mean);
 }
 
 void ComparisonReport::addLosslessSums(const std::string& anchor) {

@@ -18,6 +18,8 @@ struct PeerResult {
   std::vector<RatePoint> points;             ///< empty: compared in its lossless mode only
   uint64_t lossless_bytes = 0;               ///< 0: the codec has no lossless mode
   std::optional<RateDifference> difference;  ///< to the anchor; none for the anchor itself
+  /// Of cuts of one stream, and of the lossless one, to streams made for each length.
+  std::optional<RateDifference> cuts, lossless_cuts;
 };
 
 class ComparisonReport {
@@ -46,7 +48,7 @@ class ComparisonReport {
   // A codec on all finished files.
   struct Total {
     std::string codec;
-    std::vector<double> differences;  // percent
+    std::vector<double> differences, cuts, lossless_cuts;  // percent
     double lossless_bytes = 0;
   };
   struct Line {
@@ -55,6 +57,8 @@ class ComparisonReport {
   };
 
   Total& totalOf(const std::string& codec);
+  void addCuts(const std::string& codec, const PeerResult& result);
+  void addMean(const std::string& codec, const char* quantity, const std::vector<double>& values);
   void addMeans(const std::string& anchor, RateWindow window);
   void addLosslessSums(const std::string& anchor);
 

@@ -23,6 +23,9 @@ struct CodedPoint {
 struct PeerCurves {
   std::vector<std::vector<CodedPoint>> settings;
   uint64_t lossless_bytes = 0;  ///< 0: the codec has no lossless mode
+  /// Where the points are cuts of one stream: those of streams made for each length, and cuts of
+  /// the lossless stream.
+  std::vector<CodedPoint> made, lossless_cuts;
 };
 
 class Peer {

@@ -89,6 +89,7 @@ Result<std::vector<uint8_t>> encodeTetrakis(const StreamSource& source, uint64_t
   options.size = sizeof(options);
   options.bytes = bytes;
   options.lossless = bytes == 0;
+  options.weights = source.weights;
 
   tks_buffer buffer{};
   Message message{};
@@ -132,6 +133,40 @@ Status decodeTetrakisSamples(std::span<const uint8_t> stream) {
   return status;
 }
 
+namespace {
+
+/// The stream cut at each of `lengths` that it reaches.
+Result<std::vector<CodedPoint>> cutsOf(const StreamSource& source, std::span<const uint8_t> stream,
+                                       std::span<const uint64_t> lengths) {
+  std::vector<CodedPoint> cuts;
+  for (const uint64_t bytes : lengths) {
+    if (bytes > stream.size()) break;
+    const auto decoded = decodeTetrakis(stream.first(bytes));
+    if (decoded.status().code() == TKS_TRUNCATED) continue;
+    if (!decoded.ok()) return decoded.status();
+    cuts.push_back({bytes, source.image ? meanSquaredError(*source.image, decoded->image)
+                                        : meanSquaredError(*source.heights, decoded->surface)});
+  }
+  return cuts;
+}
+
+/// A stream for each length; where it ends before, all is there and there is no point.
+Result<std::vector<CodedPoint>> madeFor(const StreamSource& source,
+                                        std::span<const uint64_t> lengths) {
+  std::vector<CodedPoint> points;
+  for (const uint64_t& bytes : lengths) {
+    const auto stream = encodeTetrakis(source, bytes);
+    if (stream.status().code() == TKS_USAGE) continue;  // shorter than its header
+    if (!stream.ok()) return stream.status();
+    const auto whole = cutsOf(source, *stream, std::span(&bytes, 1));
+    if (!whole.ok()) return whole.status();
+    points.insert(points.end(), whole->begin(), whole->end());
+  }
+  return points;
+}
+
+}  // namespace
+
 Result<PeerCurves> TetrakisPeer::curves(const Raster& raster,
                                         const std::vector<uint64_t>& targets) const {
   const bool is_image = kind_ == RasterKind::kImage;
@@ -145,15 +180,14 @@ Result<PeerCurves> TetrakisPeer::curves(const Raster& raster,
   if (!stream.ok()) return stream.status();
 
   PeerCurves curves;
-  std::vector<CodedPoint>& cuts = curves.settings.emplace_back();
-  for (const uint64_t bytes : targets) {
-    if (bytes > stream->size()) break;
-    const auto decoded = decodeTetrakis(std::span(*stream).first(bytes));
-    if (decoded.status().code() == TKS_TRUNCATED) continue;
-    if (!decoded.ok()) return decoded.status();
-    cuts.push_back({bytes, is_image ? meanSquaredError(raster, decoded->image)
-                                    : meanSquaredError(raster, decoded->surface)});
+  const auto cuts = cutsOf(source, *stream, targets), low = cutsOf(source, *lossless, targets),
+             made = madeFor(source, targets);
+  for (const auto* points : {&cuts, &low, &made}) {
+    if (!points->ok()) return points->status();
   }
+  curves.settings.push_back(*cuts);
+  curves.lossless_cuts = *low;
+  curves.made = *made;
   const auto restored = decodeTetrakis(*lossless);
   if (!restored.ok()) return restored.status();
   if ((is_image ? restored->image : restored->heights) != raster.samples) {

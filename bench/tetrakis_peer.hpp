@@ -18,6 +18,7 @@ enum class RasterKind { kHeights, kImage };
 struct StreamSource {
   const Raster* heights = nullptr;
   const Raster* image = nullptr;
+  tks_weights weights = TKS_WEIGHTS_PSNR;
 };
 
 /// bytes: size of the whole stream; 0: lossless.

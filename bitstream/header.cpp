@@ -16,7 +16,8 @@ enum Parts : uint8_t {
   kIndex = 8,
   kLayers = 16,
   kRegions = 32,
-  kAllParts = 63
+  kWeights = 64,
+  kAllParts = 127
 };
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -59,7 +60,8 @@ void visitBody(V& v, StreamHeader& header) {
   uint8_t parts = static_cast<uint8_t>(
       (header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
       (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex) |
-      (header.layers.isDefault() ? 0 : kLayers) | (hasRegions(header) ? kRegions : 0));
+      (header.layers.isDefault() ? 0 : kLayers) | (hasRegions(header) ? kRegions : 0) |
+      (header.texture && header.texture->weights.levels > 0 ? kWeights : 0));
   v.u8("parts", parts, 1, kAllParts);
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
   v.u8("lossless", header.lossless, 0, 1);
@@ -79,6 +81,8 @@ void visitBody(V& v, StreamHeader& header) {
     if (header.geometry) header.geometry->regions.visit(v);
     if (header.texture) header.texture->regions.visit(v);
   }
+  if ((parts & kWeights) && header.texture)
+    header.texture->weights.visit(v, header.texture->components());
   if (parts & kIndex) visitIndex(v, header);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bitstream/band.hpp"
 #include "bitstream/fields.hpp"
 #include "bitstream/packet.hpp"
 #include "bitstream/regions.hpp"
@@ -118,6 +119,32 @@ struct GeometryLayers {
 /// In the place of a number of bit-planes: the texture is drawn (texture_wavelet/drawn_pass.hpp).
 inline constexpr uint8_t kDrawnPlanes = 31;
 
+/// What is added to the priority of a component at its finest levels, in 1/16 of a binary order of
+/// magnitude: how visible errors of a band are. A part of the header of its own.
+struct BandWeights {
+  static constexpr uint64_t kMostLevels = 8;
+  static constexpr int64_t kMaxPriority = 128;
+
+  uint8_t levels = 0;  ///< 0: none, for no component
+  /// Of a component: HL and LH of level 1, HH of level 1, HL and LH of level 2, ...
+  std::array<std::array<int64_t, 2 * kMostLevels>, 4> priority{};
+
+  int64_t at(uint32_t component, int level, Orientation orientation) const {
+    if (orientation == Orientation::kLL || level > levels) return 0;
+    return priority[component]
+                   [static_cast<size_t>(2 * (level - 1) + (orientation == Orientation::kHH))];
+  }
+
+  template <class V>
+  void visit(V& v, uint32_t components) {
+    v.u8("weight_levels", levels, 1, kMostLevels);
+    for (uint32_t c = 0; c < components; ++c) {
+      for (size_t i = 0; i < size_t{2} * levels && v.ok(); ++i)
+        v.zigzag("band_priority", priority[c][i], kMaxPriority);
+    }
+  }
+};
+
 /// Texture: centre, order and shears as in texture_wavelet/colour.hpp. Drawn ones end with
 /// `planes`.
 struct TextureHeader {
@@ -132,6 +159,7 @@ struct TextureHeader {
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
   RegionHeader regions;  ///< a part of the header of its own
+  BandWeights weights;
   /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
   /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
   uint64_t alpha_bytes = 0;

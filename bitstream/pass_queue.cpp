@@ -48,12 +48,11 @@ uint32_t significantOf(const Band& band) {
 
 }  // namespace
 
-PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
-    : plan_(plan), progress_(plan.size()) {
+PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes) : progress_(plan.size()) {
   if (planes == 0) return;
   for (size_t band = 0; band < plan.size(); ++band) {
     if (plan[band].vacant()) continue;
-    progress_[band].coefficients = existingOf(plan[band]);
+    progress_[band] = {plan[band].log_norm, plan[band].needed, existingOf(plan[band]), 0};
     needed_ += plan[band].needed;
     push(static_cast<uint16_t>(band), planes - 1, PassKind::kLikely, 0);
   }
@@ -63,7 +62,7 @@ void PassQueue::push(uint16_t band, int plane, PassKind kind, uint32_t significa
   Progress& progress = progress_[band];
   const uint32_t rarity = progress.coefficients / std::max(significant, 1u);
   const auto density = std::min(static_cast<size_t>(std::bit_width(rarity)), kDensities - 1);
-  const int key = 16 * plane + plan_[band].log_norm - delayOf(kind, density);
+  const int key = 16 * plane + progress.log_norm - delayOf(kind, density);
   ++progress.open;
   pending_.push_back({band, static_cast<uint8_t>(plane), kind, key});
   std::push_heap(pending_.begin(), pending_.end(), isLater);
@@ -81,7 +80,7 @@ void PassQueue::pop(const Band& band) {
   } else if (done.plane > 0) {
     push(done.band, done.plane - 1, PassKind::kLikely, significant);
   } else {
-    needed_ -= plan_[done.band].needed;
+    needed_ -= progress_[done.band].needed;
   }
 }
 

@@ -20,7 +20,6 @@ struct Pass {
 
 class PassQueue {
  public:
-  /// plan: outlives this object.
   PassQueue(const std::vector<BandPlan>& plan, int planes);
 
   bool empty() const { return pending_.empty(); }
@@ -33,13 +32,14 @@ class PassQueue {
 
  private:
   struct Progress {
+    int log_norm = 0;
+    bool needed = false;
     uint32_t coefficients = 0;  ///< that exist
     uint8_t open = 0;           ///< passes of the plane that are not coded yet
   };
 
   void push(uint16_t band, int plane, PassKind kind, uint32_t significant);
 
-  const std::vector<BandPlan>& plan_;
   std::vector<Progress> progress_;  ///< of each band
   std::vector<Pass> pending_;       ///< a heap
   size_t needed_ = 0;               ///< needed bands with passes left

@@ -29,6 +29,18 @@ class RangeDecoder {
 
   bool decodeUncertain(AdaptiveBit& model) { return decode(model); }
 
+  /// More bytes of the codeword have come: `bytes` is a longer view of the same memory. As if they
+  /// had been there from the start; not after exhausted().
+  void grow(std::span<const uint8_t> bytes) {
+    end_ = bytes.data() + bytes.size();
+    for (; missing_ > 0 && next_ != end_; --missing_) {
+      const uint32_t shift = 8 * (missing_ - 1);
+      if (shift < 32) code_ += uint32_t{*next_} << shift;
+      ++next_;
+    }
+    slack_ = missing_ > 3 ? 0xffffffff : (uint32_t{1} << (8 * missing_)) - 1;
+  }
+
   bool decodeEven() { return split(1u << (AdaptiveBit::kPrecision - 1)); }
 
   /// The available bytes do not decide the decision asked for last.
@@ -70,6 +82,7 @@ class RangeDecoder {
       code_ |= *next_++;
     } else {
       slack_ |= 0xff;
+      ++missing_;
     }
   }
 
@@ -83,7 +96,8 @@ class RangeDecoder {
   const uint8_t* end_;
   uint32_t code_ = 0;  ///< offset inside the interval, missing bytes read as zeros
   uint32_t range_ = 0xffffffff;
-  uint32_t slack_ = 0;  ///< what missing bytes could add to code_ if they were all ones
+  uint32_t slack_ = 0;    ///< what missing bytes could add to code_ if they were all ones
+  uint32_t missing_ = 0;  ///< bytes read behind the end
   bool exhausted_ = false;
 };
 

@@ -38,6 +38,7 @@ std::vector<uint8_t> RangeEncoder::finish() {
   // One more shift writes the byte held back in cache_ (and applies a last carry to it).
   low_ &= uint64_t{1} << 32;
   shiftLow();
+  bytes_.shrink_to_fit();
   return std::move(bytes_);
 }
 

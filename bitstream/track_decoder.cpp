@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/track_decoder.hpp"
 
-#include "bitstream/pass_queue.hpp"
-#include "bitstream/range_decoder.hpp"
+#include <utility>
 
 namespace tetrakis {
 
@@ -51,14 +50,48 @@ TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
   DecodingIo io{{RangeDecoder(codeword)}};
   PassQueue passes(plan, planes);
   while (passes.needed()) {
-    const Pass& pass = passes.front();
-    const size_t band = pass.band;
-    state.run(plan, band, pass.kind, pass.plane, io);
+    const Pass pass = passes.front();
+    state.run(plan, pass.band, pass.kind, pass.plane, io);
     if (io.stopped()) return state;
-    passes.pop(state.bands[band]);
+    passes.pop(state.bands[pass.band]);
   }
   state.complete = true;
   return state;
+}
+
+GrowingTrack::GrowingTrack(std::vector<BandPlan> plan, int planes)
+    : plan_(std::move(plan)), passes_(plan_, planes), state_(plan_, planes) {}
+
+/// Takes back what a shorter prefix told of the pass in which it ended.
+void GrowingTrack::restore() {
+  const uint16_t band = passes_.front().band;
+  if (band_) {
+    state_.bands[band] = *band_;
+    state_.models[plan_[band].models] = *models_;
+  } else {
+    band_ = state_.bands[band];
+    models_ = state_.models[plan_[band].models];
+  }
+}
+
+const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
+  if (decoder_) {
+    decoder_->grow(codeword);
+  } else {
+    decoder_.emplace(codeword);
+  }
+  while (passes_.needed()) {
+    restore();
+    const Pass pass = passes_.front();
+    DecodingIo io{{*decoder_}};
+    state_.run(plan_, pass.band, pass.kind, pass.plane, io);
+    if (io.stopped()) return state_;
+    decoder_ = io.decoder;
+    passes_.pop(state_.bands[pass.band]);
+    band_.reset();
+  }
+  state_.complete = true;
+  return state_;
 }
 
 }  // namespace tetrakis

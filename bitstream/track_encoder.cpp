@@ -182,11 +182,10 @@ class TrackCoder {
   /// Runs the passes of this key and above, until the codeword passes `limit` bytes.
   void run(int least_key, uint64_t limit) {
     while (!done() && firstKey() >= least_key && bytes() <= limit) {
-      const Pass& pass = passes_->front();
-      const size_t band = pass.band;
-      io_.select(source_.plan[band].shape, source_.bands[band], occupancy_[band]);
-      state_->run(source_.plan, band, pass.kind, pass.plane, io_);
-      passes_->pop(state_->bands[band]);
+      const Pass pass = passes_->front();
+      io_.select(source_.plan[pass.band].shape, source_.bands[pass.band], occupancy_[pass.band]);
+      state_->run(source_.plan, pass.band, pass.kind, pass.plane, io_);
+      passes_->pop(state_->bands[pass.band]);
       append(track_.points, io_.point());
     }
   }

@@ -48,6 +48,7 @@ struct TrackOptions {
   uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
   int region_log2 = 0;          ///< bitstream/regions.hpp; 0: one track
   uint32_t threads = 1;         ///< nothing depends on them
+  bool visual = false;          ///< a texture: what is seen comes first, not what is off most
 };
 
 /// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks

@@ -3,6 +3,7 @@
 // which nothing happens cost address space alone.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -21,6 +22,17 @@ class ZeroedArray {
   explicit ZeroedArray(size_t size)
       : size_(size), data_(static_cast<T*>(std::calloc(size > 0 ? size : 1, sizeof(T)))) {
     if (data_ == nullptr) throw std::bad_alloc();
+  }
+
+  ZeroedArray(ZeroedArray&&) noexcept = default;
+  ZeroedArray& operator=(ZeroedArray&&) noexcept = default;
+  ZeroedArray(const ZeroedArray& other) : ZeroedArray(other.size_) {
+    std::copy_n(other.data(), size_, data());
+  }
+  ZeroedArray& operator=(const ZeroedArray& other) {
+    if (size_ != other.size_) return *this = ZeroedArray(other);
+    std::copy_n(other.data(), size_, data());
+    return *this;
   }
 
   size_t size() const { return size_; }

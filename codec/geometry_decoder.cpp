@@ -7,7 +7,6 @@
 
 #include "wavelet/band_plan.hpp"
 #include "wavelet/mip_level.hpp"
-#include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -73,7 +72,8 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
 }  // namespace
 
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
-                               std::vector<uint8_t> valid, int level, uint32_t threads) {
+                               std::vector<uint8_t> valid, int level, uint32_t threads,
+                               TrackMemory* memory) {
   const WaveletSpec spec = specOf(header.wavelet);
   const PlaneLayout layout(spec, header.width, header.height);
   const std::vector<Region> regions =
@@ -99,7 +99,8 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
           markVertices(state.bands[k], subband, parts[k], low_width, out.significant);
         }
         quiet[i] = quietLevels(state, subbands, parts);
-      });
+      },
+      memory);
   out.quiet_levels = *std::min_element(quiet.begin(), quiet.end());
   out.valid = level == 0 ? std::move(valid) : mip.maskOf(valid, header.width);
   inverseWavelet(mip.transform(spec), out.heights, width, height, out.valid, threads);

@@ -8,6 +8,7 @@
 
 #include "bitstream/header.hpp"
 #include "bitstream/packet.hpp"
+#include "wavelet/region_decoder.hpp"
 #include "wavelet/window.hpp"
 
 namespace tetrakis {
@@ -24,10 +25,11 @@ struct DecodedGeometry {
 
 /// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). valid:
 /// width * height, or empty. level: every 2^level-th sample in x and y, up to the coarsest
-/// (wavelet/mip_level.hpp). Safe on any bytes and any header that readHeader accepts.
+/// (wavelet/mip_level.hpp). Safe on any bytes and any header that readHeader accepts. memory: of
+/// the calls before, with the same header, validity and level.
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
-                               std::vector<uint8_t> valid = {}, int level = 0,
-                               uint32_t threads = 1);
+                               std::vector<uint8_t> valid = {}, int level = 0, uint32_t threads = 1,
+                               TrackMemory* memory = nullptr);
 
 /// The same in a window of the plane, in time that follows its size where there are regions. valid:
 /// of the whole plane; out of it come the heights and the validity of the window alone.

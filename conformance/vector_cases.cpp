@@ -68,6 +68,11 @@ VectorCase textureCase(const std::string& name, const std::string& purpose, cons
   return vector_case;
 }
 
+VectorCase weighted(VectorCase vector_case) {
+  vector_case.options.weights = TKS_WEIGHTS_VISUAL;
+  return vector_case;
+}
+
 VectorCase withVoids(VectorCase vector_case, samples::VoidShape shape, double nodata) {
   vector_case.voids = shape;
   vector_case.nodata = nodata;
@@ -224,6 +229,8 @@ std::vector<VectorCase> textureCases() {
                 samples::VoidShape::kCoast),
       textureCase("texture_budget_128x128", "texture alone, cut by a byte budget",
                   image(Pattern::kRidges, 128, 128, 3, TKS_U8), budget(8000)),
+      weighted(textureCase("weights_rgba_70x40", "bands of each component have priorities",
+                           image(Pattern::kRidges, 70, 40, 4, TKS_U8), budget(1500))),
   };
 }
 

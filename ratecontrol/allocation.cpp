@@ -13,16 +13,13 @@ struct Priced {
   std::vector<Packet> packets;
 };
 
-std::vector<Priced> price(const TrackCurve& curve, TrackId track) {
+std::vector<Priced> price(const TrackCurve& curve) {
   std::vector<Priced> out;
   auto next = curve.packets.begin();
   uint64_t sent = 0;
   for (size_t i = 1; i < curve.points.size(); ++i) {
     const RatePoint &a = curve.points[i - 1], &b = curve.points[i];
     std::vector<Packet> packets;
-    if (curve.packets.empty()) {
-      packets.push_back({track, b.dips, qualityOf(curve.rmse[i]), a.bytes, b.bytes, {}});
-    }
     for (; sent < b.bytes && next != curve.packets.end(); ++next) {
       sent += next->end - next->begin;
       packets.push_back(*next);
@@ -37,8 +34,8 @@ std::vector<Priced> price(const TrackCurve& curve, TrackId track) {
 
 std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves) {
   std::vector<Packet> order;
-  const std::vector<Priced> geometry = price(curves[0], TrackId::kGeometry);
-  const std::vector<Priced> texture = price(curves[1], TrackId::kTexture);
+  const std::vector<Priced> geometry = price(curves[0]);
+  const std::vector<Priced> texture = price(curves[1]);
   // Convex curves have falling slopes, so a merge keeps each codeword in order.
   size_t g = 0, t = 0;
   while (g < geometry.size() || t < texture.size()) {

@@ -12,16 +12,14 @@
 
 namespace tetrakis {
 
-/// One component as the allocation sees it: hull points in a distortion common to all components,
-/// and the RMSE that the packet ending at each point states. Of a component with several tracks the
-/// packets are given instead, in their order; points lie at their ends.
+/// One component as the allocation sees it: its packets in their order, and the hull in a
+/// distortion common to all components, whose points lie at ends of packets.
 struct TrackCurve {
   std::vector<RatePoint> points;  ///< from {0, ...}; convex; fewer than two: no packets
-  std::vector<double> rmse;       ///< one per point, of a single track
-  std::vector<Packet> packets;    ///< of several tracks
+  std::vector<Packet> packets;
 };
 
-/// Steepest slope first; within a track the order of the codeword. Equal slopes: geometry first.
+/// Steepest slope first; within a component the order of its packets. Equal slopes: geometry first.
 std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves);
 
 }  // namespace tetrakis

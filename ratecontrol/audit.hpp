@@ -12,20 +12,27 @@
 namespace tetrakis {
 
 /// Squared error of the decoded samples for a prefix of that many bytes, in the units of the
-/// points.
+/// points. Asked for rising bytes.
 using Measure = std::function<double(uint64_t bytes)>;
 
+/// What is audited.
+struct AuditScope {
+  uint64_t samples = 0;
+  uint64_t budget = UINT64_MAX;  ///< bytes of the track that can be sent at most
+};
+
 /// Returns the track's points so that their distortion falls strictly.
-///   tiny tracks     one point for every byte that improves on all before it; dips are exact
-///   small tracks    every point is measured
-///   large tracks    a few points are measured and the others scaled in between; not where
-///   `budgeted`:
-///                   then the account stands as it is, because the order must not depend on a
-///                   budget
-std::vector<RatePoint> audit(const EncodedTrack& track, uint64_t samples, bool budgeted,
+///   small tracks    every point is measured, and so many prefixes in between that the quality
+///                   between two of them changes by little: of tiny tracks all. Dips are those
+///                   that were seen. A quarter behind the budget is as far as anything in it can
+///                   depend on
+///   large tracks    a few points are measured and the others scaled in between; not with a
+///                   budget: then the account stands as it is, because the order must not depend
+///                   on it
+std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                              const Measure& measure);
 
-inline constexpr uint64_t kTinySamples = uint64_t{1} << 11;
+inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
 inline constexpr uint64_t kSmallSamples = uint64_t{1} << 14;
 inline constexpr size_t kLargeMeasurements = 6;
 

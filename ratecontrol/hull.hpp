@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lower convex hull of an operational rate-distortion curve: the only points that a marginal
-// analysis ever stops at (thesis 6.3; Y. Shoham, A. Gersho 1988).
+// analysis ever stops at (thesis 6.3; Y. Shoham, A. Gersho 1988). And packets between them.
 #pragma once
 
 #include <span>
@@ -11,9 +11,15 @@
 namespace tetrakis {
 
 /// Hull vertices from the first to the last point, at least `growth` times the bytes so far (and
-/// kLeastPacket) apart so that packet heads stay cheap. A vertex dips if any point it skips does.
+/// kLeastPacket) apart so that packet heads stay cheap.
 std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growth);
 
 inline constexpr uint64_t kLeastPacket = 24;
+
+/// Where packets end on the way from one vertex of the hull of `points` to another: at `to`, and
+/// around what dips, because a packet that dips counts only when complete: it should be short.
+/// RatePoint::dips is that of the packet.
+std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RatePoint& from,
+                                  const RatePoint& to);
 
 }  // namespace tetrakis

@@ -31,8 +31,15 @@ Piece pieceBetween(const RatePoint& a, const RatePoint& b, TrackId component, si
 void appendHull(std::span<const RatePoint> points, TrackId component, size_t track,
                 std::vector<Piece>& pieces) {
   const std::vector<RatePoint> hull = lowerHull(points, kRegionGrowth);
-  for (size_t i = 1; i < hull.size(); ++i)
-    pieces.push_back(pieceBetween(hull[i - 1], hull[i], component, track));
+  for (size_t i = 1; i < hull.size(); ++i) {
+    const double slope = pieceBetween(hull[i - 1], hull[i], component, track).slope;
+    RatePoint begin = hull[i - 1];
+    for (const RatePoint& end : packetEnds(points, hull[i - 1], hull[i])) {
+      pieces.push_back(pieceBetween(begin, end, component, track));
+      pieces.back().slope = slope;
+      begin = end;
+    }
+  }
 }
 
 }  // namespace
@@ -45,7 +52,8 @@ OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> track
   if (opening > 0) pieces.push_back(pieceBetween(base[0], base[1], component, 0));
   appendHull(base.subspan(opening, base.size() - opening - closing), component, 0, pieces);
   for (size_t i = 1; i < tracks.size(); ++i) appendHull(tracks[i].points, component, i, pieces);
-  // Hulls are convex: a stable sort keeps every codeword in order.
+  // Hulls are convex, and packets between two vertices share a slope: a stable sort keeps every
+  // codeword in order.
   std::stable_sort(pieces.begin() + static_cast<ptrdiff_t>(opening), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.slope > b.slope; });
   if (closing > 0) pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));

@@ -200,6 +200,36 @@ TEST(TrackCoding, EveryPrefixTellsTheTruth) {
   }
 }
 
+template <class T>
+bool equal(const ZeroedArray<T>& a, const ZeroedArray<T>& b) {
+  return std::equal(a.data(), a.data() + a.size(), b.data(), b.data() + b.size());
+}
+
+/// What is known of the coefficients and where, not what the next bit-plane starts from.
+bool sameKnowledge(const TrackState& a, const TrackState& b) {
+  bool same = a.complete == b.complete && a.bands.size() == b.bands.size();
+  for (size_t i = 0; same && i < a.bands.size(); ++i) {
+    same = a.bands[i].plane == b.bands[i].plane && equal(a.bands[i].sign, b.bands[i].sign) &&
+           equal(a.bands[i].magnitude, b.bands[i].magnitude) &&
+           equal(a.bands[i].visited, b.bands[i].visited);
+  }
+  return same;
+}
+
+/// A growing track knows what the prefix alone tells, whatever was asked before.
+TEST(TrackCoding, GrowingTracksForgetNothingAndInventNothing) {
+  const Material m = material(3, {9, 40}, 5);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  for (const size_t stride : {1u, 2u, 3u, 7u, 50u}) {
+    GrowingTrack growing(m.plan, track.planes);
+    for (size_t bytes = 0; bytes <= track.codeword.size(); bytes += stride) {
+      const auto prefix = std::span(track.codeword).first(bytes);
+      ASSERT_TRUE(sameKnowledge(growing.decode(prefix), decodeTrack(m.plan, track.planes, prefix)))
+          << bytes << " of " << track.codeword.size() << " bytes, steps of " << stride;
+    }
+  }
+}
+
 /// Coefficients of 30 bits, the most there may be, all of them.
 TEST(TrackCoding, TheLargestMagnitudesComeBack) {
   Material m = material(9, {6, 9}, 5);

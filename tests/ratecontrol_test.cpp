@@ -8,6 +8,7 @@
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/hull.hpp"
 #include "ratecontrol/screen_model.hpp"
+#include "tests/terrain_samples.hpp"
 
 namespace tetrakis {
 namespace {
@@ -43,26 +44,50 @@ TEST(Hull, IsConvexAndBelowEveryPoint) {
   }
 }
 
-TEST(Hull, KeepsPacketsApartAndDipsAlive) {
-  std::vector<RatePoint> points = bumpyCurve(10, 5);
-  points[31].dips = true;
-  const std::vector<RatePoint> hull = lowerHull(points, 0.1);
-  bool dips = false;
-  for (size_t i = 1; i < hull.size(); ++i) {
-    if (i + 1 < hull.size()) {
-      EXPECT_GE(hull[i].bytes - hull[i - 1].bytes, kLeastPacket);
-      EXPECT_GE(static_cast<double>(hull[i].bytes - hull[i - 1].bytes),
-                0.1 * static_cast<double>(hull[i - 1].bytes) - 1);
-    }
-    if (hull[i].dips)
-      dips = hull[i - 1].bytes < points[31].bytes && points[31].bytes <= hull[i].bytes;
+TEST(Hull, KeepsPacketsApart) {
+  const std::vector<RatePoint> hull = lowerHull(bumpyCurve(10, 5), 0.1);
+  for (size_t i = 1; i + 1 < hull.size(); ++i) {
+    EXPECT_GE(hull[i].bytes - hull[i - 1].bytes, kLeastPacket);
+    EXPECT_GE(static_cast<double>(hull[i].bytes - hull[i - 1].bytes),
+              0.1 * static_cast<double>(hull[i - 1].bytes) - 1);
   }
-  EXPECT_TRUE(dips);
 }
 
-TrackCurve curveOf(const std::vector<RatePoint>& points) {
-  TrackCurve curve{lowerHull(points, 0), {}, {}};
-  for (const RatePoint& p : curve.points) curve.rmse.push_back(std::sqrt(p.distortion));
+/// Whatever dips: packets cover the step once and in order, end at points, and where a point says
+/// that bytes before it dip the packet over them does. Others are as few as can be.
+TEST(PacketEnds, DipsHavePacketsOfTheirOwn) {
+  for (uint32_t seed = 0; seed < 200; ++seed) {
+    std::vector<RatePoint> points = bumpyCurve(1 + seed % 17, 5);
+    for (size_t i = 1; i < points.size(); ++i)
+      points[i].dips = samples::hash(static_cast<uint32_t>(i), seed, 1) % 7 == 0;
+    const RatePoint &from = points[seed % 5], &to = points[points.size() - 1 - seed % 3];
+    const std::vector<RatePoint> ends = packetEnds(points, from, to);
+    ASSERT_FALSE(ends.empty());
+    EXPECT_EQ(ends.back().bytes, to.bytes);
+    uint64_t begin = from.bytes;
+    bool before = true;
+    for (const RatePoint& end : ends) {
+      ASSERT_GT(end.bytes, begin);
+      EXPECT_TRUE(before || end.dips) << "two packets that could be one";
+      bool dips = false;
+      for (const RatePoint& point : points)
+        dips |= point.dips && point.bytes > begin && point.bytes <= end.bytes;
+      EXPECT_EQ(end.dips, dips) << begin << " to " << end.bytes;
+      if (!end.dips && end.bytes != to.bytes) {
+        EXPECT_GE(end.bytes - begin, kLeastPacket);
+      }
+      begin = end.bytes;
+      before = end.dips;
+    }
+  }
+}
+
+TrackCurve curveOf(TrackId track, const std::vector<RatePoint>& points) {
+  TrackCurve curve{lowerHull(points, 0), {}};
+  for (size_t i = 1; i < curve.points.size(); ++i) {
+    curve.packets.push_back(
+        {track, false, 0, curve.points[i - 1].bytes, curve.points[i].bytes, {}});
+  }
   return curve;
 }
 
@@ -79,8 +104,8 @@ double leftAfter(const std::array<TrackCurve, kTracks>& curves, uint64_t first, 
 }
 
 TEST(Allocation, NoSplitOfAnyPrefixIsBetter) {
-  const std::array<TrackCurve, kTracks> curves = {curveOf(bumpyCurve(70, 9)),
-                                                  curveOf(bumpyCurve(130, 40))};
+  const std::array<TrackCurve, kTracks> curves = {curveOf(TrackId::kGeometry, bumpyCurve(70, 9)),
+                                                  curveOf(TrackId::kTexture, bumpyCurve(130, 40))};
   std::array<uint64_t, kTracks> sent = {};
   for (const Packet& packet : allocate(curves)) {
     const auto track = static_cast<size_t>(packet.track);
@@ -103,7 +128,7 @@ TEST(Audit, TinyTracksGetAPointForEveryRecord) {
   track.codeword.resize(9);
   track.points = {{0, 100}, {9, 0}};
   const std::vector<double> truth = {100, 90, 95, 80, 80, 50, 50.1, 40, 10, 0};
-  const auto points = audit(track, 4, true, [&](uint64_t bytes) { return truth[bytes]; });
+  const auto points = audit(track, {4}, [&](uint64_t bytes) { return truth[bytes]; });
   std::vector<uint64_t> bytes;
   for (const RatePoint& p : points) bytes.push_back(p.bytes);
   EXPECT_EQ(bytes, (std::vector<uint64_t>{0, 1, 3, 5, 7, 8, 9}));
@@ -116,8 +141,8 @@ TEST(Audit, LargeTracksAreCorrectedOnlyWithoutABudget) {
   track.codeword.resize(5900);
   track.points = bumpyCurve(100, 1000);
   const auto twice = [&](uint64_t bytes) { return 2 * track.points[bytes / 100].distortion; };
-  EXPECT_DOUBLE_EQ(audit(track, 1 << 20, true, twice).front().distortion, 1000);
-  EXPECT_NEAR(audit(track, 1 << 20, false, twice).front().distortion, 2000, 1e-6);
+  EXPECT_DOUBLE_EQ(audit(track, {1 << 20, 9000}, twice).front().distortion, 1000);
+  EXPECT_NEAR(audit(track, {1 << 20}, twice).front().distortion, 2000, 1e-6);
 }
 
 Texels stripes(uint32_t period) {

@@ -91,6 +91,15 @@ TEST(StreamPrefix, HeightsImproveAtEveryByte) {
   expectProgress(&steps, nullptr, lossless());
 }
 
+/// Where the encoder no longer looks at every byte.
+TEST(StreamPrefix, LargerTexturesImproveAtEveryByte) {
+  const Raster colour = make({Pattern::kRidges, 45, 38, 3, TKS_U8, 3});
+  expectProgress(nullptr, &colour, lossless());
+  tks_encode_options visual = budget(1000);
+  visual.weights = TKS_WEIGHTS_VISUAL;
+  expectProgress(nullptr, &colour, visual);
+}
+
 TEST(StreamPrefix, TextureImprovesAtEveryByte) {
   const Raster colour = make({Pattern::kRidges, 24, 24, 3, TKS_U8});
   expectProgress(nullptr, &colour, lossless());

@@ -51,6 +51,41 @@ TEST(TextureTrack, IsLosslessAtItsEnd) {
   }
 }
 
+/// Errors of 2 x 2 means: what is left of an error from afar.
+double coarseError(const Texels& a, const Texels& b) {
+  double sum = 0;
+  const size_t row = size_t{a.width} * a.channels;
+  for (uint32_t y = 0; y + 1 < a.height; y += 2) {
+    for (size_t i = y * row; i + a.channels < (y + 1) * row; ++i) {
+      if (i / a.channels % 2 != 0) continue;
+      double error = 0;
+      for (const size_t k : {i, i + a.channels, i + row, i + row + a.channels})
+        error += a.samples[k] - b.samples[k];
+      sum += error * error;
+    }
+  }
+  return sum;
+}
+
+/// Visual weights: coarse errors fall at the cost of fine ones; the last bit comes all the same.
+TEST(TextureTrack, VisualWeightsPutCoarseErrorsFirst) {
+  for (const uint32_t channels : {1u, 3u, 4u}) {
+    const Texels texels = makeTexels(96, 80, channels, 8, 60);
+    const EncodedTexture plain = encodeTexture(texels, Purpose::kLossless, {}),
+                         visual = encodeTexture(texels, Purpose::kLossless, {.visual = true});
+    EXPECT_EQ(plain.header.weights.levels, 0);
+    const auto cut = [](const EncodedTexture& encoded, size_t bytes) {
+      return decodeTexture(encoded.header,
+                           {std::span(encoded.tracks.front().codeword).first(bytes)});
+    };
+    const size_t bytes = plain.tracks.front().codeword.size() / 6;
+    const Texels a = cut(plain, bytes), b = cut(visual, bytes);
+    EXPECT_LT(coarseError(texels, b), 0.95 * coarseError(texels, a)) << channels;
+    EXPECT_GT(squaredError(texels, b), squaredError(texels, a)) << channels;
+    EXPECT_EQ(cut(visual, visual.tracks.front().codeword.size()).samples, texels.samples);
+  }
+}
+
 TEST(TextureTrack, FullRangeNoiseComesBack) {
   std::mt19937 random(5);
   for (const int bits : {8, 16}) {
@@ -131,6 +166,10 @@ TEST(TextureTrack, AnyBytesAndHeadersDecodeIntoRange) {
       for (int64_t& shear : shears) shear = static_cast<int64_t>(random() % 65535) - 32767;
     }
     for (int64_t& priority : header.priority) priority = static_cast<int64_t>(random() % 257) - 128;
+    header.weights.levels = static_cast<uint8_t>(random() % (BandWeights::kMostLevels + 1));
+    for (auto& of_component : header.weights.priority) {
+      for (int64_t& priority : of_component) priority = static_cast<int64_t>(random() % 257) - 128;
+    }
     for (uint8_t& filter : header.wavelet.filters) filter = static_cast<uint8_t>(random() % 4);
     header.wavelet.fraction_bits = static_cast<uint8_t>(random() % (kMaxFractionBits + 1));
     header.wavelet.bits = static_cast<uint8_t>(random() % 33);

@@ -42,15 +42,17 @@ uint64_t countedSamples(const Texels& texels, std::span<const uint8_t> seen) {
 
 double countedSquares(const Texels& original, const Texels& decoded,
                       std::span<const uint8_t> seen) {
-  double squares = 0;
-  const size_t channels = original.channels;
-  for (size_t i = 0; i < original.samples.size(); ++i) {
-    const bool colour = (i + 1) % channels != 0;
-    if (!seen.empty() && colour && !seen[i / channels]) continue;
-    const double difference = static_cast<double>(original.samples[i]) - decoded.samples[i];
-    squares += difference * difference;
+  int64_t squares = 0;
+  const size_t channels = original.channels, count = original.samples.size() / channels;
+  for (size_t i = 0; i < count; ++i) {
+    const bool hidden = !seen.empty() && !seen[i];
+    for (size_t c = hidden ? channels - 1 : 0; c < channels; ++c) {
+      const size_t k = i * channels + c;
+      const int64_t difference = int64_t{original.samples[k]} - decoded.samples[k];
+      squares += difference * difference;
+    }
   }
-  return squares;
+  return static_cast<double>(squares);
 }
 
 }  // namespace tetrakis

@@ -45,7 +45,7 @@ EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
                                 const TrackOptions& options) {
   const std::vector<uint8_t> photograph = photographOf(texels);
   if (photograph.empty()) return encodeByWavelet(texels, purpose, options);
-  const TrackOptions one_track{options.limit, 0, options.threads};
+  const TrackOptions one_track{options.limit, 0, options.threads, options.visual};
   EncodedTexture plain = encodeByWavelet(texels, purpose, one_track),
                  overlaid = encodeByWavelet(texels, purpose, one_track, photograph);
   const uint64_t reach = std::min({options.limit / 2, bytesOf(plain), bytesOf(overlaid)});
@@ -64,7 +64,7 @@ EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackO
   const EncodedTrack& track = drawn->tracks.front();
   const uint64_t bytes = track.codeword.size(), reach = options.limit / 2;
   if (bytes > reach) {
-    const TrackOptions one_track{options.limit, 0, options.threads};
+    const TrackOptions one_track{options.limit, 0, options.threads, options.visual};
     const EncodedTexture wavelet = encodeByWavelet(texels, purpose, one_track);
     if (distortionAt(track, reach) < distortionAt(wavelet.tracks.front(), reach)) return *drawn;
   } else if (!restoresWithin(texels, purpose == Purpose::kLossless ? bytes : 2 * bytes,

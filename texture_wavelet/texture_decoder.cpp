@@ -12,7 +12,6 @@
 #include "texture_wavelet/drawn_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/mip_level.hpp"
-#include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -186,7 +185,7 @@ Texels crop(const Texels& whole, const Window& window) {
 }  // namespace
 
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level,
-                     uint32_t threads) {
+                     uint32_t threads, TrackMemory* memory) {
   if (header.drawn()) return decodeDrawn(header, codewords.front(), level);
   const Layers layers(header, codewords);
   const TexturePlan plan(header);
@@ -199,7 +198,8 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, in
       [&](size_t i) { return planOf(plan, plan.parts(i), coded, header.width, mip); },
       [&](size_t i, const TrackState& state, int more_bits) {
         planes.put(state, plan.parts(i), more_bits);
-      });
+      },
+      memory);
   const auto pointers = planes.restore(mip.maskOf(layers.coded, header.width), threads);
   Texels texels = emptyTexels(header, mip.size().width, mip.size().height);
   finish(header, fraction_bits, pointers, threads, texels);

@@ -7,15 +7,16 @@
 #include "bitstream/header.hpp"
 #include "bitstream/packet.hpp"
 #include "texture_wavelet/texels.hpp"
+#include "wavelet/region_decoder.hpp"
 #include "wavelet/window.hpp"
 
 namespace tetrakis {
 
 /// codewords: any prefix of each track, one for each of regionsOf(). level: every 2^level-th texel
 /// in x and y, up to the coarsest (wavelet/mip_level.hpp). Safe on any bytes and any header that
-/// readHeader accepts.
+/// readHeader accepts. memory: of the calls before, with the same header and level.
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level = 0,
-                     uint32_t threads = 1);
+                     uint32_t threads = 1, TrackMemory* memory = nullptr);
 
 /// The texels of a window, in time that follows its size where there are regions.
 Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,

@@ -13,6 +13,7 @@
 #include "texture_wavelet/drawn_encoder.hpp"
 #include "texture_wavelet/lossless_colour.hpp"
 #include "texture_wavelet/texture_plan.hpp"
+#include "texture_wavelet/visual_weights.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -143,7 +144,7 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
                                     layout.energy(part.subband) * energy * unit});
       }
     });
-    planes[c] = {};
+    planes[c] = std::vector<int32_t>();  // {} would keep its memory
   }
   return encodeTracks(sources, options);
 }
@@ -162,6 +163,7 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
   TextureHeader& header = encoded.header;
   header.hidden = hidden;
+  if (options.visual) header.weights = visualWeights(header.components());
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
   std::vector<uint8_t> mask;
   if (!seen.empty()) mask = encodeValidity(seen, texels.width, texels.height);

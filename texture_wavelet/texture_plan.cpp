@@ -19,7 +19,8 @@ uint32_t modelsOf(uint32_t component, uint32_t channels) {
 
 TexturePlan::TexturePlan(const TextureHeader& header)
     : layout_(specOf(header.wavelet), header.width, header.height),
-      regions_(regionsOf(header.width, header.height, header.regions.side_log2)) {
+      regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
+      weights_(header.weights) {
   for (uint32_t c = 0; c < header.components(); ++c)
     components_.push_back({static_cast<int>(header.priority[c]), modelsOf(c, header.components())});
 }
@@ -27,11 +28,15 @@ TexturePlan::TexturePlan(const TextureHeader& header)
 std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts, Validity coded,
                                          uint32_t width) const {
   std::vector<BandPlan> bands;
-  for (const Component& component : components_) {
+  for (uint32_t c = 0; c < components_.size(); ++c) {
+    const Component& component = components_[c];
     const auto first = static_cast<int>(bands.size());
     std::vector<BandPlan> plan = layout_.plan(parts, first, component.priority, component.models);
     markAbsent(layout_, parts, coded, width, plan);
-    for (BandPlan& band : plan) {
+    for (size_t i = 0; i < plan.size(); ++i) {
+      BandPlan& band = plan[i];
+      const Subband& subband = layout_.subbands()[parts[i].subband];
+      band.log_norm += static_cast<int>(weights_.at(c, subband.level, subband.orientation));
       if (first > 0) band.component = static_cast<int>(bands.size() - parts.size());
       bands.push_back(std::move(band));
     }

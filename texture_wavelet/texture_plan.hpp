@@ -33,6 +33,7 @@ class TexturePlan {
   PlaneLayout layout_;
   std::vector<Region> regions_;
   std::vector<Component> components_;
+  BandWeights weights_;
 };
 
 /// The component transform of a header.

@@ -29,7 +29,7 @@ struct EncodeArguments {
   std::string max_error;
   bool lossless = false;
   uint32_t triangles = 0, threads = hardwareThreads();
-  std::string regions = "auto";
+  std::string regions = "auto", weights = "psnr";
   double step = 0;
   std::optional<double> scale, offset, nodata;
   std::string spacing;
@@ -124,6 +124,7 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   options.triangles = arguments.triangles;
   options.threads = arguments.threads;
   options.index = arguments.index;
+  options.weights = arguments.weights == "visual" ? TKS_WEIGHTS_VISUAL : TKS_WEIGHTS_PSNR;
   const Result<uint32_t> regions = parseRegions(arguments.regions);
   if (!regions.ok()) return regions.status();
   options.regions = *regions;
@@ -289,6 +290,10 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_option("--regions", arguments.regions,
                   "Spatial regions, for windows: auto, off, or their side (a power of two)")
       ->type_name("SIDE");
+  verb.add_option("--weights", arguments.weights,
+                  "What comes first in a texture: psnr, or visual (what is seen from afar)")
+      ->check(silent(CLI::IsMember({"psnr", "visual"})))
+      ->type_name("WEIGHTS");
   addThreads(verb, arguments.threads);
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
 }

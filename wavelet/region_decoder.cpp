@@ -2,7 +2,6 @@
 #include "wavelet/region_decoder.hpp"
 
 #include "bitstream/parallel.hpp"
-#include "bitstream/track_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
@@ -19,12 +18,19 @@ bool isWhole(const RegionHeader& regions, const Codewords& codewords) {
 
 }  // namespace
 
-int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const {
+int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take,
+                       TrackMemory* memory) const {
   if (regions.side_log2 == 0) {
-    const TrackState state = decodeTrack(plan_of(0), planes, codewords.front());
-    const int bits = outputFractionBits(wavelet, planes, state.complete);
-    take(0, state, bits - wavelet.fraction_bits);
-    return bits;
+    const auto taken = [&](const TrackState& state) {
+      const int bits = outputFractionBits(wavelet, planes, state.complete);
+      take(0, state, bits - wavelet.fraction_bits);
+      return bits;
+    };
+    // The plan is known when its masks are, which come first.
+    if (memory == nullptr || codewords.front().empty())
+      return taken(decodeTrack(plan_of(0), planes, codewords.front()));
+    if (!*memory) memory->emplace(plan_of(0), planes);
+    return taken((*memory)->decode(codewords.front()));
   }
   const int bits = outputFractionBits(wavelet, planes, isWhole(regions, codewords));
   parallelFor(threads, codewords.size(), [&](size_t i) {

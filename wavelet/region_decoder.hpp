@@ -6,12 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "bitstream/header.hpp"
-#include "bitstream/track.hpp"
+#include "bitstream/track_decoder.hpp"
 
 namespace tetrakis {
+
+/// What one call of a decoder leaves to the next, whose only track is longer by some bytes, and
+/// starts in the same memory. Empty at first.
+using TrackMemory = std::optional<GrowingTrack>;
 
 /// What the header says about the tracks of a component.
 struct RegionDecoder {
@@ -28,7 +33,8 @@ struct RegionDecoder {
   using Take = std::function<void(size_t track, const TrackState& state, int more_bits)>;
 
   /// Returns the fraction bits of the values taken (docs/FORMAT.md, section 7).
-  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
+  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take,
+          TrackMemory* memory = nullptr) const;
 };
 
 }  // namespace tetrakis

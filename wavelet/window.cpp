@@ -144,7 +144,7 @@ std::vector<int32_t> WindowSynthesis::run(Validity valid) {
     wanted.x -= level.x.block.begin;
     wanted.y -= level.y.block.begin;
     low = crop(std::span<const int32_t>(level.values), width, wanted);
-    level.values = {};
+    level.values = std::vector<int32_t>();  // {} would keep its memory
   }
   return low;
 }

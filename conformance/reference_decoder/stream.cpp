@@ -168,6 +168,17 @@ RegionHeader readRegions(Reader& in) {
   return regions;
 }
 
+/// FORMAT 2, table Weights.
+void readWeights(Reader& in, TextureHeader& texture) {
+  const int levels = in.u8(1, 8);
+  for (int c = 0; c < texture.components; ++c) {
+    texture.bandPriority[c].resize(levels);
+    for (auto& level : texture.bandPriority[c]) {
+      for (int& priority : level) priority = in.zigzag(128);
+    }
+  }
+}
+
 /// FORMAT 3: whether packets of a component say which track they belong to.
 bool namesTracks(const Stream& stream, uint64_t component) {
   if (component == 0) return stream.geometry && stream.geometry->regions.log2 > 0;
@@ -204,7 +215,7 @@ int levelOf(const Stream& stream) {
 /// FORMAT 2, Body. Returns `payload_bytes`.
 uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
-  const int parts = in.u8(1, 63);
+  const int parts = in.u8(1, 127);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
   in.u8(0, 1);               // lossless
   in.varint(0, UINT32_MAX);  // triangles
@@ -215,6 +226,7 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (parts & 16) stream.layers = readLayers(in, stream.geometry);
   if (parts & 32 && stream.geometry) stream.geometry->regions = readRegions(in);
   if (parts & 32 && stream.texture) stream.texture->regions = readRegions(in);
+  if (parts & 64 && stream.texture) readWeights(in, *stream.texture);
   if (parts & 8) skipIndex(in, stream);
   if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
   return payloadBytes;

@@ -51,6 +51,8 @@ struct TextureHeader {
   WaveletHeader wavelet;
   RegionHeader regions;
   std::array<int, 4> centre = {}, priority = {};
+  /// [component][level - 1][1 for HH], as many levels as the header tells.
+  std::array<std::vector<std::array<int, 2>>, 4> bandPriority;
   int colourOrder = 0;
   std::vector<std::array<int, 6>> shears;  ///< of samples, of level 2, 3, ...
 };

@@ -20,8 +20,13 @@ std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part
     const int kind = alpha ? 2 : c == 0 ? 0 : 1;
     const size_t first = all.size();
     std::vector<Band> bands = bandsOf(header.wavelet, parts, first);
-    for (Band& band : bands) {
+    for (size_t i = 0; i < parts.size(); ++i) {
+      Band& band = bands[i];
+      const Subband& subband = parts[i].subband;
       band.logNorm += header.priority[c];
+      const auto& weights = header.bandPriority[c];
+      if (subband.orientation != kLL && subband.level <= static_cast<int>(weights.size()))
+        band.logNorm += weights[subband.level - 1][subband.orientation == kHH];
       band.modelClass += 5 * kind;
       if (c > 0) band.companion = all.size() - parts.size();
       all.push_back(std::move(band));

@@ -88,6 +88,14 @@ typedef struct tks_image {
 /* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1]. */
 typedef int (*tks_progress)(void* user, double done);
 
+/* What errors of a texture's wavelet count as: what is worth most comes first, and is kept where
+ * bytes are few. The complete stream holds the same. */
+typedef enum tks_weights {
+  TKS_WEIGHTS_PSNR = 0,  /* their squares */
+  TKS_WEIGHTS_VISUAL = 1 /* what an eye sees that has 64 samples in a degree: fine detail counts
+                            less, in colour differences much less; costs up to 1.3 dB of PSNR */
+} tks_weights;
+
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
 typedef struct tks_encode_options {
   size_t size;       /* sizeof(tks_encode_options) */
@@ -106,6 +114,7 @@ typedef struct tks_encode_options {
                         either component): a power of two from 16 to 2^20; 1: none; 0: chosen, none
                         up to 1025 x 1025 heights, 2048 x 2048 texels, or heights with max_error */
   int index;         /* non-zero: write the front index (byte ranges of every packet) */
+  tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;
 } tks_encode_options;

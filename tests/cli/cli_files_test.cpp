@@ -150,5 +150,23 @@ TEST_F(CliFiles, FolderWithoutManifestCannotBeVerified) {
   EXPECT_EQ(cli("verify .").code, 2);
 }
 
+TEST_F(CliFiles, WeightsChangeWhatComesFirst) {
+  ASSERT_EQ(cli("synth --size 65 -o s").code, 0);
+  const std::string encode = "encode --texture s/texture.png --bytes 1500 -q ";
+  ASSERT_EQ(cli(encode + "-o plain.tks").code, 0);
+  ASSERT_EQ(cli(encode + "--weights psnr -o psnr.tks").code, 0);
+  ASSERT_EQ(cli(encode + "--weights visual -o visual.tks").code, 0);
+  for (const char* name : {"plain", "psnr", "visual"}) {
+    const std::string file = name;
+    ASSERT_EQ(cli("decode " + file + ".tks --texture " + file + ".png").code, 0);
+  }
+  const auto plain = tools::readImage(path("plain.png")), psnr = tools::readImage(path("psnr.png")),
+             visual = tools::readImage(path("visual.png"));
+  ASSERT_TRUE(plain.ok() && psnr.ok() && visual.ok());
+  EXPECT_EQ(plain->data, psnr->data);
+  EXPECT_NE(plain->data, visual->data);
+  EXPECT_EQ(cli(encode + "--weights loud -o loud.tks").code, 1);
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Order of the passes by what an eye sees. Encoder only.
+#pragma once
+
+#include <cstdint>
+
+#include "bitstream/header.hpp"
+
+namespace tetrakis {
+
+/// components: 1 to 4, the last of an even number being alpha, which is weighted like the first.
+BandWeights visualWeights(uint32_t components);
+
+}  // namespace tetrakis
