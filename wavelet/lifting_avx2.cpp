@@ -5,8 +5,8 @@
 //   x = 2^16 high + low + 2^15,   low in [-2^15, 2^15)
 //
 // and a pair adds 2^16 (w a_high + w b_high) + (w a_low + w b_low) + 2^16 w: one instruction adds a
-// pair of 16-bit products. The magnitudes of the weights of a step sum to at most 2^14, so both sums
-// stay below 2^31 and nothing is lost:
+// pair of 16-bit products. The magnitudes of the weights of a step sum to at most 2^14, so both
+// sums stay below 2^31 and nothing is lost:
 //
 //   (2^16 H + L) >> shift = 2^(16 - shift) H + (L >> shift)      for shift < 16
 #include "wavelet/lifting_kernel.hpp"
