@@ -82,7 +82,7 @@ class EncodeJob {
   double meshFloor() const;
   const std::vector<EncodedTrack>& tracksOf(TrackId component) const;
   Codewords cutAt(TrackId component, uint64_t bytes) const;
-  AuditScope auditScope(uint64_t samples) const;
+  AuditScope auditScope(uint64_t samples, bool masked) const;
   // memory: of calls for fewer bytes of a component with one track.
   DecodedHeights decodedHeights(uint64_t bytes, TrackMemory* memory = nullptr) const;
   Texels decodedTexels(uint64_t bytes, TrackMemory* memory = nullptr) const;

@@ -121,8 +121,8 @@ Texels EncodeJob::decodedTexels(uint64_t bytes, TrackMemory* memory) const {
                        memory);
 }
 
-AuditScope EncodeJob::auditScope(uint64_t samples) const {
-  return {samples, budgeted() ? options_.bytes : UINT64_MAX};
+AuditScope EncodeJob::auditScope(uint64_t samples, bool masked) const {
+  return {samples, budgeted() ? options_.bytes : UINT64_MAX, masked};
 }
 
 /// Sum of squared errors in steps, voids that are not known among them.
@@ -163,7 +163,8 @@ TrackCurve EncodeJob::geometryCurve() const {
     }
     TrackMemory memory;
     return priced(TrackId::kGeometry,
-                  audit(geometry_->tracks.front(), auditScope(geometry_->steps.steps.size()),
+                  audit(geometry_->tracks.front(),
+                        auditScope(geometry_->steps.steps.size(), !geometry_->validity.empty()),
                         [&](uint64_t bytes) { return geometrySquares(bytes, &memory); }),
                   mean_square, cost, opening);
   };
@@ -205,7 +206,7 @@ TrackCurve EncodeJob::textureCurve() const {
   }
   TrackMemory memory;
   return priced(TrackId::kTexture,
-                audit(texture_->tracks.front(), auditScope(texels_.samples.size()),
+                audit(texture_->tracks.front(), auditScope(texels_.samples.size(), opening > 0),
                       [&](uint64_t bytes) { return textureSquares(bytes, &memory); }),
                 mean_square, mean_square, opening);
 }

@@ -36,7 +36,8 @@ class Records {
 /// Prefixes to measure from one point of the account to the next: of tiny tracks all, else so many
 /// that the quality of neighbours differs by 0.03 dB (in 12 288 samples, less in fewer) and that
 /// they are no more than a few bytes apart: passes of little gain are those that dip.
-uint64_t measurementsBetween(const RatePoint& a, const RatePoint& b, uint64_t samples) {
+uint64_t measurementsBetween(const RatePoint& a, const RatePoint& b, const AuditScope& scope) {
+  const uint64_t samples = scope.samples * (scope.masked ? 4 : 1);
   constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
   const double gain =
       b.distortion > 0 ? std::min(kMost, 10 * std::log10(a.distortion / b.distortion)) : kMost;
@@ -54,7 +55,7 @@ std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScop
   records.add({0, measure(0)});
   for (size_t i = 1; i < track.points.size() && !records.exact(); ++i) {
     const RatePoint &a = track.points[i - 1], &b = track.points[i];
-    const uint64_t parts = b.bytes > reach ? 1 : measurementsBetween(a, b, scope.samples);
+    const uint64_t parts = b.bytes > reach ? 1 : measurementsBetween(a, b, scope);
     for (uint64_t k = 1; k <= parts && !records.exact(); ++k) {
       const uint64_t bytes = a.bytes + (b.bytes - a.bytes) * k / parts;
       records.add({bytes, measure(bytes)}, parts == b.bytes - a.bytes ? kDip : kSparseDip);

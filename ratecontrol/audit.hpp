@@ -19,6 +19,7 @@ using Measure = std::function<double(uint64_t bytes)>;
 struct AuditScope {
   uint64_t samples = 0;
   uint64_t budget = UINT64_MAX;  ///< bytes of the track that can be sent at most
+  bool masked = false;  ///< a decoding lifts around voids, which takes some four times as long
 };
 
 /// Returns the track's points so that their distortion falls strictly.
