@@ -23,6 +23,12 @@ struct WeighedSample {
   double weight, a, b, p, residual;
 };
 
+/// Of a triangle whose moments of second order are known.
+struct Residuals {
+  double energy = 0;
+  TriangleMoments::First first;
+};
+
 void add(TriangleMoments& t, const WeighedSample& s) {
   t.energy += s.weight * s.residual * s.residual;
   t.first.a += s.weight * s.residual * s.a;
@@ -105,7 +111,15 @@ TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface
 /// Walks the mesh of a FittedMoments; its leaves come in the order in which they are stored.
 class FittedDescent {
  public:
-  explicit FittedDescent(const FittedMoments& mesh) : mesh_(mesh), lattice_(mesh.lattice_) {}
+  explicit FittedDescent(const FittedMoments& mesh) : mesh_(mesh), lattice_(mesh.lattice_) {
+    if (!mesh.full_ || mesh.surface_.isWeighted()) return;
+    grams_.resize(lattice_.levelCount() + 1);
+    TriangleMoments t;
+    for (size_t level = lattice_.levelCount(); level-- > 0; grams_[level] = t.gram) {
+      t = tetrakis::merge(t, t, 0);
+      add(t, {0.5, 0.5, 0.5, 0, 0});
+    }
+  }
 
   /// visit(FittedTriangle) for every root triangle.
   template <class Visit>
@@ -136,6 +150,10 @@ class FittedDescent {
     if (t.collapses(lattice_)) return {};
     if (!splits(t, mesh_.present_))
       return mesh_.full_ ? TriangleMoments() : mesh_.leaves_[next_++].moments;
+    if (!grams_.empty() && isInner(t.a.point) && isInner(t.b.point) && isInner(t.apex.point)) {
+      const Residuals r = residuals(t.level, t.a.sample, t.b.sample, t.apex.sample);
+      return {r.energy, r.first, grams_[t.level]};
+    }
     const FittedCorner w = cornerAt(t.splitPoint());
     const TriangleMoments first = momentsOf(t.first(w), gains);
     const TriangleMoments second = momentsOf(t.second(w), gains);
@@ -164,6 +182,27 @@ class FittedDescent {
            vertices[lattice_.id(lattice_.siteAt(t.level, t.splitPoint()))];
   }
 
+  bool isInner(GridPoint p) const {
+    return p.x > 0 && p.y > 0 && p.x + 1 < lattice_.width() && p.y + 1 < lattice_.height();
+  }
+
+  /// What momentsOf() does to an inner triangle of full resolution without weights, where all of a
+  /// level have the same second moments: nearly all there are at first. Corners are samples.
+  Residuals residuals(uint32_t level, uint32_t a, uint32_t b, uint32_t apex) const {
+    if (level == lattice_.levelCount()) return {};
+    const uint32_t w = (a + b) / 2;
+    const std::vector<double>& z = mesh_.heights_;
+    const double delta = z[w] - 0.5 * (z[a] + z[b]), own = 0.5 * delta;
+    const Residuals t1 = residuals(level + 1, apex, a, w), t2 = residuals(level + 1, b, apex, w);
+    const TriangleMoments::Gram& g = grams_[level + 1];
+    const double p1 = t1.first.p + delta * g.pp, p2 = t2.first.p + delta * g.pp;
+    const double both = 0.5 * (p1 + p2 + own);
+    const double gain = 2 * delta * (t1.first.p + t2.first.p) + delta * delta * (g.pp + g.pp);
+    return {t1.energy + t2.energy + gain + own * delta,
+            {t1.first.b + delta * g.bp + both, t2.first.a + delta * g.ap + both,
+             t1.first.a + delta * g.ap + (t2.first.b + delta * g.bp)}};
+  }
+
   TriangleMoments overhanging(const FittedTriangle& t) const {
     const GridPoint w = t.splitPoint(), p = t.apex.point;
     const bool first = p.y < w.y || (p.y == w.y && p.x < w.x);
@@ -189,7 +228,8 @@ class FittedDescent {
 
   const FittedMoments& mesh_;
   const Lattice& lattice_;
-  size_t next_ = 0;  ///< leaf
+  size_t next_ = 0;                           ///< leaf
+  std::vector<TriangleMoments::Gram> grams_;  ///< for residuals(), of each level; empty: not so
 };
 
 FittedMoments::FittedMoments(const Lattice& lattice, const WeightedSurface& surface)
