@@ -11,7 +11,7 @@ namespace tetrakis {
 
 namespace {
 
-constexpr uint64_t kPerTriangle = 5, kPerQuietTriangle = 2;
+constexpr uint64_t kPerTriangle = 5, kPerQuietTriangle = 1;
 
 /// Finest levels that can be left out with so many samples left for each triangle.
 uint32_t spareLevels(const Lattice& lattice, uint64_t per_triangle, uint32_t max_triangles) {
@@ -69,7 +69,7 @@ Result<ChosenMesh> fittedVertices(const CoarseSurface& surface, bool choose_coar
   const SurfaceView fine = surface.view();
   const CoarseSurface coarser = choose_coarser ? smoothed(fine) : CoarseSurface();
   const Result<FittedSequence> sequence =
-      FittedSequence::make({choose_coarser ? coarser.view() : fine, {}}, max_triangles);
+      FittedSequence::makeFor({choose_coarser ? coarser.view() : fine, {}}, max_triangles);
   if (!sequence.ok()) return sequence.status();
   std::vector<VertexId> vertices = sequence->order();
   vertices.resize(sequence->longestPrefix(max_triangles));

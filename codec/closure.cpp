@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "codec/closure_flow.hpp"
 #include "codec/gains.hpp"
@@ -53,6 +54,34 @@ class Regression {
         flow_(std::move(parents)) {
     scaleGains(gains);
     std::iota(order_.begin(), order_.end(), 0u);
+  }
+
+  /// Halves what holds the hull at `triangles` beyond the roots, and nothing else.
+  std::vector<HullSide> sidesOf(int64_t triangles) {
+    std::vector<HullSide> sides(order_.size(), HullSide::kAcross);
+    std::span<uint32_t> members = order_;
+    for (bool at_mean = false; !members.empty();) {
+      const Sums sums = sumsOf(members);
+      if (sums.cost == 0) break;
+      at_mean |= members.size() < kFewVertices;
+      if (!cut(members, at_mean ? floorDivide(sums.gain, sums.cost) : medianSlope(members))) {
+        if (std::exchange(at_mean, true)) break;
+        continue;
+      }
+      flow_.split(members);
+      const auto rest = std::stable_partition(members.begin(), members.end(),
+                                              [&](uint32_t v) { return flow_.inClosure(v); });
+      const auto inside = members.first(static_cast<size_t>(rest - members.begin()));
+      const auto outside = members.subspan(inside.size());
+      const int64_t cost = sumsOf(inside).cost;
+      const bool fits = cost <= triangles;
+      if (fits) triangles -= cost;
+      for (const uint32_t v : fits ? inside : outside)
+        sides[v] = fits ? HullSide::kWithin : HullSide::kBeyond;
+      members = fits ? outside : inside;
+      at_mean = false;
+    }
+    return sides;
   }
 
   std::vector<double> run() {
@@ -184,14 +213,29 @@ class Regression {
 
 }  // namespace
 
-std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
-                                  std::span<const double> gains) {
+namespace {
+
+Regression regressionOf(const Lattice& lattice, std::span<const VertexId> vertices,
+                        std::span<const double> gains) {
   assert(gains.size() == vertices.size());
   std::vector<uint8_t> costs;
   costs.reserve(vertices.size());
   for (const VertexId v : vertices)
     costs.push_back(static_cast<uint8_t>(lattice.triangleCost(lattice.site(v))));
-  return Regression(parentArcs(lattice, vertices), std::move(costs), gains).run();
+  return Regression(parentArcs(lattice, vertices), std::move(costs), gains);
+}
+
+}  // namespace
+
+std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
+                                  std::span<const double> gains) {
+  return regressionOf(lattice, vertices, gains).run();
+}
+
+std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
+                                std::span<const double> gains, uint32_t triangles) {
+  const int64_t roots = int64_t{2} * lattice.rootColumns() * lattice.rootRows();
+  return regressionOf(lattice, vertices, gains).sidesOf(triangles - roots);
 }
 
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains) {

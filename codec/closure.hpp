@@ -29,6 +29,18 @@ namespace tetrakis {
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
                                   std::span<const double> gains);
 
+/// Where a vertex stands to the mesh on the hull of a number of triangles. In this order parents
+/// come before children.
+enum class HullSide : uint8_t {
+  kWithin,  ///< in the last corner of no more triangles
+  kAcross,  ///< between that corner and the next
+  kBeyond,  ///< in neither
+};
+
+/// A small part of the work of closureSlopes() tells sides alone. vertices, gains: as there.
+std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
+                                std::span<const double> gains, uint32_t triangles);
+
 /// Of all vertices.
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains);
 

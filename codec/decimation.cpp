@@ -15,11 +15,7 @@ namespace tetrakis {
 namespace {
 
 Status check(const Lattice& lattice, const SurfaceView& surface, std::span<const uint32_t> costs) {
-  if (!surface.weights.empty() && surface.weights.size() != lattice.sampleCount())
-    return {TKS_USAGE, "A surface needs one weight for each sample, or none at all."};
-  for (const float w : surface.weights)
-    if (!(w >= 0 && std::isfinite(w)))
-      return {TKS_USAGE, "Weights of samples must be finite and not negative."};
+  if (Status status = checkWeights(surface); !status.ok()) return status;
   if (!costs.empty() && costs.size() != lattice.vertexCount())
     return {TKS_USAGE, "A mesh needs one cost for each lattice vertex, or none at all."};
   if (std::accumulate(costs.begin(), costs.end(), uint64_t{0}) > UINT32_MAX)

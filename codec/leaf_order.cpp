@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A greedy topological order of the parent relation, from below or from above.
+// Topological orders of the parent relation: greedy ones from below or from above, and a sorted
+// one.
 #include "codec/leaf_order.hpp"
 
 #include <algorithm>
@@ -68,6 +69,26 @@ std::vector<VertexId> refinement(const std::vector<double>& errors, const Vertex
       },
       [&](Site site, auto&& visit) { lattice.forEachParent(site, visit); },
       [&](Site site, auto&& visit) { lattice.forEachChild(site, visit); });
+}
+
+std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const VertexCosts& costs) {
+  constexpr double kLeast = -std::numeric_limits<double>::infinity();
+  const Lattice& lattice = costs.lattice();
+  std::vector<Candidate> order(errors.size());
+  lattice.forEachVertex([&](Site site, VertexId v) {
+    const uint32_t cost = costs.of(site, v);
+    order[v] = {cost > 0 ? -errors[v] / cost : -kLeast, v};
+  });
+  for (VertexId v = lattice.vertexCount(); v-- > 0;)
+    lattice.forEachParent(lattice.site(v), [&](Site parent) {
+      double& slope = order[lattice.id(parent)].slope;
+      slope = std::min(slope, order[v].slope);
+    });
+  std::sort(order.begin(), order.end());
+  std::vector<VertexId> vertices;
+  vertices.reserve(order.size());
+  for (const Candidate& candidate : order) vertices.push_back(candidate.vertex);
+  return vertices;
 }
 
 }  // namespace tetrakis

@@ -231,7 +231,7 @@ TEST(FittedHeights, SequencesForOneMeshAreAsGoodThere) {
   const Terrain terrain(65, 50);
   const Result<FittedSequence> all = FittedSequence::make(terrain.surface());
   for (const uint32_t budget : {2u, 30u, 150u, 600u, 10000u}) {
-    const Result<FittedSequence> one = FittedSequence::make(terrain.surface(), budget);
+    const Result<FittedSequence> one = FittedSequence::makeFor(terrain.surface(), budget);
     const FittedMesh mesh = one->mesh(one->longestPrefix(budget));
     checks::expectConforming(mesh.mesh, 65, 50);
     const double error = squaredError(all->mesh(all->longestPrefix(budget)), terrain);
