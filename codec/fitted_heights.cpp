@@ -16,6 +16,15 @@
 
 namespace tetrakis {
 
+namespace {
+
+/// Triangles of the first of the stages for one mesh.
+uint64_t firstStage(uint32_t wanted) {
+  return wanted * uint64_t{3} / 2;
+}
+
+}  // namespace
+
 Result<FittedSequence> FittedSequence::make(const WeightedSurface& surface) {
   Result<MeshSequence> greedy = decimate(surface.view);
   if (!greedy.ok()) return greedy.status();
@@ -28,8 +37,8 @@ Result<FittedSequence> FittedSequence::makeFor(const WeightedSurface& surface, u
   Result<Lattice> lattice = Lattice::make(surface.view.width, surface.view.height);
   if (!lattice.ok()) return lattice.status();
   if (const Status status = checkWeights(surface.view); !status.ok()) return status;
-  std::vector<VertexId> order =
-      saturatedOrder(vertexGains(*lattice, surface.view), VertexCosts(*lattice));
+  std::vector<VertexId> order = saturatedOrder(vertexGains(*lattice, surface.view),
+                                               VertexCosts(*lattice), firstStage(triangles));
   FittedSequence sequence(std::move(*lattice), surface, std::move(order));
   sequence.refineFor(triangles);
   return sequence;
@@ -55,7 +64,7 @@ void FittedSequence::refine() {
 /// has. Twice as many triangles at first, or one stage more, change less than half a percent.
 void FittedSequence::refineFor(uint32_t wanted) {
   FittedMoments fitted(lattice_, surface_);
-  const uint64_t stages[] = {wanted * uint64_t{3} / 2, wanted * uint64_t{8} / 7, wanted};
+  const uint64_t stages[] = {firstStage(wanted), wanted * uint64_t{8} / 7, wanted};
   for (size_t stage = 0; stage + 1 < std::size(stages); ++stage) {
     if (stages[stage] > lattice_.sampleCount() / 3) continue;
     const size_t count = longestPrefix(static_cast<uint32_t>(stages[stage]));

@@ -32,7 +32,8 @@ class FittedSequence {
   /// Meshes of any number of triangles. The errors of decimate(), whose order of the view is where
   /// refinement starts. The surface outlives the sequence.
   static Result<FittedSequence> make(const WeightedSurface& surface);
-  /// In a fraction of the time a sequence that is good at so many triangles, and near them, alone.
+  /// In a fraction of the time a sequence that is good at so many triangles alone, and ends behind
+  /// them.
   static Result<FittedSequence> makeFor(const WeightedSurface& surface, uint32_t triangles);
 
   const Lattice& lattice() const { return lattice_; }

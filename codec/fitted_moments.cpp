@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "codec/triangle.hpp"
+#include "codec/triangle_samples.hpp"
 
 namespace tetrakis {
 namespace {
@@ -64,45 +65,30 @@ std::array<double, 3> cornerSamples(const WeightedSurface& surface, const Fitted
           static_cast<double>(z[t.apex.sample])};
 }
 
-/// Against the plane through the samples at its corners. Edge functions (Pineda 1988) of the
-/// clamped triangle; a b apex run clockwise with rows downwards turned up, so that all are >= 0
-/// inside.
+/// Of the clamped triangle, against the plane through the samples at its corners.
 TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface,
                           const FittedTriangle& t) {
-  struct Edge {
-    int64_t from_x, from_y, dx, dy;
-    double weight;  ///< of the samples on it
-    int64_t at(int64_t x, int64_t y) const { return dy * (x - from_x) - dx * (y - from_y); }
-  };
-  const std::array<GridPoint, 3> corner = {lattice.clamp(t.a.point), lattice.clamp(t.b.point),
-                                           lattice.clamp(t.apex.point)};
-  std::array<Edge, 3> edges;
-  for (size_t k = 0; k < 3; ++k) {
-    const GridPoint from = corner[(k + 1) % 3], to = corner[(k + 2) % 3];
-    edges[k] = {from.x, from.y, int64_t{to.x} - from.x, int64_t{to.y} - from.y,
-                onBorder(lattice, from, to) ? 1.0 : 0.5};
-  }
-  const auto area = static_cast<double>(edges[0].at(corner[0].x, corner[0].y));
-  assert(area > 0);
-  const auto [left, right] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
-  const auto [top, bottom] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
+  const std::array<GridPoint, 3> corners = {lattice.clamp(t.a.point), lattice.clamp(t.b.point),
+                                            lattice.clamp(t.apex.point)};
+  std::array<double, 3> shares;  // of the samples on each edge
+  for (size_t k = 0; k < 3; ++k)
+    shares[k] = onBorder(lattice, corners[(k + 1) % 3], corners[(k + 2) % 3]) ? 1.0 : 0.5;
+  const TriangleSamples samples(corners);
+  const auto area = static_cast<double>(samples.doubledArea());
   const std::array<double, 3> heights = cornerSamples(surface, t);
   TriangleMoments moments;
-  for (uint32_t y = top; y <= bottom; ++y)
-    for (uint32_t x = left; x <= right; ++x) {
-      const std::array<int64_t, 3> e = {edges[0].at(x, y), edges[1].at(x, y), edges[2].at(x, y)};
-      const auto zeros = std::count(e.begin(), e.end(), 0);
-      const uint32_t sample = y * lattice.width() + x;
-      if ((e[0] | e[1] | e[2]) < 0 || zeros == 2) continue;
-      double weight = surface.weightOf(sample);
-      for (size_t k = 0; k < 3; ++k)
-        if (e[k] == 0) weight *= edges[k].weight;
-      const double a = static_cast<double>(e[0]) / area, b = static_cast<double>(e[1]) / area,
-                   p = static_cast<double>(e[2]) / area;
-      const double z = surface.view.heights[sample];
-      add(moments,
-          {weight, a, b, p, a * (z - heights[0]) + b * (z - heights[1]) + p * (z - heights[2])});
-    }
+  samples.forEach([&](uint32_t x, uint32_t y, const TriangleSamples::Edges& e) {
+    if (std::count(e.begin(), e.end(), 0) == 2) return;  // a vertex stands apart
+    const uint32_t sample = y * lattice.width() + x;
+    double weight = surface.weightOf(sample);
+    for (size_t k = 0; k < 3; ++k)
+      if (e[k] == 0) weight *= shares[k];
+    const double a = static_cast<double>(e[0]) / area, b = static_cast<double>(e[1]) / area,
+                 p = static_cast<double>(e[2]) / area;
+    const double z = surface.view.heights[sample];
+    add(moments,
+        {weight, a, b, p, a * (z - heights[0]) + b * (z - heights[1]) + p * (z - heights[2])});
+  });
   return moments;
 }
 
@@ -189,10 +175,10 @@ class FittedDescent {
   /// What momentsOf() does to an inner triangle of full resolution without weights, where all of a
   /// level have the same second moments: nearly all there are at first. Corners are samples.
   Residuals residuals(uint32_t level, uint32_t a, uint32_t b, uint32_t apex) const {
-    if (level == lattice_.levelCount()) return {};
     const uint32_t w = (a + b) / 2;
     const std::vector<double>& z = mesh_.heights_;
     const double delta = z[w] - 0.5 * (z[a] + z[b]), own = 0.5 * delta;
+    if (level + 1 == lattice_.levelCount()) return {own * delta, {0.5 * own, 0.5 * own, 0}};
     const Residuals t1 = residuals(level + 1, apex, a, w), t2 = residuals(level + 1, b, apex, w);
     const TriangleMoments::Gram& g = grams_[level + 1];
     const double p1 = t1.first.p + delta * g.pp, p2 = t2.first.p + delta * g.pp;

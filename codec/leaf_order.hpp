@@ -21,8 +21,10 @@ std::vector<VertexId> restrictedDecimation(const std::vector<double>& errors,
 std::vector<VertexId> refinement(const std::vector<double>& errors, const VertexCosts& costs);
 
 /// By saturated slopes (Ohlberger and Rumpf 1999): of a vertex, the greatest among its own and
-/// those of its descendants. All vertices, greatest first, parents before children. What is worth
-/// little is sorted almost as by general decimation, in a fraction of the time.
-std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const VertexCosts& costs);
+/// those of its descendants. Parents before children, greatest first, as many vertices as cost
+/// `most` or more in all. What is worth little is told almost as well as by general decimation, in
+/// a fraction of the time.
+std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const VertexCosts& costs,
+                                     uint64_t most);
 
 }  // namespace tetrakis
