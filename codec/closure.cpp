@@ -62,11 +62,14 @@ class Regression {
     std::span<uint32_t> members = order_;
     for (bool at_mean = false; !members.empty();) {
       const Sums sums = sumsOf(members);
-      if (sums.cost == 0) break;
       at_mean |= members.size() < kFewVertices;
-      if (!cut(members, at_mean ? floorDivide(sums.gain, sums.cost) : medianSlope(members))) {
-        if (std::exchange(at_mean, true)) break;
-        continue;
+      const bool whole = sums.cost == 0 || !cut(members, at_mean ? floorDivide(sums.gain, sums.cost)
+                                                                 : medianSlope(members));
+      if (whole && sums.cost > 0 && !std::exchange(at_mean, true)) continue;
+      if (whole) {  // from one corner to the next
+        if (sums.cost <= triangles)
+          for (const uint32_t v : members) sides[v] = HullSide::kWithin;
+        break;
       }
       flow_.split(members);
       const auto rest = std::stable_partition(members.begin(), members.end(),
@@ -244,6 +247,22 @@ std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double
   return closureSlopes(lattice, vertices, gains);
 }
 
+void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
+                        std::span<VertexId> order) {
+  std::vector<VertexId> vertices(order.begin(), order.end());
+  std::sort(vertices.begin(), vertices.end());
+  std::vector<double> own;
+  own.reserve(vertices.size());
+  for (const VertexId v : vertices) own.push_back(gains[v]);
+  const std::vector<double> slopes = closureSlopes(lattice, vertices, own);
+  const auto slopeOf = [&](VertexId v) {
+    return slopes[static_cast<size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
+                                      vertices.begin())];
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](VertexId v, VertexId w) { return slopeOf(v) > slopeOf(w); });
+}
+
 MeshHull::MeshHull(const Lattice& lattice, const std::vector<double>& gains,
                    const std::vector<double>& slopes) {
   std::vector<VertexId> order(gains.size());
@@ -282,10 +301,8 @@ Result<MeshSequence> decimateOptimally(const SurfaceView& surface) {
   if (!greedy.ok()) return greedy;
   const Lattice& lattice = greedy->lattice();
   const std::vector<double> gains = vertexGains(lattice, surface);
-  const std::vector<double> slopes = closureSlopes(lattice, gains);
   std::vector<VertexId> order = greedy->order();
-  std::stable_sort(order.begin(), order.end(),
-                   [&](VertexId v, VertexId w) { return slopes[v] > slopes[w]; });
+  sortThroughCorners(lattice, gains, order);
   return MeshSequence(lattice, std::move(order), gains);
 }
 

@@ -44,6 +44,12 @@ std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId
 /// Of all vertices.
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains);
 
+/// Sorts a closed set, the first vertices of an order, so that its prefixes pass through every
+/// corner of the hull of the meshes within it; between corners they keep their order. gains: of all
+/// lattice vertices.
+void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
+                        std::span<VertexId> order);
+
 /// Corners of the hull, from the roots alone to full resolution.
 class MeshHull {
  public:
