@@ -61,12 +61,13 @@ void FittedSequence::refine() {
 }
 
 /// Two stages, close to the mesh that is wanted, each of which settles which vertices the next one
-/// has. Twice as many triangles at first, or one stage more, change less than half a percent.
+/// has. Twice as many triangles at first, or one stage more, change less than half a percent. Above
+/// a triangle a sample the samples themselves nearly fit.
 void FittedSequence::refineFor(uint32_t wanted) {
   FittedMoments fitted(lattice_, surface_);
   const uint64_t stages[] = {firstStage(wanted), wanted * uint64_t{8} / 7, wanted};
   for (size_t stage = 0; stage + 1 < std::size(stages); ++stage) {
-    if (stages[stage] > lattice_.sampleCount() / 3) continue;
+    if (stages[stage] > lattice_.sampleCount()) continue;
     const size_t count = longestPrefix(static_cast<uint32_t>(stages[stage]));
     fitted.coarsen(std::span(order_).first(count));
     fitHeights(fitted);
