@@ -4,11 +4,10 @@
 #include <cstdlib>
 #include <limits>
 
+#include "api/budget_mesh.hpp"
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
 #include "api/void_mesh.hpp"
-#include "codec/coarse_surface.hpp"
-#include "codec/fitted_heights.hpp"
 
 namespace tetrakis {
 
@@ -20,52 +19,13 @@ struct Chosen {
   std::vector<double> fitted;  ///< one for each vertex of the mesh; empty: those of the samples
 };
 
-/// Finest levels that a mesh of few triangles can be chosen without. With 12 samples left for each
-/// triangle its RMSE grows by 0.4 % at most and the time falls with the samples; where nothing is
-/// known of a level, one for each triangle will do.
-uint32_t spareLevels(const Lattice& lattice, const DecodedGeometry& geometry,
-                     uint32_t max_triangles) {
-  constexpr uint64_t kPerTriangle = 12;
-  const uint32_t shorter = std::min(lattice.width(), lattice.height()) - 1;
-  const auto spare = [&](uint32_t levels) {
-    const uint64_t left = lattice.sampleCount() >> (2 * levels);
-    const uint64_t needed = levels <= geometry.quiet_levels ? 1 : kPerTriangle;
-    return shorter >> levels > 0 && left >= needed * max_triangles;
-  };
-  uint32_t k = 0;
-  while (spare(k + 1)) ++k;
-  return k;
-}
-
-/// Chosen on a coarse surface, fitted to one with four times its samples where they are known.
-Result<Chosen> fittedVertices(const Lattice& lattice, const DecodedGeometry& geometry,
-                              uint32_t max_triangles) {
-  const SurfaceView whole{lattice.width(), lattice.height(), geometry.heights};
-  const uint32_t k = spareLevels(lattice, geometry, max_triangles);
-  const CoarseSurface coarse = coarsen(whole, k);
-  const Result<FittedSequence> sequence = FittedSequence::make({coarse.view(), {}}, max_triangles);
-  if (!sequence.ok()) return sequence.status();
-  const size_t count = sequence->longestPrefix(max_triangles);
-  std::vector<VertexId> order = sequence->order();
-  order.resize(count);
-  if (k <= geometry.quiet_levels) return Chosen{std::move(order), sequence->mesh(count).heights};
-  const CoarseSurface finer = coarsen(whole, k - 1);
-  const Result<Lattice> finer_lattice = Lattice::make(finer.width, finer.height);
-  if (!finer_lattice.ok()) return finer_lattice.status();
-  std::vector<double> heights = fitMesh(*finer_lattice, {finer.view(), {}}, order).heights;
-  return Chosen{std::move(order), std::move(heights)};
-}
-
 Result<Chosen> chosenVertices(const Lattice& lattice, const DecodedGeometry& geometry,
                               tks_mesh_kind kind, uint32_t max_triangles) {
   if (kind == TKS_MESH_CODED) return Chosen{codedVertices(lattice, geometry.significant), {}};
   if (max_triangles == 0) return Chosen{allVertices(lattice), {}};
-  if (!geometry.valid.empty()) {
-    Result<FittedVertices> beside = verticesBesideVoids(lattice, geometry, max_triangles);
-    if (!beside.ok()) return beside.status();
-    return Chosen{std::move(beside->vertices), std::move(beside->heights)};
-  }
-  return fittedVertices(lattice, geometry, max_triangles);
+  Result<FittedVertices> beside = verticesBesideVoids(lattice, geometry, max_triangles);
+  if (!beside.ok()) return beside.status();
+  return Chosen{std::move(beside->vertices), std::move(beside->heights)};
 }
 
 template <class T>
@@ -82,11 +42,15 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
     return Status(TKS_USAGE, "Unknown kind of mesh.");
   if (decoder.heights_level > 0)
     return Status(TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles.");
-  Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
-  if (!geometry.ok()) return geometry.status();
   const StreamHeader& header = decoder.parsed.header;
+  if (!header.geometry) return Status(TKS_USAGE, "The stream holds no heights.");
   Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
   if (!lattice.ok()) return lattice.status();
+  const bool has_voids = header.layers.validity_bytes > 0;
+  if (kind == TKS_MESH_BUDGET && max_triangles > 0 && !has_voids)
+    return budgetMesh(decoder, std::move(*lattice), max_triangles);
+  const Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
+  if (!geometry.ok()) return geometry.status();
   Result<Chosen> chosen = chosenVertices(*lattice, **geometry, kind, max_triangles);
   if (!chosen.ok()) return chosen.status();
   LatticeMesh mesh = meshOf(*lattice, chosen->vertices);

@@ -28,9 +28,10 @@ Result<uint64_t> childPeak(const std::function<Status()>& work) {
 
 }  // namespace
 
-Result<uint64_t> peakMemory(const std::function<Status()>& work) {
+Result<uint64_t> peakMemory(const std::function<Status()>& work,
+                            const std::function<Status()>& baseline) {
   malloc_trim(0);  // else a child would reuse freed blocks that its baseline already counts
-  const Result<uint64_t> idle = childPeak([] { return Status(); });
+  const Result<uint64_t> idle = childPeak(baseline);
   if (!idle.ok()) return idle;
   const Result<uint64_t> busy = childPeak(work);
   if (!busy.ok()) return busy;

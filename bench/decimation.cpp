@@ -8,6 +8,7 @@
 
 #include "bench/decimation_quality.hpp"
 #include "bench/decimation_speed.hpp"
+#include "bench/first_mesh.hpp"
 #include "bench/options.hpp"
 #include "bench/results.hpp"
 #include "tools/files.hpp"
@@ -104,16 +105,35 @@ Result<std::vector<PeerMesh>> peerMeshes(const Terrain& terrain, const Options& 
 Status compareWithHull(const Terrain& terrain, std::vector<ResultRow>& rows) {
   const auto gaps = gapsToHull(terrain.tile);
   if (!gaps.ok()) return gaps.status();
-  std::printf("  dB above the hull at triangles, greedy (optimal order):");
-  double greedy = 0, optimal = 0;
+  double at_corner = 0, to_chord = 0, optimal = 0;
+  std::printf("  dB above the hull at the triangles of its corners:");
   for (const GapPoint& point : *gaps) {
-    std::printf(" %u: %.4f (%.4f)", point.triangles, point.greedy, point.optimal);
-    greedy = std::max(greedy, point.greedy);
-    optimal = std::max(optimal, point.optimal);
+    std::printf(" %u: %.4f", point.corner, point.at_corner);
+    at_corner = std::max(at_corner, point.at_corner);
+  }
+  std::printf("\n  dB above its chords at rates (optimal order):");
+  for (const GapPoint& point : *gaps) {
+    std::printf(" %u: %.4f (%.4f)", point.triangles, point.to_chord, point.optimal_to_chord);
+    to_chord = std::max(to_chord, point.to_chord);
+    optimal = std::max(optimal, point.optimal_to_chord);
   }
   std::printf("\n");
-  rows.push_back({terrain.item, "tetrakis", "worst_gap_db", greedy});
-  rows.push_back({terrain.item, "tetrakis_optimal", "worst_gap_db", optimal});
+  rows.push_back({terrain.item, "tetrakis", "worst_gap_db", at_corner});
+  rows.push_back({terrain.item, "tetrakis", "worst_chord_gap_db", to_chord});
+  rows.push_back({terrain.item, "tetrakis_optimal", "worst_chord_gap_db", optimal});
+  return {};
+}
+
+Status compareFirstMesh(const Terrain& terrain, int runs, std::vector<ResultRow>& rows) {
+  const auto times = timeFirstMesh(terrain.tile, runs);
+  if (!times.ok()) return times.status();
+  std::printf(
+      "  first %zu bytes to %u triangles: %.1f ms, %zu bytes %.1f ms; OpenJPEG at 1 bit: %.1f ms\n",
+      kFirstBytes, kFirstTriangles, times->first_ms, kMoreBytes, times->more_ms,
+      times->openjpeg_ms);
+  rows.push_back({terrain.item, "tetrakis", "first_2k_to_3000_triangles_ms", times->first_ms});
+  rows.push_back({terrain.item, "tetrakis", "64k_to_3000_triangles_ms", times->more_ms});
+  rows.push_back({terrain.item, "openjpeg97", "decode_1bpp_ms", times->openjpeg_ms});
   return {};
 }
 
@@ -159,6 +179,7 @@ Status compare(const Terrain& terrain, const Options& options, std::vector<Resul
                Means& means) {
   std::printf("\n%s, %u x %u\n", terrain.item.c_str(), terrain.tile.width, terrain.tile.height);
   Status status = compareWithHull(terrain, rows);
+  if (status.ok()) status = compareFirstMesh(terrain, options.runs, rows);
   if (!status.ok()) return status;
   const auto peers = peerMeshes(terrain, options);
   if (!peers.ok()) return peers.status();

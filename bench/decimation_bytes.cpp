@@ -7,7 +7,6 @@
 
 #include "bench/decimation_quality.hpp"
 #include "bench/tetrakis_peer.hpp"
-#include "codec/fitted_heights.hpp"
 
 namespace tetrakis::bench {
 namespace {
@@ -62,27 +61,34 @@ Result<PlanMesh> budgetMesh(std::span<const uint8_t> prefix, uint32_t triangles,
   return out;
 }
 
-/// The smallest budget whose mesh of the decoded surface errs by at most `goal`; all triangles if
-/// none does. One order of decimation serves all budgets that are tried.
-Result<uint32_t> smallestBudget(const Raster& raster, const std::vector<float>& surface,
+/// A budget mesh and what it errs by.
+struct JudgedMesh {
+  uint32_t triangles = 0;
+  double rmse = 0;
+};
+
+/// The smallest budget, to 1 %, whose mesh errs by at most `goal`; all triangles if none does.
+Result<JudgedMesh> smallestMesh(const Raster& raster, std::span<const uint8_t> prefix,
                                 double goal) {
-  constexpr float kSteps = 16;  // the decoder's four fraction bits
-  std::vector<int32_t> heights;
-  for (const float h : surface) heights.push_back(static_cast<int32_t>(std::lround(h * kSteps)));
-  const Result<FittedSequence> sequence =
-      FittedSequence::make({{raster.width, raster.height, heights}, raster.real});
-  if (!sequence.ok()) return sequence.status();
-  const auto errs = [&](uint32_t budget) {
-    PlanMesh mesh = planMesh(sequence->mesh(sequence->longestPrefix(budget)), raster.width);
-    for (auto& position : mesh.positions) position[2] /= kSteps;
-    return rmse(mesh, raster);
+  const auto judge = [&](uint32_t budget) -> Result<JudgedMesh> {
+    const auto mesh = budgetMesh(prefix, budget, raster.unit);
+    if (!mesh.ok()) return mesh.status();
+    return JudgedMesh{static_cast<uint32_t>(mesh->triangleCount()), rmse(*mesh, raster)};
   };
   auto low = 2u, high = 2 * (raster.width - 1) * (raster.height - 1);
-  while (high - low > 1 + high / 100) {
-    const auto middle = static_cast<uint32_t>(std::sqrt(double{1} * low * high));
-    (errs(middle) <= goal ? high : low) = std::max(middle, low + 1);
+  Result<JudgedMesh> best = judge(high);
+  while (best.ok() && high - low > 1 + high / 100) {
+    const auto middle = std::max(static_cast<uint32_t>(std::sqrt(double{1} * low * high)), low + 1);
+    Result<JudgedMesh> tried = judge(middle);
+    if (!tried.ok()) return tried;
+    if (tried->rmse > goal) {
+      low = middle;
+      continue;
+    }
+    high = middle;
+    best = std::move(tried);
   }
-  return high;
+  return best;
 }
 
 /// The cheapest coding of any peer's mesh that errs by at most `goal`.
@@ -125,17 +131,13 @@ Result<std::vector<BytePoint>> comparedBytes(const Raster& raster,
     if (best.bytes == 0) continue;
     const auto prefix = shortestPrefix(raster, *stream, kShare * point.goal);
     if (!prefix.ok()) return prefix.status();
-    const auto surface = surfaceOf(*prefix);
-    if (!surface.ok()) return surface.status();
-    const auto budget = smallestBudget(raster, *surface, point.goal);
-    if (!budget.ok()) return budget.status();
-    const auto mesh = budgetMesh(*prefix, *budget, raster.unit);
+    const auto mesh = smallestMesh(raster, *prefix, point.goal);
     if (!mesh.ok()) return mesh.status();
-    point.rmse = rmse(*mesh, raster);
+    point.rmse = mesh->rmse;
     point.peer_bytes = best.bytes;
     point.peer_triangles = best.triangles;
     point.bytes = prefix->size();
-    point.triangles = static_cast<uint32_t>(mesh->triangleCount());
+    point.triangles = mesh->triangles;
     points.push_back(point);
   }
   return points;

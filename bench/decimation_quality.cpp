@@ -28,30 +28,48 @@ PlanMesh planMesh(const FittedMesh& fitted, uint32_t width) {
   return mesh;
 }
 
+namespace {
+
+/// A terrain that some triangles already show without error has no gap.
+double decibels(double error, double bound) {
+  return error > 0 && bound > 0 ? 10 * std::log10(error / bound) : 0;
+}
+
+double gapToChord(const MeshSequence& sequence, const MeshHull& hull, uint32_t budget) {
+  const size_t inserted = sequence.bestPrefix(budget);
+  return decibels(sequence.squaredError(inserted), hull.bound(sequence.triangleCount(inserted)));
+}
+
+MeshHull::Corner nearestCorner(const MeshHull& hull, double triangles) {
+  return *std::min_element(hull.corners().begin(), hull.corners().end(),
+                           [&](const MeshHull::Corner& a, const MeshHull::Corner& b) {
+                             return std::abs(std::log(a.triangles / triangles)) <
+                                    std::abs(std::log(b.triangles / triangles));
+                           });
+}
+
+}  // namespace
+
 Result<std::vector<GapPoint>> gapsToHull(const Raster& raster) {
   constexpr int kRates = 20;
   constexpr double kFewest = 100, kMost = 0.9;
   const std::vector<int32_t> heights = wholeHeights(raster);
   const SurfaceView surface{raster.width, raster.height, heights};
-  const Result<MeshSequence> greedy = decimate(surface);
-  if (!greedy.ok()) return greedy.status();
-  const std::vector<double> gains = vertexGains(greedy->lattice(), surface);
-  const MeshHull hull(greedy->lattice(), gains, closureSlopes(greedy->lattice(), gains));
-  const double ratio = kMost * greedy->triangleCount(greedy->order().size()) / kFewest;
+  const Result<MeshSequence> sequence = decimate(surface);
+  if (!sequence.ok()) return sequence.status();
+  const std::vector<double> gains = vertexGains(sequence->lattice(), surface);
+  const MeshHull hull(sequence->lattice(), gains, closureSlopes(sequence->lattice(), gains));
+  const double ratio = kMost * sequence->triangleCount(sequence->order().size()) / kFewest;
   const Result<MeshSequence> optimal = decimateOptimally(surface);
   if (!optimal.ok()) return optimal.status();
   std::vector<GapPoint> points;
   for (int i = 0; i < kRates; ++i) {
-    const auto budget =
-        static_cast<uint32_t>(kFewest * std::pow(ratio, static_cast<double>(i) / (kRates - 1)));
-    // On a terrain that some triangles already show without error, both errors are 0.
-    const auto gap = [&](const MeshSequence& sequence) {
-      const size_t inserted = sequence.bestPrefix(budget);
-      const double error = sequence.squaredError(inserted);
-      return error > 0 ? 10 * std::log10(error / hull.bound(sequence.triangleCount(inserted))) : 0;
-    };
-    points.push_back(
-        {greedy->triangleCount(greedy->bestPrefix(budget)), gap(*greedy), gap(*optimal)});
+    const double rate = kFewest * std::pow(ratio, static_cast<double>(i) / (kRates - 1));
+    const auto budget = static_cast<uint32_t>(rate);
+    const MeshHull::Corner corner = nearestCorner(hull, rate);
+    const double error = sequence->squaredError(sequence->bestPrefix(corner.triangles));
+    points.push_back({corner.triangles, decibels(error, corner.squared_error), budget,
+                      gapToChord(*sequence, hull, budget), gapToChord(*optimal, hull, budget)});
   }
   return points;
 }

@@ -14,12 +14,16 @@ namespace tetrakis::bench {
 
 PlanMesh planMesh(const FittedMesh& fitted, uint32_t width);
 
+/// dB of squared error above the hull of all 4-8 meshes, near one rate.
 struct GapPoint {
+  uint32_t corner = 0;   ///< triangles of the hull's corner nearest to the rate: a mesh lies on it
+  double at_corner = 0;  ///< of the best prefix there
   uint32_t triangles = 0;
-  double greedy = 0, optimal = 0;  ///< dB of squared error of either order above the hull
+  double to_chord = 0, optimal_to_chord = 0;  ///< at the rate itself, of either order
 };
 
-/// 20 rates from 100 triangles to nine tenths of all, at equal ratios.
+/// 20 rates from 100 triangles to nine tenths of all, at equal ratios. Between two corners the hull
+/// is their chord, which no mesh need reach.
 Result<std::vector<GapPoint>> gapsToHull(const Raster& raster);
 
 /// Errors at one number of triangles: that of the peer's mesh.

@@ -78,13 +78,14 @@ void besideMeshoptimizer(const Raster& source, int runs, std::vector<ResultRow>&
 
 Status scaling(const Raster& source, int runs, std::vector<ResultRow>& rows) {
   std::printf("\n%8s %10s %14s %16s\n", "side", "seconds", "ns / vertex", "bytes / vertex");
+  const Tile least(source, 9);
   for (uint32_t side = 129; side <= 4097; side = 2 * side - 1) {
     const Tile tile(source, side);
     const auto work = [&] { return decimate(tile.view()).status(); };
     std::vector<double> seconds;
     for (int i = 0; i < (side > kSide ? 1 : runs); ++i)
       seconds.push_back(processorSeconds([&] { static_cast<void>(work().ok()); }));
-    const Result<uint64_t> peak = peakMemory(work);
+    const Result<uint64_t> peak = peakMemory(work, [&] { return decimate(least.view()).status(); });
     if (!peak.ok()) return peak.status();
     const double vertices = static_cast<double>(tile.heights.size());
     const double time = median(seconds), bytes = static_cast<double>(*peak) / vertices;

@@ -10,8 +10,7 @@
 namespace tetrakis {
 
 /// Sum of weighted squared residuals against the plane through the corners, shared as in
-/// moments.hpp. The corners are samples; the triangle has an area. Visits the samples of its
-/// bounding box.
+/// moments.hpp. The corners are samples; the triangle has an area.
 double clampedEnergy(const SurfaceView& surface, const std::array<GridPoint, 3>& corners);
 
 /// The weighted squared residual of one sample, whole; 0 where it lies outside the triangle.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "codec/closure_flow.hpp"
 #include "codec/gains.hpp"
@@ -53,6 +54,37 @@ class Regression {
         flow_(std::move(parents)) {
     scaleGains(gains);
     std::iota(order_.begin(), order_.end(), 0u);
+  }
+
+  /// Halves what holds the hull at `triangles` beyond the roots, and nothing else.
+  std::vector<HullSide> sidesOf(int64_t triangles) {
+    std::vector<HullSide> sides(order_.size(), HullSide::kAcross);
+    std::span<uint32_t> members = order_;
+    for (bool at_mean = false; !members.empty();) {
+      const Sums sums = sumsOf(members);
+      at_mean |= members.size() < kFewVertices;
+      const bool whole = sums.cost == 0 || !cut(members, at_mean ? floorDivide(sums.gain, sums.cost)
+                                                                 : medianSlope(members));
+      if (whole && sums.cost > 0 && !std::exchange(at_mean, true)) continue;
+      if (whole) {  // from one corner to the next
+        if (sums.cost <= triangles)
+          for (const uint32_t v : members) sides[v] = HullSide::kWithin;
+        break;
+      }
+      flow_.split(members);
+      const auto rest = std::stable_partition(members.begin(), members.end(),
+                                              [&](uint32_t v) { return flow_.inClosure(v); });
+      const auto inside = members.first(static_cast<size_t>(rest - members.begin()));
+      const auto outside = members.subspan(inside.size());
+      const int64_t cost = sumsOf(inside).cost;
+      const bool fits = cost <= triangles;
+      if (fits) triangles -= cost;
+      for (const uint32_t v : fits ? inside : outside)
+        sides[v] = fits ? HullSide::kWithin : HullSide::kBeyond;
+      members = fits ? outside : inside;
+      at_mean = false;
+    }
+    return sides;
   }
 
   std::vector<double> run() {
@@ -184,20 +216,51 @@ class Regression {
 
 }  // namespace
 
-std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
-                                  std::span<const double> gains) {
+namespace {
+
+Regression regressionOf(const Lattice& lattice, std::span<const VertexId> vertices,
+                        std::span<const double> gains) {
   assert(gains.size() == vertices.size());
   std::vector<uint8_t> costs;
   costs.reserve(vertices.size());
   for (const VertexId v : vertices)
     costs.push_back(static_cast<uint8_t>(lattice.triangleCost(lattice.site(v))));
-  return Regression(parentArcs(lattice, vertices), std::move(costs), gains).run();
+  return Regression(parentArcs(lattice, vertices), std::move(costs), gains);
+}
+
+}  // namespace
+
+std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
+                                  std::span<const double> gains) {
+  return regressionOf(lattice, vertices, gains).run();
+}
+
+std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
+                                std::span<const double> gains, uint32_t triangles) {
+  const int64_t roots = int64_t{2} * lattice.rootColumns() * lattice.rootRows();
+  return regressionOf(lattice, vertices, gains).sidesOf(triangles - roots);
 }
 
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains) {
   std::vector<VertexId> vertices(lattice.vertexCount());
   std::iota(vertices.begin(), vertices.end(), VertexId{0});
   return closureSlopes(lattice, vertices, gains);
+}
+
+void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
+                        std::span<VertexId> order) {
+  std::vector<VertexId> vertices(order.begin(), order.end());
+  std::sort(vertices.begin(), vertices.end());
+  std::vector<double> own;
+  own.reserve(vertices.size());
+  for (const VertexId v : vertices) own.push_back(gains[v]);
+  const std::vector<double> slopes = closureSlopes(lattice, vertices, own);
+  const auto slopeOf = [&](VertexId v) {
+    return slopes[static_cast<size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
+                                      vertices.begin())];
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](VertexId v, VertexId w) { return slopeOf(v) > slopeOf(w); });
 }
 
 MeshHull::MeshHull(const Lattice& lattice, const std::vector<double>& gains,
@@ -238,10 +301,8 @@ Result<MeshSequence> decimateOptimally(const SurfaceView& surface) {
   if (!greedy.ok()) return greedy;
   const Lattice& lattice = greedy->lattice();
   const std::vector<double> gains = vertexGains(lattice, surface);
-  const std::vector<double> slopes = closureSlopes(lattice, gains);
   std::vector<VertexId> order = greedy->order();
-  std::stable_sort(order.begin(), order.end(),
-                   [&](VertexId v, VertexId w) { return slopes[v] > slopes[w]; });
+  sortThroughCorners(lattice, gains, order);
   return MeshSequence(lattice, std::move(order), gains);
 }
 

@@ -29,8 +29,26 @@ namespace tetrakis {
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
                                   std::span<const double> gains);
 
+/// Where a vertex stands to the mesh on the hull of a number of triangles. In this order parents
+/// come before children.
+enum class HullSide : uint8_t {
+  kWithin,  ///< in the last corner of no more triangles
+  kAcross,  ///< between that corner and the next
+  kBeyond,  ///< in neither
+};
+
+/// A small part of the work of closureSlopes() tells sides alone. vertices, gains: as there.
+std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
+                                std::span<const double> gains, uint32_t triangles);
+
 /// Of all vertices.
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains);
+
+/// Sorts a closed set, the first vertices of an order, so that its prefixes pass through every
+/// corner of the hull of the meshes within it; between corners they keep their order. gains: of all
+/// lattice vertices.
+void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
+                        std::span<VertexId> order);
 
 /// Corners of the hull, from the roots alone to full resolution.
 class MeshHull {

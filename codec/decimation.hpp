@@ -39,8 +39,12 @@ class MeshSequence {
   std::vector<double> squared_errors_;
 };
 
-/// How to choose the next vertex. All but the first are the thesis's comparisons.
+/// How to choose the next vertex. The last three are the thesis's comparisons.
 enum class MeshPolicy {
+  /// General decimation; where costs are triangles its coarsest meshes then go through the corners
+  /// of the hull of all meshes within one of 4096 triangles, on small surfaces one of a triangle
+  /// for each 8 samples (closure.hpp).
+  kNearHull,
   kGeneralDecimation,     ///< whole merging domains, global error (general_decimation.hpp)
   kRestrictedDecimation,  ///< single vertices, global error (leaf_order.hpp; thesis 5.4.2)
   kLocalDecimation,       ///< single vertices, error at the vertex alone (thesis 2.5.2, 5.5.2)
@@ -48,7 +52,7 @@ enum class MeshPolicy {
 };
 
 struct DecimationOptions {
-  MeshPolicy policy = MeshPolicy::kGeneralDecimation;
+  MeshPolicy policy = MeshPolicy::kNearHull;
   /// One for each lattice vertex, in any unit (vertex_costs.hpp); empty: triangles.
   std::span<const uint32_t> costs;
 };

@@ -29,10 +29,12 @@ FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
 
 class FittedSequence {
  public:
-  /// The errors of decimate(), whose order of the view is where refinement starts. triangles: those
-  /// of the one mesh that is wanted, which saves most stages; 0: meshes of any number of triangles.
-  /// The surface outlives the sequence.
-  static Result<FittedSequence> make(const WeightedSurface& surface, uint32_t triangles = 0);
+  /// Meshes of any number of triangles. The errors of decimate(), whose order of the view is where
+  /// refinement starts. The surface outlives the sequence.
+  static Result<FittedSequence> make(const WeightedSurface& surface);
+  /// In a fraction of the time a sequence that is good at so many triangles alone, and ends behind
+  /// them.
+  static Result<FittedSequence> makeFor(const WeightedSurface& surface, uint32_t triangles);
 
   const Lattice& lattice() const { return lattice_; }
   /// Vertices in insertion order, parents before children, hidden ones included: meshes are nested.
@@ -45,8 +47,13 @@ class FittedSequence {
 
  private:
   FittedSequence(Lattice lattice, const WeightedSurface& surface, std::vector<VertexId> order);
-  void refine(uint32_t wanted);
+  void refine();
+  void refineFor(uint32_t wanted);
   void sortBySlope(size_t count, const FittedMoments& fitted);
+  void sortBySide(size_t count, const FittedMoments& fitted, uint32_t triangles);
+  std::vector<VertexId> firstById(size_t count) const;
+  template <class Key, class Before>
+  void sortFirst(std::span<const VertexId> vertices, const std::vector<Key>& keys, Before before);
 
   Lattice lattice_;
   WeightedSurface surface_;

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "codec/triangle.hpp"
+#include "codec/triangle_samples.hpp"
 
 namespace tetrakis {
 namespace {
@@ -21,6 +22,12 @@ using FittedTriangle = LatticeTriangle<FittedCorner>;
 /// A sample of the triangle: its barycentric coordinates and what it lies above the plane.
 struct WeighedSample {
   double weight, a, b, p, residual;
+};
+
+/// Of a triangle whose moments of second order are known.
+struct Residuals {
+  double energy = 0;
+  TriangleMoments::First first;
 };
 
 void add(TriangleMoments& t, const WeighedSample& s) {
@@ -58,45 +65,30 @@ std::array<double, 3> cornerSamples(const WeightedSurface& surface, const Fitted
           static_cast<double>(z[t.apex.sample])};
 }
 
-/// Against the plane through the samples at its corners. Edge functions (Pineda 1988) of the
-/// clamped triangle; a b apex run clockwise with rows downwards turned up, so that all are >= 0
-/// inside.
+/// Of the clamped triangle, against the plane through the samples at its corners.
 TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface,
                           const FittedTriangle& t) {
-  struct Edge {
-    int64_t from_x, from_y, dx, dy;
-    double weight;  ///< of the samples on it
-    int64_t at(int64_t x, int64_t y) const { return dy * (x - from_x) - dx * (y - from_y); }
-  };
-  const std::array<GridPoint, 3> corner = {lattice.clamp(t.a.point), lattice.clamp(t.b.point),
-                                           lattice.clamp(t.apex.point)};
-  std::array<Edge, 3> edges;
-  for (size_t k = 0; k < 3; ++k) {
-    const GridPoint from = corner[(k + 1) % 3], to = corner[(k + 2) % 3];
-    edges[k] = {from.x, from.y, int64_t{to.x} - from.x, int64_t{to.y} - from.y,
-                onBorder(lattice, from, to) ? 1.0 : 0.5};
-  }
-  const auto area = static_cast<double>(edges[0].at(corner[0].x, corner[0].y));
-  assert(area > 0);
-  const auto [left, right] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
-  const auto [top, bottom] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
+  const std::array<GridPoint, 3> corners = {lattice.clamp(t.a.point), lattice.clamp(t.b.point),
+                                            lattice.clamp(t.apex.point)};
+  std::array<double, 3> shares;  // of the samples on each edge
+  for (size_t k = 0; k < 3; ++k)
+    shares[k] = onBorder(lattice, corners[(k + 1) % 3], corners[(k + 2) % 3]) ? 1.0 : 0.5;
+  const TriangleSamples samples(corners);
+  const auto area = static_cast<double>(samples.doubledArea());
   const std::array<double, 3> heights = cornerSamples(surface, t);
   TriangleMoments moments;
-  for (uint32_t y = top; y <= bottom; ++y)
-    for (uint32_t x = left; x <= right; ++x) {
-      const std::array<int64_t, 3> e = {edges[0].at(x, y), edges[1].at(x, y), edges[2].at(x, y)};
-      const auto zeros = std::count(e.begin(), e.end(), 0);
-      const uint32_t sample = y * lattice.width() + x;
-      if ((e[0] | e[1] | e[2]) < 0 || zeros == 2) continue;
-      double weight = surface.weightOf(sample);
-      for (size_t k = 0; k < 3; ++k)
-        if (e[k] == 0) weight *= edges[k].weight;
-      const double a = static_cast<double>(e[0]) / area, b = static_cast<double>(e[1]) / area,
-                   p = static_cast<double>(e[2]) / area;
-      const double z = surface.view.heights[sample];
-      add(moments,
-          {weight, a, b, p, a * (z - heights[0]) + b * (z - heights[1]) + p * (z - heights[2])});
-    }
+  samples.forEach([&](uint32_t x, uint32_t y, const TriangleSamples::Edges& e) {
+    if (std::count(e.begin(), e.end(), 0) == 2) return;  // a vertex stands apart
+    const uint32_t sample = y * lattice.width() + x;
+    double weight = surface.weightOf(sample);
+    for (size_t k = 0; k < 3; ++k)
+      if (e[k] == 0) weight *= shares[k];
+    const double a = static_cast<double>(e[0]) / area, b = static_cast<double>(e[1]) / area,
+                 p = static_cast<double>(e[2]) / area;
+    const double z = surface.view.heights[sample];
+    add(moments,
+        {weight, a, b, p, a * (z - heights[0]) + b * (z - heights[1]) + p * (z - heights[2])});
+  });
   return moments;
 }
 
@@ -105,7 +97,15 @@ TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface
 /// Walks the mesh of a FittedMoments; its leaves come in the order in which they are stored.
 class FittedDescent {
  public:
-  explicit FittedDescent(const FittedMoments& mesh) : mesh_(mesh), lattice_(mesh.lattice_) {}
+  explicit FittedDescent(const FittedMoments& mesh) : mesh_(mesh), lattice_(mesh.lattice_) {
+    if (!mesh.full_ || mesh.surface_.isWeighted()) return;
+    grams_.resize(lattice_.levelCount() + 1);
+    TriangleMoments t;
+    for (size_t level = lattice_.levelCount(); level-- > 0; grams_[level] = t.gram) {
+      t = tetrakis::merge(t, t, 0);
+      add(t, {0.5, 0.5, 0.5, 0, 0});
+    }
+  }
 
   /// visit(FittedTriangle) for every root triangle.
   template <class Visit>
@@ -136,6 +136,10 @@ class FittedDescent {
     if (t.collapses(lattice_)) return {};
     if (!splits(t, mesh_.present_))
       return mesh_.full_ ? TriangleMoments() : mesh_.leaves_[next_++].moments;
+    if (!grams_.empty() && isInner(t.a.point) && isInner(t.b.point) && isInner(t.apex.point)) {
+      const Residuals r = residuals(t.level, t.a.sample, t.b.sample, t.apex.sample);
+      return {r.energy, r.first, grams_[t.level]};
+    }
     const FittedCorner w = cornerAt(t.splitPoint());
     const TriangleMoments first = momentsOf(t.first(w), gains);
     const TriangleMoments second = momentsOf(t.second(w), gains);
@@ -164,6 +168,27 @@ class FittedDescent {
            vertices[lattice_.id(lattice_.siteAt(t.level, t.splitPoint()))];
   }
 
+  bool isInner(GridPoint p) const {
+    return p.x > 0 && p.y > 0 && p.x + 1 < lattice_.width() && p.y + 1 < lattice_.height();
+  }
+
+  /// What momentsOf() does to an inner triangle of full resolution without weights, where all of a
+  /// level have the same second moments: nearly all there are at first. Corners are samples.
+  Residuals residuals(uint32_t level, uint32_t a, uint32_t b, uint32_t apex) const {
+    const uint32_t w = (a + b) / 2;
+    const std::vector<double>& z = mesh_.heights_;
+    const double delta = z[w] - 0.5 * (z[a] + z[b]), own = 0.5 * delta;
+    if (level + 1 == lattice_.levelCount()) return {own * delta, {0.5 * own, 0.5 * own, 0}};
+    const Residuals t1 = residuals(level + 1, apex, a, w), t2 = residuals(level + 1, b, apex, w);
+    const TriangleMoments::Gram& g = grams_[level + 1];
+    const double p1 = t1.first.p + delta * g.pp, p2 = t2.first.p + delta * g.pp;
+    const double both = 0.5 * (p1 + p2 + own);
+    const double gain = 2 * delta * (t1.first.p + t2.first.p) + delta * delta * (g.pp + g.pp);
+    return {t1.energy + t2.energy + gain + own * delta,
+            {t1.first.b + delta * g.bp + both, t2.first.a + delta * g.ap + both,
+             t1.first.a + delta * g.ap + (t2.first.b + delta * g.bp)}};
+  }
+
   TriangleMoments overhanging(const FittedTriangle& t) const {
     const GridPoint w = t.splitPoint(), p = t.apex.point;
     const bool first = p.y < w.y || (p.y == w.y && p.x < w.x);
@@ -189,7 +214,8 @@ class FittedDescent {
 
   const FittedMoments& mesh_;
   const Lattice& lattice_;
-  size_t next_ = 0;  ///< leaf
+  size_t next_ = 0;                           ///< leaf
+  std::vector<TriangleMoments::Gram> grams_;  ///< for residuals(), of each level; empty: not so
 };
 
 FittedMoments::FittedMoments(const Lattice& lattice, const WeightedSurface& surface)

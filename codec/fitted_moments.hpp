@@ -26,6 +26,7 @@ struct WeightedSurface {
   SurfaceView view;
   std::span<const uint8_t> known = {};
 
+  bool isWeighted() const { return !known.empty() || !view.weights.empty(); }
   double weightOf(uint32_t sample) const {
     return known.empty() || known[sample] != 0 ? view.weightOf(sample) : 0;
   }

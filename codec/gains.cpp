@@ -155,6 +155,15 @@ class GainBuilder {
 
 }  // namespace
 
+Status checkWeights(const SurfaceView& surface) {
+  if (!surface.weights.empty() && surface.weights.size() != surface.heights.size())
+    return {TKS_USAGE, "A surface needs one weight for each sample, or none at all."};
+  for (const float w : surface.weights)
+    if (!(w >= 0 && std::isfinite(w)))
+      return {TKS_USAGE, "Weights of samples must be finite and not negative."};
+  return {};
+}
+
 std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surface) {
   assert(surface.width == lattice.width() && surface.height == lattice.height());
   assert(surface.heights.size() == lattice.sampleCount());

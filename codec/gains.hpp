@@ -15,10 +15,13 @@
 
 namespace tetrakis {
 
+/// TKS_USAGE for weights that are not one for each sample, or negative or not finite.
+Status checkWeights(const SurfaceView& surface);
+
 /// g of every vertex, in squared height steps; may be negative. Rounded to multiples of one power
 /// of two, chosen (2^-30 of the largest weight where that is fine enough) so that every sum of
 /// gains is exact in any order: orders of vertices built from them depend on no rounding. The
-/// surface has the lattice's size.
+/// surface has the lattice's size, and weights that pass.
 std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surface);
 
 }  // namespace tetrakis

@@ -20,7 +20,9 @@ double sumOfPositive(const std::vector<double>& gains) {
 class Decimator {
  public:
   Decimator(const std::vector<double>& gains, const VertexCosts& costs, uint32_t prompt_levels)
-      : count_(gains.size()), domains_(gains, costs, prompt_levels), queue_(sumOfPositive(gains)) {
+      : count_(gains.size()),
+        domains_(gains, costs, prompt_levels),
+        queue_(sumOfPositive(gains), gains.size()) {
     for (VertexId v = 0; v < count_; ++v) enqueue(v);
   }
 

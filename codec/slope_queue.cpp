@@ -12,7 +12,13 @@
 namespace tetrakis {
 namespace {
 
-constexpr uint32_t kBuckets = 56 * 128;
+constexpr uint32_t kPowers = 56;
+
+/// Bits that tell buckets of one power of two apart: seven for a million vertices, fewer for fewer,
+/// so that chunks fill.
+uint32_t detailOf(size_t vertices) {
+  return std::clamp(static_cast<uint32_t>(std::bit_width(vertices)) / 2, 6u, 10u) - 3;
+}
 
 // IEEE 754 floats compare like integers once the bits of negative ones are turned over.
 constexpr uint32_t kSign = 0x80000000;
@@ -24,10 +30,10 @@ float floatOf(uint32_t ordered) {
   return std::bit_cast<float>((ordered & kSign) != 0 ? ordered & ~kSign : ~ordered);
 }
 
-/// Upper bits of the largest float that is not above the slope.
-uint32_t upperBits(double slope) {
+/// The largest float that is not above the slope, as its bits.
+uint32_t bitsBelow(double slope) {
   const auto nearest = static_cast<float>(slope);
-  return (orderedBits(nearest) - (static_cast<double>(nearest) > slope ? 1 : 0)) >> 16;
+  return orderedBits(nearest) - (static_cast<double>(nearest) > slope ? 1 : 0);
 }
 
 /// Smallest float that is not below the slope.
@@ -38,16 +44,20 @@ float roundUp(double slope) {
 
 }  // namespace
 
-SlopeQueue::SlopeQueue(double greatest)
-    : first_(std::max(upperBits(greatest), kBuckets) - kBuckets + 1), heads_(kBuckets, kNone) {}
+SlopeQueue::SlopeQueue(double greatest, size_t vertices)
+    : shift_(23 - detailOf(vertices)), heads_(size_t{kPowers} << detailOf(vertices), kNone) {
+  const auto count = static_cast<uint32_t>(heads_.size());
+  first_ = std::max(bitsBelow(greatest) >> shift_, count) - count + 1;
+}
 
 uint32_t SlopeQueue::bucketOf(double slope) const {
-  return std::clamp(upperBits(slope), first_, first_ + kBuckets - 1) - first_;
+  const auto last = first_ + static_cast<uint32_t>(heads_.size()) - 1;
+  return std::clamp(bitsBelow(slope) >> shift_, first_, last) - first_;
 }
 
 float SlopeQueue::lowerEnd(uint32_t bucket) const {
   if (bucket == 0) return -std::numeric_limits<float>::infinity();
-  return floatOf((first_ + bucket) << 16);
+  return floatOf((first_ + bucket) << shift_);
 }
 
 float SlopeQueue::push(const Candidate& candidate) {

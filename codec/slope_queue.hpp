@@ -3,8 +3,10 @@
 // now.
 //
 // Slopes at the front hardly ever fall, so most entries need no order yet:
-//   later   vertices alone, by the upper 16 bits of their slope as a float: 128 buckets for each of
-//           the greatest 56 powers of two, each a list of chunks of one cache line;
+//   later   vertices alone, by the upper bits of their slope as a float: 128 buckets, of few
+//   vertices
+//           fewer, for each of the greatest 56 powers of two, each a list of chunks of one cache
+//           line;
 //   open    the candidates of the buckets up to the current one: those that were there when it was
 //           opened, sorted, and a heap of those that came since.
 // A bucket is opened by handing its vertices back to the caller, who pushes those that are still
@@ -29,8 +31,9 @@ struct Candidate {
 
 class SlopeQueue {
  public:
-  /// greatest: no finite slope is greater; 0 if none is positive.
-  explicit SlopeQueue(double greatest);
+  /// greatest: no finite slope is greater; 0 if none is positive. vertices: about how many there
+  /// will be.
+  SlopeQueue(double greatest, size_t vertices);
 
   /// slope: no NaN. Returns a bound: a slope below it needs an entry of its own.
   float push(const Candidate& candidate);
@@ -60,8 +63,9 @@ class SlopeQueue {
   uint32_t bucketOf(double slope) const;
   float lowerEnd(uint32_t bucket) const;
 
-  uint32_t first_;               ///< upper bits of the first bucket, which also holds all below
+  uint32_t shift_;               ///< bits of a float below those of its bucket
   std::vector<uint32_t> heads_;  ///< first chunk of each bucket
+  uint32_t first_;               ///< upper bits of the first bucket, which also holds all below
   std::vector<Chunk> chunks_;
   uint32_t free_ = kNone;  ///< head of the list of unused chunks
   int64_t current_ = -1;   ///< buckets up to this one are open

@@ -180,6 +180,52 @@ TEST(Closure, OptimalSequencePassesThroughEveryCorner) {
   }
 }
 
+/// Sides against the corners of the hull on either side of a number of triangles.
+TEST(Closure, SidesAreThoseOfTheCorners) {
+  for (const auto& [width, height] : {std::pair{33u, 33u}, {50u, 21u}, {6u, 7u}}) {
+    const Lattice lattice = *Lattice::make(width, height);
+    const std::vector<int32_t> heights = ridges(width, height, 4);
+    const std::vector<double> gains = vertexGains(lattice, {width, height, heights});
+    const MeshHull hull(lattice, gains, closureSlopes(lattice, gains));
+    const std::vector<VertexId> all = allVertices(lattice);
+    const uint32_t roots = hull.corners().front().triangles;
+    for (uint32_t triangles = roots; triangles < 2 * width * height; triangles += 7) {
+      const std::vector<HullSide> sides = hullSides(lattice, all, gains, triangles);
+      uint32_t within = roots, across = 0;
+      for (const VertexId v : all) {
+        const uint32_t cost = lattice.triangleCost(lattice.site(v));
+        within += sides[v] == HullSide::kWithin ? cost : 0;
+        across += sides[v] == HullSide::kAcross ? cost : 0;
+        lattice.forEachParent(lattice.site(v),
+                              [&](Site parent) { EXPECT_LE(sides[lattice.id(parent)], sides[v]); });
+      }
+      const auto after =
+          std::upper_bound(hull.corners().begin(), hull.corners().end(), triangles,
+                           [](uint32_t t, const auto& corner) { return t < corner.triangles; });
+      EXPECT_EQ(within, (after - 1)->triangles) << triangles;
+      if (after != hull.corners().end()) {
+        EXPECT_EQ(within + across, after->triangles) << triangles;
+      }
+    }
+  }
+}
+
+TEST(Closure, DefaultOrderIsOnTheHullWhereTrianglesAreFew) {
+  for (const uint32_t seed : {1u, 2u, 3u}) {
+    const std::vector<int32_t> heights = ridges(90, 77, seed);
+    const SurfaceView surface{90, 77, heights};
+    const MeshSequence sequence = *decimate(surface);
+    const std::vector<double> gains = vertexGains(sequence.lattice(), surface);
+    const MeshHull hull(sequence.lattice(), gains, closureSlopes(sequence.lattice(), gains));
+    for (const MeshHull::Corner& corner : hull.corners())
+      if (corner.triangles < 90 * 77 / 16) {
+        EXPECT_LE(sequence.squaredError(sequence.bestPrefix(corner.triangles)),
+                  1.002 * corner.squared_error)
+            << corner.triangles;
+      }
+  }
+}
+
 TEST(Closure, RefusesWhatTheLatticeRefuses) {
   const std::vector<int32_t> heights(5);
   EXPECT_EQ(decimateOptimally({1, 5, heights}).status().code(), TKS_USAGE);

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 
+#include "codec/ancestors.hpp"
 #include "codec/decimation.hpp"
 #include "codec/gains.hpp"
+#include "codec/leaf_order.hpp"
 #include "codec/local_errors.hpp"
 #include "codec/merging_domains.hpp"
 #include "tests/decimation_terrain.hpp"
@@ -22,7 +25,7 @@ using checks::kSizes;
 using checks::Relief;
 using checks::Terrain;
 
-constexpr MeshPolicy kPolicies[] = {MeshPolicy::kGeneralDecimation,
+constexpr MeshPolicy kPolicies[] = {MeshPolicy::kNearHull, MeshPolicy::kGeneralDecimation,
                                     MeshPolicy::kRestrictedDecimation, MeshPolicy::kLocalDecimation,
                                     MeshPolicy::kLocalRefinement};
 
@@ -208,9 +211,42 @@ TEST(Policies, TrianglesAreTheDefaultCost) {
   const Lattice lattice = *Lattice::make(37, 45);
   std::vector<uint32_t> costs(lattice.vertexCount());
   lattice.forEachVertex([&](Site site, VertexId v) { costs[v] = lattice.triangleCost(site); });
-  for (const MeshPolicy policy : kPolicies)
+  for (const MeshPolicy policy : std::span(kPolicies).subspan(1))
     EXPECT_EQ(decimate(terrain.view(), {policy, costs})->order(),
               decimate(terrain.view(), {policy, {}})->order());
+}
+
+/// Sorted by the greatest slope at or below each vertex, and no shorter than was asked for.
+TEST(Policies, SaturatedOrderFollowsTheBestDescendants) {
+  for (const auto& [width, height] : kSizes) {
+    const Terrain terrain(width, height, Relief::kNoise);
+    const Lattice lattice = *Lattice::make(width, height);
+    const std::vector<double> gains = vertexGains(lattice, terrain.view());
+    std::vector<double> best(gains.size(), -std::numeric_limits<double>::infinity());
+    uint32_t all = 0;
+    lattice.forEachVertex([&](Site site, VertexId v) {
+      const uint32_t cost = lattice.triangleCost(site);
+      all += cost;
+      if (cost == 0) return;
+      best[v] = std::max(best[v], gains[v] / cost);
+      forEachAncestor(lattice, site, [&](VertexId a) { best[a] = std::max(best[a], best[v]); });
+    });
+    for (const uint32_t most : {0u, all / 5, all / 2, all}) {
+      const std::vector<VertexId> order = saturatedOrder(gains, VertexCosts(lattice), most);
+      EXPECT_TRUE(std::is_sorted(order.begin(), order.end(),
+                                 [&](VertexId v, VertexId w) { return best[v] > best[w]; }));
+      std::vector<bool> inserted(gains.size());
+      uint32_t cost = 0;
+      for (const VertexId v : order) {
+        EXPECT_FALSE(inserted[v]);
+        inserted[v] = true;
+        cost += lattice.triangleCost(lattice.site(v));
+        lattice.forEachParent(lattice.site(v),
+                              [&](Site parent) { EXPECT_TRUE(inserted[lattice.id(parent)]); });
+      }
+      EXPECT_GE(cost, most);
+    }
+  }
 }
 
 TEST(Policies, EqualWeightsScaleErrorsAndChangeNoOrder) {

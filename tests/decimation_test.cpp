@@ -114,7 +114,8 @@ class BruteForceGreedy {
 };
 
 void expectGreedyChoices(const Terrain& terrain) {
-  const Result<MeshSequence> sequence = decimate(terrain.view());
+  const Result<MeshSequence> sequence =
+      decimate(terrain.view(), {MeshPolicy::kGeneralDecimation, {}});
   const std::vector<VertexId>& order = sequence->order();
   BruteForceGreedy greedy(terrain);
   auto end = order.end();
@@ -202,13 +203,17 @@ TEST(Decimation, PlanesNeedTheRootsOnly) {
   EXPECT_EQ(sequence->bestPrefix(1000000), 0u);
 }
 
-/// The published order: no compiler, optimisation level or machine may change it.
+/// The published orders: no compiler, optimisation level or machine may change them.
 TEST(Decimation, OrderIsTheSameEverywhere) {
   const Terrain terrain(70, 50, Relief::kTerrain);
-  uint64_t hash = 14695981039346656037u;  // FNV-1a
-  const Result<MeshSequence> sequence = decimate(terrain.view());
-  for (const VertexId v : sequence->order()) hash = (hash ^ v) * 1099511628211u;
-  EXPECT_EQ(hash, 10712087348571217729u);
+  const auto hashOf = [&](MeshPolicy policy) {
+    uint64_t hash = 14695981039346656037u;  // FNV-1a
+    const Result<MeshSequence> sequence = decimate(terrain.view(), {policy, {}});
+    for (const VertexId v : sequence->order()) hash = (hash ^ v) * 1099511628211u;
+    return hash;
+  };
+  EXPECT_EQ(hashOf(MeshPolicy::kGeneralDecimation), 10712087348571217729u);
+  EXPECT_EQ(hashOf(MeshPolicy::kNearHull), 14229587989757422123u);
 }
 
 TEST(Decimation, RefusesWhatTheLatticeRefuses) {

@@ -240,7 +240,8 @@ tks_status tks_verify(tks_decoder* decoder);
 typedef enum tks_mesh_kind {
   TKS_MESH_CODED = 0, /* closure of the significant vertices under the parent relation */
   TKS_MESH_BUDGET = 1 /* best mesh of the decoded surface with at most max_triangles: heights of its
-                         vertices are fitted to all samples (least squares) */
+                         vertices are fitted (least squares) to all samples, or to those of a mip
+                         level with 20 or more a triangle; then nothing finer is decoded */
 } tks_mesh_kind;
 
 /* A conforming 4-8 mesh. Vertex i lies on sample grid_index[i] (y * width + x) and has the height
