@@ -9,6 +9,7 @@ namespace tetrakis {
 namespace {
 
 constexpr size_t kBlocksPerScale = 2048;  // details are sampled: three of each block
+constexpr double kExceeding = 0.1;
 
 struct Image {
   size_t width = 0, height = 0;
@@ -63,6 +64,28 @@ double meanMagnitude(const ColourDetails& details) {
   for (const Colour& d : details.samples) sum += std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
   const auto count = static_cast<double>(3 * details.samples.size());
   return count == 0 ? 0 : sum / count;
+}
+
+double typicalStep(std::span<const ColourDetails> details) {
+  struct Magnitude {
+    float value;
+    double weight;
+  };
+  std::vector<Magnitude> magnitudes;
+  double left = 0;
+  for (const ColourDetails& scale : details) {
+    for (const Colour& d : scale.samples) {
+      for (float channel : d) magnitudes.push_back({std::abs(channel), scale.weight});
+    }
+    left += kExceeding * scale.weight * static_cast<double>(3 * scale.samples.size());
+  }
+  std::sort(magnitudes.begin(), magnitudes.end(),
+            [](const Magnitude& a, const Magnitude& b) { return a.value > b.value; });
+  for (const Magnitude& m : magnitudes) {
+    left -= m.weight;
+    if (left <= 0) return std::max(1.0, static_cast<double>(m.value));
+  }
+  return 1;
 }
 
 double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step) {

@@ -25,6 +25,10 @@ std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes,
 /// Mean over samples and channels; 0 if there are none.
 double meanMagnitude(const ColourDetails& details);
 
+/// The magnitude that a tenth of all coefficients of the channels exceed: about the step at middle
+/// rates.
+double typicalStep(std::span<const ColourDetails> details);
+
 /// Estimated bits of all coefficients along one axis, a unit vector: log2(1 + |c| / step) each.
 double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step);
 

@@ -178,8 +178,7 @@ ColourTransform fitColour(std::span<const int32_t* const> planes, uint32_t width
   const ColourAxes axes = fitAxes(planes, width, height, Purpose::kLossy);
   setRotation(best, axes.overall);
   if (axes.details.empty()) return best;
-  // The finest details are where most bits go at the rates of interest: a step of their size.
-  const double step = meanMagnitude(axes.details.front());
+  const double step = typicalStep(axes.details);
   double least = turnLevels(best, axes, step);
   ColourTransform other = best;
   other.level_shears.clear();
