@@ -85,16 +85,18 @@ TEST(PassQueue, FollowsTheNorms) {
   }
 }
 
-/// The rest and refinement of a plane: where few coefficients are significant, refining those few
-/// is worth more.
-TEST(PassQueue, RefinesFirstWhatIsRare) {
-  for (const auto& [significant, first] :
-       {std::pair{9000u, PassKind::kRest}, std::pair{1u, PassKind::kRefine}}) {
-    std::vector<BandPlan> plan(1);
-    plan[0].shape = {100, 100};
+/// Of two bands alike, the rest of the one with more significant coefficients comes first.
+TEST(PassQueue, LooksFirstWhereMuchIsSignificant) {
+  for (const uint16_t dense : {uint16_t{0}, uint16_t{1}}) {
+    std::vector<BandPlan> plan(2);
+    plan[0].shape = plan[1].shape = {100, 100};
     PassQueue queue(plan, 2);
-    queue.pop(bandWith(plan[0].shape, significant));
-    EXPECT_EQ(queue.front().kind, first) << significant;
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(queue.front().kind, PassKind::kLikely);
+      queue.pop(bandWith(plan[0].shape, queue.front().band == dense ? 5000 : 5));
+    }
+    EXPECT_EQ(queue.front().kind, PassKind::kRest);
+    EXPECT_EQ(queue.front().band, dense);
   }
 }
 

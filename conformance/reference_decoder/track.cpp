@@ -57,8 +57,8 @@ class PassOrder {
 
  private:
   void makePending(size_t band, int plane, Kind kind) {
-    constexpr int kLikelyDelay[] = {0, 1, 3, 3, 4, 5, 5, 6, 6, 6, 6, 6, 6, 6, 6};
-    constexpr int kRestDelay[] = {8, 8, 8, 9, 10, 10, 11, 12, 12, 12, 13, 13, 13, 13, 13};
+    constexpr int kLikelyDelay[] = {1, 2, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4};
+    constexpr int kRestDelay[] = {8, 8, 8, 9, 9, 10, 10, 11, 11, 11, 12, 12, 12, 12, 12};
     uint32_t existing = 0, significant = 0;
     for (const Coefficient& c : bands_[band].coefficients) {
       existing += !c.absent;
