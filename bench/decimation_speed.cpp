@@ -2,13 +2,13 @@
 // Processor time and memory of decimation; see decimation_speed.hpp.
 #include "bench/decimation_speed.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <functional>
 
 #include "bench/child_memory.hpp"
 #include "bench/decimation_peers.hpp"
+#include "bench/median.hpp"
 #include "codec/closure.hpp"
 #include "codec/fitted_heights.hpp"
 #include "codec/gains.hpp"
@@ -34,11 +34,6 @@ double processorSeconds(const std::function<void()>& work) {
   const std::clock_t start = std::clock();
   work();
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 struct Task {

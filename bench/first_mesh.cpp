@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "bench/median.hpp"
 #include "bench/openjpeg_peer.hpp"
 #include "bench/tetrakis_peer.hpp"
 #include "tetrakis/tetrakis.h"
@@ -15,12 +16,6 @@
 namespace tetrakis::bench {
 
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Status decodeMesh(std::span<const uint8_t> prefix) {
   tks_decoder* decoder = nullptr;

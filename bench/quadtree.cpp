@@ -4,7 +4,6 @@
 // runs, medians of processor time; all stores must read the same heights.
 #include <malloc.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <functional>
@@ -12,6 +11,7 @@
 #include <numeric>
 #include <random>
 
+#include "bench/median.hpp"
 #include "bench/options.hpp"
 #include "bench/quadtree_peers.hpp"
 #include "bench/raster.hpp"
@@ -121,11 +121,6 @@ std::vector<Walks> makeWalks(const QuadtreeNodes& stored) {
     all.push_back(std::move(walks));
   }
   return all;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 double processorSeconds(const std::function<void()>& work) {

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "bench/bjontegaard.hpp"
+#include "bench/median.hpp"
 #include "bench/options.hpp"
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
@@ -20,6 +21,7 @@
 namespace {
 
 using namespace tetrakis;
+using bench::median;
 using bench::Raster;
 using bench::ResultRow;
 
@@ -105,11 +107,6 @@ Result<std::vector<bench::RatePoint>> curveOf(const Subject& subject, uint32_t r
     curve.push_back({rate, psnrOf(subject, *decoded)});
   }
   return curve;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 struct Seconds {

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "bench/child_memory.hpp"
+#include "bench/median.hpp"
 #include "bench/openjpeg_peer.hpp"
 #include "bench/options.hpp"
 #include "bench/results.hpp"
@@ -140,11 +141,6 @@ Result<std::vector<Task>> makeTasks(const Terrain& terrain) {
   if (status.ok()) status = addTasks("texture_1bpp", {nullptr, &image}, image.pixels() / 8, tasks);
   if (!status.ok()) return status;
   return tasks;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 /// Processor seconds of this process: other work on the machine counts less than on a wall clock.
