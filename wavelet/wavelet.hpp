@@ -31,7 +31,7 @@ struct WaveletSpec {
   static constexpr int kNarrowLevels = 3;
 
   /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
-  /// and kOrthogonal multiplies their mean by 1.46 at every level.
+  /// and kOrthogonal multiplies their mean by 1.60 at every level.
   bool wide(int level) const {
     return level + finer_levels > kNarrowLevels || bits > widestSamples(filter(level));
   }

@@ -113,7 +113,7 @@ const Filter& filterOf(const WaveletHeader& header, int level) {
   static const Filter kFilters[] = {
       {8, 20, {{-128}, {64}}},
       {8, 20, {{-147, 28, -9}, {78, -20, 6}}},
-      {12, 16, {{-6493, 41}, {-218, 20}, {3605, 41}, {1858, -205}}},
+      {12, 15, {{-7895, 81}, {-258, 64}, {4447, 105}, {2189, -297}}},
       {8, 20, {{-157, 41, -17, 8, -3}, {77, -24, 12, -6, 2}}},
   };
   return kFilters[header.filters.at(static_cast<size_t>(std::min(level, 3) - 1))];
@@ -140,8 +140,8 @@ Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
       return subband.orientation == kHH && subband.level == l;
     });
     const int splits = (hh->splitsX == l) + (hh->splitsY == l);
-    for (int i = 0; i < splits && filterOf(header, l).widest == 16; ++i)
-      weight = (weight * 888933380 + (1 << 29)) >> 30;
+    for (int i = 0; i < splits && filterOf(header, l).widest == 15; ++i)
+      weight = (weight * 847671299 + (1 << 29)) >> 30;
   }
   const int d = header.fractionBits > 0 ? 0 : std::clamp(level - 2, 0, 2);
   Plane image{multiples(plane.width, 1 << level), multiples(plane.height, 1 << level), {}};
