@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A coefficient c coded with a step T costs about log2(1 + |c| / T) bits, its norm counted in |c|.
-// Of the sums over all details the smallest wins, those of kLong made larger. Against the best of the
-// choices, found by coding with each, that loses up to 0.3 % of the bytes on nine aerial images and
-// maps and on seven DEMs; without it, up to 2.5 %.
+// Of the sums over all details the smallest wins, those of kLong made larger. Against the best of
+// the choices, found by coding with each, that loses up to 0.3 % of the bytes on nine aerial images
+// and maps and on seven DEMs; without it, up to 2.5 %.
 #include "wavelet/filter_choice.hpp"
 
 #include <algorithm>
