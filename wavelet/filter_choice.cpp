@@ -97,7 +97,7 @@ double bitsOf(const std::vector<float>& details, float step) {
   return bits + std::log2(product);
 }
 
-/// kLong is further from orthogonal: with as many bits its errors add up to more.
+/// Beside decoded results the estimate favours kLong, by about 1 % with each choice of it.
 double penaltyOf(const Filters& filters) {
   constexpr double kPerChoice = 0.01;
   return 1 + kPerChoice * static_cast<double>(std::count(filters.begin(), filters.end(), kL));
