@@ -97,7 +97,9 @@ double bitsOf(const std::vector<float>& details, float step) {
   return bits + std::log2(product);
 }
 
-/// Beside decoded results the estimate favours kLong, by about 1 % with each choice of it.
+/// The estimate counts bits, not what their errors add up to, which is more where a filter is
+/// further from orthogonal: beside decoded results it favours kLong by about 1 % with each choice
+/// of it.
 double penaltyOf(const Filters& filters) {
   constexpr double kPerChoice = 0.01;
   return 1 + kPerChoice * static_cast<double>(std::count(filters.begin(), filters.end(), kL));

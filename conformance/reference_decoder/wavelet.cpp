@@ -107,6 +107,10 @@ void synthesiseLevel(const WaveletHeader& header, const Subband& hh, Plane& plan
     synthesisePlaces(header, hh.level, {0, y, stepX, 0, multiples(plane.width, stepX)}, plane);
 }
 
+size_t filterNumber(const WaveletHeader& header, int level) {
+  return header.filters.at(static_cast<size_t>(std::min(level, 3) - 1));
+}
+
 }  // namespace
 
 const Filter& filterOf(const WaveletHeader& header, int level) {
@@ -116,7 +120,7 @@ const Filter& filterOf(const WaveletHeader& header, int level) {
       {12, 15, {{-7895, 81}, {-258, 64}, {4447, 105}, {2189, -297}}},
       {8, 20, {{-157, 41, -17, 8, -3}, {77, -24, 12, -6, 2}}},
   };
-  return kFilters[header.filters.at(static_cast<size_t>(std::min(level, 3) - 1))];
+  return kFilters[filterNumber(header, level)];
 }
 
 int fractionOf(const WaveletHeader& header, int planes, bool complete) {
@@ -140,7 +144,7 @@ Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
       return subband.orientation == kHH && subband.level == l;
     });
     const int splits = (hh->splitsX == l) + (hh->splitsY == l);
-    for (int i = 0; i < splits && filterOf(header, l).widest == 15; ++i)
+    for (int i = 0; i < splits && filterNumber(header, l) == 2; ++i)
       weight = (weight * 847671299 + (1 << 29)) >> 30;
   }
   const int d = header.fractionBits > 0 ? 0 : std::clamp(level - 2, 0, 2);
