@@ -25,9 +25,10 @@ struct BandShape {
   bool empty() const { return rows == 0 || columns == 0; }
   uint32_t words() const { return (columns + 31) / 32; }  ///< of a row of a bit map
   uint32_t wordStride() const { return words() + 2; }
-  size_t wordCells() const { return size_t{rows + 2} * wordStride(); }
+  /// Bit maps have margins of one word and three rows.
+  size_t wordCells() const { return size_t{rows + 6} * wordStride(); }
   size_t word(uint32_t row, uint32_t index) const {
-    return size_t{row + 1} * wordStride() + index + 1;
+    return size_t{row + 3} * wordStride() + index + 1;
   }
   /// Rows are padded to whole words and a margin of one cell.
   uint32_t stride() const { return 32 * words() + 2; }
@@ -84,6 +85,28 @@ struct Band {
     const auto any = [&](ptrdiff_t i) { return s[i - stride] | s[i] | s[i + stride]; };
     const uint32_t here = any(0);
     return here | here << 1 | here >> 1 | any(-1) >> 31 | any(1) << 31;
+  }
+
+  /// The columns of a word that have a significant coefficient at most two, and at most three, rows
+  /// and columns away.
+  struct Reach {
+    uint32_t two, three;
+  };
+  Reach significantWithin(size_t word) const {
+    const auto stride = static_cast<ptrdiff_t>(shape.wordStride());
+    const uint32_t* s = significant.data() + word;
+    const auto two = [&](ptrdiff_t i) {
+      return s[i - 2 * stride] | s[i - stride] | s[i] | s[i + stride] | s[i + 2 * stride];
+    };
+    const auto three = [&](ptrdiff_t i) { return s[i - 3 * stride] | s[i + 3 * stride]; };
+    const auto joined = [](uint32_t left, uint32_t here, uint32_t right) {
+      return left >> 29 | uint64_t{here} << 3 | uint64_t{right & 7} << 35;
+    };
+    const auto spread = [](uint64_t bits) { return bits | bits << 1 | bits >> 1; };
+    const uint64_t in_two = joined(two(-1), two(0), two(1));
+    const uint64_t in_three = in_two | joined(three(-1), three(0), three(1));
+    return {static_cast<uint32_t>(spread(spread(in_two)) >> 3),
+            static_cast<uint32_t>(spread(spread(spread(in_three))) >> 3)};
   }
 
   BandShape shape;

@@ -10,19 +10,23 @@ namespace {
 // Initial P(bit = 0) in units of 1/256.
 using Hints = std::array<uint8_t, BandModels::kHint>;
 constexpr std::array<Hints, BandModels::kLocal> kSignificance = {{
-    {240, 240, 232, 225, 218, 209, 170, 159},
-    {224, 234, 219, 211, 202, 194, 163, 147},
-    {208, 217, 203, 194, 188, 180, 158, 135},
-    {198, 211, 196, 189, 184, 175, 154, 142},
-    {187, 204, 185, 179, 173, 168, 147, 136},
-    {170, 177, 169, 167, 163, 159, 145, 130},
-    {160, 168, 158, 156, 153, 151, 141, 125},
-    {147, 157, 148, 146, 145, 143, 141, 128},
-    {142, 138, 142, 141, 139, 139, 134, 126},
-    {135, 139, 135, 134, 133, 134, 131, 130},
-    {130, 125, 132, 131, 130, 130, 127, 127},
+    {248, 241, 226, 206, 192, 204, 219, 229},
+    {242, 233, 219, 198, 182, 186, 199, 217},
+    {228, 215, 203, 184, 171, 169, 185, 204},
+    {220, 210, 199, 182, 167, 167, 177, 183},
+    {196, 189, 182, 170, 155, 154, 161, 178},
+    {183, 180, 173, 165, 153, 152, 159, 168},
+    {164, 164, 158, 153, 147, 144, 146, 156},
+    {151, 152, 151, 144, 142, 139, 142, 148},
+    {144, 143, 144, 139, 136, 137, 135, 141},
+    {133, 135, 133, 135, 130, 132, 130, 136},
+    {126, 128, 132, 130, 129, 130, 128, 126},
 }};
-constexpr Hints kGroup = {246, 244, 220, 204, 196, 190, 111, 122};
+constexpr std::array<Hints, BandModels::kReach> kGroup = {{
+    {239, 241, 214, 183, 161, 162, 181, 190},
+    {245, 246, 225, 202, 183, 206, 215, 217},
+    {249, 250, 233, 212, 195, 210, 225, 217},
+}};
 constexpr std::array<uint8_t, 3> kGroupPlace = {128, 128, 128};
 constexpr std::array<uint8_t, 9> kRefinement = {230, 220, 207, 187, 157, 134, 191, 147, 136};
 constexpr std::array<uint8_t, 5> kSign = {128, 145, 72, 73, 90};
@@ -39,7 +43,7 @@ void start(std::array<AdaptiveBit, kCount>& models, const std::array<uint8_t, kC
 BandModels::BandModels() : band(kBand) {
   for (size_t local = 0; local < significance.size(); ++local)
     start(significance[local], kSignificance[local]);
-  start(group, kGroup);
+  for (size_t reach = 0; reach < group.size(); ++reach) start(group[reach], kGroup[reach]);
   start(group_place, kGroupPlace);
   start(refinement, kRefinement);
   start(sign, kSign);

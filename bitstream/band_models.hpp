@@ -15,11 +15,13 @@ namespace tetrakis {
 struct BandModels {
   static constexpr int kLocal = 11;  ///< classes of the neighbours' magnitude sum
   static constexpr int kHint = 8;    ///< classes of the hint
+  static constexpr int kReach = 3;   ///< of the distance to what is significant
 
   BandModels();
 
   std::array<std::array<AdaptiveBit, kHint>, kLocal> significance;
-  std::array<AdaptiveBit, kHint> group;    ///< one of four quiet neighbours becomes significant
+  /// One of four quiet neighbours becomes significant.
+  std::array<std::array<AdaptiveBit, kHint>, kReach> group;
   std::array<AdaptiveBit, 3> group_place;  ///< the first that does: high bit, low bits
   std::array<AdaptiveBit, 9> refinement;
   std::array<AdaptiveBit, 5> sign;

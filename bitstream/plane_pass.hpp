@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Embedded bit-plane coding of one band: the three passes of a plane (after EBCOT, D. Taubman
-// 2000), with contexts from local magnitude sums (after F. Auli-Llinas 2011) and from a hint of the
-// expected magnitude given by the parent band and by another component. Blocks without a
-// significant coefficient cost one decision a plane and no work; coefficients that do not exist
-// (Band::absent) cost nothing, nor do blocks without one that does.
+// 2000), with contexts from local magnitude sums (after F. Auli-Llinas 2011) and from what other
+// bands hint at (hints.hpp). Blocks without a significant coefficient cost one decision a plane and
+// no work; coefficients that do not exist (Band::absent) cost nothing, nor do blocks without one
+// that does.
 //
 //   likely   significance where a neighbour is significant (steepest slope)
 //   rest     significance everywhere else; empty blocks are first asked as a whole, and so are
@@ -35,6 +35,7 @@
 
 #include "bitstream/band.hpp"
 #include "bitstream/band_models.hpp"
+#include "bitstream/hints.hpp"
 #include "bitstream/local_sums.hpp"
 
 namespace tetrakis {
@@ -44,12 +45,10 @@ enum class PassKind : uint8_t { kLikely = 0, kRest = 1, kRefine = 2 };
 template <class Io>
 class PlanePass {
  public:
-  /// parent, component: bands that hint at the magnitudes of this one; may be null.
-  PlanePass(Band& band, BandModels& models, const Band* parent, const Band* component, Io& io)
+  PlanePass(Band& band, BandModels& models, const HintBands& hints, Io& io)
       : band_(band),
         models_(models),
-        parent_(parent),
-        component_(component),
+        hints_(hints),
         io_(io),
         neighbours_(band.shape, band.orientation) {}
 
@@ -146,34 +145,23 @@ class PlanePass {
     return at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
   }
 
-  /// Class of the magnitude that is expected from hints: theirs, doubled, in units of 2^plane.
+  /// Class of the magnitude that hints lead to expect, in units of 2^plane.
   size_t hintClass(uint32_t hint) const {
     constexpr uint32_t kMost = (1u << (BandModels::kHint - 1)) - 1;
     // Of 2 n + 1, which is never 0: without a branch.
-    return static_cast<size_t>(std::bit_width(2 * std::min((2 * hint) >> plane_, kMost) + 1) - 1);
+    return static_cast<size_t>(std::bit_width(2 * std::min(hint >> plane_, kMost) + 1) - 1);
   }
 
   /// One row of 32 columns while significance is coded.
   struct Row {
-    size_t word, first;         ///< indices of the word and of the first cell
-    const uint32_t* parent;     ///< hints: magnitudes of the same place one level coarser, ...
-    const uint32_t* component;  ///< ... and in another component
-    uint32_t todo;              ///< columns still to be coded
-    uint32_t near;              ///< columns with a significant neighbour
+    size_t word, first;  ///< indices of the word and of the first cell
+    RowHints hints;
+    uint32_t todo;        ///< columns still to be coded
+    uint32_t near;        ///< columns with a significant neighbour
+    Band::Reach reach{};  ///< columns with a significant coefficient further away
     uint32_t visited;
     LocalSums sums;
-
-    uint32_t hint(uint32_t i) const { return parent[i / 2] + component[i]; }
-    uint32_t groupHint(uint32_t i) const {
-      const uint32_t *p = parent + i / 2, *c = component + i;
-      return p[0] | p[1] | c[0] | c[1] | c[2] | c[3];
-    }
   };
-
-  static const uint32_t* hints(const Band* band, uint32_t row, uint32_t column) {
-    static constexpr std::array<uint32_t, 32> kNone{};
-    return band == nullptr ? kNone.data() : band->magnitude.data() + band->shape.cell(row, column);
-  }
 
   template <PassKind kKind>
   void significanceRow(uint32_t row, uint32_t x, uint32_t valid) {
@@ -186,8 +174,8 @@ class PlanePass {
     r.todo = kKind == PassKind::kLikely ? free & r.near : free;
     if (r.todo == 0) return;
     r.first = band_.shape.cell(row, 32 * x);
-    r.parent = hints(parent_, row / 2, 16 * x);
-    r.component = hints(component_, row, 32 * x);
+    r.hints = RowHints(hints_, row, x);
+    if (kKind == PassKind::kRest) r.reach = band_.significantWithin(r.word);
     localSums(band_, r.first, r.sums);
     if (io_.hasPlenty(kRowDecisions)) {
       typename Io::Plenty io(io_);
@@ -207,7 +195,8 @@ class PlanePass {
         continue;
       }
       r.todo &= r.todo - 1;
-      AdaptiveBit& model = models_.significance[kLocalClass[r.sums[i]]][hintClass(r.hint(i))];
+      AdaptiveBit& model =
+          models_.significance[kLocalClass[r.sums[i]]][hintClass(r.hints.ofOne(i))];
       const bool bit = io.magnitudeBit(model, r.first + i, plane_);
       if (io.stopped() || (bit && !becomeSignificant(r, i, io))) return;
       r.visited |= uint32_t{1} << i;
@@ -219,12 +208,19 @@ class PlanePass {
     return i % 4 == 0 && ((r.todo >> i) & 15) == 15 && ((r.near >> i) & 15) == 0;
   }
 
+  /// Of four quiet columns: 0 if there is something significant at most two columns and rows away,
+  /// 1 if three, else 2.
+  static size_t reachClass(const Row& r, uint32_t i) {
+    return ((r.reach.two >> i) & 15) != 0 ? 0 : ((r.reach.three >> i) & 15) != 0 ? 1 : 2;
+  }
+
   /// Four columns from i on: whether any becomes significant, and which is the first.
   template <class RowIo>
   bool quietGroup(Row& r, uint32_t i, RowIo& io) {
     const size_t cell = r.first + i;
     uint32_t done = 4;  // columns that are settled
-    const bool any = io.groupBit(models_.group[hintClass(r.groupHint(i))], cell, plane_);
+    const bool any =
+        io.groupBit(models_.group[reachClass(r, i)][hintClass(r.hints.ofFour(i))], cell, plane_);
     if (io.stopped()) return false;
     if (any) {
       const bool high = io.placeBit(models_.group_place[0], cell, 1, plane_);
@@ -256,6 +252,8 @@ class PlanePass {
     band_.sign[cell] = static_cast<int8_t>(1 - 2 * negative);
     band_.significant[r.word] |= uint32_t{1} << i;
     r.near |= uint32_t{2} << i;
+    r.reach.two |= uint32_t{6} << i;
+    r.reach.three |= uint32_t{14} << i;
     r.sums[i + 1] = static_cast<uint8_t>(r.sums[i + 1] + 2);
     io.learned(cell, 0, uint32_t{1} << plane_, plane_);
     return true;
@@ -306,8 +304,7 @@ class PlanePass {
 
   Band& band_;
   BandModels& models_;
-  const Band* parent_;
-  const Band* component_;
+  HintBands hints_;
   Io& io_;
   Neighbours neighbours_;
   int plane_ = 0;

@@ -2,6 +2,7 @@
 // A track: the bands of one component (geometry, or texture), coded into one codeword.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct BandPlan {
   uint32_t models = 0;    ///< index of the BandModels that the band uses
   int parent = kNone;     ///< the band of the same orientation one level coarser
   int component = kNone;  ///< the same band of another component
+  std::array<int, 2> siblings = {kNone, kNone};  ///< the other details of the level
   /// Bit map (BandShape::word) of the coefficients that do not exist; empty: all do.
   std::vector<uint32_t> absent = {};
   bool needed = true;  ///< by a decoder
@@ -40,8 +42,9 @@ struct TrackState {
   void run(const std::vector<BandPlan>& plan, size_t index, PassKind kind, int plane, Io& io) {
     const BandPlan& band = plan[index];
     const auto at = [&](int i) { return i < 0 ? nullptr : &bands[static_cast<size_t>(i)]; };
-    PlanePass<Io>(bands[index], models[band.models], at(band.parent), at(band.component), io)
-        .run(kind, plane);
+    const HintBands hints{
+        at(band.parent), at(band.component), {at(band.siblings[0]), at(band.siblings[1])}};
+    PlanePass<Io>(bands[index], models[band.models], hints, io).run(kind, plane);
   }
 
   std::vector<Band> bands;

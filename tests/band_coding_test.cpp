@@ -72,26 +72,44 @@ TEST(AdaptiveBit, TrustsItsInitialValue) {
 const BandShape kShapes[] = {{1, 1},  {1, 31}, {3, 32}, {9, 33},  {8, 64},
                              {17, 5}, {2, 97}, {40, 1}, {33, 70}, {16, 128}};
 
-TEST(Band, NearSignificantIsWhatAnEyeSees) {
-  Random random(2);
-  for (const BandShape& shape : kShapes) {
-    Band band(shape, Orientation::kHL);
-    std::vector<std::vector<int>> set(shape.rows + 2, std::vector<int>(shape.columns + 2, 0));
-    for (uint32_t i = 0; i < 1 + shape.rows * shape.columns / 9; ++i) {
+/// A band with random significant coefficients, and an eye that sees them.
+struct Scattered {
+  Scattered(Random& random, const BandShape& shape)
+      : band(shape, Orientation::kHL), set(shape.rows, std::vector<bool>(shape.columns, false)) {
+    for (uint32_t i = 0; i < 1 + shape.rows * shape.columns / 40; ++i) {
       const uint32_t row = static_cast<uint32_t>(random() % shape.rows),
                      column = static_cast<uint32_t>(random() % shape.columns);
-      set[row + 1][column + 1] = 1;
+      set[row][column] = true;
       band.significant[shape.word(row, column / 32)] |= uint32_t{1} << column % 32;
     }
+  }
+  bool sees(uint32_t row, uint32_t column, uint32_t distance) const {
+    for (uint32_t y = row - std::min(row, distance); y <= row + distance && y < set.size(); ++y) {
+      for (uint32_t x = column - std::min(column, distance);
+           x <= column + distance && x < set[y].size(); ++x) {
+        if (set[y][x]) return true;
+      }
+    }
+    return false;
+  }
+  Band band;
+  std::vector<std::vector<bool>> set;
+};
+
+TEST(Band, SignificantWithinIsWhatAnEyeSees) {
+  Random random(2);
+  for (const BandShape& shape : kShapes) {
+    const Scattered scattered(random, shape);
     for (uint32_t row = 0; row < shape.rows; ++row) {
       for (uint32_t column = 0; column < shape.columns; ++column) {
-        int around = 0;
-        for (uint32_t y = row; y <= row + 2; ++y) {
-          for (uint32_t x = column; x <= column + 2; ++x) around += set[y][x];
-        }
-        if (set[row + 1][column + 1]) continue;
-        const uint32_t word = band.nearSignificant(shape.word(row, column / 32));
-        ASSERT_EQ((word >> column % 32) & 1, around > 0) << row << " " << column;
+        const size_t word = shape.word(row, column / 32);
+        const uint32_t bit = column % 32;
+        const Band::Reach reach = scattered.band.significantWithin(word);
+        ASSERT_EQ((reach.two >> bit) & 1, scattered.sees(row, column, 2)) << row << " " << column;
+        ASSERT_EQ((reach.three >> bit) & 1, scattered.sees(row, column, 3)) << row << " " << column;
+        if (scattered.set[row][column]) continue;
+        const uint32_t near = scattered.band.nearSignificant(word);
+        ASSERT_EQ((near >> bit) & 1, scattered.sees(row, column, 1)) << row << " " << column;
       }
     }
   }
@@ -129,6 +147,8 @@ Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
       band.log_norm = i < 4 ? 20 - 8 * component : 4;
       band.models = static_cast<uint32_t>(i / 4 + 2 * component);
       if (i == 4) band.parent = first + 1;
+      if (i == 1) band.siblings = {first + 2, first + 3};
+      if (i == 2 || i == 3) band.siblings = {first + 1, first + 5 - i};
       if (component > 0) band.component = i;
       m.plan.push_back(band);
       BandSource source;

@@ -152,6 +152,34 @@ TEST(PlaneLayout, ParentsCoverTheirChildren) {
   }
 }
 
+/// Siblings: the other directions of the level, of the same size but for a last row and column.
+TEST(PlaneLayout, SiblingsHaveThePlacesOfEachOther) {
+  for (uint32_t height = 1; height <= 40; ++height) {
+    for (uint32_t width = 1; width <= 70; width += 3) {
+      const PlaneLayout layout(uniform(FilterId::kLong), width, height);
+      const std::vector<BandPart> parts = allParts(layout, width, height);
+      const std::vector<BandPlan> plan = layout.plan(parts, 100, 7, 5);
+      for (size_t i = 0; i < plan.size(); ++i) {
+        size_t expected = 0;
+        for (size_t j = 1; i > 0 && j < plan.size(); ++j)
+          expected += j != i && (j - 1) / 3 == (i - 1) / 3 && !plan[j].shape.empty();
+        for (const int index : plan[i].siblings) {
+          if (index == BandPlan::kNone) continue;
+          const size_t sibling = static_cast<size_t>(index - 100);
+          ASSERT_NE(sibling, i);
+          ASSERT_EQ((sibling - 1) / 3, (i - 1) / 3);
+          ASSERT_FALSE(plan[sibling].shape.empty());
+          --expected;
+          if (plan[i].shape.empty()) continue;
+          ASSERT_LE(plan[i].shape.rows, plan[sibling].shape.rows + 1);
+          ASSERT_LE(plan[i].shape.columns, plan[sibling].shape.columns + 1);
+        }
+        ASSERT_EQ(expected, 0u);
+      }
+    }
+  }
+}
+
 TEST(PlaneLayout, GatherAndScatterTakeEveryValueOnce) {
   Random random(3);
   for (const Size& size : {Size{1, 1}, Size{37, 70}, Size{130, 5}, Size{3, 64}}) {

@@ -18,6 +18,18 @@ uint32_t modelsOf(const Subband& subband) {
   return static_cast<uint32_t>(std::clamp(subband.level, 1, kOwnLevels) - 1);
 }
 
+/// The other details of a detail's level: HL, LH and HH follow each other.
+std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
+                              Orientation orientation, int first) {
+  std::array<int, 2> siblings = {BandPlan::kNone, BandPlan::kNone};
+  const size_t hl = index - (static_cast<size_t>(orientation) - 1);
+  size_t count = 0;
+  for (size_t i = hl; i < hl + kBandsPerLevel; ++i) {
+    if (i != index && !parts[i].shape().empty()) siblings[count++] = first + static_cast<int>(i);
+  }
+  return siblings;
+}
+
 }  // namespace
 
 PlaneLayout::PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height)
@@ -58,6 +70,8 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
                             subbands_[parts[parent].subband].orientation != Orientation::kLL &&
                             !parts[parent].shape().empty();
     if (has_parent) band.parent = first + static_cast<int>(parent);
+    if (band.orientation != Orientation::kLL)
+      band.siblings = siblingsOf(parts, i, band.orientation, first);
     bands.push_back(band);
   }
   return bands;

@@ -32,8 +32,8 @@ class PlaneLayout {
   /// What a region holds, in coding order.
   std::vector<BandPart> parts(const Region& region) const;
 
-  /// One entry for each part of a region. The indices of parents count from `first`, the
-  /// place that the first entry will have in the plan of the track.
+  /// One entry for each part of a region. The indices of parents and siblings count from `first`,
+  /// the place that the first entry will have in the plan of the track.
   /// priority: added to every log_norm; models: class of contexts of the first band.
   std::vector<BandPlan> plan(std::span<const BandPart> parts, int first, int priority,
                              uint32_t models) const;

@@ -79,6 +79,12 @@ std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& 
       if (other.orientation == subband.orientation && other.level == subband.level + 1)
         band.parent = first + i;
     }
+    for (size_t i = 0; i < parts.size() && subband.orientation != kLL; ++i) {
+      const Subband& other = parts[i].subband;
+      if (other.level == subband.level && other.orientation != kLL &&
+          other.orientation != subband.orientation)
+        band.siblings.push_back(first + i);
+    }
     bands.push_back(band);
   }
   return bands;

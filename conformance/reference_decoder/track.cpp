@@ -57,8 +57,8 @@ class PassOrder {
 
  private:
   void makePending(size_t band, int plane, Kind kind) {
-    constexpr int kLikelyDelay[] = {1, 2, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4};
-    constexpr int kRestDelay[] = {8, 8, 8, 9, 9, 10, 10, 11, 11, 11, 12, 12, 12, 12, 12};
+    constexpr int kLikelyDelay[] = {0, 1, 2, 2, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4};
+    constexpr int kRestDelay[] = {6, 6, 7, 8, 8, 9, 10, 10, 11, 12, 14, 14, 15, 16, 16};
     uint32_t existing = 0, significant = 0;
     for (const Coefficient& c : bands_[band].coefficients) {
       existing += !c.absent;
@@ -173,17 +173,46 @@ class TrackDecoder {
 
   /// FORMAT 6, h(m).
   int hintClass(uint32_t m) const {
-    return std::min(static_cast<int>(std::bit_width((2 * m) >> pass_.plane)), 7);
+    return std::min(static_cast<int>(std::bit_width(m >> pass_.plane)), 7);
   }
   uint32_t magnitudeIn(size_t index, int r, int a) const {
     return index == Band::kNone ? 0 : bands_.at(index).get(r, a).magnitude;
   }
 
-  bool decodeGroup(int r, int a) {
+  /// FORMAT 6, m of a coefficient.
+  uint32_t sumOfHints(int r, int a) {
+    uint32_t m = magnitudeIn(band().parent, r / 2, a / 2) + magnitudeIn(band().companion, r, a);
+    for (const size_t sibling : band().siblings) m += magnitudeIn(sibling, r, a);
+    return m;
+  }
+
+  /// FORMAT 6, m of a group.
+  uint32_t bitsOfHints(int r, int a) {
     uint32_t m =
         magnitudeIn(band().parent, r / 2, a / 2) | magnitudeIn(band().parent, r / 2, a / 2 + 1);
-    for (int i = 0; i < 4; ++i) m |= magnitudeIn(band().companion, r, a + i);
-    const std::optional<int> any = models().group[hintClass(m)].decode(decoder_);
+    for (int i = a; i < a + 4; ++i) {
+      m |= magnitudeIn(band().companion, r, i);
+      for (const size_t sibling : band().siblings) m |= magnitudeIn(sibling, r, i);
+    }
+    return 2 * m;
+  }
+
+  /// FORMAT 6, "rest": 0, 1 or 2, by how far the nearest significant coefficient is.
+  int reachOf(int r, int a) {
+    for (int reach = 0; reach < 2; ++reach) {
+      const int distance = reach + 2;
+      for (int y = r - distance; y <= r + distance; ++y) {
+        for (int x = a - distance; x < a + 4 + distance; ++x) {
+          if (band().get(y, x).magnitude > 0) return reach;
+        }
+      }
+    }
+    return 2;
+  }
+
+  bool decodeGroup(int r, int a) {
+    Model& model = models().group[reachOf(r, a)][hintClass(bitsOfHints(r, a))];
+    const std::optional<int> any = model.decode(decoder_);
     if (!any) return false;
     int zeros = 4;
     if (*any) {
@@ -199,9 +228,7 @@ class TrackDecoder {
   }
 
   bool decodeSignificance(int r, int a) {
-    const uint32_t m =
-        magnitudeIn(band().parent, r / 2, a / 2) + magnitudeIn(band().companion, r, a);
-    Model& model = models().significance[levelAt(r, a)][hintClass(m)];
+    Model& model = models().significance[levelAt(r, a)][hintClass(sumOfHints(r, a))];
     const std::optional<int> significant = model.decode(decoder_);
     if (!significant) return false;
     if (*significant) return becomeSignificant(r, a);

@@ -46,6 +46,7 @@ struct Band {
   Orientation orientation;
   int logNorm = 0, modelClass = 0;
   size_t parent = kNone, companion = kNone;  ///< numbers of bands of the track
+  std::vector<size_t> siblings;              ///< likewise
   std::vector<Coefficient> coefficients;     ///< row by row
   bool needed = true;                        ///< its passes have to be decoded (FORMAT 7.1)
   bool marked = false;                       ///< holds a significant coefficient
