@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bitstream/band.hpp"
+#include "bitstream/hints.hpp"
 #include "bitstream/reconstruction.hpp"
 #include "bitstream/track_decoder.hpp"
 #include "bitstream/track_encoder.hpp"
@@ -110,6 +111,51 @@ TEST(Band, SignificantWithinIsWhatAnEyeSees) {
         if (scattered.set[row][column]) continue;
         const uint32_t near = scattered.band.nearSignificant(word);
         ASSERT_EQ((near >> bit) & 1, scattered.sees(row, column, 1)) << row << " " << column;
+      }
+    }
+  }
+}
+
+/// A band of random magnitudes, and what they are read as: 0 outside.
+Band filled(Random& random, const BandShape& shape) {
+  Band band(shape, Orientation::kHL);
+  for (uint32_t row = 0; row < shape.rows; ++row) {
+    for (uint32_t column = 0; column < shape.columns; ++column)
+      band.magnitude[shape.cell(row, column)] = static_cast<uint32_t>(random() % 1000);
+  }
+  return band;
+}
+
+uint32_t magnitudeAt(const Band* band, uint32_t row, uint32_t column) {
+  if (band == nullptr || row >= band->shape.rows || column >= band->shape.columns) return 0;
+  return band->magnitude[band->shape.cell(row, column)];
+}
+
+/// Siblings may lack a row, a column, or both, and any of the bands may be missing.
+TEST(RowHints, AreSumsAndBitsOfWhatOtherBandsHold) {
+  Random random(5);
+  for (const BandShape& shape : kShapes) {
+    const Band parent = filled(random, {(shape.rows + 1) / 2, (shape.columns + 1) / 2});
+    const Band component = filled(random, shape);
+    const Band narrow = filled(random, {shape.rows, shape.columns - 1});
+    const Band low = filled(random, {shape.rows - 1, shape.columns});
+    for (int missing = 0; missing < 5; ++missing) {
+      const auto unless = [&](int i, const Band& band) { return i == missing ? nullptr : &band; };
+      const HintBands bands{
+          unless(0, parent), unless(1, component), {unless(2, narrow), unless(3, low)}};
+      for (uint32_t row = 0; row < shape.rows; ++row) {
+        for (uint32_t column = 0; column < shape.columns; ++column) {
+          const RowHints hints(bands, row, column / 32);
+          uint32_t sum = magnitudeAt(bands.parent, row / 2, column / 2);
+          uint32_t bits = sum | magnitudeAt(bands.parent, row / 2, column / 2 + 1);
+          for (const Band* band : {bands.component, bands.siblings[0], bands.siblings[1]}) {
+            sum += magnitudeAt(band, row, column);
+            for (uint32_t i = 0; i < 4; ++i) bits |= magnitudeAt(band, row, column + i);
+          }
+          ASSERT_EQ(hints.ofOne(column % 32), sum) << row << " " << column << " " << missing;
+          if (column % 4 != 0 || column + 4 > shape.columns) continue;
+          ASSERT_EQ(hints.ofFour(column % 32), 2 * bits) << row << " " << column << " " << missing;
+        }
       }
     }
   }

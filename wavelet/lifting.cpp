@@ -7,18 +7,6 @@
 
 namespace tetrakis {
 
-namespace {
-
-/// Position p of a signal of n >= 2 samples that is mirrored about both ends.
-ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
-  if (p >= 0 && p < n) return p;
-  const ptrdiff_t period = 2 * (n - 1);
-  p = ((p % period) + period) % period;
-  return std::min(p, period - p);
-}
-
-}  // namespace
-
 void liftColumns(const RowSet& rows, FilterId id, Direction direction, bool wide) {
   // A step may follow when the one before has passed all rows that either of them reaches.
   constexpr auto kLag = static_cast<ptrdiff_t>(2 * kMaxPairs);

@@ -8,6 +8,7 @@
 //   x[t] += round(sum_k w_k (x[t - 1 - 2k] + x[t + 1 + 2k]) / 2^shift)
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,6 +16,14 @@
 #include "wavelet/lifting_kernel.hpp"
 
 namespace tetrakis {
+
+/// Where the mirror image of place p lies in a signal of n >= 2 samples.
+inline ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
+  if (p >= 0 && p < n) return p;
+  const ptrdiff_t period = 2 * (n - 1);
+  p = ((p % period) + period) % period;
+  return std::min(p, period - p);
+}
 
 /// Rows of equal length at equal distances.
 struct RowSet {

@@ -14,21 +14,14 @@ struct Line {
 
   /// Sum of the pair at a distance from t, if any of it is valid. The line is mirrored at its ends.
   bool pairSum(ptrdiff_t t, ptrdiff_t distance, int64_t& sum) const {
-    const ptrdiff_t before = inside(t - distance), after = inside(t + distance);
+    const auto n = static_cast<ptrdiff_t>(values.size());
+    const ptrdiff_t before = mirror(t - distance, n), after = mirror(t + distance, n);
     const bool has_before = valid[static_cast<size_t>(before)] != 0,
                has_after = valid[static_cast<size_t>(after)] != 0;
     if (!has_before && !has_after) return false;
     sum = int64_t{values[static_cast<size_t>(has_before ? before : after)]} +
           values[static_cast<size_t>(has_after ? after : before)];
     return true;
-  }
-
- private:
-  ptrdiff_t inside(ptrdiff_t p) const {
-    const auto n = static_cast<ptrdiff_t>(values.size());
-    const ptrdiff_t period = 2 * (n - 1);
-    p = ((p % period) + period) % period;
-    return std::min(p, period - p);
   }
 };
 
