@@ -175,6 +175,7 @@ bool EncodeJob::nearlyExact() const {
 void EncodeJob::encodeLosslessIfItFits() {
   const bool possible = !geometry_ || geometry_->steps.exact;
   if (!budgeted() || !possible || !nearlyExact()) return;
+  const std::vector<Packet> lossy_packets = packets_;
   const std::optional<EncodedHeights> lossy_geometry = geometry_;
   std::vector<EncodedTexture> lossy_texture;
   if (geometry_) encodeGeometry(Purpose::kLossless);
@@ -186,7 +187,7 @@ void EncodeJob::encodeLosslessIfItFits() {
   if (restoresEverything() && totalPayload() <= options_.bytes) return;
   geometry_ = lossy_geometry;
   if (texture_) texture_ = std::move(lossy_texture.front());
-  order();
+  packets_ = lossy_packets;
 }
 
 }  // namespace tetrakis

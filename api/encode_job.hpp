@@ -15,6 +15,7 @@
 #include "ratecontrol/audit.hpp"
 #include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/texture_choice.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
 #include "wavelet/filter_choice.hpp"
 
 namespace tetrakis {
@@ -84,10 +85,10 @@ class EncodeJob {
   Codewords cutAt(TrackId component, uint64_t bytes) const;
   AuditScope auditScope(uint64_t samples, bool masked) const;
   // memory: of calls for fewer bytes of a component with one track.
-  DecodedHeights decodedHeights(uint64_t bytes, TrackMemory* memory = nullptr) const;
-  Texels decodedTexels(uint64_t bytes, TrackMemory* memory = nullptr) const;
-  double geometrySquares(uint64_t bytes, TrackMemory* memory = nullptr) const;
-  double textureSquares(uint64_t bytes, TrackMemory* memory = nullptr) const;
+  DecodedHeights decodedHeights(uint64_t bytes, HeightsMemory* memory = nullptr) const;
+  Texels decodedTexels(uint64_t bytes, TextureMemory* memory = nullptr) const;
+  double geometrySquares(uint64_t bytes, HeightsMemory* memory = nullptr) const;
+  double textureSquares(uint64_t bytes, TextureMemory* memory = nullptr) const;
 
   // encode_bound.cpp: heights within a largest error.
   void boundHeights();

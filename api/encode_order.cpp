@@ -109,13 +109,13 @@ Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
   return cut;
 }
 
-DecodedHeights EncodeJob::decodedHeights(uint64_t bytes, TrackMemory* memory) const {
+DecodedHeights EncodeJob::decodedHeights(uint64_t bytes, HeightsMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
   return decodeLayers(cutAt(TrackId::kGeometry, bytes), *header.geometry, header.layers, 0,
                       options_.threads, memory);
 }
 
-Texels EncodeJob::decodedTexels(uint64_t bytes, TrackMemory* memory) const {
+Texels EncodeJob::decodedTexels(uint64_t bytes, TextureMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
   return decodeTexture(*header.texture, cutAt(TrackId::kTexture, bytes), 0, options_.threads,
                        memory);
@@ -126,7 +126,7 @@ AuditScope EncodeJob::auditScope(uint64_t samples, bool masked) const {
 }
 
 /// Sum of squared errors in steps, voids that are not known among them.
-double EncodeJob::geometrySquares(uint64_t bytes, TrackMemory* memory) const {
+double EncodeJob::geometrySquares(uint64_t bytes, HeightsMemory* memory) const {
   const EncodedHeights& g = *geometry_;
   const DecodedGeometry decoded = decodedHeights(bytes, memory).geometry;
   const std::vector<int32_t> steps = wholeSteps(decoded);
@@ -142,7 +142,7 @@ double EncodeJob::geometrySquares(uint64_t bytes, TrackMemory* memory) const {
   return squares;
 }
 
-double EncodeJob::textureSquares(uint64_t bytes, TrackMemory* memory) const {
+double EncodeJob::textureSquares(uint64_t bytes, TextureMemory* memory) const {
   return countedSquares(texels_, decodedTexels(bytes, memory), texture_->seen);
 }
 
@@ -161,7 +161,7 @@ TrackCurve EncodeJob::geometryCurve() const {
                                 {opening, geometry_->corrections.size()}),
                     mean_square, cost, opening);
     }
-    TrackMemory memory;
+    HeightsMemory memory;
     return priced(TrackId::kGeometry,
                   audit(geometry_->tracks.front(),
                         auditScope(geometry_->steps.steps.size(), !geometry_->validity.empty()),
@@ -204,7 +204,7 @@ TrackCurve EncodeJob::textureCurve() const {
     return priced(orderTracks(TrackId::kTexture, texture_->tracks, {opening, 0}), mean_square,
                   mean_square, opening);
   }
-  TrackMemory memory;
+  TextureMemory memory;
   return priced(TrackId::kTexture,
                 audit(texture_->tracks.front(), auditScope(texels_.samples.size(), opening > 0),
                       [&](uint64_t bytes) { return textureSquares(bytes, &memory); }),

@@ -65,20 +65,25 @@ struct Layers {
 };
 
 std::vector<uint8_t> validityOf(const Layers& taken, const GeometryHeader& header,
-                                const GeometryLayers& layers) {
+                                const GeometryLayers& layers, HeightsMemory* memory = nullptr) {
   if (layers.validity_bytes == 0) return {};
-  return decodeValidity(taken.validity, header.width, header.height);
+  const bool whole = memory != nullptr && taken.validity.size() == layers.validity_bytes;
+  if (whole && !memory->valid.empty()) return memory->valid;
+  std::vector<uint8_t> valid = decodeValidity(taken.validity, header.width, header.height);
+  if (whole) memory->valid = valid;
+  return valid;
 }
 
 }  // namespace
 
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
                             const GeometryLayers& layers, int level, uint32_t threads,
-                            TrackMemory* memory) {
+                            HeightsMemory* memory) {
   const Layers taken(codewords, layers);
   DecodedHeights decoded;
-  decoded.geometry = decodeGeometry(header, taken.coefficients, validityOf(taken, header, layers),
-                                    level, threads, memory);
+  decoded.geometry =
+      decodeGeometry(header, taken.coefficients, validityOf(taken, header, layers, memory), level,
+                     threads, memory == nullptr ? nullptr : &memory->track);
   if (taken.corrections.empty() || level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
     correctSteps(decoded.geometry, header, layers, taken.corrections);

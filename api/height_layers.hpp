@@ -17,12 +17,18 @@ struct DecodedHeights {
   std::vector<int32_t> corrections;  ///< to the samples; empty where there are none
 };
 
+/// What one call of decodeLayers() leaves to the next, whose only track is longer by some bytes and
+/// starts in the same memory. Empty at first.
+struct HeightsMemory {
+  std::vector<uint8_t> valid;  ///< once it is whole
+  TrackMemory track;
+};
+
 /// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes.
-/// level, memory: as decodeGeometry takes them; above 0 without corrections, which are those of the
-/// samples.
+/// level: as decodeGeometry takes it; above 0 without corrections, which are those of the samples.
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
                             const GeometryLayers& layers, int level = 0, uint32_t threads = 1,
-                            TrackMemory* memory = nullptr);
+                            HeightsMemory* memory = nullptr);
 
 /// The same in a window, in time that follows its size where there are regions and no corrections.
 DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHeader& header,

@@ -156,9 +156,10 @@ class PlanePass {
   struct Row {
     size_t word, first;  ///< indices of the word and of the first cell
     RowHints hints;
-    uint32_t todo;        ///< columns still to be coded
-    uint32_t near;        ///< columns with a significant neighbour
-    Band::Reach reach{};  ///< columns with a significant coefficient further away
+    uint32_t todo;         ///< columns still to be coded
+    uint32_t near;         ///< columns with a significant neighbour
+    Band::Reach reach{};   ///< columns with a significant coefficient further away, ...
+    bool reached = false;  ///< ... once a group asks for them
     uint32_t visited;
     LocalSums sums;
   };
@@ -175,7 +176,6 @@ class PlanePass {
     if (r.todo == 0) return;
     r.first = band_.shape.cell(row, 32 * x);
     r.hints = RowHints(hints_, row, x);
-    if (kKind == PassKind::kRest) r.reach = band_.significantWithin(r.word);
     localSums(band_, r.first, r.sums);
     if (io_.hasPlenty(kRowDecisions)) {
       typename Io::Plenty io(io_);
@@ -210,7 +210,9 @@ class PlanePass {
 
   /// Of four quiet columns: 0 if there is something significant at most two columns and rows away,
   /// 1 if three, else 2.
-  static size_t reachClass(const Row& r, uint32_t i) {
+  size_t reachClass(Row& r, uint32_t i) const {
+    if (!r.reached) r.reach = band_.significantWithin(r.word);
+    r.reached = true;
     return ((r.reach.two >> i) & 15) != 0 ? 0 : ((r.reach.three >> i) & 15) != 0 ? 1 : 2;
   }
 

@@ -45,7 +45,7 @@ uint64_t measurementsBetween(const RatePoint& a, const RatePoint& b, const Audit
       b.distortion > 0 ? std::min(kMost, 10 * std::log10(a.distortion / b.distortion)) : kMost;
   const double wanted = std::ceil(gain / (kDecibelsPerSample * static_cast<double>(samples)));
   const uint64_t bytes = b.bytes - a.bytes;
-  if (b.bytes <= kFirstBytes / (scope.masked ? 4 : 1)) return bytes;
+  if (b.bytes <= kFirstBytes / (scope.masked ? 2 : 1)) return bytes;
   return std::min(
       bytes, std::max(static_cast<uint64_t>(wanted), 1 + bytes * (kTinySamples / 2) / samples));
 }

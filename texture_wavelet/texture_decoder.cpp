@@ -60,34 +60,49 @@ std::span<const uint8_t> take(uint64_t bytes, std::span<const uint8_t>& codeword
   return taken;
 }
 
+TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_t> alpha,
+                             std::span<const uint8_t> drawn) {
+  TextureOpening opening;
+  if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.width, header.height);
+  if (header.hidden) opening.coded = opening.seen;
+  if (header.overlay_bytes == 0) return opening;
+  opening.overlay = decodeOverlay(header, drawn);
+  const std::vector<ColourIndex>& indices = opening.overlay.indices;
+  if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
+  for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
+  return opening;
+}
+
+/// What a codeword opens with, which is taken off.
+TextureOpening takeOpening(const TextureHeader& header, TextureMemory* memory,
+                           std::span<const uint8_t>& codeword) {
+  const auto alpha = take(header.alpha_bytes, codeword);
+  const auto drawn = take(header.overlay_bytes, codeword);
+  const bool whole = alpha.size() == header.alpha_bytes && drawn.size() == header.overlay_bytes;
+  if (memory == nullptr || !whole) return decodeOpening(header, alpha, drawn);
+  if (!memory->opening) memory->opening = decodeOpening(header, alpha, drawn);
+  return *memory->opening;
+}
+
 /// The tracks taken apart.
 struct Layers {
-  std::vector<uint8_t> seen;  ///< of all texels: 1 where alpha is not 0; empty: not a cut-out
-  DrawnOverlay overlay;
-  std::vector<uint8_t> coded;  ///< of all texels: 1 where coefficients count; empty: everywhere
   Codewords coefficients;
+  TextureOpening opening;
 
-  Layers(const TextureHeader& header, const Codewords& codewords) : coefficients(codewords) {
-    std::span<const uint8_t>& first = coefficients.front();
-    if (header.alpha_bytes > 0)
-      seen = decodeValidity(take(header.alpha_bytes, first), header.width, header.height);
-    if (header.hidden) coded = seen;
-    if (header.overlay_bytes == 0) return;
-    overlay = decodeOverlay(header, take(header.overlay_bytes, first));
-    if (coded.empty()) coded.assign(overlay.indices.size(), 1);
-    for (size_t i = 0; i < coded.size(); ++i) coded[i] &= overlay.indices[i] == kSeeThrough;
-  }
+  Layers(const TextureHeader& header, const Codewords& codewords, TextureMemory* memory = nullptr)
+      : coefficients(codewords), opening(takeOpening(header, memory, coefficients.front())) {}
 
   /// Draws over texels that lie `step` apart in the whole image, from (x0, y0) on.
   void paint(uint32_t width, uint32_t x0, uint32_t y0, uint32_t step, Texels& texels) const {
-    if (overlay.indices.empty()) return;
+    if (opening.overlay.indices.empty()) return;
     uint16_t* out = texels.samples.data();
     for (uint32_t y = 0; y < texels.height; ++y) {
-      const ColourIndex* row = overlay.indices.data() + (y0 + size_t{y} * step) * width + x0;
+      const ColourIndex* row =
+          opening.overlay.indices.data() + (y0 + size_t{y} * step) * width + x0;
       for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
         const ColourIndex index = row[size_t{x} * step];
         if (index == kSeeThrough) continue;
-        std::copy_n(overlay.colours[index].begin(), texels.channels, out);
+        std::copy_n(opening.overlay.colours[index].begin(), texels.channels, out);
       }
     }
   }
@@ -185,13 +200,13 @@ Texels crop(const Texels& whole, const Window& window) {
 }  // namespace
 
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level,
-                     uint32_t threads, TrackMemory* memory) {
+                     uint32_t threads, TextureMemory* memory) {
   if (header.drawn()) return decodeDrawn(header, codewords.front(), level);
-  const Layers layers(header, codewords);
+  const Layers layers(header, codewords, memory);
   const TexturePlan plan(header);
   const MipLevel mip(header.width, header.height, level);
   Planes planes(header, mip);
-  const Validity coded = layers.coded;
+  const Validity coded = layers.opening.coded;
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
   const int fraction_bits = tracks.run(
       layers.coefficients,
@@ -199,11 +214,11 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, in
       [&](size_t i, const TrackState& state, int more_bits) {
         planes.put(state, plan.parts(i), more_bits);
       },
-      memory);
-  const auto pointers = planes.restore(mip.maskOf(layers.coded, header.width), threads);
+      memory == nullptr ? nullptr : &memory->track);
+  const auto pointers = planes.restore(mip.maskOf(layers.opening.coded, header.width), threads);
   Texels texels = emptyTexels(header, mip.size().width, mip.size().height);
   finish(header, fraction_bits, pointers, threads, texels);
-  std::vector<uint8_t> seen = mip.maskOf(layers.seen, header.width);
+  std::vector<uint8_t> seen = mip.maskOf(layers.opening.seen, header.width);
   if (!seen.empty()) {
     mip.thin(std::span(seen));
     finishAlpha(std::span(seen).first(mip.samples()), texels);
@@ -216,7 +231,7 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
                            const Window& window, uint32_t threads) {
   if (header.drawn()) return crop(decodeDrawn(header, codewords.front(), 0), window);
   const Layers layers(header, codewords);
-  const Validity coded = layers.coded;
+  const Validity coded = layers.opening.coded;
   const TexturePlan plan(header);
   std::vector<WindowSynthesis> synthesis(
       header.components(), WindowSynthesis(specOf(header.wavelet), plan.layout().subbands(),
@@ -250,7 +265,7 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
   for (std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
   Texels texels = emptyTexels(header, window.width, window.height);
   finish(header, fraction_bits, pointers, threads, texels);
-  finishAlpha(cropped(layers.seen), texels);
+  finishAlpha(cropped(layers.opening.seen), texels);
   layers.paint(header.width, window.x, window.y, 1, texels);
   return texels;
 }

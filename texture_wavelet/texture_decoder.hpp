@@ -3,20 +3,37 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "bitstream/header.hpp"
 #include "bitstream/packet.hpp"
+#include "texture_wavelet/drawn_decoder.hpp"
 #include "texture_wavelet/texels.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/window.hpp"
 
 namespace tetrakis {
 
+/// What comes before the coefficients of a texture.
+struct TextureOpening {
+  std::vector<uint8_t> seen;  ///< of all texels: 1 where alpha is not 0; empty: not a cut-out
+  DrawnOverlay overlay;
+  std::vector<uint8_t> coded;  ///< of all texels: 1 where coefficients count; empty: everywhere
+};
+
+/// What one call of decodeTexture() leaves to the next, whose only track is longer by some bytes
+/// and starts in the same memory. Empty at first.
+struct TextureMemory {
+  std::optional<TextureOpening> opening;  ///< once it is whole
+  TrackMemory track;
+};
+
 /// codewords: any prefix of each track, one for each of regionsOf(). level: every 2^level-th texel
 /// in x and y, up to the coarsest (wavelet/mip_level.hpp). Safe on any bytes and any header that
 /// readHeader accepts. memory: of the calls before, with the same header and level.
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level = 0,
-                     uint32_t threads = 1, TrackMemory* memory = nullptr);
+                     uint32_t threads = 1, TextureMemory* memory = nullptr);
 
 /// The texels of a window, in time that follows its size where there are regions.
 Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
