@@ -25,10 +25,11 @@ struct BandShape {
   bool empty() const { return rows == 0 || columns == 0; }
   uint32_t words() const { return (columns + 31) / 32; }  ///< of a row of a bit map
   uint32_t wordStride() const { return words() + 2; }
-  /// Bit maps have margins of one word and three rows.
-  size_t wordCells() const { return size_t{rows + 6} * wordStride(); }
+  /// Bit maps have margins of one word and as many rows as significantWithin() looks away.
+  static constexpr uint32_t kMarginRows = 3;
+  size_t wordCells() const { return size_t{rows + 2 * kMarginRows} * wordStride(); }
   size_t word(uint32_t row, uint32_t index) const {
-    return size_t{row + 3} * wordStride() + index + 1;
+    return size_t{row + kMarginRows} * wordStride() + index + 1;
   }
   /// Rows are padded to whole words and a margin of one cell.
   uint32_t stride() const { return 32 * words() + 2; }
@@ -99,6 +100,7 @@ struct Band {
       return s[i - 2 * stride] | s[i - stride] | s[i] | s[i + stride] | s[i + 2 * stride];
     };
     const auto three = [&](ptrdiff_t i) { return s[i - 3 * stride] | s[i + 3 * stride]; };
+    // 38 columns: those of the word from bit 3 on, and three on either side.
     const auto joined = [](uint32_t left, uint32_t here, uint32_t right) {
       return left >> 29 | uint64_t{here} << 3 | uint64_t{right & 7} << 35;
     };

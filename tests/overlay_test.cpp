@@ -116,5 +116,28 @@ TEST(Overlay, EveryPrefixOfItDecodes) {
   }
 }
 
+/// What a call leaves to the next changes nothing, wherever the overlay and the mask end.
+TEST(Overlay, PrefixesThatGrowInOneMemoryDecodeAsAlone) {
+  for (const uint32_t channels : {3u, 4u}) {
+    Texels texels = photograph(channels, 8);
+    drawBars(texels);
+    for (size_t i = 3; channels == 4 && i < texels.samples.size(); i += 4)
+      texels.samples[i] = i / 4 % kWidth < 30 ? 0 : 255;
+    const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossy, {4000});
+    const auto opening =
+        static_cast<size_t>(encoded.header.overlay_bytes + encoded.header.alpha_bytes);
+    ASSERT_GT(opening, 0u);
+    const std::span<const uint8_t> codeword = encoded.tracks.front().codeword;
+    TextureMemory memory;
+    for (size_t bytes = 0; bytes <= codeword.size(); bytes += bytes < opening + 9 ? 3 : 401) {
+      const Codewords cut = {codeword.first(bytes)};
+      ASSERT_EQ(decodeTexture(encoded.header, cut, 0, 1, &memory).samples,
+                decodeTexture(encoded.header, cut).samples)
+          << channels << " " << bytes;
+    }
+    EXPECT_TRUE(memory.opening.has_value());
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis

@@ -79,6 +79,29 @@ TEST(Regions, ParentsCoverTheirChildren) {
   }
 }
 
+/// Siblings start at the same place as each other and differ by one row or column at most.
+TEST(Regions, SiblingsHaveThePlacesOfEachOther) {
+  for (const Size& size : kSizes) {
+    const PlaneLayout layout(uniform(FilterId::kShort), size.width, size.height);
+    for (const Region& region : regionsOf(size.width, size.height, 4)) {
+      const std::vector<BandPart> parts = layout.parts(region);
+      const std::vector<BandPlan> plan = layout.plan(parts, 0, 0, 0);
+      for (size_t i = 0; i < plan.size(); ++i) {
+        for (const int index : plan[i].siblings) {
+          if (index == BandPlan::kNone || plan[i].shape.empty()) continue;
+          const BandPart& sibling = parts[static_cast<size_t>(index)];
+          ASSERT_EQ(layout.subbands()[sibling.subband].level,
+                    layout.subbands()[parts[i].subband].level);
+          ASSERT_EQ(sibling.column, parts[i].column);
+          ASSERT_EQ(sibling.row, parts[i].row);
+          ASSERT_LE(parts[i].columns, sibling.columns + 1);
+          ASSERT_LE(parts[i].rows, sibling.rows + 1);
+        }
+      }
+    }
+  }
+}
+
 /// Tracks of a header that may say anything.
 struct Coded {
   GeometryHeader header;
