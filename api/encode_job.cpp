@@ -78,6 +78,7 @@ Result<std::vector<uint8_t>> EncodeJob::run() {
   Result<Needs> wanted = needs();
   if (!wanted.ok()) return wanted.status();
   keepNeeded(*wanted);
+  packets_ = joinNeighbours(packets_);
   keepWithinBudget();
   Result<std::vector<uint8_t>> stream = assemble();
   if (Status status = report(1); !status.ok()) return status;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each structure of the stream lists its fields once, in visit(); writing, reading and dumping are
-// visitors. Numbers are little endian; a varint is LEB128 (7 bits a byte, low bits first).
+// visitors. Numbers are little endian; a varint is LEB128 (7 bits a byte, low bits first), and a
+// double goes without its low zero bytes, which round numbers have many of: u8 n, n high bytes.
 #pragma once
 
 #include <bit>
@@ -29,7 +30,9 @@ class FieldWriter {
   }
   void f64(const char*, double& value) {
     const auto bits = std::bit_cast<uint64_t>(value);
-    for (int i = 0; i < 8; ++i) bytes.push_back(static_cast<uint8_t>(bits >> (8 * i)));
+    const int zeros = std::countr_zero(bits) / 8;
+    bytes.push_back(static_cast<uint8_t>(8 - zeros));
+    for (int i = zeros; i < 8; ++i) bytes.push_back(static_cast<uint8_t>(bits >> (8 * i)));
   }
   void text(const char*, std::string& value) {
     put(value.size());
@@ -70,9 +73,11 @@ class FieldReader {
       value = signed_raw;
     }
   }
-  void f64(const char*, double& value) {
+  void f64(const char* name, double& value) {
+    int size = 0;
+    accept(name, next(), 0, 8, size);
     uint64_t bits = 0;
-    for (int i = 0; i < 8; ++i) bits |= uint64_t{next()} << (8 * i);
+    for (int i = 8 - size; i < 8; ++i) bits |= uint64_t{next()} << (8 * i);
     if (ok()) value = std::bit_cast<double>(bits);
   }
   void text(const char* name, std::string& value) {

@@ -47,4 +47,26 @@ std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves) {
   return order;
 }
 
+std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
+  constexpr int kQualitySteps = 2;
+  std::vector<Packet> joined;
+  // Stated of each component ahead of the last packet, and with it.
+  std::array<int, kTracks> before = {511, 511}, stated = {511, 511};
+  for (const Packet& packet : packets) {
+    const auto component = static_cast<size_t>(packet.track);
+    const bool same_track = !joined.empty() && joined.back().track == packet.track &&
+                            joined.back().region == packet.region;
+    if (same_track && !joined.back().whole && !packet.whole &&
+        before[component] - packet.quality <= kQualitySteps) {
+      joined.back().end = packet.end;
+      joined.back().quality = packet.quality;
+    } else {
+      before[component] = stated[component];
+      joined.push_back(packet);
+    }
+    stated[component] = packet.quality;
+  }
+  return joined;
+}
+
 }  // namespace tetrakis

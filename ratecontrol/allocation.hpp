@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "bitstream/packet.hpp"
@@ -21,5 +22,9 @@ struct TrackCurve {
 
 /// Steepest slope first; within a component the order of its packets. Equal slopes: geometry first.
 std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves);
+
+/// The same bytes in fewer packets: neighbours of one track become one, as long as it takes less
+/// than two steps of stated quality (1.5 dB). Packets that count only when whole stay as they are.
+std::vector<Packet> joinNeighbours(std::span<const Packet> packets);
 
 }  // namespace tetrakis

@@ -2,6 +2,8 @@
 // Range coder, tail rule, header and packets.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <limits>
 #include <random>
 
 #include "bitstream/header.hpp"
@@ -137,6 +139,35 @@ StreamHeader sampleHeader() {
   header.metadata.spacing_x = 30;
   header.index = {{40, 3}, {81, 0}};
   return header;
+}
+
+TEST(Fields, DoublesComeBackBitForBit) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::pair<double, size_t>> doubles = {
+      {0, 1},         {-0.0, 2}, {1, 3}, {-1, 3},    {3436, 4},   {0.1, 9},     {5e-324, 9},
+      {kInfinity, 3}, {30, 3},   {2, 2}, {1e300, 9}, {-32768, 3}, {-3.4e38f, 6}};
+  for (const auto& [value, size] : doubles) {
+    FieldWriter writer;
+    double written = value, read = 7;
+    writer.f64("value", written);
+    EXPECT_EQ(writer.bytes.size(), size) << value;
+    FieldReader reader(writer.bytes);
+    reader.f64("value", read);
+    EXPECT_TRUE(reader.ok());
+    EXPECT_EQ(reader.position(), writer.bytes.size());
+    EXPECT_EQ(std::bit_cast<uint64_t>(read), std::bit_cast<uint64_t>(value));
+    FieldReader starved(std::span(writer.bytes).first(size - 1));
+    starved.f64("value", read);
+    EXPECT_TRUE(starved.starved());
+  }
+  const std::vector<uint8_t> long_one = {8, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f}, too_long(10, 9);
+  double read = 0;
+  FieldReader reader(long_one);
+  reader.f64("value", read);
+  EXPECT_EQ(read, 1);
+  FieldReader failing(too_long);
+  failing.f64("value", read);
+  EXPECT_FALSE(failing.ok() || failing.starved());
 }
 
 TEST(Header, ReadsWhatItWrites) {

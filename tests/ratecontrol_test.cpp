@@ -123,6 +123,45 @@ TEST(Allocation, NoSplitOfAnyPrefixIsBetter) {
   EXPECT_EQ(sent[1], curves[1].points.back().bytes);
 }
 
+TEST(JoinNeighbours, KeepsBytesQualityStepsAndWholePackets) {
+  const auto packet = [](TrackId track, bool whole, int quality, uint64_t begin, uint64_t end) {
+    return Packet{track, whole, static_cast<uint8_t>(quality), begin, end, {}};
+  };
+  const TrackId g = TrackId::kGeometry, t = TrackId::kTexture;
+  const std::vector<Packet> packets = {
+      packet(g, false, 90, 0, 10),   packet(t, false, 99, 0, 20),   // the first of each
+      packet(t, false, 98, 20, 30),  packet(t, false, 97, 30, 50),  // two steps: one packet
+      packet(t, false, 96, 50, 60),  packet(g, false, 90, 10, 20),  // the other track ends it
+      packet(t, true, 96, 60, 70),   packet(t, false, 96, 70, 80),  // whole: by itself
+      packet(t, false, 93, 80, 100),                                // three steps are too many
+      packet(g, false, 89, 20, 30),  packet(g, false, 88, 30, 50)};
+  const std::vector<Packet> joined = joinNeighbours(packets);
+  const std::vector<std::pair<uint64_t, int>> expected = {
+      {10, 90}, {20, 99}, {50, 97}, {60, 96}, {20, 90}, {70, 96}, {80, 96}, {100, 93}, {50, 88}};
+  ASSERT_EQ(joined.size(), expected.size());
+  std::array<uint64_t, kTracks> sent = {};
+  for (size_t i = 0; i < joined.size(); ++i) {
+    EXPECT_EQ(joined[i].end, expected[i].first);
+    EXPECT_EQ(joined[i].quality, expected[i].second);
+    EXPECT_EQ(joined[i].whole, i == 5);
+    uint64_t& begin = sent[static_cast<size_t>(joined[i].track)];
+    EXPECT_EQ(joined[i].begin, begin);
+    begin = joined[i].end;
+  }
+}
+
+TEST(JoinNeighbours, TracksOfRegionsStayApart) {
+  std::vector<Packet> packets(4);
+  for (uint32_t i = 0; i < 4; ++i) packets[i] = {TrackId::kTexture, false, 80, 0, 9, i / 2};
+  packets[1].begin = packets[3].begin = 9;
+  packets[1].end = packets[3].end = 18;
+  const std::vector<Packet> joined = joinNeighbours(packets);
+  ASSERT_EQ(joined.size(), 3u);  // the first packet of a component states its quality early
+  EXPECT_EQ(joined[1].region, 0u);
+  EXPECT_EQ(joined[2].region, 1u);
+  EXPECT_EQ(joined[2].end, 18u);
+}
+
 TEST(Audit, TinyTracksGetAPointForEveryRecord) {
   EncodedTrack track;
   track.codeword.resize(9);

@@ -4,9 +4,9 @@
 //
 // Channels r, g, b become the planes c0 (luma), c1, c2 in the order kChannelOrders[order]; then
 //
-//   c1 += round((shears[0] c2 + shears[1] c0) / 1024)
-//   c2 += round((shears[2] c1 + shears[3] c0) / 1024)
-//   c0 += round((shears[4] c1 + shears[5] c2) / 1024)
+//   c1 += round((shears[0] c2 + shears[1] c0) / 128)
+//   c2 += round((shears[2] c1 + shears[3] c0) / 128)
+//   c0 += round((shears[4] c1 + shears[5] c2) / 128)
 //
 // which is exactly invertible whatever the rounding. Six numbers are as many as three directions of
 // colour space have degrees of freedom: every rotation is reached up to the lengths of its rows.
@@ -23,7 +23,7 @@
 
 namespace tetrakis {
 
-inline constexpr int kShearFractionBits = 10;
+inline constexpr int kShearFractionBits = 7;
 inline constexpr std::array<std::array<uint8_t, 3>, 6> kChannelOrders = {
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 

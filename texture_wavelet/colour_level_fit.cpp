@@ -9,7 +9,7 @@ namespace tetrakis {
 namespace {
 
 constexpr double kMostEnergy = 4;   // of the shears of a level: components stay near their size
-constexpr double kBitsPerSet = 80;  // in the header
+constexpr double kBitsPerSet = 50;  // in the header
 
 double bitsOf(const ColourTransform& transform, int level, const ColourDetails& details,
               double step) {

@@ -40,7 +40,11 @@ class Reader {
     for (int i = 0; i < count; ++i) value |= uint64_t{byte()} << (8 * i);
     return value;
   }
-  double f64() { return std::bit_cast<double>(littleEndian(8)); }
+  double f64() {
+    const int size = u8(0, 8);
+    const uint64_t high = littleEndian(size);
+    return std::bit_cast<double>(size == 0 ? 0 : high << (64 - 8 * size));
+  }
 
   /// FORMAT 2: "seven bits a byte, low bits first, bit 7 set while more follow, at most 64 bits".
   uint64_t varint(uint64_t low, uint64_t high) {

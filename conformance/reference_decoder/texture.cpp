@@ -40,8 +40,8 @@ enum class Sums { kOfSamples, kOfCoefficients };
 
 void unshear(const std::array<int, 6>& h, Sums sums, std::array<int32_t*, 3> c) {
   const auto shear = [&](int64_t h0, int64_t a, int64_t h1, int64_t b) {
-    const int64_t sum = h0 * a + h1 * b + 512;
-    return (sums == Sums::kOfSamples ? wrap(sum) : sum) >> 10;
+    const int64_t sum = h0 * a + h1 * b + 64;
+    return (sums == Sums::kOfSamples ? wrap(sum) : sum) >> 7;
   };
   *c[0] = wrap(*c[0] - shear(h[4], *c[1], h[5], *c[2]));
   *c[2] = wrap(*c[2] - shear(h[2], *c[1], h[3], *c[0]));
