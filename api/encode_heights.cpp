@@ -27,9 +27,8 @@ void EncodeJob::encodeSideLayers(bool restore_samples) {
   const std::vector<uint8_t> hints = sampleHints(g.steps.steps, *header.geometry);
   g.corrections = encodeCorrections(sampleCorrections(*heights_, g.steps),
                                     {heights_->width, heights_->height, g.steps.valid, hints});
-  constexpr double kSomething = 1e-200;  // -0 for 0 is no distance, but not exact
-  g.left =
-      std::max(errorsOf(*heights_, g.steps).squares / (g.steps.step * g.steps.step), kSomething);
+  g.left = std::max(errorsOf(*heights_, g.steps).squares / (g.steps.step * g.steps.step),
+                    EncodedHeights::kSomething);
 }
 
 void EncodeJob::encodeGeometry(Purpose purpose) {

@@ -31,6 +31,7 @@ struct EncodedHeights {
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
   double left = 0;
+  static constexpr double kSomething = 1e-200;  ///< -0 for 0 is no distance, but not exact
   std::vector<EncodedTrack> tracks;
   RegionHeader regions;
 
@@ -83,7 +84,7 @@ class EncodeJob {
   double meshFloor() const;
   const std::vector<EncodedTrack>& tracksOf(TrackId component) const;
   Codewords cutAt(TrackId component, uint64_t bytes) const;
-  AuditScope auditScope(uint64_t samples, bool masked) const;
+  AuditScope auditScope(uint64_t samples) const;
   // memory: of calls for fewer bytes of a component with one track.
   DecodedHeights decodedHeights(uint64_t bytes, HeightsMemory* memory = nullptr) const;
   Texels decodedTexels(uint64_t bytes, TextureMemory* memory = nullptr) const;

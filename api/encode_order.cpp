@@ -19,16 +19,6 @@ namespace {
 /// A packet is at least this fraction of its track's bytes before it: heads stay below 1 %.
 constexpr double kPacketGrowth = 0.1;
 
-template <class T>
-double squaredDistance(const std::vector<T>& a, const std::vector<T>& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    const double difference = static_cast<double>(a[i]) - b[i];
-    sum += difference * difference;
-  }
-  return sum;
-}
-
 /// Raises the first point so that the first `opening` bytes are worth the most of all: what they
 /// hold, the rest needs.
 void favour(std::vector<RatePoint>& points, uint64_t opening) {
@@ -121,25 +111,24 @@ Texels EncodeJob::decodedTexels(uint64_t bytes, TextureMemory* memory) const {
                        memory);
 }
 
-AuditScope EncodeJob::auditScope(uint64_t samples, bool masked) const {
-  return {samples, budgeted() ? options_.bytes : UINT64_MAX, masked};
+AuditScope EncodeJob::auditScope(uint64_t samples) const {
+  return {samples, budgeted() ? options_.bytes : UINT64_MAX};
 }
 
-/// Sum of squared errors in steps, voids that are not known among them.
+/// Sum of squared errors of the samples, in steps, voids that are not known among them.
 double EncodeJob::geometrySquares(uint64_t bytes, HeightsMemory* memory) const {
   const EncodedHeights& g = *geometry_;
+  if (g.layers.corrections == CorrectionKind::kSamples && bytes == bytesOf(g.tracks)) return 0;
   const DecodedGeometry decoded = decodedHeights(bytes, memory).geometry;
-  const std::vector<int32_t> steps = wholeSteps(decoded);
-  const bool restored =
-      g.layers.corrections == CorrectionKind::kSamples && bytes == bytesOf(g.tracks);
-  double squares = restored ? 0 : g.left;
-  if (g.validity.empty()) return squares + squaredDistance(steps, g.steps.steps);
+  HeightSteps prefix = {wholeSteps(decoded), g.steps.valid, g.steps.base, g.steps.step};
+  double unknown = 0;
   for (size_t i = 0; i < decoded.valid.size(); ++i) {
-    const double difference = static_cast<double>(steps[i]) - g.steps.steps[i];
-    const bool known = decoded.valid[i] == g.steps.valid[i];
-    squares += known ? difference * difference : g.validityWorth();
+    if (decoded.valid[i] == prefix.valid[i]) continue;
+    unknown += g.validityWorth();
+    prefix.valid[i] = 0;
   }
-  return squares;
+  const double squares = errorsOf(*heights_, prefix).squares / (g.steps.step * g.steps.step);
+  return unknown + std::max(squares, std::min(g.left, EncodedHeights::kSomething));
 }
 
 double EncodeJob::textureSquares(uint64_t bytes, TextureMemory* memory) const {
@@ -163,8 +152,7 @@ TrackCurve EncodeJob::geometryCurve() const {
     }
     HeightsMemory memory;
     return priced(TrackId::kGeometry,
-                  audit(geometry_->tracks.front(),
-                        auditScope(geometry_->steps.steps.size(), !geometry_->validity.empty()),
+                  audit(geometry_->tracks.front(), auditScope(geometry_->steps.steps.size()),
                         [&](uint64_t bytes) { return geometrySquares(bytes, &memory); }),
                   mean_square, cost, opening);
   };
@@ -206,7 +194,7 @@ TrackCurve EncodeJob::textureCurve() const {
   }
   TextureMemory memory;
   return priced(TrackId::kTexture,
-                audit(texture_->tracks.front(), auditScope(texels_.samples.size(), opening > 0),
+                audit(texture_->tracks.front(), auditScope(texels_.samples.size()),
                       [&](uint64_t bytes) { return textureSquares(bytes, &memory); }),
                 mean_square, mean_square, opening);
 }

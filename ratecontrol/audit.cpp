@@ -13,7 +13,7 @@ namespace {
 // A prefix may fall by 0.03 dB: by so much where every byte is measured, and by less where some are
 // not.
 constexpr double kDip = 1.0067, kSparseDip = 1.005;
-constexpr uint64_t kFirstBytes = 3200;  // of which each is measured
+constexpr uint64_t kFirstBytes = 8192;  // of which each is measured
 
 /// The points that improve on all before them, and what dips between.
 class Records {
@@ -39,15 +39,14 @@ class Records {
 /// neighbours differs by 0.03 dB (in 12 288 samples, less in fewer) and that they are no more than
 /// a few bytes apart: passes of little gain are those that dip.
 uint64_t measurementsBetween(const RatePoint& a, const RatePoint& b, const AuditScope& scope) {
-  const uint64_t samples = scope.samples * (scope.masked ? 4 : 1);
   constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
   const double gain =
       b.distortion > 0 ? std::min(kMost, 10 * std::log10(a.distortion / b.distortion)) : kMost;
-  const double wanted = std::ceil(gain / (kDecibelsPerSample * static_cast<double>(samples)));
+  const double wanted = std::ceil(gain / (kDecibelsPerSample * static_cast<double>(scope.samples)));
   const uint64_t bytes = b.bytes - a.bytes;
-  if (b.bytes <= kFirstBytes / (scope.masked ? 2 : 1)) return bytes;
-  return std::min(
-      bytes, std::max(static_cast<uint64_t>(wanted), 1 + bytes * (kTinySamples / 2) / samples));
+  if (b.bytes <= kFirstBytes) return bytes;
+  return std::min(bytes, std::max(static_cast<uint64_t>(wanted),
+                                  1 + bytes * (kTinySamples / 2) / scope.samples));
 }
 
 std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScope& scope,

@@ -19,14 +19,13 @@ using Measure = std::function<double(uint64_t bytes)>;
 struct AuditScope {
   uint64_t samples = 0;
   uint64_t budget = UINT64_MAX;  ///< bytes of the track that can be sent at most
-  bool masked = false;  ///< a decoding lifts around voids, which takes some four times as long
 };
 
 /// Returns the track's points so that their distortion falls strictly.
 ///   small tracks    every point is measured, and so many prefixes in between that the quality
-///                   between two of them changes by little: all of the first 3200 bytes (half as
-///                   many where masked), and of tiny tracks. Dips are those that were seen. A
-///                   quarter behind the budget is as far as anything in it can depend on
+///                   between two of them changes by little: all of the first 8192 bytes, and of
+///                   tiny tracks. Dips are those that were seen. A quarter behind the budget is as
+///                   far as anything in it can depend on
 ///   large tracks    a few points are measured and the others scaled in between; not with a
 ///                   budget: then the account stands as it is, because the order must not depend
 ///                   on it
