@@ -115,6 +115,7 @@ struct Band {
   Orientation orientation = Orientation::kLL;
   int plane = 31;                     ///< bit-plane of the last pass; nothing is known below
   bool nonzero = false;               ///< the band holds a significant coefficient
+  uint32_t significant_count = 0;     ///< coefficients that are significant
   ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
   ZeroedArray<uint8_t> scaled;        ///< magnitude >> plane, held below 2^7
   ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1

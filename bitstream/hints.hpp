@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "bitstream/band.hpp"
 
@@ -35,13 +36,19 @@ class RowHints {
 
   /// Of the four columns from i on: twice the bits that are set anywhere.
   uint32_t ofFour(uint32_t i) const {
-    const uint32_t *p = parent_ + i / 2, *c = component_ + i;
-    const uint32_t *s = siblings_[0] + i, *t = siblings_[1] + i;
-    const uint32_t s_or_t = s[0] | s[1] | s[2] | s[3] | t[0] | t[1] | t[2] | t[3];
-    return 2 * (p[0] | p[1] | c[0] | c[1] | c[2] | c[3] | s_or_t);
+    const uint32_t *c = component_ + i, *s = siblings_[0] + i, *t = siblings_[1] + i;
+    const uint64_t any = twoOf(parent_ + i / 2) | twoOf(c) | twoOf(c + 2) | twoOf(s) |
+                         twoOf(s + 2) | twoOf(t) | twoOf(t + 2);
+    return 2 * (static_cast<uint32_t>(any) | static_cast<uint32_t>(any >> 32));
   }
 
  private:
+  static uint64_t twoOf(const uint32_t* magnitudes) {
+    uint64_t both;
+    std::memcpy(&both, magnitudes, sizeof both);
+    return both;
+  }
+
   /// Siblings may lack the last row, which then is margin, and the last column.
   static const uint32_t* at(const Band* band, uint32_t row, uint32_t column) {
     static constexpr std::array<uint32_t, 32> kNone{};

@@ -38,14 +38,6 @@ uint32_t existingOf(const BandPlan& plan) {
   return count;
 }
 
-uint32_t significantOf(const Band& band) {
-  uint32_t count = 0;
-  if (!band.nonzero) return count;
-  for (size_t i = 0; i < band.significant.size(); ++i)
-    count += static_cast<uint32_t>(std::popcount(band.significant[i]));
-  return count;
-}
-
 }  // namespace
 
 PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes) : progress_(plan.size()) {
@@ -72,13 +64,12 @@ void PassQueue::pop(const Band& band) {
   std::pop_heap(pending_.begin(), pending_.end(), isLater);
   const Pass done = pending_.back();
   pending_.pop_back();
-  const uint32_t significant = significantOf(band);
   if (--progress_[done.band].open > 0) return;
   if (done.kind == PassKind::kLikely) {
-    push(done.band, done.plane, PassKind::kRest, significant);
-    push(done.band, done.plane, PassKind::kRefine, significant);
+    push(done.band, done.plane, PassKind::kRest, band.significant_count);
+    push(done.band, done.plane, PassKind::kRefine, band.significant_count);
   } else if (done.plane > 0) {
-    push(done.band, done.plane - 1, PassKind::kLikely, significant);
+    push(done.band, done.plane - 1, PassKind::kLikely, band.significant_count);
   } else {
     needed_ -= progress_[done.band].needed;
   }

@@ -253,6 +253,7 @@ class PlanePass {
     band_.scaled[cell] = 1;
     band_.sign[cell] = static_cast<int8_t>(1 - 2 * negative);
     band_.significant[r.word] |= uint32_t{1} << i;
+    ++band_.significant_count;
     r.near |= uint32_t{2} << i;
     r.reach.two |= uint32_t{6} << i;
     r.reach.three |= uint32_t{14} << i;

@@ -35,7 +35,7 @@ TEST(ZeroedArray, HoldsZerosUntilWritten) {
 
 TEST(AdaptiveBit, StaysInRangeAndFollowsEveryDecision) {
   Random random(1);
-  for (int initial = -1; initial < 256; ++initial) {
+  for (int initial = -1; initial < 255; ++initial) {
     for (const uint32_t odds : {0u, 1u, 50u, 500u, 1000u}) {
       AdaptiveBit model = initial < 0 ? AdaptiveBit() : AdaptiveBit(static_cast<uint8_t>(initial));
       for (int i = 0; i < 800; ++i) {
@@ -271,13 +271,21 @@ bool equal(const ZeroedArray<T>& a, const ZeroedArray<T>& b) {
   return std::equal(a.data(), a.data() + a.size(), b.data(), b.data() + b.size());
 }
 
+uint32_t signsOf(const Band& band) {
+  const auto found = [](int8_t sign) { return sign != 0; };
+  return static_cast<uint32_t>(
+      std::count_if(band.sign.data(), band.sign.data() + band.sign.size(), found));
+}
+
 /// What is known of the coefficients and where, not what the next bit-plane starts from.
 bool sameKnowledge(const TrackState& a, const TrackState& b) {
   bool same = a.complete == b.complete && a.bands.size() == b.bands.size();
   for (size_t i = 0; same && i < a.bands.size(); ++i) {
     same = a.bands[i].plane == b.bands[i].plane && equal(a.bands[i].sign, b.bands[i].sign) &&
            equal(a.bands[i].magnitude, b.bands[i].magnitude) &&
-           equal(a.bands[i].visited, b.bands[i].visited);
+           equal(a.bands[i].visited, b.bands[i].visited) &&
+           a.bands[i].significant_count == signsOf(a.bands[i]) &&
+           b.bands[i].significant_count == signsOf(b.bands[i]);
   }
   return same;
 }

@@ -29,9 +29,7 @@ std::vector<BandPlan> randomPlan(Random& random) {
 Band bandWith(const BandShape& shape, uint32_t significant) {
   Band band(shape, Orientation::kHL);
   band.nonzero = significant > 0;
-  for (uint32_t i = 0; i < significant; ++i)
-    band.significant[shape.word(i / shape.columns, i % shape.columns / 32)] |=
-        uint32_t{1} << i % shape.columns % 32;
+  band.significant_count = significant;
   return band;
 }
 
