@@ -77,6 +77,7 @@ Result<std::vector<uint8_t>> EncodeJob::run() {
   if (Status status = report(0.9); !status.ok()) return status;
   Result<Needs> wanted = needs();
   if (!wanted.ok()) return wanted.status();
+  if (options_.psnr > 0) preferLossless(*wanted);
   keepNeeded(*wanted);
   packets_ = joinNeighbours(packets_);
   keepWithinBudget();
@@ -130,7 +131,8 @@ Purpose EncodeJob::geometryPurpose() const {
 TrackOptions EncodeJob::trackOptions(TrackId component) const {
   constexpr uint64_t kMargin = 4096;
   TrackOptions track;
-  if (budgeted() && options_.bytes < UINT64_MAX / 4) track.limit = 2 * options_.bytes + kMargin;
+  if (budgeted()) track.room = options_.bytes;
+  if (track.room < UINT64_MAX / 4) track.limit = 2 * track.room + kMargin;
   track.region_log2 = component == TrackId::kGeometry ? geometryRegions(*heights_, options_)
                                                       : textureRegions(*image_, options_);
   track.threads = options_.threads;
@@ -156,7 +158,6 @@ Status EncodeJob::encodeTracks() {
 
 /// The budget buys so much of every track that losslessness is in reach.
 bool EncodeJob::nearlyExact() const {
-  constexpr double kNearlyExact = 0.6;  // RMSE in steps
   std::array<double, kTracks> rmse = {rmseOf(255), rmseOf(255)};
   uint64_t room = options_.bytes;
   for (const Packet& packet : packets_) {

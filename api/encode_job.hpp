@@ -48,6 +48,9 @@ struct HeightErrors {
 Codewords codewordsOf(const std::vector<EncodedTrack>& tracks);
 uint64_t bytesOf(const std::vector<EncodedTrack>& tracks);
 
+/// RMSE in steps, or texel units, below which the last bit is worth a try.
+inline constexpr double kNearlyExact = 0.6;
+
 class EncodeJob {
  public:
   /// The arguments have passed checkArguments() and outlive the job.
@@ -84,6 +87,7 @@ class EncodeJob {
   double meshFloor() const;
   const std::vector<EncodedTrack>& tracksOf(TrackId component) const;
   Codewords cutAt(TrackId component, uint64_t bytes) const;
+  double samplesOf(TrackId component) const;
   AuditScope auditScope(uint64_t samples) const;
   // memory: of calls for fewer bytes of a component with one track.
   DecodedHeights decodedHeights(uint64_t bytes, HeightsMemory* memory = nullptr) const;
@@ -107,7 +111,9 @@ class EncodeJob {
   uint64_t textureNeed(const Needs& so_far) const;
   bool geometryMeetsTarget(uint64_t bytes) const;
   bool textureMeetsTarget(uint64_t bytes) const;
+  void preferLossless(Needs& needs);
   void keepNeeded(const Needs& needs);
+  uint8_t qualityAfter(TrackId component, uint64_t bytes) const;
 
   // encode_stream.cpp: the finished stream.
   StreamHeader makeHeader(uint64_t payload_bytes, bool lossless) const;

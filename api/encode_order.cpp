@@ -83,6 +83,13 @@ const std::vector<EncodedTrack>& EncodeJob::tracksOf(TrackId component) const {
   return component == TrackId::kGeometry ? geometry_->tracks : texture_->tracks;
 }
 
+/// Those that count in the error of a component.
+double EncodeJob::samplesOf(TrackId component) const {
+  if (component == TrackId::kTexture)
+    return static_cast<double>(countedSamples(texels_, texture_->seen));
+  return static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1));
+}
+
 /// What the first bytes of a component's packets hold.
 Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
   Codewords all = codewordsOf(tracksOf(component));
@@ -137,11 +144,11 @@ double EncodeJob::textureSquares(uint64_t bytes, TextureMemory* memory) const {
 
 TrackCurve EncodeJob::geometryCurve() const {
   if (!geometry_) return {};
-  const auto samples = std::max<size_t>(geometry_->steps.validCount(), 1);
+  const double samples = samplesOf(TrackId::kGeometry);
   const double step =
       geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
   const double floor = meshFloor();
-  const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
+  const auto mean_square = [&](double squares) { return squares / samples; };
   const auto useful = [&](double squares) { return std::max(mean_square(squares), floor); };
   const uint64_t opening = geometry_->validity.size();
   const auto curve = [&](const auto& cost) {
@@ -170,7 +177,7 @@ double EncodeJob::meshFloor() const {
       decimate({heights_->width, heights_->height, geometry_->steps.steps});
   if (!sequence.ok()) return 0;
   const double squares = sequence->squaredError(sequence->bestPrefix(options_.triangles));
-  return squares / static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1)) / 16;
+  return squares / samplesOf(TrackId::kGeometry) / 16;
 }
 
 /// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to
@@ -185,8 +192,8 @@ double EncodeJob::texelsPerMetre(double step) const {
 
 TrackCurve EncodeJob::textureCurve() const {
   if (!texture_) return {};
-  const uint64_t samples = countedSamples(texels_, texture_->seen);
-  const auto mean_square = [&](double squares) { return squares / static_cast<double>(samples); };
+  const double samples = samplesOf(TrackId::kTexture);
+  const auto mean_square = [&](double squares) { return squares / samples; };
   const uint64_t opening = texture_->header.alpha_bytes + texture_->header.overlay_bytes;
   if (texture_->tracks.size() > 1) {
     return priced(orderTracks(TrackId::kTexture, texture_->tracks, {opening, 0}), mean_square,

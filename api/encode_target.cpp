@@ -7,6 +7,7 @@
 #include "api/encode_job.hpp"
 #include "api/samples.hpp"
 #include "api/voids.hpp"
+#include "texture_wavelet/texture_choice.hpp"
 
 namespace tetrakis {
 
@@ -16,29 +17,39 @@ double worstMeanSquare(double peak, double psnr) {
   return peak * peak / std::pow(10, psnr / 10);
 }
 
-/// Payload bytes up to the end of each of a component's packets, from none on.
-std::vector<uint64_t> endsOf(const std::vector<Packet>& packets, TrackId track) {
-  std::vector<uint64_t> ends = {0};
+/// A packet among the payload bytes of its component.
+struct PayloadRange {
+  uint64_t begin, end;
+  bool whole;
+};
+
+std::vector<PayloadRange> rangesOf(const std::vector<Packet>& packets, TrackId track) {
+  std::vector<PayloadRange> ranges;
+  uint64_t sent = 0;
   for (const Packet& packet : packets) {
-    if (packet.track == track) ends.push_back(ends.back() + packet.end - packet.begin);
+    if (packet.track != track) continue;
+    ranges.push_back({sent, sent + packet.end - packet.begin, packet.whole});
+    sent = ranges.back().end;
   }
-  return ends;
+  return ranges;
 }
 
-/// The first of the ends that `meets` accepts, by bisection (quality rises with bytes); the last
-/// one if none does.
+/// The least bytes that `meets` accepts, to 1/64 of a packet, by bisection (quality rises with
+/// bytes); all of them if it never does.
 template <class Meets>
-uint64_t first(const std::vector<uint64_t>& ends, Meets meets) {
-  size_t low = 0, high = ends.size() - 1;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (meets(ends[middle])) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
+uint64_t leastBytes(const std::vector<PayloadRange>& packets, Meets meets) {
+  if (packets.empty() || meets(0)) return 0;
+  const auto packet = std::partition_point(packets.begin(), packets.end(),
+                                           [&](const PayloadRange& p) { return !meets(p.end); });
+  if (packet == packets.end()) return packets.back().end;
+  if (packet->whole) return packet->end;
+  uint64_t low = packet->begin, high = packet->end;
+  const uint64_t close = std::max<uint64_t>(1, (high - low) / 64);
+  while (high - low > close) {
+    const uint64_t middle = low + (high - low) / 2;
+    (meets(middle) ? high : low) = middle;
   }
-  return ends[high];
+  return high;
 }
 
 }  // namespace
@@ -63,8 +74,7 @@ HeightErrors EncodeJob::heightErrors(uint64_t bytes) const {
       squares += error * error;
       errors.largest = std::max(errors.largest, error);
     }
-    errors.mean_square =
-        squares / static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1));
+    errors.mean_square = squares / samplesOf(TrackId::kGeometry);
     return errors;
   });
 }
@@ -76,14 +86,13 @@ bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
 
 bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
   const double peak = (1 << texels_.bits) - 1;
-  const uint64_t samples = countedSamples(texels_, texture_->seen);
-  return textureSquares(bytes) / static_cast<double>(samples) <=
+  return textureSquares(bytes) / samplesOf(TrackId::kTexture) <=
          worstMeanSquare(peak, options_.psnr);
 }
 
 Result<uint64_t> EncodeJob::geometryNeed() const {
-  const uint64_t need = first(endsOf(packets_, TrackId::kGeometry),
-                              [&](uint64_t bytes) { return geometryMeetsTarget(bytes); });
+  const uint64_t need = leastBytes(rangesOf(packets_, TrackId::kGeometry),
+                                   [&](uint64_t bytes) { return geometryMeetsTarget(bytes); });
   if (geometryMeetsTarget(need)) return need;
   return Status(TKS_USAGE,
                 "This PSNR is above what the step of the heights allows; give a smaller step.");
@@ -93,8 +102,8 @@ Result<uint64_t> EncodeJob::geometryNeed() const {
 /// packet.
 uint64_t EncodeJob::textureNeed(const Needs& so_far) const {
   if (options_.psnr > 0 || !geometry_) {
-    return first(endsOf(packets_, TrackId::kTexture),
-                 [&](uint64_t bytes) { return textureMeetsTarget(bytes); });
+    return leastBytes(rangesOf(packets_, TrackId::kTexture),
+                      [&](uint64_t bytes) { return textureMeetsTarget(bytes); });
   }
   Needs sent = {};
   for (const Packet& packet : packets_) {
@@ -121,14 +130,55 @@ Result<EncodeJob::Needs> EncodeJob::needs() const {
   return needs;
 }
 
+/// Next to the last bit, tracks without fraction bits reach it in fewer bytes.
+void EncodeJob::preferLossless(Needs& needs) {
+  const auto nearly_exact = [&](TrackId component) {
+    return rmseOf(qualityAfter(component, needs[static_cast<size_t>(component)])) <= kNearlyExact;
+  };
+  bool changed = false;
+  const auto decide = [&](auto& lossless, auto lossy, uint64_t& need) {
+    if (bytesOf(lossless->tracks) < need) {
+      need = UINT64_MAX;
+      changed = true;
+    } else {
+      lossless = std::move(lossy);
+    }
+  };
+  if (geometry_ && geometry_->steps.exact && nearly_exact(TrackId::kGeometry)) {
+    std::optional<EncodedHeights> lossy = geometry_;
+    encodeGeometry(Purpose::kLossless);
+    decide(geometry_, std::move(lossy), needs[0]);
+  }
+  if (texture_ && nearly_exact(TrackId::kTexture)) {
+    std::optional<EncodedTexture> lossy = std::move(texture_);
+    texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(TrackId::kTexture));
+    decide(texture_, std::move(lossy), needs[1]);
+  }
+  if (changed) order();
+}
+
+/// The last packet of a component ends where its need does.
 void EncodeJob::keepNeeded(const Needs& needs) {
-  Needs sent = {};
-  std::erase_if(packets_, [&](const Packet& packet) {
+  Needs left = needs;
+  std::vector<Packet> kept;
+  for (Packet packet : packets_) {
     const auto component = static_cast<size_t>(packet.track);
-    const uint64_t begin = sent[component];
-    sent[component] += packet.end - packet.begin;
-    return begin >= needs[component];
-  });
+    const uint64_t taken = std::min(left[component], packet.end - packet.begin);
+    left[component] -= taken;
+    if (taken == 0) continue;
+    if (packet.begin + taken < packet.end) {
+      packet.end = packet.begin + taken;
+      packet.quality = qualityAfter(packet.track, needs[component]);
+    }
+    kept.push_back(packet);
+  }
+  packets_ = std::move(kept);
+}
+
+uint8_t EncodeJob::qualityAfter(TrackId component, uint64_t bytes) const {
+  const double squares =
+      component == TrackId::kGeometry ? geometrySquares(bytes) : textureSquares(bytes);
+  return qualityOf(std::sqrt(squares / samplesOf(component)));
 }
 
 }  // namespace tetrakis

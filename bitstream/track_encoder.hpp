@@ -49,6 +49,7 @@ struct TrackOptions {
   int region_log2 = 0;          ///< bitstream/regions.hpp; 0: one track
   uint32_t threads = 1;         ///< nothing depends on them
   bool visual = false;          ///< a texture: what is seen comes first, not what is off most
+  uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
 };
 
 /// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks

@@ -227,6 +227,18 @@ std::vector<VectorCase> textureCases() {
                             "drawn over four channels of 16 bits, cut by a byte budget",
                             image(Pattern::kRidges, 90, 40, 4, TKS_U16), budget(3000)),
                 samples::VoidShape::kCoast),
+      asCutout(drawnOver(textureCase("overlay_cutout_budget_80x60",
+                                     "a mask, then an overlay; hidden colours are void",
+                                     image(Pattern::kRidges, 80, 60, 4, TKS_U8), budget(2000)),
+                         samples::VoidShape::kCoast),
+               samples::VoidShape::kFrame),
+      asCutout(drawnOver(textureCase("overlay_cutout_64x50", "a mask, then an overlay, lossless",
+                                     image(Pattern::kRidges, 64, 50, 4, TKS_U8), lossless()),
+                         samples::VoidShape::kCoast),
+               samples::VoidShape::kFrame),
+      asCutout(textureCase("cutout_all_hidden_33x20", "nothing is seen",
+                           image(Pattern::kRidges, 33, 20, 4, TKS_U8), budget(300)),
+               samples::VoidShape::kAll),
       textureCase("texture_budget_128x128", "texture alone, cut by a byte budget",
                   image(Pattern::kRidges, 128, 128, 3, TKS_U8), budget(8000)),
       weighted(textureCase("weights_rgba_70x40", "bands of each component have priorities",
@@ -334,13 +346,11 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
   }
   if (vector_case.texture) {
     picture = samples::make(*vector_case.texture);
-    if (vector_case.cutout)
-      samples::cutOut(picture,
-                      samples::validity(*vector_case.cutout, picture.width, picture.height));
-    if (vector_case.overlay) {
-      samples::drawOver(picture,
-                        samples::validity(*vector_case.overlay, picture.width, picture.height));
-    }
+    const auto mask = [&](samples::VoidShape shape) {
+      return samples::validity(shape, picture.width, picture.height);
+    };
+    if (vector_case.overlay) samples::drawOver(picture, mask(*vector_case.overlay));
+    if (vector_case.cutout) samples::cutOut(picture, mask(*vector_case.cutout));
     image = picture.image();
   }
   const auto stream = encode(vector_case.heights ? &heights : nullptr,

@@ -154,11 +154,34 @@ TEST(Cutout, OtherAlphasStayAComponent) {
   Stream stream(bytes);
   EXPECT_EQ(stream.info().texture_cutout, 0);
   EXPECT_EQ(stream.texture(), image.data);
-  const Raster empty = cutOutImage({9, 8, 2, TKS_U16}, VoidShape::kAll);
-  const Bytes small = encode(nullptr, &empty, lossless());
-  Stream opened(small);
-  EXPECT_EQ(opened.info().texture_cutout, 0);
-  EXPECT_EQ(opened.texture(), empty.data);
+}
+
+TEST(Cutout, NothingSeenCostsNothing) {
+  const Raster image = cutOutImage({60, 50, 4, TKS_U8}, VoidShape::kAll);
+  const Bytes whole = encode(nullptr, &image, lossless());
+  EXPECT_EQ(Stream(whole).texture(), image.data);
+  const Bytes small = encode(nullptr, &image, budget(1000));
+  EXPECT_LT(small.size(), 100u);
+  EXPECT_EQ(Stream(small).info().texture_cutout, 2);
+  EXPECT_EQ(wrongAlphas(image, Stream(small).texture()), 0u);
+}
+
+/// Lettering on a cut-out: the mask, then what is drawn.
+TEST(Cutout, AnOverlayLeavesAlphasExact) {
+  Raster image = make({Pattern::kRidges, 120, 100, 4, TKS_U8, 4});
+  samples::drawOver(image, validity(VoidShape::kCoast, image.width, image.height));
+  cutOut(image, validity(VoidShape::kFrame, image.width, image.height));
+  for (const tks_encode_options& options : {lossless(), budget(3000)}) {
+    const Bytes bytes = encode(nullptr, &image, options);
+    Stream stream(bytes);
+    EXPECT_TRUE(stream.info().texture_drawn == 2 && stream.info().texture_cutout);
+    if (options.lossless) {
+      EXPECT_EQ(stream.texture(), image.data);
+    }
+    const auto header = static_cast<size_t>(stream.info().header_bytes);
+    for (size_t n = header + 60; n <= bytes.size(); n += 97)
+      ASSERT_EQ(wrongAlphas(image, Stream(Prefix(bytes).first(n)).texture()), 0u) << n;
+  }
 }
 
 void expectAgreement(Prefix prefix, uint32_t level) {

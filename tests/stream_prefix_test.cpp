@@ -103,6 +103,16 @@ TEST(StreamPrefix, LargerTexturesImproveAtEveryByte) {
   expectProgress(nullptr, &colour, visual);
 }
 
+/// Drawings too large to be measured closely.
+TEST(StreamPrefix, DrawingsImproveAtEveryByte) {
+  for (const uint32_t seed : {3u, 5u, 8u}) {
+    const Raster drawing = make({Pattern::kSteps, 150, 125, 3, TKS_U8, seed});
+    const Bytes bytes = encode(nullptr, &drawing, lossless());
+    ASSERT_TRUE(Stream(bytes).info().texture_drawn);
+    expectProgress(nullptr, &drawing, lossless());
+  }
+}
+
 TEST(StreamPrefix, TextureImprovesAtEveryByte) {
   const Raster colour = make({Pattern::kRidges, 24, 24, 3, TKS_U8});
   expectProgress(nullptr, &colour, lossless());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/stream_fixture.hpp"
+#include "tests/void_masks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -126,6 +127,46 @@ TEST(StreamRate, PsnrIsReached) {
     EXPECT_GE(10 * std::log10(255 * 255 / t), target);
     EXPECT_GT(bytes.size(), last);
     last = bytes.size();
+  }
+}
+
+tks_encode_options psnr(double target) {
+  tks_encode_options options = budget(0);
+  options.psnr = target;
+  return options;
+}
+
+double psnrOf(const Raster& image, Prefix bytes) {
+  const double squares = squaredError(image, Stream(bytes).texture());
+  return 10 * std::log10(255 * 255 * static_cast<double>(image.data.size()) / squares);
+}
+
+TEST(StreamRate, PsnrTakesNoMoreBytesThanItNeeds) {
+  const Raster image = photograph();
+  for (const double target : {28.0, 33.0, 41.0}) {
+    const Bytes bytes = encode(nullptr, &image, psnr(target));
+    EXPECT_GE(psnrOf(image, bytes), target);
+    EXPECT_LT(psnrOf(image, Prefix(bytes).first(bytes.size() - bytes.size() / 50)), target);
+    EXPECT_LE(Stream(bytes).info().texture_psnr, psnrOf(image, bytes) + 1e-9) << "what is stated";
+  }
+}
+
+TEST(StreamRate, NoPsnrIsDearerThanTheLastBit) {
+  const Raster image = photograph(), heights = terrain();
+  const size_t most = encode(&heights, &image, lossless()).size();
+  for (const double target : {60.0, 90.0})
+    EXPECT_LE(encode(&heights, &image, psnr(target)).size(), most) << target;
+}
+
+/// What is drawn over a photograph may be coded by itself, but not before that pays.
+TEST(StreamRate, LargerBudgetsOfOverlaysAreNoWorse) {
+  Raster image = make({Pattern::kRidges, 200, 150, 3, TKS_U8, 4});
+  samples::drawOver(image, samples::validity(samples::VoidShape::kCoast, 200, 150));
+  double before = 0;
+  for (const uint64_t bytes : {400, 800, 1200, 1600, 2400, 3200, 6400}) {
+    const double now = psnrOf(image, encode(nullptr, &image, budget(bytes)));
+    EXPECT_GT(now, before - 0.03) << bytes;
+    before = now;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/cutout.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace tetrakis {
@@ -18,18 +19,18 @@ std::vector<uint8_t> cutoutOf(const Texels& texels) {
     seen[i] = alpha != 0;
     opaque += seen[i];
   }
-  if (opaque == 0 || opaque == count) return {};
+  if (opaque == count) return {};
   return seen;
 }
 
-void hideColours(std::span<const uint8_t> seen, std::vector<std::vector<int32_t>>& planes) {
-  const auto count = std::accumulate(seen.begin(), seen.end(), int64_t{0});
+void hideColours(std::span<const uint8_t> coded, std::vector<std::vector<int32_t>>& planes) {
+  const auto count = std::max(int64_t{1}, std::accumulate(coded.begin(), coded.end(), int64_t{0}));
   for (std::vector<int32_t>& plane : planes) {
     int64_t sum = 0;
-    for (size_t i = 0; i < seen.size(); ++i) sum += seen[i] * plane[i];
+    for (size_t i = 0; i < coded.size(); ++i) sum += coded[i] * plane[i];
     const auto mean = static_cast<int32_t>((sum + count / 2) / count);
-    for (size_t i = 0; i < seen.size(); ++i) {
-      if (!seen[i]) plane[i] = mean;
+    for (size_t i = 0; i < coded.size(); ++i) {
+      if (!coded[i]) plane[i] = mean;
     }
   }
 }

@@ -10,13 +10,13 @@
 
 namespace tetrakis {
 
-/// One byte a texel, 1 where alpha has the largest value, 0 where it is 0; empty unless alpha has
-/// these two values and no other.
+/// One byte a texel, 1 where alpha has the largest value, 0 where it is 0; empty if alpha has
+/// another value, or the largest one everywhere.
 std::vector<uint8_t> cutoutOf(const Texels& texels);
 
-/// Gives the colours of hidden texels the mean of the others. planes: the colours. seen: from
-/// cutoutOf, of at least one 1.
-void hideColours(std::span<const uint8_t> seen, std::vector<std::vector<int32_t>>& planes);
+/// Gives the colours of texels that are not coded the mean of the others, or 0 if there are none.
+/// planes: the colours. coded: 1 for each texel that is.
+void hideColours(std::span<const uint8_t> coded, std::vector<std::vector<int32_t>>& planes);
 
 /// Samples that count in errors: all, or with a mask of the texels that are seen the alphas and the
 /// colours of those.

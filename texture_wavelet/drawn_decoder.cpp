@@ -20,7 +20,6 @@ class DecodingIo {
   bool bit(AdaptiveBit& model, bool) { return decoder_.decode(model); }
   bool evenBit(bool) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
-  void levelDone(const Level&) {}
 
  private:
   RangeDecoder decoder_;

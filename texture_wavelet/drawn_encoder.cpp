@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/drawn_encoder.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "bitstream/range_encoder.hpp"
+#include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/drawn_fill.hpp"
 #include "texture_wavelet/drawn_pass.hpp"
 
@@ -62,7 +64,9 @@ class EncodingIo {
     if (measured_ != nullptr) measure(0);
   }
 
+  /// Gives a colour that has not appeared yet its index.
   ColourIndex target(size_t texel) {
+    if (measured_ != nullptr && encoder_.decidedBytes() >= next_) measure(encoder_.decidedBytes());
     ColourIndex& index = index_[image_.numbers[texel]];
     const ColourIndex known = index;
     if (known == kNoColour) index = static_cast<ColourIndex>(colours_.size());
@@ -78,14 +82,10 @@ class EncodingIo {
     return ours;
   }
   bool stopped() const { return false; }
-  void levelDone(const Level& level) {
-    if (measured_ == nullptr || level.kind != LevelKind::kMidpoints) return;
-    if (level.step > 1 && level.step <= kCoarsestMeasured) measure(encoder_.decidedBytes());
-  }
 
   std::vector<uint8_t> finish() {
     std::vector<uint8_t> codeword = encoder_.finish();
-    if (codeword.empty()) codeword.push_back(0);
+    if (codeword.empty()) codeword.push_back(0);  // a track has at least one packet
     return codeword;
   }
 
@@ -93,13 +93,17 @@ class EncodingIo {
     EncodedTrack track;
     track.codeword = finish();
     track.points = std::move(points_);
-    track.points.push_back({track.codeword.size(), 0});
+    const uint64_t bytes = track.codeword.size();
+    track.points.push_back({bytes, 0, bytes <= kDippingBytes});
     track.planes = kDrawnPlanes;
     return track;
   }
 
  private:
-  static constexpr uint32_t kCoarsestMeasured = 32;
+  /// The image is measured as often as the codeword has grown by so much.
+  static constexpr double kGrowth = 1.4;
+  /// In so many bytes a vertex stands for so many texels that a wrong one makes the image worse.
+  static constexpr uint64_t kDippingBytes = 512;
 
   /// What a decoder reaches that knows the colours so far.
   void measure(uint64_t bytes) {
@@ -107,22 +111,19 @@ class EncodingIo {
     Texels decoded{texels.width, texels.height, texels.channels, texels.bits, {}};
     decoded.samples.resize(texels.samples.size());
     fillDrawn(indices_, colours_, 1, decoded);
-    double squares = 0;
-    for (size_t i = 0; i < decoded.samples.size(); ++i) {
-      const double difference = double{1} * decoded.samples[i] - texels.samples[i];
-      squares += difference * difference;
-    }
-    const bool first = points_.empty();
-    if (first ||
-        (squares > 0 && squares < points_.back().distortion && bytes > points_.back().bytes))
-      points_.push_back({bytes, squares});
+    const double squares = countedSquares(texels, decoded, {});
+    next_ = std::max(kLeastStep, static_cast<uint64_t>(kGrowth * static_cast<double>(bytes)));
+    const bool better = points_.empty() || (squares > 0 && squares < points_.back().distortion);
+    if (better) points_.push_back({bytes, squares, bytes > 0 && bytes <= kDippingBytes});
   }
+  static constexpr uint64_t kLeastStep = 32;
 
   const Numbered& image_;
   std::span<const ColourIndex> indices_;
   const DrawnColours& colours_;
   const Texels* measured_;
   std::vector<ColourIndex> index_;  ///< of each number
+  uint64_t next_ = 0;               ///< bytes at which the image is measured again
   RangeEncoder encoder_;
   std::vector<RatePoint> points_;
 };

@@ -31,7 +31,6 @@ namespace tetrakis {
 ///   bool bit(AdaptiveBit&, bool ours)
 ///   bool evenBit(bool ours)
 ///   bool stopped()                             the last decision did not count
-///   void levelDone(const Level&)
 template <class Io>
 class DrawnPass {
  public:
@@ -54,7 +53,6 @@ class DrawnPass {
           indices_[texel] = index;
         }
       }
-      io_.levelDone(level);
     }
   }
 

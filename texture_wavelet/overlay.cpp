@@ -2,6 +2,7 @@
 #include "texture_wavelet/overlay.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <unordered_map>
 
 namespace tetrakis {
@@ -11,8 +12,11 @@ namespace {
 constexpr size_t kLeastShare = 2000;  // a colour of fewer than 1/2000 of the texels is no overlay's
 constexpr size_t kLeastAlike = 500;   // where fewer than 1/500 of them are alike there is none
 
-/// All channels of a texel in one number.
-uint64_t colourAt(const Texels& texels, size_t texel) {
+/// A colour in one number; nothing for one that does not matter.
+using Colour = std::optional<uint64_t>;
+
+Colour colourAt(const Texels& texels, std::span<const uint8_t> seen, size_t texel) {
+  if (!seen.empty() && seen[texel] == 0) return {};
   uint64_t colour = 0;
   for (size_t c = 0; c < texels.channels; ++c)
     colour = colour << 16 | texels.samples[texel * texels.channels + c];
@@ -24,13 +28,14 @@ struct Use {
 };
 
 /// Of the colours that occur twice in a row. Photographs have next to none of them.
-std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels) {
+std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels,
+                                                  std::span<const uint8_t> seen) {
   std::unordered_map<uint64_t, Use> uses;
   const size_t count = size_t{texels.width} * texels.height;
-  uint64_t before = colourAt(texels, 0);
+  Colour before = colourAt(texels, seen, 0);
   for (size_t i = 1; i < count; ++i) {
-    const uint64_t colour = colourAt(texels, i);
-    if (colour == before) ++uses[colour].alike;
+    const Colour colour = colourAt(texels, seen, i);
+    if (colour && colour == before) ++uses[*colour].alike;
     before = colour;
   }
   return uses;
@@ -38,26 +43,31 @@ std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels) {
 
 }  // namespace
 
-std::vector<uint8_t> photographOf(const Texels& texels) {
+std::vector<uint8_t> photographOf(const Texels& texels, std::span<const uint8_t> seen) {
   const size_t count = size_t{texels.width} * texels.height;
-  std::unordered_map<uint64_t, Use> uses = repeatedColours(texels);
+  std::unordered_map<uint64_t, Use> uses = repeatedColours(texels, seen);
   size_t alike = 0;
   std::erase_if(uses, [&](const auto& use) { return 2 * use.second.alike * kLeastShare < count; });
   for (const auto& [colour, use] : uses) alike += use.alike;
   if (alike * kLeastAlike < count) return {};
+  const auto useAt = [&](size_t texel) {
+    const Colour colour = colourAt(texels, seen, texel);
+    return colour ? uses.find(*colour) : uses.end();
+  };
   for (size_t i = 0; i < count; ++i) {
-    const auto use = uses.find(colourAt(texels, i));
+    const auto use = useAt(i);
     if (use != uses.end()) ++use->second.texels;
   }
   std::vector<uint8_t> photograph(count);
-  size_t left = 0;
+  size_t drawn = 0, left = 0;
   for (size_t i = 0; i < count; ++i) {
-    const auto use = uses.find(colourAt(texels, i));
+    const auto use = useAt(i);
     photograph[i] = use == uses.end() || 2 * use->second.alike < use->second.texels ||
                     use->second.texels * kLeastShare < count;
-    left += photograph[i];
+    drawn += photograph[i] == 0;
+    left += photograph[i] != 0 && (seen.empty() || seen[i] != 0);
   }
-  if (left == 0 || left == count) return {};
+  if (drawn == 0 || left == 0) return {};
   return photograph;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "texture_wavelet/texels.hpp"
@@ -11,8 +12,9 @@
 namespace tetrakis {
 
 /// For each texel 1 if it belongs to the photograph, 0 to the overlay; empty if there is none worth
-/// trying. Each of its colours fills at least 1/2000 of the texels, and half of those
-/// are like the one before.
-std::vector<uint8_t> photographOf(const Texels& texels);
+/// trying. Each of its colours fills at least 1/2000 of the texels, and half of those are like the
+/// one before. seen: 0 for texels whose colours do not matter, which no overlay needs to draw;
+/// empty: all do.
+std::vector<uint8_t> photographOf(const Texels& texels, std::span<const uint8_t> seen = {});
 
 }  // namespace tetrakis

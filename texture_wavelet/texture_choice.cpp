@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/drawn_encoder.hpp"
 #include "texture_wavelet/overlay.hpp"
 
@@ -17,15 +18,21 @@ namespace tetrakis {
 
 namespace {
 
-double distortionAt(const EncodedTrack& track, uint64_t bytes) {
-  const std::vector<RatePoint>& points = track.points;
-  const auto above = std::find_if(points.begin(), points.end(),
+/// Of so many bytes at most; what lies between two points of the account is not known to be better
+/// than the first.
+double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
+  const std::vector<RatePoint>& points = encoded.tracks.front().points;
+  const auto above = std::find_if(points.begin() + 1, points.end(),
                                   [&](const RatePoint& p) { return p.bytes > bytes; });
-  if (above == points.begin() || above == points.end()) return points.back().distortion;
-  const RatePoint &low = *(above - 1), &high = *above;
-  const double part =
-      static_cast<double>(bytes - low.bytes) / static_cast<double>(high.bytes - low.bytes);
-  return std::lerp(low.distortion, high.distortion, part);
+  return (above - 1)->distortion;
+}
+
+/// So few are not worth the time of another attempt.
+constexpr uint64_t kFewBytes = 1024;
+
+TrackOptions oneTrack(TrackOptions options) {
+  options.region_log2 = 0;
+  return options;
 }
 
 /// Whether the wavelet restores every sample within so many bytes.
@@ -43,15 +50,17 @@ uint64_t bytesOf(const EncodedTexture& encoded) {
 /// bit, else what a budget has room for.
 EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
                                 const TrackOptions& options) {
-  const std::vector<uint8_t> photograph = photographOf(texels);
+  const bool hides = purpose == Purpose::kLossy;
+  const std::vector<uint8_t> photograph =
+      photographOf(texels, hides ? cutoutOf(texels) : std::vector<uint8_t>());
   if (photograph.empty()) return encodeByWavelet(texels, purpose, options);
-  const TrackOptions one_track{options.limit, 0, options.threads, options.visual};
-  EncodedTexture plain = encodeByWavelet(texels, purpose, one_track),
-                 overlaid = encodeByWavelet(texels, purpose, one_track, photograph);
-  const uint64_t reach = std::min({options.limit / 2, bytesOf(plain), bytesOf(overlaid)});
-  const double worse = distortionAt(plain.tracks.front(), reach),
-               better = distortionAt(overlaid.tracks.front(), reach);
-  const bool pays = worse != better ? better < worse : bytesOf(overlaid) < bytesOf(plain);
+  EncodedTexture plain = encodeByWavelet(texels, purpose, oneTrack(options)),
+                 overlaid = encodeByWavelet(texels, purpose, oneTrack(options), photograph);
+  const uint64_t reach = std::min({options.room, bytesOf(plain), bytesOf(overlaid)});
+  const double plain_error = distortionAt(plain, reach),
+               overlaid_error = distortionAt(overlaid, reach);
+  const bool pays = plain_error != overlaid_error ? overlaid_error < plain_error
+                                                  : bytesOf(overlaid) < bytesOf(plain);
   if (options.region_log2 == 0) return pays ? std::move(overlaid) : std::move(plain);
   return encodeByWavelet(texels, purpose, options, pays ? photograph : std::vector<uint8_t>());
 }
@@ -61,12 +70,11 @@ EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
 EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options) {
   std::optional<EncodedTexture> drawn = encodeDrawn(texels);
   if (!drawn) return encodePhotograph(texels, purpose, options);
-  const EncodedTrack& track = drawn->tracks.front();
-  const uint64_t bytes = track.codeword.size(), reach = options.limit / 2;
-  if (bytes > reach) {
-    const TrackOptions one_track{options.limit, 0, options.threads, options.visual};
-    const EncodedTexture wavelet = encodeByWavelet(texels, purpose, one_track);
-    if (distortionAt(track, reach) < distortionAt(wavelet.tracks.front(), reach)) return *drawn;
+  const uint64_t bytes = bytesOf(*drawn);
+  if (bytes <= std::min(kFewBytes, options.room)) return *drawn;
+  if (bytes > options.room) {
+    const EncodedTexture wavelet = encodeByWavelet(texels, purpose, oneTrack(options));
+    if (distortionAt(*drawn, options.room) < distortionAt(wavelet, options.room)) return *drawn;
   } else if (!restoresWithin(texels, purpose == Purpose::kLossless ? bytes : 2 * bytes,
                              options.threads)) {
     return *drawn;

@@ -111,11 +111,30 @@ uint64_t wholeBytes(const EncodedTexture& encoded) {
   return bytes;
 }
 
-/// The mask of a cut-out, or the overlay, goes first: without it alphas, or colours, are all wrong.
 void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track) {
+  if (opening.empty()) return;
   track.codeword.insert(track.codeword.begin(), opening.begin(), opening.end());
   for (RatePoint& point : track.points) point.bytes += opening.size();
   track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth});
+}
+
+/// The mask of a cut-out goes first, then the overlay: without them alphas are all wrong, and
+/// colours off by half the range.
+void prependOpening(const Texels& texels, std::span<const uint8_t> overlay,
+                    std::span<const uint8_t> mask, EncodedTrack& track) {
+  const double most = (1 << texels.bits) - 1;
+  const auto samples = static_cast<double>(texels.samples.size());
+  prepend(overlay, most * most / 4 * samples, track);
+  prepend(mask, most * most * samples / texels.channels, track);
+}
+
+/// Texels that are in both masks; an empty one holds all.
+std::vector<uint8_t> both(Validity a, Validity b) {
+  if (a.empty() || b.empty())
+    return a.empty() ? std::vector(b.begin(), b.end()) : std::vector(a.begin(), a.end());
+  std::vector<uint8_t> common(a.size());
+  for (size_t i = 0; i < common.size(); ++i) common[i] = a[i] & b[i];
+  return common;
 }
 
 std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const ColourTransform& colour,
@@ -153,10 +172,10 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
 
 EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
                                std::span<const uint8_t> photograph) {
-  std::vector<uint8_t> seen = photograph.empty() ? cutoutOf(texels) : std::vector<uint8_t>();
+  std::vector<uint8_t> seen = cutoutOf(texels);
   const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
   Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
-  const Validity coded = hidden ? Validity(seen) : Validity(photograph);
+  const std::vector<uint8_t> coded = both(hidden ? Validity(seen) : Validity(), photograph);
   if (!coded.empty()) hideColours(coded, planes);
   const ColourTransform colour = fitColours(planes, texels, purpose);
   const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
@@ -165,21 +184,15 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   header.hidden = hidden;
   if (options.visual) header.weights = visualWeights(header.components());
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
-  std::vector<uint8_t> mask;
+  std::vector<uint8_t> mask, overlay;
   if (!seen.empty()) mask = encodeValidity(seen, texels.width, texels.height);
+  if (!photograph.empty()) overlay = encodeOverlay(texels, photograph);
   header.alpha_bytes = mask.size();
+  header.overlay_bytes = overlay.size();
   encoded.tracks = encodePlanes(header, colour, coded, options, planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   header.regions.whole_bytes = wholeBytes(encoded);
-  const double most = (1 << texels.bits) - 1;
-  if (!seen.empty())
-    prepend(mask, most * most * static_cast<double>(seen.size()), encoded.tracks.front());
-  if (!photograph.empty()) {
-    const std::vector<uint8_t> overlay = encodeOverlay(texels, photograph);
-    header.overlay_bytes = overlay.size();
-    prepend(overlay, most * most / 4 * static_cast<double>(texels.samples.size()),
-            encoded.tracks.front());
-  }
+  prependOpening(texels, overlay, mask, encoded.tracks.front());
   if (hidden) encoded.seen = std::move(seen);
   return encoded;
 }

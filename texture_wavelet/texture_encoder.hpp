@@ -21,10 +21,10 @@ struct EncodedTexture {
   std::vector<uint8_t> seen = {};
 };
 
-/// An alpha of two values becomes a cut-out: a mask ahead of the coefficients of the first track;
-/// colours that it hides are coded for Purpose::kLossless alone. Complete tracks without fraction
-/// bits that hide nothing are lossless. photograph: from photographOf(), what else is the overlay,
-/// which then comes first in place of a cut-out; empty: no overlay.
+/// An alpha of nothing but 0 and the largest value becomes a cut-out: a mask ahead of everything in
+/// the first track; colours that it hides are coded for Purpose::kLossless alone. photograph: from
+/// photographOf(); texels that are 0 there are the overlay, which comes next; empty: no overlay.
+/// Complete tracks without fraction bits that hide nothing are lossless.
 EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
                                std::span<const uint8_t> photograph = {});
 
