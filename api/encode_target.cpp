@@ -85,9 +85,8 @@ bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
 }
 
 bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
-  const double peak = (1 << texels_.bits) - 1;
   return textureSquares(bytes) / samplesOf(TrackId::kTexture) <=
-         worstMeanSquare(peak, options_.psnr);
+         worstMeanSquare(texels_.most(), options_.psnr);
 }
 
 Result<uint64_t> EncodeJob::geometryNeed() const {

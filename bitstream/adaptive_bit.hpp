@@ -26,24 +26,24 @@ class AdaptiveBit {
 
   AdaptiveBit() = default;
   /// zero: initial P(bit = 0) in 1/256, at most 254, trusted like kTrust decisions.
-  explicit AdaptiveBit(uint8_t zero) : zero_(zero << 8), seen_(kTrust) {}
+  explicit AdaptiveBit(uint8_t zero) : zero_(static_cast<uint16_t>(zero << 8)), seen_(kTrust) {}
 
   /// P(bit = 0) in units of 2^-16, in [kFloor, 65536 - kFloor]: the 1/n rule, rounded down, never
   /// exceeds that.
-  uint32_t zero() const { return std::max(static_cast<uint32_t>(zero_), kFloor); }
+  uint32_t zero() const { return std::max<uint32_t>(zero_, kFloor); }
 
   /// It has seen two decisions, or was trained.
   bool experienced() const { return seen_ >= 2; }
 
   void update(bool bit) {
     const int32_t target = bit ? 0 : 0xffff;
-    zero_ += ((target - zero_) * kDecisionShare[seen_]) >> 15;
-    seen_ += seen_ < kLimit;
+    zero_ = static_cast<uint16_t>(zero_ + (((target - zero_) * kDecisionShare[seen_]) >> 15));
+    seen_ = static_cast<uint16_t>(seen_ + (seen_ < kLimit));
   }
 
  private:
-  int32_t zero_ = 0x8000;
-  uint32_t seen_ = 0;  ///< decisions so far, up to kLimit
+  uint16_t zero_ = 0x8000;
+  uint16_t seen_ = 0;  ///< decisions so far, up to kLimit
 };
 
 }  // namespace tetrakis

@@ -10,12 +10,11 @@ std::vector<uint8_t> cutoutOf(const Texels& texels) {
   std::vector<uint8_t> seen;
   if (texels.channels % 2 != 0) return seen;
   const size_t count = size_t{texels.width} * texels.height;
-  const auto most = static_cast<uint16_t>((1 << texels.bits) - 1);
   size_t opaque = 0;
   seen.resize(count);
   for (size_t i = 0; i < count; ++i) {
     const uint16_t alpha = texels.samples[(i + 1) * texels.channels - 1];
-    if (alpha != 0 && alpha != most) return {};
+    if (alpha != 0 && alpha != texels.most()) return {};
     seen[i] = alpha != 0;
     opaque += seen[i];
   }

@@ -44,10 +44,11 @@ class DrawnModels {
     const bool centre = kind == LevelKind::kCentres;
     const uint32_t pattern =
         (static_cast<uint32_t>(2 * place + centre) << kPatternBits) + c.pattern;
-    const uint32_t rival = around.count() > 1 ? around[place == 0].pattern & 0x3f : 0;
-    const int more = place == 0   ? (around.count() > 1 ? std::min(around[1].near(), 3) : 0)
-                     : place == 1 ? std::min(around.count(), 4) - 1
-                                  : 0;
+    const bool rivalled = around.count() > 1;
+    const uint32_t rival = rivalled ? around[place == 0 ? 1 : 0].pattern & 0x3f : 0;
+    int more = 0;
+    if (place == 0 && rivalled) more = std::min(around[1].near(), 3);
+    if (place == 1) more = std::min(around.count(), 4) - 1;
     const int count = (((place * 4 + more) * 5 + c.near()) * 3 + c.causal()) * 9 + c.ring();
     return {{&rivals_[hash(pattern * 64 + rival, kRivalBits)], &patterns_[pattern],
              &counts_[static_cast<size_t>(2 * count + centre)]}};

@@ -13,6 +13,9 @@ struct Texels {
   uint32_t width = 0, height = 0, channels = 0;
   int bits = 8;
   std::vector<uint16_t> samples;
+
+  /// The largest value of a sample.
+  uint16_t most() const { return static_cast<uint16_t>((1u << bits) - 1); }
 };
 
 }  // namespace tetrakis

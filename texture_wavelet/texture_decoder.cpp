@@ -25,7 +25,7 @@ constexpr size_t kChunk = 2048;
 void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* const> planes,
             uint32_t threads, Texels& texels) {
   const size_t count = size_t{texels.width} * texels.height, channels = texels.channels;
-  const int32_t most = (1 << texels.bits) - 1;
+  const int32_t most = texels.most();
   const ColourTransform colour = colourOf(header);
   texels.samples.resize(count * channels);
   parallelFor(threads, (count + kChunk - 1) / kChunk, [&](size_t i) {
@@ -43,7 +43,7 @@ void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* c
 
 /// Alpha is the last channel.
 void finishAlpha(std::span<const uint8_t> seen, Texels& texels) {
-  const auto most = static_cast<uint16_t>((1 << texels.bits) - 1);
+  const uint16_t most = texels.most();
   for (size_t i = 0; i < seen.size(); ++i)
     texels.samples[(i + 1) * texels.channels - 1] = seen[i] != 0 ? most : uint16_t{0};
 }
@@ -168,7 +168,7 @@ class Planes {
 };
 
 /// The shears of every level, of what a window needs.
-void inverseColourLevels(const ColourTransform& colour, std::span<const Subband> subbands,
+void inverseWindowLevels(const ColourTransform& colour, std::span<const Subband> subbands,
                          std::span<WindowSynthesis> planes) {
   if (planes.size() < 3) return;
   for (const Subband& subband : subbands) {
@@ -251,7 +251,7 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
         for (size_t k = 0; k < state.bands.size(); ++k)
           synthesis[k / parts.size()].put(state.bands[k], more_bits, parts[k % parts.size()]);
       });
-  inverseColourLevels(colourOf(header), plan.layout().subbands(), synthesis);
+  inverseWindowLevels(colourOf(header), plan.layout().subbands(), synthesis);
   const auto cropped = [&](std::span<const uint8_t> mask) {
     return mask.empty() ? std::vector<uint8_t>() : crop(mask, header.width, window);
   };

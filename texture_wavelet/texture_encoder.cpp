@@ -122,7 +122,7 @@ void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track
 /// colours off by half the range.
 void prependOpening(const Texels& texels, std::span<const uint8_t> overlay,
                     std::span<const uint8_t> mask, EncodedTrack& track) {
-  const double most = (1 << texels.bits) - 1;
+  const double most = texels.most();
   const auto samples = static_cast<double>(texels.samples.size());
   prepend(overlay, most * most / 4 * samples, track);
   prepend(mask, most * most * samples / texels.channels, track);
