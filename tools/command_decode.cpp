@@ -67,7 +67,7 @@ class Decoding {
     const tks_info& info = decoder_.info();
     if (arguments.threads < 2 || !wants_texture || !wants_heights || !info.has_texture) return;
     beside_ = std::async(std::launch::async, [this, &stream]() -> Result<ImageFile> {
-      Expected<Decoder> decoder = Decoder::open(octets(stream.bytes));
+      Expected<Decoder> decoder = openDecoder(octets(stream.bytes));
       if (!decoder) return toStatus(decoder.error());
       decoder->setThreads(arguments_.threads);
       if (const Expected<void> set = decoder->setLevels(0, arguments_.level); !set)

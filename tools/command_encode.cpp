@@ -193,7 +193,7 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
 
 /// One line about what was written.
 Result<std::string> summary(const std::string& name, std::span<const uint8_t> stream) {
-  const Expected<Decoder> decoder = Decoder::open(stream);
+  const Expected<Decoder> decoder = openDecoder(stream);
   if (!decoder) return toStatus(decoder.error());
   const tks_info& info = decoder->info();
   return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +

@@ -13,6 +13,11 @@
 
 namespace tetrakis::tools {
 
+/// Of one file or stream: 32768 x 32768 RGBA. More is refused before anything is allocated, as a
+/// few bytes can declare any size.
+inline constexpr uint64_t kMaxSamples = uint64_t{1} << 32;
+Status tooLarge(const std::string& name);
+
 /// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host
 /// byte order. Height in `unit` = sample * scale + offset.
 struct HeightFile {

@@ -126,7 +126,7 @@ Result<std::vector<std::byte>> encodeUnguarded(const std::string& format, OIIO::
 }  // namespace
 
 Status tooLarge(const std::string& name) {
-  return {TKS_LIMIT, name + " has more than 2^31 samples"};
+  return {TKS_LIMIT, name + " has more than 2^32 samples"};
 }
 
 Result<Raster> openRaster(const std::string& path) {

@@ -15,10 +15,6 @@
 
 namespace tetrakis::tools {
 
-/// Refused before anything is allocated: a few bytes can declare any size.
-inline constexpr uint64_t kMaxSamples = uint64_t{1} << 31;
-Status tooLarge(const std::string& name);
-
 /// An open picture file. Keep it until the samples are read.
 struct Raster {
   InputFile file;
