@@ -105,6 +105,34 @@ TEST_F(ScratchFolder, PalettesAreExpandedAndTold) {
   EXPECT_NE(note.find("palette"), std::string::npos);
 }
 
+/// Two pixels, blue and red, with colours of 24 bits and with a palette (Windows 3 headers).
+TEST_F(ScratchFolder, OnlyBitmapsWithAPaletteAreSaidToHaveOne) {
+  const auto bitmap = [](uint8_t bits, std::vector<uint8_t> behind) {
+    const auto pixels = uint8_t(54 + (bits == 8 ? 8 : 0)), colours = uint8_t(bits == 8 ? 2 : 0);
+    std::vector<uint8_t> file{'B', 'M',    uint8_t(54 + behind.size()),
+                              0,   0,      0,
+                              0,   0,      0,
+                              0,   pixels, 0,
+                              0,   0,      40,
+                              0,   0,      0,
+                              2,   0,      0,
+                              0,   1,      0,
+                              0,   0,      1,
+                              0,   bits};
+    file.resize(46);
+    file.insert(file.end(), {colours, 0, 0, 0, 0, 0, 0, 0});
+    file.insert(file.end(), behind.begin(), behind.end());
+    return file;
+  };
+  std::string note = "unset";
+  expectPixels(readImage(save("a.bmp", bitmap(24, {255, 0, 0, 0, 0, 255, 0, 0})), &note),
+               {0, 0, 255, 255, 0, 0});
+  EXPECT_EQ(note, "");
+  expectPixels(readImage(save("b.bmp", bitmap(8, {255, 0, 0, 0, 0, 0, 255, 0, 0, 1, 0, 0})), &note),
+               {0, 0, 255, 255, 0, 0});
+  EXPECT_NE(note.find("palette"), std::string::npos);
+}
+
 TEST_F(ScratchFolder, CmykIsConvertedAndTold) {
   TinyTiff tiff(1, 1, 4, 8, {0, 255, 255, 0});  // no cyan, full magenta and yellow: red
   tiff.shorts(TinyTiff::kPhotometric, {5});
@@ -118,6 +146,41 @@ TEST_F(ScratchFolder, FewBitsAreWidenedToFullRange) {
   expectPixels(readImage(save("a.tif", tiff.bytes())), {0, 255, 85, 0});
   const TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
   expectPixels(readImage(save("b.tif", bilevel.bytes())), {255, 0, 255, 0, 0, 0, 0, 0, 255});
+}
+
+TEST_F(ScratchFolder, WhiteIsZeroIsInvertedUpToEightBits) {
+  TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
+  bilevel.shorts(TinyTiff::kPhotometric, {0});
+  expectPixels(readImage(save("a.tif", bilevel.bytes())), {0, 255, 0, 255, 255, 255, 255, 255, 0});
+  TinyTiff grey(2, 1, 1, 8, {0, 200});
+  grey.shorts(TinyTiff::kPhotometric, {0});
+  expectPixels(readImage(save("b.tif", grey.bytes())), {255, 55});
+  TinyTiff deep(1, 1, 1, 16, {1, 2});
+  deep.shorts(TinyTiff::kPhotometric, {0});
+  EXPECT_EQ(readImage(save("c.tif", deep.bytes())).status().code(), TKS_USAGE);
+}
+
+TEST_F(ScratchFolder, FilesThatEndEarlyAreRefused) {
+  const TinyTiff whole(4, 4, 1, 8, std::vector<uint8_t>(16, 9));
+  TinyTiff behind = whole, across = whole;
+  behind.longs(TinyTiff::kStripOffsets, {1000});
+  across.longs(TinyTiff::kStripOffsets, {uint32_t(whole.bytes().size()) - 15});
+  ASSERT_TRUE(readImage(save("whole.tif", whole.bytes())).ok());
+  for (const TinyTiff& tiff : {behind, across}) {
+    const std::string file = save("cut.tif", tiff.bytes());
+    EXPECT_EQ(readImage(file).status().code(), TKS_IO) << readImage(file).status().message();
+    EXPECT_EQ(readHeights(file).status().code(), TKS_IO);
+  }
+  const auto jpeg = encodeJpeg(randomImage(64, 64, 3, TKS_U8), 90);
+  ASSERT_TRUE(jpeg.ok());
+  for (const size_t bytes : {jpeg->size() / 2, jpeg->size() - 1}) {
+    const auto read = readImage(save("cut.jpg", std::vector(jpeg->begin(), jpeg->begin() + bytes)));
+    EXPECT_EQ(read.status().code(), TKS_IO) << bytes;
+  }
+  const std::string ppm = "P6\n8 8\n255\nabc";
+  const auto read = readImage(save("cut.ppm", std::vector(ppm.begin(), ppm.end())));
+  EXPECT_EQ(read.status().code(), TKS_IO);
+  EXPECT_NE(read.status().message().find("ends early"), std::string::npos);
 }
 
 TEST_F(ScratchFolder, OrientationIsApplied) {

@@ -24,6 +24,7 @@ struct Raster {
   int stored_bits = 0;                      ///< of one sample in the file; 0: as spec.format
   bool palette = false;                     ///< expanded to RGB by reading
   bool cmyk = false;                        ///< converted to RGB by reading
+  bool white_is_zero = false;               ///< inverted by reading
   std::vector<std::byte> decoded{};         ///< samples of a PNG
   bool is_tiff() const { return input && std::string_view(input->format_name()) == "tiff"; }
 };
