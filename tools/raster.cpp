@@ -16,13 +16,6 @@
 namespace tetrakis::tools {
 namespace {
 
-/// OpenImageIO's message, cut to its first line and without the full stop.
-std::string firstLine(std::string message) {
-  message.resize(std::min(message.size(), message.find('\n')));
-  while (message.ends_with('.')) message.pop_back();
-  return message.empty() ? "it ends early or is damaged" : message;
-}
-
 Status unreadable(const std::string& name, const std::string& reason) {
   return {TKS_IO, "cannot read " + name + ": " + firstLine(reason)};
 }
@@ -49,6 +42,8 @@ Result<Raster> openPng(InputFile file, const std::string& name) {
                  image.sample == TKS_U8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16};
   raster.stored_bits = png->stored_bits;
   raster.palette = png->palette;
+  raster.profile = png->profile;
+  raster.orientation = png->orientation;
   raster.decoded = std::move(png->image.data);
   return raster;
 }
@@ -94,6 +89,12 @@ Result<std::vector<std::byte>> encodeUnguarded(const std::string& format, OIIO::
 }
 
 }  // namespace
+
+std::string firstLine(std::string message) {
+  message.resize(std::min(message.size(), message.find('\n')));
+  while (message.ends_with('.')) message.pop_back();
+  return message.empty() ? "it ends early or is damaged" : message;
+}
 
 Status tooLarge(const std::string& name) {
   return {TKS_LIMIT, name + " has more than 2^32 samples"};

@@ -68,6 +68,8 @@ class TiffFile {
 struct TiffForm {
   int bits = 1;       ///< per sample, with TIFF's default where the tag is missing
   bool whole = true;  ///< all strips or tiles lie inside the file
+  bool associated_alpha = false;
+  bool further_pages = false;  ///< other than smaller versions of the first (overviews)
 };
 Result<TiffForm> tiffForm(const std::string& path);
 

@@ -18,6 +18,23 @@ bool holdsAllStrips(TIFF* tiff, uint64_t file_bytes) {
   return true;
 }
 
+bool associatedAlpha(TIFF* tiff) {
+  uint16_t count = 0;
+  const uint16_t* kinds = nullptr;
+  return TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) && count > 0 &&
+         kinds[0] == EXTRASAMPLE_ASSOCALPHA;
+}
+
+/// Leaves the first directory.
+bool hasFurtherPages(TIFF* tiff) {
+  while (TIFFReadDirectory(tiff)) {
+    uint32_t kind = 0;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
+    if (!(kind & FILETYPE_REDUCEDIMAGE)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<TiffForm> tiffForm(const std::string& path) {
@@ -28,7 +45,9 @@ Result<TiffForm> tiffForm(const std::string& path) {
   const uint64_t bytes = std::filesystem::file_size(path, unknown_size);
   uint16_t bits = 1;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
-  return TiffForm{bits, unknown_size || holdsAllStrips(tiff, bytes)};
+  TiffForm form{bits, unknown_size || holdsAllStrips(tiff, bytes), associatedAlpha(tiff)};
+  form.further_pages = hasFurtherPages(tiff);
+  return form;
 }
 
 }  // namespace tetrakis::tools
