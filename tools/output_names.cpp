@@ -15,7 +15,8 @@ Status checkDistinct(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     std::error_code ignored;
     if (name != "-" && fs::exists(name, ignored) && !fs::is_regular_file(name, ignored)) continue;
-    const fs::path path = name == "-" ? fs::path(name) : fs::weakly_canonical(name, ignored);
+    const fs::path path =
+        name == "-" ? fs::path(name) : fs::weakly_canonical(fs::absolute(name, ignored), ignored);
     if (taken.insert(path.empty() ? fs::path(name) : path).second) continue;
     if (name == "-") return {TKS_USAGE, "only one output can be standard output"};
     return {TKS_USAGE, "two outputs would be " + quoted(name) + ": give each a name of its own"};
