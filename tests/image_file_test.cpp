@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images on disk: lossless formats are exact, conversions are told, the rest is refused.
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <tuple>
 
+#include "tests/header_seal.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/tiny_tiff.hpp"
+#include "tools/file_bytes.hpp"
 #include "tools/files.hpp"
 
 namespace tetrakis::tools {
@@ -49,6 +52,95 @@ TEST_F(ScratchFolder, LosslessFormatsAreExact) {
       }
     }
   }
+}
+
+TEST_F(ScratchFolder, FormatsThatOpenImageIoWritesAreExactWhereTheyAreTaken) {
+  int taken = 0;
+  for (const char* name : {"bmp", "fits", "ico", "iff", "jp2", "pgm", "ppm", "rla", "sgi", "tga"}) {
+    for (uint32_t channels = 1; channels <= 4; ++channels) {
+      for (const tks_sample sample : {TKS_U8, TKS_U16}) {
+        SCOPED_TRACE(std::string(name) + " " + std::to_string(channels));
+        const std::string file = path(std::string("a.") + name);
+        // Even sides: see writeOther on formats that fail with others.
+        const ImageFile image = randomImage(64, 64, channels, sample);
+        const Status judged = checkImageFormat(file, channels, sample);
+        const Status written = writeImage(file, image);
+        EXPECT_EQ(judged.code(), written.code()) << written.message();
+        if (!written.ok()) continue;
+        const auto read = readImage(file);
+        ASSERT_TRUE(read.ok()) << read.status().message();
+        EXPECT_TRUE(read->data == image.data);
+        ++taken;
+      }
+    }
+  }
+  EXPECT_GT(taken, 30);
+}
+
+TEST_F(ScratchFolder, LossyFormatsAreCloseAndFloatFormatsRefused) {
+  ImageFile image{64, 64, 3, TKS_U8, std::vector<std::byte>(64 * 64 * 3, std::byte{100})};
+  ASSERT_TRUE(writeImage(path("a.webp"), image).ok());
+  const auto read = readImage(path("a.webp"));
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_NEAR(int(read->data[0]), 100, 3);
+  for (const char* name : {"a.exr", "a.hdr", "a.dpx", "a.xyz", "a"})
+    EXPECT_EQ(checkImageFormat(path(name), 3, TKS_U8).code(), TKS_USAGE) << name;
+}
+
+TEST_F(ScratchFolder, AlphaThatReadingMultipliesIsRefused) {
+  ImageFile image{8, 8, 4, TKS_U8, std::vector<std::byte>(8 * 8 * 4, std::byte{100})};
+  ASSERT_TRUE(writeImage(path("a.webp"), image).ok());
+  const auto read = readImage(path("a.webp"));
+  EXPECT_EQ(read.status().code(), TKS_USAGE);
+  EXPECT_NE(read.status().message().find("PNG"), std::string::npos);
+}
+
+TEST_F(ScratchFolder, AssociatedAlphaIsDividedOutAndTold) {
+  TinyTiff tiff(3, 1, 2, 8, {50, 128, 7, 0, 90, 255});
+  tiff.shorts(TinyTiff::kExtraSamples, {2});
+  std::string note;
+  expectPixels(readImage(save("a.tif", tiff.bytes()), &note), {50, 128, 7, 0, 90, 255});
+  EXPECT_EQ(note, "");
+  tiff.shorts(TinyTiff::kExtraSamples, {1});
+  expectPixels(readImage(save("b.tif", tiff.bytes()), &note), {100, 128, 7, 0, 90, 255});
+  EXPECT_NE(note.find("alpha"), std::string::npos);
+}
+
+TEST_F(ScratchFolder, FurtherPagesAreTold) {
+  std::vector<uint8_t> file = TinyTiff(2, 1, 1, 8, {1, 2}).bytes();
+  uint32_t first = 0;
+  std::memcpy(&first, &file[4], 4);
+  const std::vector<uint8_t> directory(file.begin() + first, file.end());
+  std::string note = "unset";
+  expectPixels(readImage(save("one.tif", file), &note), {1, 2});
+  EXPECT_EQ(note, "");
+  const auto second = uint32_t(file.size());
+  std::memcpy(&file[file.size() - 4], &second, 4);
+  file.insert(file.end(), directory.begin(), directory.end());
+  expectPixels(readImage(save("two.tif", file), &note), {1, 2});
+  EXPECT_NE(note.find("pages"), std::string::npos);
+}
+
+TEST_F(ScratchFolder, OrientationInPngIsApplied) {
+  ASSERT_TRUE(writeImage(path("a.png"), randomImage(3, 2, 1, TKS_U8)).ok());
+  const auto plain = readImage(path("a.png"));
+  const auto stored = readBytes(path("a.png"));
+  ASSERT_TRUE(plain.ok() && stored.ok());
+  std::vector<uint8_t> file;
+  for (const std::byte byte : *stored) file.push_back(uint8_t(byte));
+  // TIFF with one tag, orientation 3: turned by half a circle.
+  std::vector<uint8_t> chunk{'e', 'X', 'I', 'f', 'I', 'I', 42, 0, 8, 0, 0, 0, 1, 0, 0x12,
+                             1,   3,   0,   1,   0,   0,   0,  3, 0, 0, 0, 0, 0, 0, 0};
+  const uint32_t crc = test::crc32(chunk);
+  for (int shift = 24; shift >= 0; shift -= 8) chunk.push_back(uint8_t(crc >> shift));
+  chunk.insert(chunk.begin(), {0, 0, 0, 26});
+  constexpr size_t kBehindHeader = 33;
+  file.insert(file.begin() + kBehindHeader, chunk.begin(), chunk.end());
+  std::vector<uint8_t> turned;
+  for (const std::byte byte : plain->data) turned.insert(turned.begin(), uint8_t(byte));
+  std::string note;
+  expectPixels(readImage(save("b.png", file), &note), turned);
+  EXPECT_NE(note.find("orientation"), std::string::npos);
 }
 
 TEST_F(ScratchFolder, JpegIsCloseAndGrowsWithQuality) {
@@ -105,6 +197,34 @@ TEST_F(ScratchFolder, PalettesAreExpandedAndTold) {
   EXPECT_NE(note.find("palette"), std::string::npos);
 }
 
+/// Two pixels, blue and red, with colours of 24 bits and with a palette (Windows 3 headers).
+TEST_F(ScratchFolder, OnlyBitmapsWithAPaletteAreSaidToHaveOne) {
+  const auto bitmap = [](uint8_t bits, std::vector<uint8_t> behind) {
+    const auto pixels = uint8_t(54 + (bits == 8 ? 8 : 0)), colours = uint8_t(bits == 8 ? 2 : 0);
+    std::vector<uint8_t> file{'B', 'M',    uint8_t(54 + behind.size()),
+                              0,   0,      0,
+                              0,   0,      0,
+                              0,   pixels, 0,
+                              0,   0,      40,
+                              0,   0,      0,
+                              2,   0,      0,
+                              0,   1,      0,
+                              0,   0,      1,
+                              0,   bits};
+    file.resize(46);
+    file.insert(file.end(), {colours, 0, 0, 0, 0, 0, 0, 0});
+    file.insert(file.end(), behind.begin(), behind.end());
+    return file;
+  };
+  std::string note = "unset";
+  expectPixels(readImage(save("a.bmp", bitmap(24, {255, 0, 0, 0, 0, 255, 0, 0})), &note),
+               {0, 0, 255, 255, 0, 0});
+  EXPECT_EQ(note, "");
+  expectPixels(readImage(save("b.bmp", bitmap(8, {255, 0, 0, 0, 0, 0, 255, 0, 0, 1, 0, 0})), &note),
+               {0, 0, 255, 255, 0, 0});
+  EXPECT_NE(note.find("palette"), std::string::npos);
+}
+
 TEST_F(ScratchFolder, CmykIsConvertedAndTold) {
   TinyTiff tiff(1, 1, 4, 8, {0, 255, 255, 0});  // no cyan, full magenta and yellow: red
   tiff.shorts(TinyTiff::kPhotometric, {5});
@@ -118,6 +238,41 @@ TEST_F(ScratchFolder, FewBitsAreWidenedToFullRange) {
   expectPixels(readImage(save("a.tif", tiff.bytes())), {0, 255, 85, 0});
   const TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
   expectPixels(readImage(save("b.tif", bilevel.bytes())), {255, 0, 255, 0, 0, 0, 0, 0, 255});
+}
+
+TEST_F(ScratchFolder, WhiteIsZeroIsInvertedUpToEightBits) {
+  TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
+  bilevel.shorts(TinyTiff::kPhotometric, {0});
+  expectPixels(readImage(save("a.tif", bilevel.bytes())), {0, 255, 0, 255, 255, 255, 255, 255, 0});
+  TinyTiff grey(2, 1, 1, 8, {0, 200});
+  grey.shorts(TinyTiff::kPhotometric, {0});
+  expectPixels(readImage(save("b.tif", grey.bytes())), {255, 55});
+  TinyTiff deep(1, 1, 1, 16, {1, 2});
+  deep.shorts(TinyTiff::kPhotometric, {0});
+  EXPECT_EQ(readImage(save("c.tif", deep.bytes())).status().code(), TKS_USAGE);
+}
+
+TEST_F(ScratchFolder, FilesThatEndEarlyAreRefused) {
+  const TinyTiff whole(4, 4, 1, 8, std::vector<uint8_t>(16, 9));
+  TinyTiff behind = whole, across = whole;
+  behind.longs(TinyTiff::kStripOffsets, {1000});
+  across.longs(TinyTiff::kStripOffsets, {uint32_t(whole.bytes().size()) - 15});
+  ASSERT_TRUE(readImage(save("whole.tif", whole.bytes())).ok());
+  for (const TinyTiff& tiff : {behind, across}) {
+    const std::string file = save("cut.tif", tiff.bytes());
+    EXPECT_EQ(readImage(file).status().code(), TKS_IO) << readImage(file).status().message();
+    EXPECT_EQ(readHeights(file).status().code(), TKS_IO);
+  }
+  const auto jpeg = encodeJpeg(randomImage(64, 64, 3, TKS_U8), 90);
+  ASSERT_TRUE(jpeg.ok());
+  for (const size_t bytes : {jpeg->size() / 2, jpeg->size() - 1}) {
+    const auto read = readImage(save("cut.jpg", std::vector(jpeg->begin(), jpeg->begin() + bytes)));
+    EXPECT_EQ(read.status().code(), TKS_IO) << bytes;
+  }
+  const std::string ppm = "P6\n8 8\n255\nabc";
+  const auto read = readImage(save("cut.ppm", std::vector(ppm.begin(), ppm.end())));
+  EXPECT_EQ(read.status().code(), TKS_IO);
+  EXPECT_NE(read.status().message().find("ends early"), std::string::npos);
 }
 
 TEST_F(ScratchFolder, OrientationIsApplied) {

@@ -28,6 +28,7 @@ class TinyTiff {
     kRowsPerStrip = 278,
     kStripByteCounts = 279,
     kInkSet = 332,
+    kExtraSamples = 338,
     kColorMap = 320,
     kSampleFormat = 339
   };

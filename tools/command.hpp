@@ -14,6 +14,7 @@
 #include "bitstream/status.hpp"
 #include "tools/scene.hpp"
 #include "tools/stream.hpp"
+#include "tools/units.hpp"
 
 namespace tetrakis::tools {
 
@@ -36,11 +37,29 @@ inline CLI::Validator silent(CLI::Validator validator) {
   return validator.description("");
 }
 
-/// --bytes SIZE with the suffixes k, M, G (powers of 1024; KiB and the like mean the same).
+/// CLI11's own says "in range [2.2e-308 - 1.8e+308]", with all digits.
+inline CLI::Validator positive() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value > 0
+                   ? std::string()
+                   : "'" + text + "' is not a number above 0";
+      },
+      "");
+}
+
+/// --bytes SIZE with the suffixes k, M, G.
 template <class T>
 CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
   return app.add_option("--bytes", bytes, help)
-      ->transform(silent(CLI::AsSizeValue(false)))
+      ->transform(CLI::Validator(
+          [](std::string& text) {
+            const Result<uint64_t> size = parseSize(text);
+            if (size.ok()) text = std::to_string(*size);
+            return size.ok() ? std::string() : size.status().message();
+          },
+          ""))
       ->type_name("SIZE");
 }
 

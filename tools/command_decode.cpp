@@ -10,6 +10,7 @@
 
 #include "tools/command.hpp"
 #include "tools/output.hpp"
+#include "tools/output_names.hpp"
 #include "tools/viewed_mesh.hpp"
 
 namespace tetrakis::tools {
@@ -27,15 +28,14 @@ struct DecodeArguments {
 };
 
 Status checkOutputs(const DecodeArguments& arguments) {
-  const std::string* const outputs[] = {&arguments.height, &arguments.texture, &arguments.mesh};
-  const auto count = [&](const std::string& name) {
-    return std::count_if(std::begin(outputs), std::end(outputs),
-                         [&](const std::string* output) { return *output == name; });
-  };
-  if (count("") == 3)
+  std::vector<std::string> names;
+  if (!arguments.height.empty()) names.push_back(arguments.height);
+  if (!arguments.texture.empty()) names.push_back(arguments.texture);
+  if (!arguments.mesh.empty())
+    for (std::string& name : meshFiles(arguments.mesh)) names.push_back(std::move(name));
+  if (names.empty())
     return Status(TKS_USAGE, "nothing to write: give --height, --texture or --mesh");
-  if (count("-") > 1) return Status(TKS_USAGE, "only one output can be standard output");
-  return Status();
+  return checkDistinct(names);
 }
 
 tks_window windowOf(const DecodeArguments& arguments) {
@@ -61,13 +61,16 @@ tks_window texelsOver(const tks_window& samples, const tks_info& info) {
 class Decoding {
  public:
   Decoding(const DecodeArguments& arguments, OpenStream& stream)
-      : arguments_(arguments), decoder_(stream.decoder) {
-    const bool wants_texture = !arguments.texture.empty() || !arguments.mesh.empty();
-    const bool wants_heights = !arguments.height.empty() || !arguments.mesh.empty();
+      : arguments_(arguments), stream_(stream), decoder_(stream.decoder) {}
+
+  /// Begins the texture beside the heights where there are threads for both.
+  void start() {
+    const bool wants_texture = !arguments_.texture.empty() || !arguments_.mesh.empty();
+    const bool wants_heights = !arguments_.height.empty() || !arguments_.mesh.empty();
     const tks_info& info = decoder_.info();
-    if (arguments.threads < 2 || !wants_texture || !wants_heights || !info.has_texture) return;
-    beside_ = std::async(std::launch::async, [this, &stream]() -> Result<ImageFile> {
-      Expected<Decoder> decoder = Decoder::open(octets(stream.bytes));
+    if (arguments_.threads < 2 || !wants_texture || !wants_heights || !info.has_texture) return;
+    beside_ = std::async(std::launch::async, [this]() -> Result<ImageFile> {
+      Expected<Decoder> decoder = openDecoder(octets(stream_.bytes));
       if (!decoder) return toStatus(decoder.error());
       decoder->setThreads(arguments_.threads);
       if (const Expected<void> set = decoder->setLevels(0, arguments_.level); !set)
@@ -76,18 +79,26 @@ class Decoding {
     });
   }
 
+  /// What stands in the way of writing, before there is anything to write.
+  Status plan() {
+    const tks_info& info = decoder_.info();
+    if (Status status = plan(arguments_.height, ".tif", height_); !status.ok()) return status;
+    if (Status status = plan(arguments_.texture, ".png", texture_); !status.ok()) return status;
+    if (Status status = plan(arguments_.mesh, ".glb", mesh_); !status.ok()) return status;
+    if (!texture_ || !info.has_texture) return Status();
+    return checkImageFormat(texture_->name(), info.texture_channels, info.texture_sample);
+  }
+
   Status writeHeightField() {
     const Result<HeightFile> heights = decodeHeights(decoder_, window());
     if (!heights.ok()) return heights.status();
-    return stage(arguments_.height, ".tif",
-                 [&](const std::string& path) { return writeHeights(path, *heights); });
+    return height_->stage([&](const std::string& path) { return writeHeights(path, *heights); });
   }
 
   Status writeTexture() {
     const Result<ImageFile>& image = decodedImage();
     if (!image.ok()) return image.status();
-    return stage(arguments_.texture, ".png",
-                 [&](const std::string& path) { return writeImage(path, *image); });
+    return texture_->stage([&](const std::string& path) { return writeImage(path, *image); });
   }
 
   Status writeSurfaceMesh() {
@@ -104,17 +115,25 @@ class Decoding {
       texture = *image;
       file.texture = &texture;
     }
-    return stage(arguments_.mesh, ".glb",
-                 [&](const std::string& path) { return writeMesh(path, file); });
+    return mesh_->stage([&](const std::string& path) { return writeMesh(path, file); });
   }
 
   Status commit() {
-    for (Output& output : outputs_)
-      if (Status status = output.commit(); !status.ok()) return status;
+    for (std::optional<Output>* output : {&height_, &texture_, &mesh_})
+      if (*output)
+        if (Status status = (*output)->commit(); !status.ok()) return status;
     return Status();
   }
 
  private:
+  Status plan(const std::string& path, const char* extension, std::optional<Output>& output) const {
+    if (path.empty()) return Status();
+    Result<Output> planned = Output::plan(path, arguments_.force, extension);
+    if (!planned.ok()) return planned.status();
+    output.emplace(std::move(*planned));
+    return Status();
+  }
+
   /// Decoded once, where there are threads beside the heights.
   const Result<ImageFile>& decodedImage() {
     if (!image_) image_ = beside_.valid() ? beside_.get() : decodeImage(decoder_, textureWindow());
@@ -141,17 +160,10 @@ class Decoding {
     return std::move(*mesh);
   }
 
-  template <class Write>
-  Status stage(const std::string& path, const std::string& extension, const Write& write) {
-    Result<Output> output = Output::plan(path, arguments_.force, extension);
-    if (!output.ok()) return output.status();
-    outputs_.push_back(std::move(*output));
-    return outputs_.back().stage(write);
-  }
-
   const DecodeArguments& arguments_;
+  const OpenStream& stream_;
   Decoder& decoder_;
-  std::vector<Output> outputs_;
+  std::optional<Output> height_, texture_, mesh_;
   std::optional<Result<ImageFile>> image_;
   std::future<Result<ImageFile>> beside_;
 };
@@ -181,6 +193,8 @@ Status decode(const DecodeArguments& arguments) {
   const Expected<void> set = stream->decoder.setLevels(heights_level, texture_level);
   if (!set) return toStatus(set.error());
   Decoding decoding(arguments, *stream);
+  if (Status status = decoding.plan(); !status.ok()) return status;
+  decoding.start();
   if (!arguments.height.empty())
     if (Status status = decoding.writeHeightField(); !status.ok()) return status;
   if (!arguments.texture.empty())
@@ -198,7 +212,7 @@ void addDecode(CLI::App& app, CommandLine& line) {
   addSource(verb, arguments->source);
   verb.add_option("--height", arguments->height, "Heights, same type as encoded (.tif .png .exr …)")
       ->type_name("OUT.tif");
-  verb.add_option("--texture", arguments->texture, "Texture (.png .tif .jpg)")
+  verb.add_option("--texture", arguments->texture, "Texture (.png .tif .jpg .bmp .webp .jp2 …)")
       ->type_name("OUT.png");
   CLI::Option* const mesh =
       verb.add_option("--mesh", arguments->mesh, "Mesh in metres (.glb .obj .ply)")

@@ -42,14 +42,33 @@ void note(const std::string& text, bool quiet) {
   if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
 }
 
+/// What says something about heights needs some.
+Status checkHeightOptions(const EncodeArguments& arguments) {
+  const std::pair<const char*, bool> options[] = {
+      {"--triangles", arguments.triangles > 0},
+      {"--max-error", !arguments.max_error.empty()},
+      {"--scale", arguments.scale.has_value()},
+      {"--offset", arguments.offset.has_value()},
+      {"--nodata", arguments.nodata.has_value()},
+      {"--step", arguments.step > 0},
+      {"--spacing", !arguments.spacing.empty()},
+      {"--unit", arguments.unit.has_value()},
+      {"--vertical-datum", arguments.vertical_datum.has_value()},
+      {"--crs", arguments.crs.has_value()},
+      // The report looks at a texture too.
+      {"--cameras", !arguments.cameras.file.empty() && arguments.report.empty()},
+      {"--view", !arguments.cameras.view.empty() && arguments.report.empty()}};
+  for (const auto& [name, given] : options)
+    if (given) return Status(TKS_USAGE, std::string(name) + " is about heights: give HEIGHT");
+  return Status();
+}
+
 Status checkArguments(const EncodeArguments& arguments) {
   if (arguments.height.empty() && arguments.texture.empty())
     return Status(TKS_USAGE, "nothing to encode: give HEIGHT, --texture or both");
   if (arguments.height == "-" && arguments.texture == "-")
     return Status(TKS_USAGE, "heights and texture cannot both come from standard input");
-  if (arguments.height.empty() && (arguments.triangles > 0 || !arguments.max_error.empty()))
-    return Status(TKS_USAGE, "--triangles and --max-error are about heights: give HEIGHT");
-  return Status();
+  return arguments.height.empty() ? checkHeightOptions(arguments) : Status();
 }
 
 std::string voidNote(const HeightFile& heights) {
@@ -193,7 +212,7 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
 
 /// One line about what was written.
 Result<std::string> summary(const std::string& name, std::span<const uint8_t> stream) {
-  const Expected<Decoder> decoder = Decoder::open(stream);
+  const Expected<Decoder> decoder = openDecoder(stream);
   if (!decoder) return toStatus(decoder.error());
   const tks_info& info = decoder->info();
   return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
@@ -274,9 +293,9 @@ void addInputs(CLI::App& verb, EncodeArguments& arguments) {
 void addTargets(CLI::App& verb, EncodeArguments& arguments) {
   CLI::Option_group& target = *verb.add_option_group("Target", "What the stream has to reach");
   addBytes(target, arguments.bytes, "At most so many bytes in all: 65536, 64k, 1M")
-      ->check(silent(CLI::PositiveNumber));
+      ->check(positive());
   target.add_option("--psnr", arguments.psnr, "Heights and texture reach so many dB each")
-      ->check(silent(CLI::PositiveNumber))
+      ->check(positive())
       ->type_name("dB");
   target.add_option("--max-error", arguments.max_error, "Every height within that: 0.5, 0.5m, 2ft")
       ->type_name("LENGTH");
@@ -304,7 +323,7 @@ void addDescription(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_option("--nodata", arguments.nodata, "Samples of this value are void; NaN always is")
       ->type_name("X");
   verb.add_option("--step", arguments.step, "Quantisation step in samples; else exact if possible")
-      ->check(silent(CLI::PositiveNumber))
+      ->check(positive())
       ->type_name("X");
   verb.add_option("--spacing", arguments.spacing, "Metres per sample: 30 or 30,25")
       ->type_name("X[,Y]");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,14 @@ struct InfoArguments {
 
 Json stated(double value) {
   return value < 0 ? Json() : Json(value);
+}
+
+/// Steps of 0.75 dB say no more than two decimals of dB, or three digits of an error.
+Json rounded(double value, const char* format) {
+  if (value < 0 || !std::isfinite(value)) return Json();
+  char text[400];
+  std::snprintf(text, sizeof text, format, value);
+  return std::strtod(text, nullptr);
 }
 
 Json heightsJson(const tks_info& info) {
@@ -41,7 +50,7 @@ Json heightsJson(const tks_info& info) {
           {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
           {"regions", info.regions > 0 ? Json(info.regions) : Json()},
           {"max_error", stated(info.max_error)},
-          {"rmse", stated(info.heights_rmse)}};
+          {"rmse", rounded(info.heights_rmse, "%.3g")}};
 }
 
 /// What texture_drawn stands for.
@@ -56,7 +65,7 @@ Json textureJson(const tks_info& info) {
           {"coding", kCodings.at(static_cast<size_t>(info.texture_drawn))},
           {"cutout", info.texture_cutout != 0},
           {"regions", info.texture_regions > 0 ? Json(info.texture_regions) : Json()},
-          {"psnr", stated(info.texture_psnr)},
+          {"psnr", rounded(info.texture_psnr, "%.2f")},
           {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};
 }
 

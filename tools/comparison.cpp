@@ -159,7 +159,7 @@ Status Comparer::drawAndScore(MeshFile& mesh, const ImageFile* texture, Measurem
 }
 
 Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t triangles) {
-  Expected<Decoder> decoder = Decoder::open(stream);
+  Expected<Decoder> decoder = openDecoder(stream);
   if (!decoder) return toStatus(decoder.error());
   Measurement result;
   result.bytes = stream.size();

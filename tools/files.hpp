@@ -13,6 +13,11 @@
 
 namespace tetrakis::tools {
 
+/// Of one file or stream: 32768 x 32768 RGBA. More is refused before anything is allocated, as a
+/// few bytes can declare any size.
+inline constexpr uint64_t kMaxSamples = uint64_t{1} << 32;
+Status tooLarge(const std::string& name);
+
 /// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host
 /// byte order. Height in `unit` = sample * scale + offset.
 struct HeightFile {
@@ -62,7 +67,11 @@ Status writeHeights(const std::string& path, const HeightFile& heights,
 /// with TKS_USAGE. Alpha is as stored; embedded colour profiles are kept out of the samples.
 Result<ImageFile> readImage(const std::string& path, std::string* note = nullptr);
 
-/// Writes .png or .tif (lossless) or .jpg (8-bit grey or RGB, quality 95, 4:4:4).
+/// TKS_USAGE if OpenImageIO writes no format of this name, or one that cannot hold such an image.
+Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample);
+
+/// Writes what checkImageFormat lets pass. Exact but for .jpg (quality 95, 4:4:4), .webp, .gif and
+/// .heic.
 Status writeImage(const std::string& path, const ImageFile& image, const std::string& format = "");
 
 /// JPEG by libjpeg-turbo (4:4:4), for the texture inside a GLB. 8-bit grey or RGB; quality 1 to

@@ -43,6 +43,9 @@ Result<tks_sample> sampleOf(const Raster& raster) {
     return Status(TKS_USAGE, raster.name + " has " + std::to_string(channels) +
                                  " channels: heights are one channel");
   }
+  if (raster.white_is_zero) {
+    return Status(TKS_USAGE, raster.name + " stores white as 0: heights are no shades");
+  }
   const int bits = static_cast<int>(8 * spec.format.size());
   const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(), [&](const auto& known) {
     return known.stored == spec.format.basetype;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture images on disk: 8 or 16 bits, 1 to 4 channels.
+// Reading texture images: 8 or 16 bits, 1 to 4 channels.
 #include <algorithm>
 #include <utility>
 
+#include "tools/alpha.hpp"
 #include "tools/file_bytes.hpp"
 #include "tools/files.hpp"
-#include "tools/png.hpp"
 #include "tools/raster.hpp"
 
 namespace tetrakis::tools {
@@ -15,11 +15,6 @@ using OIIO::TypeDesc;
 
 TypeDesc typeOf(tks_sample sample) {
   return sample == TKS_U8 ? TypeDesc::UINT8 : TypeDesc::UINT16;
-}
-
-OIIO::ImageSpec specOf(const ImageFile& image) {
-  return {static_cast<int>(image.width), static_cast<int>(image.height),
-          static_cast<int>(image.channels), typeOf(image.sample)};
 }
 
 /// The type to read: OpenImageIO widens fewer bits to full range itself.
@@ -34,7 +29,7 @@ Result<tks_sample> sampleOf(const Raster& raster) {
   return type == TypeDesc::UINT8 ? TKS_U8 : TKS_U16;
 }
 
-std::string noteOn(const Raster& raster, int orientation) {
+std::string noteOn(const Raster& raster) {
   std::string note;
   const auto add = [&note](const char* text) {
     note += (note.empty() ? "" : ", ") + std::string(text);
@@ -42,7 +37,10 @@ std::string noteOn(const Raster& raster, int orientation) {
   if (raster.palette) add("palette converted to RGB");
   if (raster.cmyk) add("CMYK converted to RGB");
   if (raster.spec.format == TypeDesc::UINT32) add("32 bits reduced to 16");
-  if (orientation != 1) add("turned upright as its orientation tag says");
+  if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
+  if (raster.orientation != 1) add("turned upright as its orientation tag says");
+  if (raster.profile) add("colour profile not applied and not kept");
+  if (raster.further_pages) add("further pages left out");
   return note.empty() ? note : raster.name + ": " + note;
 }
 
@@ -69,17 +67,6 @@ ImageFile turnedUpright(const ImageFile& stored, int orientation) {
   return upright;
 }
 
-Status checkShape(const ImageFile& image) {
-  const uint64_t pixels = uint64_t{image.width} * image.height;
-  const bool known = image.channels >= 1 && image.channels <= 4 &&
-                     (image.sample == TKS_U8 || image.sample == TKS_U16);
-  if (known && pixels != 0 &&
-      pixels * image.channels * tks_sample_bytes(image.sample) == image.data.size()) {
-    return {};
-  }
-  return {TKS_USAGE, "an image has 1 to 4 channels of 8 or 16 bits, and all its samples"};
-}
-
 }  // namespace
 
 Result<ImageFile> readImage(const std::string& path, std::string* note) {
@@ -96,30 +83,15 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (!data.ok()) return data.status();
   ImageFile image{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height),
                   static_cast<uint32_t>(spec.nchannels), *sample, std::move(*data)};
-  // OpenImageIO can turn images, but its 2.4 takes orientation 5 for 7.
-  const int tag = spec.get_int_attribute("Orientation", 1);
-  const int orientation = tag >= 1 && tag <= 8 ? tag : 1;
-  if (note) *note = noteOn(*raster, orientation);
-  if (orientation != 1) return turnedUpright(image, orientation);
-  return image;
-}
-
-Status writeImage(const std::string& path, const ImageFile& image, const std::string& format) {
-  const Status shape = checkShape(image);
-  if (!shape.ok()) return shape;
-  constexpr int kJpegQuality = 95;
-  const std::string name = formatOf(path, format);
-  Result<std::vector<std::byte>> bytes =
-      Status(TKS_USAGE,
-             "cannot tell the format of " + quoted(path) + ": end the name in .png, .tif or .jpg");
-  if (name == "png") bytes = encodePng(image);
-  if (name == "jpg" || name == "jpeg") bytes = encodeJpeg(image, kJpegQuality);
-  if (name == "tif" || name == "tiff") {
-    OIIO::ImageSpec spec = specOf(image);
-    spec["compression"] = "zip";
-    bytes = encodeRaster("tif", spec, image.data);
+  if (raster->alpha == Raster::Alpha::kMultiplied && !isOpaque(image)) {
+    return Status(TKS_USAGE, raster->name +
+                                 " has an alpha that reading multiplies into the colours: convert "
+                                 "it to PNG");
   }
-  return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
+  if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
+  if (note) *note = noteOn(*raster);
+  if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
+  return image;
 }
 
 }  // namespace tetrakis::tools

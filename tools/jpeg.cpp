@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // JPEG by libjpeg-turbo (TurboJPEG API).
+#include "tools/jpeg.hpp"
+
 #include <turbojpeg.h>
 
 #include <memory>
@@ -10,7 +12,7 @@
 namespace tetrakis::tools {
 namespace {
 
-struct DestroyCompressor {
+struct DestroyHandle {
   void operator()(void* handle) const { tjDestroy(handle); }
 };
 struct FreeBuffer {
@@ -18,6 +20,21 @@ struct FreeBuffer {
 };
 
 }  // namespace
+
+Status checkJpeg(std::span<const std::byte> bytes, const std::string& name) {
+  const std::unique_ptr<void, DestroyHandle> handle(tjInitTransform());
+  if (!handle) return {TKS_NO_MEMORY, "out of memory"};
+  // Entropy decoding alone: a transform that transforms nothing and is not written.
+  tjtransform nothing{};
+  nothing.options = TJXOPT_NOOUTPUT;
+  unsigned char* none = nullptr;
+  unsigned long size = 0;
+  const int failed = tjTransform(handle.get(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                                 bytes.size(), 1, &none, &size, &nothing, TJFLAG_STOPONWARNING);
+  const std::unique_ptr<unsigned char, FreeBuffer> owner(none);
+  if (!failed) return {};
+  return {TKS_IO, "cannot read " + name + ": " + tjGetErrorStr2(handle.get())};
+}
 
 Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality) {
   constexpr uint32_t kMaxSide = 65500;  // JPEG_MAX_DIMENSION
@@ -27,7 +44,7 @@ Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality) {
   if (image.width > kMaxSide || image.height > kMaxSide) {
     return Status(TKS_USAGE, "JPEG holds at most 65500 x 65500 pixels: write a .png instead");
   }
-  const std::unique_ptr<void, DestroyCompressor> handle(tjInitCompress());
+  const std::unique_ptr<void, DestroyHandle> handle(tjInitCompress());
   if (!handle) return Status(TKS_NO_MEMORY, "out of memory");
   unsigned char* buffer = nullptr;
   unsigned long size = 0;

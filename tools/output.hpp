@@ -36,6 +36,9 @@ class Output {
   /// The same for bytes in memory.
   Status stage(std::span<const std::byte> bytes);
 
+  /// Of the main file; its extension is the format.
+  const std::string& name() const { return name_; }
+
   /// Makes what was staged visible.
   Status commit();
 

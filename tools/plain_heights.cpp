@@ -58,6 +58,7 @@ std::optional<RawName> parseRawName(const std::string& text) {
 }
 
 Result<HeightFile> readRaw(const RawName& name) {
+  if (uint64_t{name.width} * name.height > kMaxSamples) return tooLarge(quoted(name.path));
   auto bytes = readBytes(name.path);
   if (!bytes.ok()) return bytes.status();
   const uint64_t wanted = uint64_t{name.width} * name.height * tks_sample_bytes(name.sample);

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "tools/exif.hpp"
 #include "tools/raster.hpp"
 
 namespace tetrakis::tools {
@@ -48,6 +49,15 @@ Status unreadable(const std::string& name, int error) {
   return {TKS_IO, "cannot read " + name + ": PNG " + spng_strerror(error)};
 }
 
+/// The profile, and the orientation; libspng has read all chunks by then.
+void noteChunks(spng_ctx* context, DecodedPng& png) {
+  spng_iccp profile{};
+  png.profile = spng_get_iccp(context, &profile) == 0;
+  spng_exif exif{};
+  if (spng_get_exif(context, &exif) != 0) return;
+  png.orientation = exifOrientation({reinterpret_cast<const std::byte*>(exif.data), exif.length});
+}
+
 }  // namespace
 
 bool isPng(std::span<const std::byte> bytes) {
@@ -77,6 +87,9 @@ Result<DecodedPng> decodePng(std::span<const std::byte> bytes, const std::string
   error = spng_decode_image(context.get(), png.image.data.data(), png.image.data.size(),
                             layout.format, SPNG_DECODE_TRNS);
   if (error) return unreadable(name, error);
+  // What stands behind the pixels; damage there takes nothing from them.
+  spng_decode_chunks(context.get());
+  noteChunks(context.get(), png);
   return png;
 }
 

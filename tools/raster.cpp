@@ -11,47 +11,10 @@
 #include <utility>
 
 #include "tools/png.hpp"
-#include "tools/tiff.hpp"
+#include "tools/stored_form.hpp"
 
 namespace tetrakis::tools {
 namespace {
-
-Status noteTiffDepth(Raster& raster) {
-  raster.stored_bits = raster.spec.get_int_attribute("oiio:BitsPerSample");
-  const auto bits = tiffBitsPerSample(raster.file.path());
-  if (!bits.ok()) return bits.status();
-  // OpenImageIO takes a missing BitsPerSample for 8, where TIFF means 1, and reads past the rows.
-  if (*bits != raster.stored_bits) {
-    return {TKS_USAGE, raster.name + " does not state its bits per sample: convert it to 8 bits"};
-  }
-  // OpenImageIO inverts these at 8 bits and leaves them alone at 16.
-  if (raster.spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0) {
-    return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
-  }
-  const std::string colours = raster.spec.get_string_attribute("tiff:ColorSpace");
-  raster.palette = colours == "palette";
-  raster.cmyk = colours == "CMYK";
-  return {};
-}
-
-Status noteStoredForm(Raster& raster) {
-  const std::string_view format = raster.input->format_name();
-  if (format == "tiff") return noteTiffDepth(raster);
-  if (format == "gif") raster.palette = true;
-  if (format == "bmp") raster.palette = raster.spec.get_int_attribute("bmp:bitsperpixel") <= 8;
-  if (format == "jpeg") {
-    const std::string colours = raster.spec.get_string_attribute("jpeg:ColorSpace");
-    raster.cmyk = colours == "CMYK" || colours == "YCbCrK";
-  }
-  return {};
-}
-
-/// OpenImageIO's message, cut to its first line and without the full stop.
-std::string firstLine(std::string message) {
-  message.resize(std::min(message.size(), message.find('\n')));
-  while (message.ends_with('.')) message.pop_back();
-  return message.empty() ? "unknown reason" : message;
-}
 
 Status unreadable(const std::string& name, const std::string& reason) {
   return {TKS_IO, "cannot read " + name + ": " + firstLine(reason)};
@@ -79,6 +42,8 @@ Result<Raster> openPng(InputFile file, const std::string& name) {
                  image.sample == TKS_U8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16};
   raster.stored_bits = png->stored_bits;
   raster.palette = png->palette;
+  raster.profile = png->profile;
+  raster.orientation = png->orientation;
   raster.decoded = std::move(png->image.data);
   return raster;
 }
@@ -125,8 +90,14 @@ Result<std::vector<std::byte>> encodeUnguarded(const std::string& format, OIIO::
 
 }  // namespace
 
+std::string firstLine(std::string message) {
+  message.resize(std::min(message.size(), message.find('\n')));
+  while (message.ends_with('.')) message.pop_back();
+  return message.empty() ? "it ends early or is damaged" : message;
+}
+
 Status tooLarge(const std::string& name) {
-  return {TKS_LIMIT, name + " has more than 2^31 samples"};
+  return {TKS_LIMIT, name + " has more than 2^32 samples"};
 }
 
 Result<Raster> openRaster(const std::string& path) {
@@ -144,7 +115,9 @@ Result<std::vector<std::byte>> readSamples(Raster& raster, OIIO::TypeDesc type) 
   try {
     const OIIO::ImageSpec& spec = raster.spec;
     std::vector<std::byte> samples(spec.image_pixels() * spec.nchannels * type.size());
-    if (!raster.input->read_image(0, 0, 0, spec.nchannels, type, samples.data())) {
+    const bool read = raster.input->read_image(0, 0, 0, spec.nchannels, type, samples.data());
+    // Some of its readers note that the file ends early, and go on.
+    if (!read || raster.input->has_error()) {
       return unreadable(raster.name, raster.input->geterror());
     }
     return samples;

@@ -15,10 +15,6 @@
 
 namespace tetrakis::tools {
 
-/// Refused before anything is allocated: a few bytes can declare any size.
-inline constexpr uint64_t kMaxSamples = uint64_t{1} << 31;
-Status tooLarge(const std::string& name);
-
 /// An open picture file. Keep it until the samples are read.
 struct Raster {
   InputFile file;
@@ -28,7 +24,13 @@ struct Raster {
   int stored_bits = 0;                      ///< of one sample in the file; 0: as spec.format
   bool palette = false;                     ///< expanded to RGB by reading
   bool cmyk = false;                        ///< converted to RGB by reading
-  std::vector<std::byte> decoded{};         ///< samples of a PNG
+  bool white_is_zero = false;               ///< inverted by reading
+  bool further_pages = false;               ///< pages or frames that are not read
+  bool profile = false;                     ///< an ICC profile that is not applied
+  int orientation = 1;                      ///< as TIFF counts; not applied by reading
+  /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
+  enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
+  std::vector<std::byte> decoded{};  ///< samples of a PNG
   bool is_tiff() const { return input && std::string_view(input->format_name()) == "tiff"; }
 };
 
@@ -38,6 +40,9 @@ Result<Raster> openRaster(const std::string& path);
 /// Hands over all samples, converted to `type`, interleaved. Call once. A PNG has its own type
 /// only.
 Result<std::vector<std::byte>> readSamples(Raster& raster, OIIO::TypeDesc type);
+
+/// A message of OpenImageIO, cut to its first line and without the full stop.
+std::string firstLine(std::string message);
 
 /// The file content that `format` ("tif", "exr") gives to these samples of spec.format.
 Result<std::vector<std::byte>> encodeRaster(const std::string& format, OIIO::ImageSpec spec,

@@ -11,7 +11,7 @@ namespace tetrakis::tools {
 namespace {
 
 Status checkWhole(std::span<const uint8_t> bytes) {
-  Expected<Decoder> decoder = Decoder::open(bytes);
+  Expected<Decoder> decoder = openDecoder(bytes);
   if (!decoder) return toStatus(decoder.error());
   const Expected<void> verified = decoder->verify();
   return verified ? Status() : toStatus(verified.error());
@@ -27,13 +27,20 @@ std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
+Expected<Decoder> openDecoder(std::span<const uint8_t> bytes) {
+  tks_limits limits = makeLimits();
+  limits.max_samples = limits.max_texels = kMaxSamples;
+  limits.max_memory = std::numeric_limits<uint64_t>::max();
+  return Decoder::open(bytes, limits);
+}
+
 Result<OpenStream> openStream(const StreamSource& source) {
   Result<std::vector<std::byte>> bytes = readBytes(source.path);
   if (!bytes.ok()) return bytes.status();
   if (source.strict)
     if (Status status = checkWhole(octets(*bytes)); !status.ok()) return status;
   if (source.bytes && *source.bytes < bytes->size()) bytes->resize(*source.bytes);
-  Expected<Decoder> decoder = Decoder::open(octets(*bytes));
+  Expected<Decoder> decoder = openDecoder(octets(*bytes));
   if (!decoder) return toStatus(decoder.error());
   return OpenStream{std::move(*bytes), std::move(*decoder)};
 }

@@ -33,6 +33,10 @@ Status toStatus(const Error& error);
 /// The same bytes under the type that the library takes.
 std::span<const uint8_t> octets(std::span<const std::byte> bytes);
 
+/// A decoder of every size that the format holds: it is the machine that says how much memory there
+/// is, and a stream that was written here is read here.
+Expected<Decoder> openDecoder(std::span<const uint8_t> bytes);
+
 /// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
 

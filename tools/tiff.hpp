@@ -64,8 +64,14 @@ class TiffFile {
   std::unique_ptr<TIFF, Close> tiff_;
 };
 
-/// Bits per sample, with TIFF's default of 1 where the tag is missing.
-Result<int> tiffBitsPerSample(const std::string& path);
+/// What the first directory says of its samples.
+struct TiffForm {
+  int bits = 1;       ///< per sample, with TIFF's default where the tag is missing
+  bool whole = true;  ///< all strips or tiles lie inside the file
+  bool associated_alpha = false;
+  bool further_pages = false;  ///< other than smaller versions of the first (overviews)
+};
+Result<TiffForm> tiffForm(const std::string& path);
 
 /// Fills scale, offset, spacing, nodata, unit, datum and CRS of heights whose size and sample type
 /// are known, as far as the tags tell. Tags that make no sense count as missing.

@@ -43,12 +43,4 @@ Status TiffFile::failure() const {
   return {TKS_IO, verb + quoted(TIFFFileName(get())) + ": " + *error_};
 }
 
-Result<int> tiffBitsPerSample(const std::string& path) {
-  const auto file = TiffFile::open(path, "r");
-  if (!file.ok()) return file.status();
-  uint16_t bits = 1;
-  TIFFGetFieldDefaulted(file->get(), TIFFTAG_BITSPERSAMPLE, &bits);
-  return bits;
-}
-
 }  // namespace tetrakis::tools

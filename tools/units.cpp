@@ -2,6 +2,8 @@
 // Lengths as people type them. Foot definitions: international yard and pound agreement of 1959.
 #include "tools/units.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -69,6 +71,32 @@ Result<double> parseLength(const std::string& text, const std::string& unit) {
     return Status(TKS_USAGE, "'" + text + "' is a length, but the heights are in '" + unit +
                                  "'; leave the suffix out");
   return *value * *metresPerUnit(std::string(rest)) / *metres;
+}
+
+Result<uint64_t> parseSize(const std::string& text) {
+  const Status unknown(TKS_USAGE, "'" + text +
+                                      "' is not a number of bytes; write for example 65536, 64k, "
+                                      "1M or 2G");
+  uint64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error == std::errc::result_out_of_range)
+    return Status(TKS_USAGE, "'" + text + "' is more than 2^64 bytes");
+  if (error != std::errc()) return unknown;
+  std::string suffix(end, text.data() + text.size());
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::string_view kPowers = "kmg";
+  int bits = 0;
+  if (const size_t power = suffix.empty() ? kPowers.npos : kPowers.find(suffix[0]);
+      power != kPowers.npos) {
+    bits = 10 * static_cast<int>(power + 1);
+    suffix.erase(0, 1);
+    if (suffix == "ib") suffix.erase(0, 1);
+  }
+  if (!suffix.empty() && suffix != "b") return unknown;
+  if (count << bits >> bits != count)
+    return Status(TKS_USAGE, "'" + text + "' is more than 2^64 bytes");
+  return count << bits;
 }
 
 Result<std::array<double, 2>> parseSpacing(const std::string& text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lengths as people type them: "0.5m", "30,25".
+// Lengths and sizes as people type them: "0.5m", "30,25", "64k".
 #pragma once
 
 #include <array>
@@ -18,6 +18,10 @@ std::optional<double> metresPerUnit(const std::string& unit);
 /// a suffix the number is in `unit` already. TKS_USAGE if `text` is no such length, or if it has a
 /// suffix and `unit` is no length.
 Result<double> parseLength(const std::string& text, const std::string& unit);
+
+/// A number of bytes: digits, then nothing or k, M or G for powers of 1024, as such or with B or
+/// iB, in upper or lower case. TKS_USAGE if `text` is none, or beyond 64 bits.
+Result<uint64_t> parseSize(const std::string& text);
 
 /// "S" or "X,Y": two positive numbers, metres per sample along rows and columns.
 Result<std::array<double, 2>> parseSpacing(const std::string& text);

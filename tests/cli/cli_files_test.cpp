@@ -102,6 +102,35 @@ TEST_F(CliFiles, OneFailingOutputHoldsTheOthersBack) {
   EXPECT_EQ(names(), before);
 }
 
+TEST_F(CliFiles, TwoOutputsOfOneNameAreRefusedBeforeAnyWork) {
+  makeStream();
+  write("kept.tif", "precious");
+  std::filesystem::create_symlink("kept.tif", path("link.tif"));
+  const std::set<std::string> before = names();
+  for (const char* outputs :
+       {"--height same.tif --texture same.tif", "--height same.tif --texture ./same.tif",
+        "--height kept.tif --texture link.tif", "--texture m.png --mesh m.obj"}) {
+    for (const char* force : {"", " -f"}) {
+      const Outcome run = cli("decode a.tks " + std::string(outputs) + force);
+      EXPECT_EQ(run.code, 1) << outputs;
+      EXPECT_NE(run.err.find("two outputs"), std::string::npos) << run.err;
+    }
+  }
+  EXPECT_EQ(names(), before);
+  EXPECT_EQ(content("kept.tif"), "precious");
+  EXPECT_EQ(cli("decode a.tks --height /dev/null --texture /dev/null").code, 0);
+}
+
+TEST_F(CliFiles, TexturesAreWrittenInOtherFormatsAndRefusedWhereTheyDoNotFit) {
+  makeStream();
+  ASSERT_EQ(cli("decode a.tks --texture t.ppm").code, 0);
+  EXPECT_TRUE(content("t.ppm").starts_with("P6"));
+  const Outcome run = cli("decode a.tks --height h.tif --texture t.ico");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("cannot hold"), std::string::npos) << run.err;
+  EXPECT_FALSE(names().contains("h.tif"));
+}
+
 TEST_F(CliFiles, PipesAreWrittenNotReplaced) {
   makeStream();
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);

@@ -41,6 +41,11 @@ TEST_F(CliUsage, CommandsThatMakeNoSenseGiveOne) {
            "encode height.tif -o b.tks --lossless --view top --cameras c.json",
            "encode --texture texture.png -o b.tks --max-error 1",
            "encode --texture texture.png -o b.tks --bytes 1k --triangles 5",
+           "encode --texture texture.png -o b.tks --bytes 1k --crs EPSG:4326",
+           "encode --texture texture.png -o b.tks --bytes 1k --spacing 30",
+           "encode --texture texture.png -o b.tks --bytes 1k --scale 2",
+           "encode --texture texture.png -o b.tks --bytes 1k --step 2",
+           "encode --texture texture.png -o b.tks --bytes 1k --view top",
            "encode - --texture - -o b.tks --lossless",
            "decode a.tks",
            "decode a.tks --mesh m.glb --triangles 0",
@@ -54,6 +59,23 @@ TEST_F(CliUsage, CommandsThatMakeNoSenseGiveOne) {
            "verify",
        })
     expectFailure(arguments, 1);
+}
+
+TEST_F(CliUsage, MessagesAboutNumbersAreShort) {
+  makeInputs();
+  const std::pair<const char*, const char*> wrong[] = {
+      {"--bytes 0", "'0' is not a number above 0"},
+      {"--bytes=-5", "'-5' is not a number of bytes"},
+      {"--psnr 0", "'0' is not a number above 0"},
+      {"--bytes 5q", "64k, 1M or 2G"},
+      {"--bytes 99999999999999999999", "more than 2^64"},
+      {"--bytes 20000000000G", "more than 2^64"}};
+  for (const auto& [option, text] : wrong) {
+    const Outcome run = cli("encode height.tif -o b.tks " + std::string(option));
+    EXPECT_EQ(run.code, 1) << option;
+    EXPECT_NE(run.err.find(text), std::string::npos) << run.err;
+    EXPECT_LT(run.err.size(), 160u) << run.err;
+  }
 }
 
 TEST_F(CliUsage, WhatCannotBeReadOrWrittenGivesTwo) {
@@ -111,6 +133,21 @@ TEST_F(CliUsage, TrackThatTheStreamLacksIsAUsageError) {
   expectFailure("decode t.tks --mesh x.glb", 1);
   expectFailure("compare h.tks --texture texture.png", 1);
   expectFailure("compare t.tks --height height.tif", 1);
+}
+
+TEST_F(CliUsage, StatedPsnrHasNoMoreDigitsThanItsSteps) {
+  makeInputs();
+  ASSERT_EQ(cli("encode height.tif --texture texture.png --bytes 2k -q -o a.tks").code, 0);
+  const std::string table = cli("info a.tks").out;
+  for (const std::string key : {"texture.psnr", "heights.rmse"}) {
+    const size_t at = table.find(key);
+    ASSERT_NE(at, std::string::npos) << table;
+    std::istringstream line(table.substr(at + key.size()));
+    std::string value;
+    line >> value;
+    EXPECT_NE(value, "-") << key;
+    EXPECT_LE(value.size(), 8u) << key << " " << value;
+  }
 }
 
 TEST_F(CliUsage, HelpAndVersionGoToStandardOutput) {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the outputs of one command get in each other's way.
+#include "tools/output_names.hpp"
+
+#include <filesystem>
+#include <set>
+
+#include "tools/file_bytes.hpp"
+
+namespace tetrakis::tools {
+namespace fs = std::filesystem;
+
+Status checkDistinct(const std::vector<std::string>& names) {
+  std::set<fs::path> taken;
+  for (const std::string& name : names) {
+    std::error_code ignored;
+    if (name != "-" && fs::exists(name, ignored) && !fs::is_regular_file(name, ignored)) continue;
+    const fs::path path =
+        name == "-" ? fs::path(name) : fs::weakly_canonical(fs::absolute(name, ignored), ignored);
+    if (taken.insert(path.empty() ? fs::path(name) : path).second) continue;
+    if (name == "-") return {TKS_USAGE, "only one output can be standard output"};
+    return {TKS_USAGE, "two outputs would be " + quoted(name) + ": give each a name of its own"};
+  }
+  return {};
+}
+
+std::vector<std::string> meshFiles(const std::string& mesh) {
+  std::vector<std::string> files{mesh};
+  if (formatOf(mesh, "") != "obj") return files;
+  for (const char* side : {".mtl", ".png"}) {
+    files.push_back(fs::path(mesh).replace_extension(side).string());
+  }
+  return files;
+}
+
+}  // namespace tetrakis::tools

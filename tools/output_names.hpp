@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the outputs of one command get in each other's way.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bitstream/status.hpp"
+
+namespace tetrakis::tools {
+
+/// TKS_USAGE if two names mean the same file (links followed) or both mean standard output. Devices
+/// and pipes take any number.
+Status checkDistinct(const std::vector<std::string>& names);
+
+/// The files that writing this mesh makes: an .obj brings its .mtl and .png.
+std::vector<std::string> meshFiles(const std::string& mesh);
+
+}  // namespace tetrakis::tools

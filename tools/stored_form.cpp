@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// How picture files store their samples, format by format.
+#include "tools/stored_form.hpp"
+
+#include "tools/exif.hpp"
+#include "tools/jpeg.hpp"
+#include "tools/tiff.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+Status noteTiff(Raster& raster) {
+  raster.stored_bits = raster.spec.get_int_attribute("oiio:BitsPerSample");
+  const auto form = tiffForm(raster.file.path());
+  if (!form.ok()) return form.status();
+  if (!form->whole) return {TKS_IO, "cannot read " + raster.name + ": it ends early"};
+  // OpenImageIO takes a missing BitsPerSample for 8, where TIFF means 1, and reads past the rows.
+  if (form->bits != raster.stored_bits) {
+    return {TKS_USAGE, raster.name + " does not state its bits per sample: convert it to 8 bits"};
+  }
+  raster.white_is_zero = raster.spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
+  // OpenImageIO inverts these up to 8 bits and leaves them alone above.
+  if (raster.white_is_zero && raster.spec.format != OIIO::TypeDesc::UINT8) {
+    return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
+  }
+  raster.further_pages = form->further_pages;
+  if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
+  const std::string colours = raster.spec.get_string_attribute("tiff:ColorSpace");
+  raster.palette = colours == "palette";
+  raster.cmyk = colours == "CMYK";
+  return {};
+}
+
+Status noteJpeg(Raster& raster) {
+  const std::string colours = raster.spec.get_string_attribute("jpeg:ColorSpace");
+  raster.cmyk = colours == "CMYK" || colours == "YCbCrK";
+  const auto bytes = readBytes(raster.file.path());
+  if (!bytes.ok()) return bytes.status();
+  return checkJpeg(*bytes, raster.name);
+}
+
+/// OpenImageIO states the bits of palette files alone, and reads those of greys as grey.
+void noteBmp(Raster& raster) {
+  const int bits = raster.spec.get_int_attribute("bmp:bitsperpixel");
+  raster.palette = bits > 0 && bits <= 8 && raster.spec.nchannels > 1;
+}
+
+/// By another reader: this one is to stay where it is.
+bool hasSecondFrame(const Raster& raster) {
+  const auto input = OIIO::ImageInput::open(raster.file.path());
+  return input && input->seek_subimage(1, 0);
+}
+
+Status noteWebp(Raster& raster) {
+  const auto bytes = readBytes(raster.file.path());
+  if (!bytes.ok()) return bytes.status();
+  raster.profile = !webpChunk(*bytes, "ICCP").empty();
+  raster.orientation = exifOrientation(webpChunk(*bytes, "EXIF"));
+  raster.further_pages = !webpChunk(*bytes, "ANIM").empty();
+  if (raster.spec.nchannels == 4) raster.alpha = Raster::Alpha::kMultiplied;
+  return {};
+}
+
+}  // namespace
+
+Status noteStoredForm(Raster& raster) {
+  const std::string_view format = raster.input->format_name();
+  // OpenImageIO can turn images, but its 2.4 takes orientation 5 for 7.
+  const int orientation = raster.spec.get_int_attribute("Orientation", 1);
+  raster.orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
+  raster.profile = raster.spec.find_attribute("ICCProfile") != nullptr;
+  if (format == "tiff") return noteTiff(raster);
+  if (format == "jpeg") return noteJpeg(raster);
+  if (format == "webp") return noteWebp(raster);
+  if (format == "gif") raster.further_pages = hasSecondFrame(raster);
+  if (format == "gif") raster.palette = true;
+  if (format == "bmp") noteBmp(raster);
+  return {};
+}
+
+}  // namespace tetrakis::tools
