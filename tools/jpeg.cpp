@@ -19,21 +19,33 @@ struct FreeBuffer {
   void operator()(unsigned char* buffer) const { tjFree(buffer); }
 };
 
+/// What the decoder warns of; empty: nothing. Entropy decoding alone: a transform that transforms
+/// nothing and is not written.
+std::string warningOf(void* handle, std::span<const std::byte> bytes, int flags) {
+  tjtransform nothing{};
+  nothing.options = TJXOPT_NOOUTPUT;
+  unsigned char* none = nullptr;
+  unsigned long size = 0;
+  const int failed = tjTransform(handle, reinterpret_cast<const unsigned char*>(bytes.data()),
+                                 bytes.size(), 1, &none, &size, &nothing, flags);
+  const std::unique_ptr<unsigned char, FreeBuffer> owner(none);
+  return failed ? tjGetErrorStr2(handle) : "";
+}
+
+/// Some cameras write padding, which is no damage.
+bool isHarmless(const std::string& warning) {
+  return warning.empty() || warning.find("extraneous bytes") != std::string::npos;
+}
+
 }  // namespace
 
 Status checkJpeg(std::span<const std::byte> bytes, const std::string& name) {
   const std::unique_ptr<void, DestroyHandle> handle(tjInitTransform());
   if (!handle) return {TKS_NO_MEMORY, "out of memory"};
-  // Entropy decoding alone: a transform that transforms nothing and is not written.
-  tjtransform nothing{};
-  nothing.options = TJXOPT_NOOUTPUT;
-  unsigned char* none = nullptr;
-  unsigned long size = 0;
-  const int failed = tjTransform(handle.get(), reinterpret_cast<const unsigned char*>(bytes.data()),
-                                 bytes.size(), 1, &none, &size, &nothing, TJFLAG_STOPONWARNING);
-  const std::unique_ptr<unsigned char, FreeBuffer> owner(none);
-  if (!failed) return {};
-  return {TKS_IO, "cannot read " + name + ": " + tjGetErrorStr2(handle.get())};
+  std::string warning = warningOf(handle.get(), bytes, TJFLAG_STOPONWARNING);
+  if (!warning.empty() && isHarmless(warning)) warning = warningOf(handle.get(), bytes, 0);
+  if (isHarmless(warning)) return {};
+  return {TKS_IO, "cannot read " + name + ": " + warning};
 }
 
 Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality) {
