@@ -100,8 +100,10 @@ class EncodingIo {
   }
 
  private:
-  /// The image is measured as often as the codeword has grown by so much.
-  static constexpr double kGrowth = 1.4;
+  /// The image is measured as often as the codeword has grown by so much. That takes a fifth of the
+  /// time of coding it, so large images are measured less often.
+  double growth() const { return image_.numbers.size() > kLargeImage ? 2.0 : 1.4; }
+  static constexpr size_t kLargeImage = size_t{1} << 20;
   /// In so many bytes a vertex stands for so many texels that a wrong one makes the image worse.
   static constexpr uint64_t kDippingBytes = 512;
 
@@ -112,7 +114,7 @@ class EncodingIo {
     decoded.samples.resize(texels.samples.size());
     fillDrawn(indices_, colours_, 1, decoded);
     const double squares = countedSquares(texels, decoded, {});
-    next_ = std::max(kLeastStep, static_cast<uint64_t>(kGrowth * static_cast<double>(bytes)));
+    next_ = std::max(kLeastStep, static_cast<uint64_t>(growth() * static_cast<double>(bytes)));
     const bool better = points_.empty() || (squares > 0 && squares < points_.back().distortion);
     if (better) points_.push_back({bytes, squares, bytes > 0 && bytes <= kDippingBytes});
   }
