@@ -13,7 +13,8 @@ Status noteTiff(Raster& raster) {
   raster.stored_bits = raster.spec.get_int_attribute("oiio:BitsPerSample");
   const auto form = tiffForm(raster.file.path());
   if (!form.ok()) return form.status();
-  if (!form->whole) return {TKS_IO, "cannot read " + raster.name + ": it ends early"};
+  if (!form->whole)
+    return {TKS_IO, "cannot read " + raster.name + ": a part of its samples is missing"};
   // OpenImageIO takes a missing BitsPerSample for 8, where TIFF means 1, and reads past the rows.
   if (form->bits != raster.stored_bits) {
     return {TKS_USAGE, raster.name + " does not state its bits per sample: convert it to 8 bits"};
