@@ -128,10 +128,8 @@ void prependOpening(const Texels& texels, std::span<const uint8_t> overlay,
   prepend(mask, most * most * samples / texels.channels, track);
 }
 
-/// Texels that are in both masks; an empty one holds all.
-std::vector<uint8_t> both(Validity a, Validity b) {
-  if (a.empty() || b.empty())
-    return a.empty() ? std::vector(b.begin(), b.end()) : std::vector(a.begin(), a.end());
+/// Texels that are in both masks.
+std::vector<uint8_t> intersection(Validity a, Validity b) {
   std::vector<uint8_t> common(a.size());
   for (size_t i = 0; i < common.size(); ++i) common[i] = a[i] & b[i];
   return common;
@@ -175,7 +173,9 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   std::vector<uint8_t> seen = cutoutOf(texels);
   const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
   Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
-  const std::vector<uint8_t> coded = both(hidden ? Validity(seen) : Validity(), photograph);
+  std::vector<uint8_t> common;
+  if (hidden && !photograph.empty()) common = intersection(seen, photograph);
+  const Validity coded = !common.empty() ? Validity(common) : hidden ? seen : photograph;
   if (!coded.empty()) hideColours(coded, planes);
   const ColourTransform colour = fitColours(planes, texels, purpose);
   const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
