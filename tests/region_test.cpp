@@ -54,52 +54,52 @@ TEST(Regions, ShareOutAllCoefficients) {
   }
 }
 
-/// Children lie below their parents in the same region.
-TEST(Regions, ParentsCoverTheirChildren) {
+/// visit: layout, parts and plan of every region, of planes of all sizes.
+template <class Visit>
+void forEachRegion(const Visit& visit) {
   for (const Size& size : kSizes) {
     const PlaneLayout layout(uniform(FilterId::kShort), size.width, size.height);
     for (const Region& region : regionsOf(size.width, size.height, 4)) {
       const std::vector<BandPart> parts = layout.parts(region);
-      const std::vector<BandPlan> plan = layout.plan(parts, 0, 0, 0);
-      for (size_t i = 0; i < plan.size(); ++i) {
-        if (plan[i].parent == BandPlan::kNone || plan[i].shape.empty()) continue;
-        const BandPart& parent = parts[static_cast<size_t>(plan[i].parent)];
-        const Subband &child_band = layout.subbands()[parts[i].subband],
-                      &parent_band = layout.subbands()[parent.subband];
-        ASSERT_EQ(parent_band.level, child_band.level + 1);
-        ASSERT_EQ(parent_band.orientation, child_band.orientation);
-        const auto halves = [](uint32_t child, uint32_t of, int more) {
-          return child >> more == of;
-        };
-        ASSERT_TRUE(
-            halves(parts[i].column, parent.column, parent_band.splits_x - child_band.splits_x));
-        ASSERT_TRUE(halves(parts[i].row, parent.row, parent_band.splits_y - child_band.splits_y));
-      }
+      visit(layout, parts, layout.plan(parts, 0, 0, 0));
     }
   }
 }
 
+/// Children lie below their parents in the same region.
+TEST(Regions, ParentsCoverTheirChildren) {
+  forEachRegion([](const PlaneLayout& layout, const auto& parts, const auto& plan) {
+    for (size_t i = 0; i < plan.size(); ++i) {
+      if (plan[i].parent == BandPlan::kNone || plan[i].shape.empty()) continue;
+      const BandPart& parent = parts[static_cast<size_t>(plan[i].parent)];
+      const Subband &child_band = layout.subbands()[parts[i].subband],
+                    &parent_band = layout.subbands()[parent.subband];
+      ASSERT_EQ(parent_band.level, child_band.level + 1);
+      ASSERT_EQ(parent_band.orientation, child_band.orientation);
+      const auto halves = [](uint32_t child, uint32_t of, int more) { return child >> more == of; };
+      ASSERT_TRUE(
+          halves(parts[i].column, parent.column, parent_band.splits_x - child_band.splits_x));
+      ASSERT_TRUE(halves(parts[i].row, parent.row, parent_band.splits_y - child_band.splits_y));
+    }
+  });
+}
+
 /// Siblings start at the same place as each other and differ by one row or column at most.
 TEST(Regions, SiblingsHaveThePlacesOfEachOther) {
-  for (const Size& size : kSizes) {
-    const PlaneLayout layout(uniform(FilterId::kShort), size.width, size.height);
-    for (const Region& region : regionsOf(size.width, size.height, 4)) {
-      const std::vector<BandPart> parts = layout.parts(region);
-      const std::vector<BandPlan> plan = layout.plan(parts, 0, 0, 0);
-      for (size_t i = 0; i < plan.size(); ++i) {
-        for (const int index : plan[i].siblings) {
-          if (index == BandPlan::kNone || plan[i].shape.empty()) continue;
-          const BandPart& sibling = parts[static_cast<size_t>(index)];
-          ASSERT_EQ(layout.subbands()[sibling.subband].level,
-                    layout.subbands()[parts[i].subband].level);
-          ASSERT_EQ(sibling.column, parts[i].column);
-          ASSERT_EQ(sibling.row, parts[i].row);
-          ASSERT_LE(parts[i].columns, sibling.columns + 1);
-          ASSERT_LE(parts[i].rows, sibling.rows + 1);
-        }
+  forEachRegion([](const PlaneLayout& layout, const auto& parts, const auto& plan) {
+    for (size_t i = 0; i < plan.size(); ++i) {
+      for (const int index : plan[i].siblings) {
+        if (index == BandPlan::kNone || plan[i].shape.empty()) continue;
+        const BandPart& sibling = parts[static_cast<size_t>(index)];
+        ASSERT_EQ(layout.subbands()[sibling.subband].level,
+                  layout.subbands()[parts[i].subband].level);
+        ASSERT_EQ(sibling.column, parts[i].column);
+        ASSERT_EQ(sibling.row, parts[i].row);
+        ASSERT_LE(parts[i].columns, sibling.columns + 1);
+        ASSERT_LE(parts[i].rows, sibling.rows + 1);
       }
     }
-  }
+  });
 }
 
 /// Tracks of a header that may say anything.

@@ -100,12 +100,14 @@ class EncodingIo {
   }
 
  private:
-  /// The image is measured as often as the codeword has grown by so much. That takes a fifth of the
-  /// time of coding it, so large images are measured less often.
-  double growth() const { return image_.numbers.size() > kLargeImage ? 2.0 : 1.4; }
   static constexpr size_t kLargeImage = size_t{1} << 20;
+  static constexpr uint64_t kLeastStep = 32;
   /// In so many bytes a vertex stands for so many texels that a wrong one makes the image worse.
   static constexpr uint64_t kDippingBytes = 512;
+
+  /// The image is measured as often as the codeword has grown by so much; large ones less often,
+  /// because each time takes a good part of that of coding them.
+  double growth() const { return image_.numbers.size() > kLargeImage ? 2.0 : 1.4; }
 
   /// What a decoder reaches that knows the colours so far.
   void measure(uint64_t bytes) {
@@ -118,7 +120,6 @@ class EncodingIo {
     const bool better = points_.empty() || (squares > 0 && squares < points_.back().distortion);
     if (better) points_.push_back({bytes, squares, bytes > 0 && bytes <= kDippingBytes});
   }
-  static constexpr uint64_t kLeastStep = 32;
 
   const Numbered& image_;
   std::span<const ColourIndex> indices_;

@@ -6,8 +6,8 @@ tks_room(tks_cli
   SOURCES
     command_compare.cpp command_decode.cpp command_encode.cpp command_info.cpp command_line.cpp
     command_synth.cpp command_truncate.cpp command_verify.cpp
-    comparison.cpp encode_arguments.cpp json.cpp output.cpp output_names.cpp progress.cpp report.cpp report_page.cpp report_plot.cpp
-    scene.cpp stream.cpp units.cpp viewed_mesh.cpp
+    comparison.cpp encode_arguments.cpp json.cpp output.cpp output_names.cpp progress.cpp
+    report.cpp report_page.cpp report_plot.cpp scene.cpp stream.cpp units.cpp viewed_mesh.cpp
   USES tetrakis tks_files tks_render tks_synth tks_conformance CLI11::CLI11
     nlohmann_json::nlohmann_json)
 target_link_libraries(tks_cli PRIVATE PkgConfig::TKS_FILE_FORMATS)  # base64
