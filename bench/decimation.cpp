@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bench/arguments.hpp"
 #include "bench/decimation_quality.hpp"
 #include "bench/decimation_speed.hpp"
 #include "bench/first_mesh.hpp"
-#include "bench/options.hpp"
 #include "bench/results.hpp"
 #include "tools/files.hpp"
 
@@ -217,17 +217,13 @@ Status run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Meshes of height fields, beside Martini, Delatin, meshoptimizer and Draco");
-  app.add_option("DIR", options.folders, "Folders, searched recursively")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("--files", options.filters, "Only files whose path holds one of these texts")
-      ->delimiter(',');
-  app.add_option("--node", options.node, "Folder with the npm packages of Martini and Delatin")
-      ->capture_default_str();
-  app.add_flag("!--no-bytes", options.bytes, "Leaves out streams and Draco: faster");
-  addRunOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  Arguments arguments("Meshes of height fields, beside Martini, Delatin, meshoptimizer and Draco");
+  arguments.folders(options.folders, options.filters);
+  arguments.text({"--node", "Folder with the npm packages of Martini and Delatin"}, options.node);
+  arguments.unset({"--no-bytes", "Leaves out streams and Draco: faster"}, options.bytes);
+  arguments.runs(options.runs);
+  arguments.csv(options.csv);
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 
   const Status status = run(options);
   if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());

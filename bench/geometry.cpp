@@ -2,10 +2,10 @@
 // bench_geometry DIR...: height fields. One Tetrakis stream, cut, against OpenJPEG 9/7 files made
 // for each rate (the better of 6 and 9 resolutions, heights as they are or stretched to 16 bits).
 // Lossless also against JPEG XL.
+#include "bench/arguments.hpp"
 #include "bench/comparison.hpp"
 #include "bench/jxl_peer.hpp"
 #include "bench/openjpeg_peer.hpp"
-#include "bench/options.hpp"
 #include "bench/tetrakis_peer.hpp"
 #include "tools/files.hpp"
 
@@ -25,12 +25,10 @@ Result<Raster> load(const std::string& path) {
 int main(int argc, char** argv) {
   ComparisonOptions options;
   options.window = {0.05, 2};
-  CLI::App app("Rate against error of height fields, beside OpenJPEG 9/7");
-  addComparisonOptions(app, options);
-  app.add_option("--peers", options.peers, "More codecs: jxl (lossless)")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"jxl"}));
-  CLI11_PARSE(app, argc, argv);
+  Arguments arguments("Rate against error of height fields, beside OpenJPEG 9/7");
+  arguments.comparison(options);
+  arguments.choices({"--peers", "More codecs: jxl (lossless)"}, options.peers, {"jxl"});
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 
   ComparisonSpec spec;
   spec.bench = "geometry";

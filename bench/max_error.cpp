@@ -4,7 +4,6 @@
 // checked. A bound of 0 is lossless.
 #include <Lerc_c_api.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "bench/arguments.hpp"
 #include "bench/results.hpp"
 #include "tetrakis/tetrakis.hpp"
 #include "tools/files.hpp"
@@ -127,9 +127,12 @@ Status measureFile(const std::string& path, const std::string& item, const Optio
     std::printf("%-24s %8g %10zu %10zu %7.3f   %g %g\n", item.c_str(), error, ours->bytes,
                 lerc->bytes, ratio, ours->largest_error, lerc->largest_error);
     std::fflush(stdout);
-    const std::string at = CLI::detail::to_string(error);
-    rows.push_back({item, "tetrakis", "bytes_within_" + at, static_cast<double>(ours->bytes)});
-    rows.push_back({item, "lerc", "bytes_within_" + at, static_cast<double>(lerc->bytes)});
+    char at[32];
+    std::snprintf(at, sizeof at, "%g", error);
+    rows.push_back(
+        {item, "tetrakis", std::string("bytes_within_") + at, static_cast<double>(ours->bytes)});
+    rows.push_back(
+        {item, "lerc", std::string("bytes_within_") + at, static_cast<double>(lerc->bytes)});
   }
   return {};
 }
@@ -176,14 +179,11 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   tetrakis::bench::Options options;
-  CLI::App app("Bytes at equal largest error, beside LERC");
-  app.add_option("DIR", options.folders, "Folders, searched recursively")->required();
-  app.add_option("--errors", options.errors, "Bounds in the unit of the heights; 0: lossless")
-      ->delimiter(',');
-  app.add_option("--files", options.filters, "Only files whose path holds one of these texts")
-      ->delimiter(',');
-  app.add_option("--nodata", options.nodata, "Samples of this value are void");
-  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
-  CLI11_PARSE(app, argc, argv);
+  tetrakis::bench::Arguments arguments("Bytes at equal largest error, beside LERC");
+  arguments.folders(options.folders, options.filters);
+  arguments.numbers({"--errors", "Bounds in the unit of the heights; 0: lossless"}, options.errors);
+  arguments.number({"--nodata", "Samples of this value are void"}, options.nodata);
+  arguments.csv(options.csv);
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
   return tetrakis::bench::run(options);
 }

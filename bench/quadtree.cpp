@@ -11,8 +11,8 @@
 #include <numeric>
 #include <random>
 
+#include "bench/arguments.hpp"
 #include "bench/median.hpp"
-#include "bench/options.hpp"
 #include "bench/quadtree_peers.hpp"
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
@@ -269,13 +269,12 @@ Status run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Stores of an adaptive mesh: the semi-linear quadtree and others");
-  app.add_option("HEIGHT", options.heights, "Height file; without it the sample terrain");
-  app.add_option("--side", options.side, "Samples a side")
-      ->check(CLI::Range(65, 4097))
-      ->capture_default_str();
-  addRunOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  Arguments arguments("Stores of an adaptive mesh: the semi-linear quadtree and others");
+  arguments.text({"HEIGHT", "Height file; without it the sample terrain"}, options.heights);
+  arguments.within({"--side", "Samples a side"}, options.side, 65, 4097);
+  arguments.runs(options.runs);
+  arguments.csv(options.csv);
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 
   const Status status = run(options);
   if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());

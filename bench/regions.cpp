@@ -9,9 +9,9 @@
 #include <ctime>
 #include <functional>
 
+#include "bench/arguments.hpp"
 #include "bench/bjontegaard.hpp"
 #include "bench/median.hpp"
-#include "bench/options.hpp"
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -255,14 +255,15 @@ Status run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Bytes of spatial regions, time of windows, gain of threads");
-  app.add_option("HEIGHT", options.heights, "Height file; else the sample terrain");
-  app.add_option("IMAGE", options.image, "Image");
-  app.add_option("--side", options.side, "Samples a side; files are cut or mirrored to it")
-      ->check(CLI::Range(64u, 16385u))
-      ->capture_default_str();
-  tetrakis::bench::addRunOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  tetrakis::bench::Arguments arguments(
+      "Bytes of spatial regions, time of windows, gain of threads");
+  arguments.text({"HEIGHT", "Height file; else the sample terrain"}, options.heights);
+  arguments.text({"IMAGE", "Image"}, options.image);
+  arguments.within({"--side", "Samples a side; files are cut or mirrored to it"}, options.side, 64,
+                   16385);
+  arguments.runs(options.runs);
+  arguments.csv(options.csv);
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 
   const Status status = run(options);
   if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());

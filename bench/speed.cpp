@@ -6,10 +6,10 @@
 #include <ctime>
 #include <functional>
 
+#include "bench/arguments.hpp"
 #include "bench/child_memory.hpp"
 #include "bench/median.hpp"
 #include "bench/openjpeg_peer.hpp"
-#include "bench/options.hpp"
 #include "bench/results.hpp"
 #include "bench/tetrakis_peer.hpp"
 #include "tools/files.hpp"
@@ -201,6 +201,8 @@ Result<std::vector<ResultRow>> measure(const std::vector<Task>& tasks, int runs)
 }
 
 Status run(const Options& options) {
+  if (options.heights.empty() != options.image.empty())
+    return Status(TKS_USAGE, "a height file and an image go together");
   const Result<Terrain> terrain = loadTerrain(options);
   if (!terrain.ok()) return terrain.status();
   const auto tasks = makeTasks(*terrain);
@@ -214,12 +216,12 @@ Status run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Speed and memory of coding a terrain, beside OpenJPEG 9/7");
-  CLI::Option* heights = app.add_option("HEIGHT", options.heights, "Height file");
-  CLI::Option* image = app.add_option("IMAGE", options.image, "Image of the same footprint");
-  heights->needs(image);
-  addRunOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  Arguments arguments("Speed and memory of coding a terrain, beside OpenJPEG 9/7");
+  arguments.text({"HEIGHT", "Height file"}, options.heights);
+  arguments.text({"IMAGE", "Image of the same footprint; with a height file"}, options.image);
+  arguments.runs(options.runs);
+  arguments.csv(options.csv);
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 
   const Status status = run(options);
   if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());

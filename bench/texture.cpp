@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_texture DIR...: images. One Tetrakis stream, cut, against OpenJPEG 9/7 files made for each
 // rate, and AVIF and JPEG XL files. PSNR of the mean squared error over the channels, 8 bits.
+#include "bench/arguments.hpp"
 #include "bench/avif_peer.hpp"
 #include "bench/comparison.hpp"
 #include "bench/jxl_peer.hpp"
 #include "bench/openjpeg_peer.hpp"
-#include "bench/options.hpp"
 #include "bench/tetrakis_peer.hpp"
 #include "tools/files.hpp"
 
@@ -26,15 +26,12 @@ int main(int argc, char** argv) {
   ComparisonOptions options;
   options.window = {0.1, 2};
   uint64_t max_pixels = uint64_t{2048} * 2048;
-  CLI::App app("Rate against PSNR of images, beside OpenJPEG 9/7");
-  addComparisonOptions(app, options);
-  app.add_option("--max-pixels", max_pixels, "Larger images are cut to their centre")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--peers", options.peers, "More codecs: avif (at two speeds), jxl")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"avif", "jxl"}));
-  CLI11_PARSE(app, argc, argv);
+  Arguments arguments("Rate against PSNR of images, beside OpenJPEG 9/7");
+  arguments.comparison(options);
+  arguments.maxPixels(max_pixels);
+  arguments.choices({"--peers", "More codecs: avif (at two speeds), jxl"}, options.peers,
+                    {"avif", "jxl"});
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 
   ComparisonSpec spec;
   spec.bench = "texture";

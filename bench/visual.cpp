@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bench/arguments.hpp"
 #include "bench/ms_ssim.hpp"
-#include "bench/options.hpp"
 #include "bench/results.hpp"
 #include "bench/tetrakis_peer.hpp"
 #include "tools/files.hpp"
@@ -74,13 +74,11 @@ Status run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("MS-SSIM and PSNR of textures with visual weights and without");
-  app.add_option("IMAGE", options.images, "Images")->required();
-  app.add_option("--max-pixels", options.max_pixels, "Larger images are cut to their centre")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--csv", options.csv, "Replace this bench's rows of a results file");
-  CLI11_PARSE(app, argc, argv);
+  Arguments arguments("MS-SSIM and PSNR of textures with visual weights and without");
+  arguments.required({"IMAGE", "Images"}, options.images);
+  arguments.maxPixels(options.max_pixels);
+  arguments.csv(options.csv);
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 
   const Status status = run(options);
   if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
