@@ -42,15 +42,17 @@ uint64_t countedSamples(const Texels& texels, std::span<const uint8_t> seen) {
 
 double countedSquares(const Texels& original, const Texels& decoded,
                       std::span<const uint8_t> seen) {
-  int64_t squares = 0;
-  const size_t channels = original.channels, count = original.samples.size() / channels;
-  for (size_t i = 0; i < count; ++i) {
-    const bool hidden = !seen.empty() && !seen[i];
-    for (size_t c = hidden ? channels - 1 : 0; c < channels; ++c) {
-      const size_t k = i * channels + c;
-      const int64_t difference = int64_t{original.samples[k]} - decoded.samples[k];
-      squares += difference * difference;
-    }
+  uint64_t squares = 0;
+  const auto add = [&](size_t k) {
+    const int32_t difference = int32_t{original.samples[k]} - decoded.samples[k];
+    squares += static_cast<uint32_t>(difference) * static_cast<uint32_t>(difference);
+  };
+  const size_t channels = original.channels;
+  if (seen.empty()) {
+    for (size_t k = 0; k < original.samples.size(); ++k) add(k);
+  }
+  for (size_t i = 0; i < seen.size(); ++i) {
+    for (size_t c = seen[i] != 0 ? 0 : channels - 1; c < channels; ++c) add(i * channels + c);
   }
   return static_cast<double>(squares);
 }

@@ -28,6 +28,8 @@ std::optional<Numbered> number(const Texels& texels, std::span<const uint8_t> co
   if (!coded.empty()) out.colours.push_back(greyOf(texels));
   out.numbers.resize(size_t{texels.width} * texels.height);
   std::unordered_map<uint64_t, ColourIndex> known;
+  uint64_t last_key = 0;
+  ColourIndex last = kNoColour;
   const uint16_t* from = texels.samples.data();
   for (size_t i = 0; i < out.numbers.size(); ++i) {
     DrawnColour colour{};
@@ -39,12 +41,17 @@ std::optional<Numbered> number(const Texels& texels, std::span<const uint8_t> co
     ColourIndex& n = out.numbers[i];
     n = kSeeThrough;
     if (!coded.empty() && coded[i] != 0) continue;
-    const auto [entry, added] = known.emplace(key, static_cast<ColourIndex>(out.colours.size()));
-    if (added) {
-      if (out.colours.size() == kMostColours) return {};
-      out.colours.push_back(colour);
+    if (last == kNoColour || key != last_key) {
+      const auto [entry, added] =
+          known.try_emplace(key, static_cast<ColourIndex>(out.colours.size()));
+      if (added) {
+        if (out.colours.size() == kMostColours) return {};
+        out.colours.push_back(colour);
+      }
+      last_key = key;
+      last = entry->second;
     }
-    n = entry->second;
+    n = last;
   }
   return out;
 }

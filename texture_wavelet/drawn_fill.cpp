@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/drawn_fill.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
@@ -10,37 +13,69 @@ namespace tetrakis {
 
 namespace {
 
+template <size_t kChannels>
 class Filling {
  public:
-  explicit Filling(Texels& texels) : texels_(texels) {}
+  Filling(std::span<const ColourIndex> indices, const DrawnColours& colours, Texels& texels)
+      : indices_(indices.data()),
+        colours_(colours),
+        samples_(texels.samples.data()),
+        width_(texels.width),
+        height_(texels.height),
+        grey_(greyOf(texels)) {}
 
-  void copy(uint32_t x, uint32_t y, const DrawnColour& colour) {
-    uint16_t* to = at(x, y);
-    for (uint32_t c = 0; c < texels_.channels; ++c) to[c] = colour[c];
-  }
-
-  void interpolate(uint32_t x, uint32_t y, const Stencil& stencil) {
-    std::array<uint32_t, 4> sums{};
-    uint32_t count = 0;
-    for (int tap = 0; tap < Stencil::kRingSize[0]; ++tap) {
-      const int64_t nx = int64_t{x} + stencil.dx[tap], ny = int64_t{y} + stencil.dy[tap];
-      if (nx < 0 || ny < 0 || nx >= texels_.width || ny >= texels_.height) continue;
-      const uint16_t* from = at(static_cast<uint32_t>(nx), static_cast<uint32_t>(ny));
-      for (uint32_t c = 0; c < texels_.channels; ++c) sums[c] += from[c];
-      ++count;
+  void fill(const Level& level) {
+    const Stencil stencil =
+        level.kind == LevelKind::kRoots ? Stencil{} : stencilOf(level.kind, level.step, width_);
+    for (uint32_t row = 0; row < level.rows; ++row) {
+      const uint32_t y = level.y(row);
+      uint32_t x = level.firstX(row);
+      for (uint32_t i = 0; i < level.columns[row % 2]; ++i, x += level.pitch()) {
+        const size_t texel = size_t{y} * width_ + x;
+        if (const ColourIndex index = indices_[texel]; index != kNoColour) {
+          std::copy_n(colours_[index].begin(), kChannels, samples_ + texel * kChannels);
+        } else if (level.kind == LevelKind::kRoots) {
+          std::copy_n(grey_.begin(), kChannels, samples_ + texel * kChannels);
+        } else {
+          interpolate(x, y, level.step, stencil);
+        }
+      }
     }
-    uint16_t* to = at(x, y);
-    for (uint32_t c = 0; c < texels_.channels; ++c)
-      to[c] = static_cast<uint16_t>((sums[c] + count / 2) / count);
   }
 
  private:
-  uint16_t* at(uint32_t x, uint32_t y) {
-    return texels_.samples.data() + (size_t{y} * texels_.width + x) * texels_.channels;
+  void interpolate(uint32_t x, uint32_t y, uint32_t step, const Stencil& stencil) {
+    constexpr int kTaps = Stencil::kRingSize[0];
+    uint16_t* const to = samples_ + (size_t{y} * width_ + x) * kChannels;
+    const bool inside = x >= step && y >= step && x + step < width_ && y + step < height_;
+    std::array<uint32_t, kChannels> sums{};
+    uint32_t count = 0;
+    for (int tap = 0; tap < kTaps; ++tap) {
+      const int64_t nx = int64_t{x} + stencil.dx[tap], ny = int64_t{y} + stencil.dy[tap];
+      if (!inside && (nx < 0 || ny < 0 || nx >= width_ || ny >= height_)) continue;
+      const uint16_t* from = to + stencil.linear[tap] * static_cast<ptrdiff_t>(kChannels);
+      for (size_t c = 0; c < kChannels; ++c) sums[c] += from[c];
+      ++count;
+    }
+    for (size_t c = 0; c < kChannels; ++c)
+      to[c] = static_cast<uint16_t>(count == kTaps ? (sums[c] + kTaps / 2) / kTaps
+                                                   : (sums[c] + count / 2) / count);
   }
 
-  Texels& texels_;
+  const ColourIndex* indices_;
+  const DrawnColours& colours_;
+  uint16_t* samples_;
+  uint32_t width_, height_;
+  DrawnColour grey_;
 };
+
+template <size_t kChannels>
+void fillLevels(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
+                Texels& texels) {
+  Filling<kChannels> filling(indices, colours, texels);
+  for (const Level& level : levelsOf(texels.width, texels.height))
+    if (level.step >= finest) filling.fill(level);
+}
 
 }  // namespace
 
@@ -51,26 +86,15 @@ DrawnColour greyOf(const Texels& format) {
 
 void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
                Texels& texels) {
-  Filling filling(texels);
-  for (const Level& level : levelsOf(texels.width, texels.height)) {
-    if (level.step < finest) return;
-    const Stencil stencil = level.kind == LevelKind::kRoots
-                                ? Stencil{}
-                                : stencilOf(level.kind, level.step, texels.width);
-    for (uint32_t row = 0; row < level.rows; ++row) {
-      const uint32_t y = level.y(row);
-      uint32_t x = level.firstX(row);
-      for (uint32_t i = 0; i < level.columns[row % 2]; ++i, x += level.pitch()) {
-        const ColourIndex index = indices[size_t{y} * texels.width + x];
-        if (index != kNoColour) {
-          filling.copy(x, y, colours[index]);
-        } else if (level.kind == LevelKind::kRoots) {
-          filling.copy(x, y, greyOf(texels));
-        } else {
-          filling.interpolate(x, y, stencil);
-        }
-      }
-    }
+  switch (texels.channels) {
+    case 1:
+      return fillLevels<1>(indices, colours, finest, texels);
+    case 2:
+      return fillLevels<2>(indices, colours, finest, texels);
+    case 3:
+      return fillLevels<3>(indices, colours, finest, texels);
+    default:
+      return fillLevels<4>(indices, colours, finest, texels);
   }
 }
 

@@ -47,9 +47,9 @@ class DrawnModels {
     const bool rivalled = around.count() > 1;
     const uint32_t rival = rivalled ? around[place == 0 ? 1 : 0].pattern & 0x3f : 0;
     int more = 0;
-    if (place == 0 && rivalled) more = std::min(around[1].near(), 3);
+    if (place == 0 && rivalled) more = std::min<int>(around[1].near, 3);
     if (place == 1) more = std::min(around.count(), 4) - 1;
-    const int count = (((place * 4 + more) * 5 + c.near()) * 3 + c.causal()) * 9 + c.ring();
+    const int count = (((place * 4 + more) * 5 + c.near) * 3 + c.causal) * 9 + c.ring;
     return {{&rivals_[hash(pattern * 64 + rival, kRivalBits)], &patterns_[pattern],
              &counts_[static_cast<size_t>(2 * count + centre)]}};
   }

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "lattice/levels.hpp"
@@ -21,31 +23,55 @@ namespace tetrakis {
 
 /// A colour among the neighbours.
 struct Candidate {
-  ColourIndex colour = kNoColour;
-  uint32_t pattern = 0;  ///< of the neighbours that have it: bits 0-3 near, 4-5 causal, 6-13 ring
-  int votes = 0;
-
-  int near() const { return std::popcount(pattern & 0xf); }
-  int causal() const { return std::popcount(pattern >> 4 & 3); }
-  int ring() const { return std::popcount(pattern >> 6); }
+  ColourIndex colour;
+  uint16_t pattern;            ///< of the neighbours that have it, in the order above, bit 0 first
+  uint8_t near, causal, ring;  ///< how many of them
+  uint8_t votes;
 };
 
 /// The candidates around one vertex: the first three by votes, of equal ones the first met.
 class Candidates {
  public:
   static constexpr int kRanked = 3;
+  static constexpr int kNear = Stencil::kRingSize[0], kCausal = 2, kRing = Stencil::kRingSize[1];
+  static constexpr int kNeighbours = kNear + kCausal + kRing;
+  using Colours = std::array<ColourIndex, kNeighbours>;
 
-  /// neighbour: its bit in the patterns.
-  void meet(ColourIndex colour, int neighbour) {
-    const auto end = all_.begin() + count_;
-    const auto found =
-        std::find_if(all_.begin(), end, [&](const Candidate& c) { return c.colour == colour; });
-    if (found == end) all_[static_cast<size_t>(count_++)] = {colour, 0, 0};
-    found->pattern |= 1u << neighbour;
-    found->votes += neighbour < 4 ? 6 : neighbour < 6 ? 4 : 1;
+  /// known: the bits of the neighbours that there are.
+  Candidates(const Colours& colours, uint32_t known) {
+    while (known != 0) {
+      const ColourIndex colour = colours[static_cast<size_t>(std::countr_zero(known))];
+      uint32_t pattern = 0;
+      for (int i = 0; i < kNeighbours; ++i)
+        pattern |= uint32_t{colours[static_cast<size_t>(i)] == colour} << i;
+      add(colour, pattern & known);
+      known &= ~pattern;
+    }
+    rank();
   }
 
-  /// After the last meet().
+  /// All neighbours have one colour, whichever.
+  static Candidates unanimous() { return Candidates(Colours{}, (1u << kNeighbours) - 1); }
+
+  int count() const { return count_; }
+  const Candidate& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
+
+ private:
+  void add(ColourIndex colour, uint32_t pattern) {
+    const uint8_t near = bitsOf(pattern & 0xf), causal = bitsOf(pattern >> 4 & 3),
+                  ring = static_cast<uint8_t>(bitsOf(pattern >> 6 & 0xf) + bitsOf(pattern >> 10));
+    all_[static_cast<size_t>(count_++)] = {
+        colour, static_cast<uint16_t>(pattern),
+        near,   causal,
+        ring,   static_cast<uint8_t>(6 * near + 4 * causal + ring)};
+  }
+
+  /// Ones among four bits, where processors may lack an instruction for that.
+  static uint8_t bitsOf(uint32_t four) {
+    constexpr uint64_t kCounts = 0x4332322132212110;
+    return kCounts >> (4 * four) & 0xf;
+  }
+
   void rank() {
     for (int place = 0; place < std::min(kRanked, count_ - 1); ++place) {
       const auto first = all_.begin() + place;
@@ -56,17 +82,11 @@ class Candidates {
     }
   }
 
-  int count() const { return count_; }
-  const Candidate& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
-
- private:
-  static constexpr int kMost = Stencil::kTaps + 2;
-
-  std::array<Candidate, kMost> all_;
+  std::array<Candidate, kNeighbours> all_;  // only the first count_ are written
   int count_ = 0;
 };
 
-/// Collects the candidates of the vertices of one level. indices: width * height, row by row.
+/// Looks around the vertices of one level. indices: width * height, row by row.
 class Neighbourhood {
  public:
   Neighbourhood(const Level& level, std::span<const ColourIndex> indices, uint32_t width,
@@ -76,24 +96,37 @@ class Neighbourhood {
     const Stencil stencil = stencilOf(level.kind, level.step, width);
     const int s = static_cast<int>(level.step);
     const bool centre = level.kind == LevelKind::kCentres;
-    constexpr int kNear = Stencil::kRingSize[0];
-    for (int tap = 0; tap < kNear; ++tap) add(stencil.dx[tap], stencil.dy[tap]);
+    for (int tap = 0; tap < Candidates::kNear; ++tap) add(stencil.dx[tap], stencil.dy[tap]);
     add(centre ? -2 * s : -s, centre ? 0 : -s);
     add(centre ? 0 : s, centre ? -2 * s : -s);
-    for (int tap = kNear; tap < Stencil::kTaps; ++tap) add(stencil.dx[tap], stencil.dy[tap]);
+    for (int tap = Candidates::kNear; tap < Stencil::kTaps; ++tap)
+      add(stencil.dx[tap], stencil.dy[tap]);
     reach_ = static_cast<uint32_t>(stencil.reach);
   }
 
+  /// The colour that all neighbours have; kNoColour if they differ or some lie outside.
+  ColourIndex common(uint32_t x, uint32_t y) const {
+    if (count_ == 0 || !inside(x, y)) return kNoColour;
+    const ColourIndex* const at = indices_ + size_t{y} * width_ + x;
+    const ColourIndex first = at[neighbours_[0].linear];
+    uint32_t differences = 0;
+    for (const Neighbour& n : neighbours_)
+      differences |= static_cast<uint32_t>(at[n.linear] ^ first);
+    return differences == 0 ? first : kNoColour;
+  }
+
   Candidates around(uint32_t x, uint32_t y) const {
-    Candidates candidates;
-    const bool inside = x >= reach_ && y >= reach_ && x + reach_ < width_ && y + reach_ < height_;
+    const ColourIndex* const at = indices_ + size_t{y} * width_ + x;
+    const bool all = inside(x, y);
+    Candidates::Colours colours{};
+    uint32_t known = 0;
     for (int i = 0; i < count_; ++i) {
       const Neighbour& n = neighbours_[static_cast<size_t>(i)];
-      if (!inside && !(reaches(x, n.dx, width_) && reaches(y, n.dy, height_))) continue;
-      candidates.meet(indices_[static_cast<ptrdiff_t>(size_t{y} * width_ + x) + n.linear], i);
+      if (!all && !(reaches(x, n.dx, width_) && reaches(y, n.dy, height_))) continue;
+      colours[static_cast<size_t>(i)] = at[n.linear];
+      known |= 1u << i;
     }
-    candidates.rank();
-    return candidates;
+    return Candidates(colours, known);
   }
 
  private:
@@ -101,6 +134,10 @@ class Neighbourhood {
     int dx, dy;
     ptrdiff_t linear;
   };
+
+  bool inside(uint32_t x, uint32_t y) const {
+    return x >= reach_ && y >= reach_ && x + reach_ < width_ && y + reach_ < height_;
+  }
 
   static bool reaches(uint32_t at, int offset, uint32_t size) {
     const int64_t place = int64_t{at} + offset;
@@ -113,8 +150,8 @@ class Neighbourhood {
 
   const ColourIndex* indices_;
   uint32_t width_, height_, reach_ = 0;
-  std::array<Neighbour, Stencil::kTaps + 2> neighbours_{};
-  int count_ = 0;
+  std::array<Neighbour, Candidates::kNeighbours> neighbours_{};
+  int count_ = 0;  ///< roots have no neighbours
 };
 
 }  // namespace tetrakis

@@ -43,12 +43,17 @@ class DrawnPass {
     for (const Level& level : levelsOf(format_.width, format_.height)) {
       if (level.step < finest) return;
       const Neighbourhood neighbourhood(level, indices_, format_.width, format_.height);
+      const ModelChain unanimous = models_.candidate(Candidates::unanimous(), 0, level.kind);
       for (uint32_t row = 0; row < level.rows; ++row) {
         const uint32_t y = level.y(row);
         uint32_t x = level.firstX(row);
         for (uint32_t i = 0; i < level.columns[row % 2]; ++i, x += level.pitch()) {
           const size_t texel = size_t{y} * format_.width + x;
-          const ColourIndex index = decide(neighbourhood.around(x, y), level.kind, texel);
+          const ColourIndex target = io_.target(texel), common = neighbourhood.common(x, y);
+          const bool asked = common != kNoColour;  // most vertices, and nothing else to do for them
+          ColourIndex index = common;
+          if (!asked || !ask(unanimous, target == common))
+            index = decide(neighbourhood.around(x, y), level.kind, texel, target, asked);
           if (io_.stopped()) return;
           indices_[texel] = index;
         }
@@ -57,9 +62,10 @@ class DrawnPass {
   }
 
  private:
-  ColourIndex decide(const Candidates& around, LevelKind kind, size_t texel) {
-    const ColourIndex target = io_.target(texel);
-    for (int place = 0; place < std::min(around.count(), Candidates::kRanked); ++place) {
+  /// first: of the places to ask for.
+  ColourIndex decide(const Candidates& around, LevelKind kind, size_t texel, ColourIndex target,
+                     int first) {
+    for (int place = first; place < std::min(around.count(), Candidates::kRanked); ++place) {
       const ColourIndex colour = around[place].colour;
       if (ask(models_.candidate(around, place, kind), target == colour)) return colour;
     }

@@ -13,11 +13,15 @@ namespace tetrakis {
 
 enum class Direction : uint8_t { kAnalysis, kSynthesis };
 
-/// The two samples of each pair, for all targets of a call: pair k of target j is
-/// before[k][j] + after[k][j].
-struct LiftingSources {
-  std::array<const int32_t*, kMaxPairs> before, after;
+/// The two sources of each pair, for all targets of a call: pair k of target j is before[k][j] and
+/// after[k][j].
+template <class T>
+struct StepSources {
+  std::array<const T*, kMaxPairs> before, after;
 };
+
+/// Samples, of which a step weighs the sums of the pairs.
+using LiftingSources = StepSources<int32_t>;
 
 /// What is done to every target: += in analysis, -= in synthesis, modulo 2^32.
 struct LiftingRule {

@@ -7,45 +7,53 @@
 //   a pair of which both are void stands for the pair before it, leading ones for the first pair
 //   that is not; a target without any stays as it is.
 //
-// Constants are predicted exactly as long as one pair is left.
+// Constants are predicted exactly as long as one pair is left. All sums are exact, so that nothing
+// depends on where the voids are.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "wavelet/lifting.hpp"
+#include "wavelet/lifting_steps.hpp"
 
 namespace tetrakis {
 
 /// Samples of a plane, width * height: 1 valid, 0 void; empty: all are valid.
 using Validity = std::span<const uint8_t>;
 
-/// Lifts one level of a plane with voids. Rows and columns without voids take the fast way.
-class MaskedLifting {
+/// One step of many signals at once. Targets of which no neighbour is void go through liftStep().
+class MaskedStep {
  public:
-  /// The low band that the level starts from has the samples (x << splits_x, y << splits_y) of the
-  /// plane whose validity is given; plane_width: of that plane.
-  MaskedLifting(Validity valid, uint32_t plane_width, const RowSet& rows, int splits_x,
-                int splits_y);
-
-  /// As RowLifting for all rows.
-  void liftRows(RowLifting& fast, FilterId id, Direction direction, bool wide);
-  /// As liftColumns. split_rows: the rows have been split before, or will be merged afterwards.
-  void liftColumns(FilterId id, Direction direction, bool wide, bool split_rows);
+  /// valid, exist: 1 where a target or source exists, else 0; beside the values.
+  void lift(int32_t* target, const uint8_t* valid, const LiftingSources& sources,
+            const StepSources<uint8_t>& exist, const LiftingRule& rule, size_t count);
 
  private:
-  bool valid(uint32_t x, uint32_t y) const;
-  uint32_t sampleColumn(uint32_t x, bool split_rows) const;
-  bool columnIsWhole(uint32_t x, bool split_rows) const;
-  void liftLine(FilterId id, Direction direction);
+  void findRegular(const uint8_t* valid, const StepSources<uint8_t>& exist, size_t pairs,
+                   size_t count);
 
-  Validity valid_;
-  uint32_t plane_width_;
-  RowSet rows_;
-  int splits_x_, splits_y_;
-  std::vector<int32_t> line_;
-  std::vector<uint8_t> line_valid_;
+  std::vector<uint8_t> regular_;  ///< 1 where neither target nor sources are void
+};
+
+/// As liftColumns(). valid: of the rows, as they lie.
+void liftMaskedColumns(const Rows<int32_t>& rows, const Rows<const uint8_t>& valid, FilterId id,
+                       Direction direction);
+
+/// As RowLifting. valid: of the row, the low half before the high half.
+class MaskedRowLifting {
+ public:
+  explicit MaskedRowLifting(uint32_t longest) : values_(longest), valid_(longest) {}
+
+  void analyse(int32_t* row, const uint8_t* valid, uint32_t length, FilterId id);
+  void synthesise(int32_t* row, const uint8_t* valid, uint32_t length, FilterId id);
+
+ private:
+  void run(FilterId id, Direction direction);
+
+  Halves<int32_t> values_;
+  Halves<uint8_t> valid_;
+  MaskedStep step_;
 };
 
 }  // namespace tetrakis

@@ -4,9 +4,12 @@
 
 #include <cassert>
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "bitstream/parallel.hpp"
 #include "wavelet/lifting.hpp"
+#include "wavelet/masked_lifting.hpp"
 
 namespace tetrakis {
 
@@ -19,7 +22,7 @@ struct LowBand {
   Extent extent;
   int splits_x, splits_y;
 
-  RowSet rows() const { return {plane, stride << splits_y, extent.height, extent.width}; }
+  Rows<int32_t> rows() const { return {plane, stride << splits_y, extent.height, extent.width}; }
   std::span<int32_t> row(uint32_t y) const {
     return {plane + (size_t{y} << splits_y) * stride, extent.width};
   }
@@ -49,6 +52,34 @@ std::vector<LowBand> lowBands(std::span<int32_t> plane, uint32_t width, uint32_t
   return bands;
 }
 
+/// Which samples of a low band exist, where their values lie: of rows that are split, those of the
+/// low half come first.
+class LevelMask {
+ public:
+  /// valid: of the whole plane.
+  LevelMask(Validity valid, uint32_t plane_width, const LowBand& band, bool split_rows)
+      : width_(band.extent.width), height_(band.extent.height) {
+    const uint32_t lows = width_ - width_ / 2;
+    mask_.reserve(size_t{width_} * height_);
+    for (uint32_t y = 0; y < height_; ++y) {
+      const uint8_t* row = valid.data() + (size_t{y} << band.splits_y) * plane_width;
+      for (uint32_t x = 0; x < width_; ++x) {
+        const uint32_t column = !split_rows ? x : x < lows ? 2 * x : 2 * (x - lows) + 1;
+        mask_.push_back(row[size_t{column} << band.splits_x]);
+      }
+    }
+  }
+
+  const uint8_t* row(uint32_t y) const { return mask_.data() + size_t{y} * width_; }
+  Rows<const uint8_t> columns(uint32_t begin, uint32_t end) const {
+    return {mask_.data() + begin, width_, height_, end - begin};
+  }
+
+ private:
+  uint32_t width_, height_;
+  std::vector<uint8_t> mask_;
+};
+
 /// One level of the transform: rows, then columns; backwards the other way round.
 class LevelTransform {
  public:
@@ -56,43 +87,59 @@ class LevelTransform {
       : spec_(spec), valid_(valid), plane_width_(plane_width), threads_(threads) {}
 
   void run(int level, const LowBand& whole, const LowBand& low, Direction direction) {
-    const FilterId id = spec_.filter(level);
-    // With voids all sums are wide, so that they do not depend on where the voids are.
-    const bool wide = spec_.wide(level) || !valid_.empty();
-    const bool analysis = direction == Direction::kAnalysis;
     const bool rows = low.extent.width < whole.extent.width;
     const bool columns = low.extent.height < whole.extent.height;
-    if (rows && analysis) liftRows(whole, id, direction, wide);
-    if (columns) liftColumns(whole, id, direction, wide, rows);
-    if (rows && !analysis) liftRows(whole, id, direction, wide);
+    std::optional<LevelMask> mask;
+    if (!valid_.empty()) mask.emplace(valid_, plane_width_, whole, rows);
+    const Lifting lifting{spec_.filter(level), direction, spec_.wide(level), mask};
+    const bool analysis = direction == Direction::kAnalysis;
+    if (rows && analysis) liftRows(whole, lifting);
+    if (columns) liftColumns(whole, lifting);
+    if (rows && !analysis) liftRows(whole, lifting);
   }
 
  private:
   /// Rows or columns that a thread takes at a time.
   static constexpr uint32_t kChunk = 256;
 
-  void liftRows(const LowBand& whole, FilterId id, Direction direction, bool wide) {
-    if (!valid_.empty()) {
-      RowLifting lifting(whole.extent.width);
-      return masked(whole).liftRows(lifting, id, direction, wide);
-    }
+  struct Lifting {
+    FilterId id;
+    Direction direction;
+    bool wide;
+    const std::optional<LevelMask>& mask;
+  };
+
+  void liftRows(const LowBand& whole, const Lifting& lifting) {
+    const uint32_t width = whole.extent.width;
+    const bool analysis = lifting.direction == Direction::kAnalysis;
     inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
-      RowLifting lifting(whole.extent.width);
+      if (lifting.mask) {
+        MaskedRowLifting masked(width);
+        for (uint32_t y = begin; y < end; ++y) {
+          int32_t* row = whole.row(y).data();
+          const uint8_t* valid = lifting.mask->row(y);
+          analysis ? masked.analyse(row, valid, width, lifting.id)
+                   : masked.synthesise(row, valid, width, lifting.id);
+        }
+        return;
+      }
+      RowLifting plain(width);
       for (uint32_t y = begin; y < end; ++y) {
-        const std::span<int32_t> row = whole.row(y);
-        direction == Direction::kAnalysis
-            ? lifting.analyse(row.data(), whole.extent.width, id, wide)
-            : lifting.synthesise(row.data(), whole.extent.width, id, wide);
+        int32_t* row = whole.row(y).data();
+        analysis ? plain.analyse(row, width, lifting.id, lifting.wide)
+                 : plain.synthesise(row, width, lifting.id, lifting.wide);
       }
     });
   }
-  void liftColumns(const LowBand& whole, FilterId id, Direction direction, bool wide,
-                   bool split_rows) {
-    if (!valid_.empty()) return masked(whole).liftColumns(id, direction, wide, split_rows);
-    const RowSet rows = whole.rows();
+  void liftColumns(const LowBand& whole, const Lifting& lifting) {
+    const Rows<int32_t> rows = whole.rows();
     inChunks(rows.width, [&](uint32_t begin, uint32_t end) {
-      tetrakis::liftColumns({rows.first + begin, rows.pitch, rows.count, end - begin}, id,
-                            direction, wide);
+      const Rows<int32_t> part{rows.first + begin, rows.pitch, rows.count, end - begin};
+      if (lifting.mask) {
+        liftMaskedColumns(part, lifting.mask->columns(begin, end), lifting.id, lifting.direction);
+      } else {
+        tetrakis::liftColumns(part, lifting.id, lifting.direction, lifting.wide);
+      }
     });
   }
   void inChunks(uint32_t count, const std::function<void(uint32_t, uint32_t)>& lift) {
@@ -101,9 +148,6 @@ class LevelTransform {
       const auto begin = static_cast<uint32_t>(i) * chunk;
       lift(begin, std::min(count, begin + chunk));
     });
-  }
-  MaskedLifting masked(const LowBand& whole) const {
-    return {valid_, plane_width_, whole.rows(), whole.splits_x, whole.splits_y};
   }
 
   const WaveletSpec& spec_;
