@@ -124,6 +124,7 @@ class EncodingIo {
     fillDrawn(indices_, colours_, 1, decoded);
     const double squares = countedSquares(texels, decoded, {});
     next_ = std::max(kLeastStep, static_cast<uint64_t>(growth() * static_cast<double>(bytes)));
+    if (squares == 0) next_ = UINT64_MAX;  // nothing is left to be found
     const bool better = points_.empty() || (squares > 0 && squares < points_.back().distortion);
     if (better) points_.push_back({bytes, squares, bytes > 0 && bytes <= kDippingBytes});
   }
