@@ -176,19 +176,20 @@ bool EncodeJob::nearlyExact() const {
 /// are the cheaper way to lossless.
 void EncodeJob::encodeLosslessIfItFits() {
   const bool possible = !geometry_ || geometry_->steps.exact;
-  if (!budgeted() || !possible || !nearlyExact()) return;
+  const bool drawn = texture_ && texture_->header.drawn();  // lossless as it stands
+  if (!budgeted() || !possible || (drawn && !geometry_) || !nearlyExact()) return;
   const std::vector<Packet> lossy_packets = packets_;
   const std::optional<EncodedHeights> lossy_geometry = geometry_;
   std::vector<EncodedTexture> lossy_texture;
   if (geometry_) encodeGeometry(Purpose::kLossless);
-  if (texture_) {
+  if (texture_ && !drawn) {
     lossy_texture.push_back(std::move(*texture_));
     texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(TrackId::kTexture));
   }
   order();
   if (restoresEverything() && totalPayload() <= options_.bytes) return;
   geometry_ = lossy_geometry;
-  if (texture_) texture_ = std::move(lossy_texture.front());
+  if (!lossy_texture.empty()) texture_ = std::move(lossy_texture.front());
   packets_ = lossy_packets;
 }
 

@@ -148,7 +148,7 @@ void EncodeJob::preferLossless(Needs& needs) {
     encodeGeometry(Purpose::kLossless);
     decide(geometry_, std::move(lossy), needs[0]);
   }
-  if (texture_ && nearly_exact(TrackId::kTexture)) {
+  if (texture_ && !texture_->header.drawn() && nearly_exact(TrackId::kTexture)) {
     std::optional<EncodedTexture> lossy = std::move(texture_);
     texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(TrackId::kTexture));
     decide(texture_, std::move(lossy), needs[1]);

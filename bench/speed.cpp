@@ -25,6 +25,8 @@ using Bytes = std::vector<uint8_t>;
 constexpr uint32_t kHeightSide = 1025;
 constexpr uint32_t kImageSide = 1024;
 constexpr uint64_t kJointBytes = 65536;
+constexpr uint32_t kGraticule = 64;  // texels between the lines of a graticule
+constexpr uint32_t kClasses = 16;    // of heights in a map of them
 
 struct Options {
   std::string heights, image;  // both empty: the sample terrain
@@ -34,6 +36,7 @@ struct Options {
 
 struct Terrain {
   Raster heights, image;
+  Raster overlaid, drawn;  ///< the image with lines over it; a map of the heights
 };
 
 /// The same work for both codecs.
@@ -48,6 +51,28 @@ struct Streams {
   Bytes tetrakis;
   std::vector<Bytes> openjpeg;
 };
+
+/// The image with white lines over it: a photograph with an overlay.
+Raster withGraticule(Raster image) {
+  for (size_t i = 0; i < image.samples.size(); ++i) {
+    const size_t pixel = i / image.channels;
+    if (pixel % image.width % kGraticule == 0 || pixel / image.width % kGraticule == 0)
+      image.samples[i] = 255;
+  }
+  return image;
+}
+
+/// Classes of heights, each in a colour of its own: a drawn map.
+Raster hypsometricMap(const Raster& heights, Raster image) {
+  const Raster ground = mirrorTo(heights, image.width, image.height);
+  const auto [low, high] = std::minmax_element(ground.samples.begin(), ground.samples.end());
+  const uint32_t range = uint32_t{*high} - *low + 1u;
+  for (size_t i = 0; i < image.samples.size(); ++i) {
+    const uint32_t level = kClasses * (uint32_t{ground.samples[i / image.channels]} - *low) / range;
+    image.samples[i] = static_cast<uint16_t>((level * (37 + 50 * (i % image.channels))) % 256);
+  }
+  return image;
+}
 
 Result<Terrain> loadTerrain(const Options& options) {
   tools::HeightFile heights;
@@ -68,8 +93,12 @@ Result<Terrain> loadTerrain(const Options& options) {
   }
   const Result<Raster> samples = heightRaster(heights);
   if (!samples.ok()) return samples.status();
-  return Terrain{mirrorTo(*samples, kHeightSide, kHeightSide),
-                 mirrorTo(imageRaster(image), kImageSide, kImageSide)};
+  Terrain terrain;
+  terrain.heights = mirrorTo(*samples, kHeightSide, kHeightSide);
+  terrain.image = mirrorTo(imageRaster(image), kImageSide, kImageSide);
+  terrain.overlaid = withGraticule(terrain.image);
+  terrain.drawn = hypsometricMap(terrain.heights, terrain.image);
+  return terrain;
 }
 
 /// Codes `source` with either codec; OpenJPEG is given the bytes that Tetrakis spent on each track.
@@ -132,13 +161,15 @@ Status addTasks(const std::string& name, StreamSource source, uint64_t bytes,
 }
 
 Result<std::vector<Task>> makeTasks(const Terrain& terrain) {
-  const Raster& heights = terrain.heights;
-  const Raster& image = terrain.image;
+  const Raster &heights = terrain.heights, &image = terrain.image;
+  const uint64_t one_bit = image.pixels() / 8;
   std::vector<Task> tasks;
   Status status = addTasks("joint_64k", {&heights, &image}, kJointBytes, tasks);
   if (status.ok())
     status = addTasks("heights_1bpp", {&heights, nullptr}, heights.pixels() / 8, tasks);
-  if (status.ok()) status = addTasks("texture_1bpp", {nullptr, &image}, image.pixels() / 8, tasks);
+  if (status.ok()) status = addTasks("texture_1bpp", {nullptr, &image}, one_bit, tasks);
+  if (status.ok()) status = addTasks("overlay_1bpp", {nullptr, &terrain.overlaid}, one_bit, tasks);
+  if (status.ok()) status = addTasks("drawn_1bpp", {nullptr, &terrain.drawn}, one_bit, tasks);
   if (!status.ok()) return status;
   return tasks;
 }

@@ -32,12 +32,15 @@ std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts, Validi
     const Component& component = components_[c];
     const auto first = static_cast<int>(bands.size());
     std::vector<BandPlan> plan = layout_.plan(parts, first, component.priority, component.models);
-    markAbsent(layout_, parts, coded, width, plan);
+    if (c == 0) markAbsent(layout_, parts, coded, width, plan);
     for (size_t i = 0; i < plan.size(); ++i) {
       BandPlan& band = plan[i];
       const Subband& subband = layout_.subbands()[parts[i].subband];
       band.log_norm += static_cast<int>(weights_.at(c, subband.level, subband.orientation));
-      if (first > 0) band.component = static_cast<int>(bands.size() - parts.size());
+      if (first > 0) {
+        band.component = static_cast<int>(bands.size() - parts.size());
+        band.absent = bands[i].absent;
+      }
       bands.push_back(std::move(band));
     }
   }

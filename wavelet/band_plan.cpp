@@ -87,9 +87,11 @@ void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Vali
     bands[i].absent.assign(shape.wordCells(), 0);
     for (uint32_t row = 0; row < part.rows; ++row) {
       const uint8_t* samples = valid.data() + size_t{subband.planeRow(part.row + row)} * width;
-      for (uint32_t column = 0; column < part.columns; ++column) {
-        const uint32_t absent = samples[subband.sampleColumn(part.column + column)] == 0;
-        bands[i].absent[shape.word(row, column / 32)] |= absent << column % 32;
+      for (uint32_t first = 0; first < part.columns; first += 32) {
+        uint32_t word = 0;
+        for (uint32_t k = 0; k < std::min(32u, part.columns - first); ++k)
+          word |= uint32_t{samples[subband.sampleColumn(part.column + first + k)] == 0} << k;
+        bands[i].absent[shape.word(row, first / 32)] = word;
       }
     }
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wavelet/masked_lifting.hpp"
 
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <numeric>
 
 namespace tetrakis {
 
@@ -30,13 +32,6 @@ uint32_t changeOf(const LiftingSources& sources, const StepSources<uint8_t>& exi
   return found ? static_cast<uint32_t>(sum >> rule.shift) : 0;
 }
 
-/// How many of the first values, which are 0 or 1, are `value`.
-size_t runOf(uint8_t value, const uint8_t* values, size_t count) {
-  const void* other = std::memchr(values, 1 - value, count);
-  return other == nullptr ? count
-                          : static_cast<size_t>(static_cast<const uint8_t*>(other) - values);
-}
-
 LiftingSources from(const LiftingSources& sources, size_t pairs, size_t j) {
   LiftingSources rest{};
   for (size_t k = 0; k < pairs; ++k) {
@@ -51,19 +46,29 @@ LiftingSources from(const LiftingSources& sources, size_t pairs, size_t j) {
 void MaskedStep::lift(int32_t* target, const uint8_t* valid, const LiftingSources& sources,
                       const StepSources<uint8_t>& exist, const LiftingRule& rule, size_t count) {
   findRegular(valid, exist, rule.step.pairs, count);
-  for (size_t j = 0; j < count;) {
-    if (const size_t run = runOf(1, regular_.data() + j, count - j); run > 0) {
-      liftStep(target + j, from(sources, rule.step.pairs, j), rule, run);
-      j += run;
-    } else if (const size_t voids = runOf(0, valid + j, count - j); voids > 0) {
-      j += voids;
-    } else {
-      const uint32_t change = changeOf(sources, exist, rule, j);
-      const auto value = static_cast<uint32_t>(target[j]);
+  const auto lift_all = [&](size_t begin, size_t end) {
+    liftStep(target + begin, from(sources, rule.step.pairs, begin), rule, end - begin);
+  };
+  const uint8_t* const regular = regular_.data();
+  size_t done = 0;  // what lies between it and the current block is regular
+  for (size_t begin = 0; begin < count; begin += kBlock) {
+    const size_t end = std::min(count, begin + kBlock);
+    const auto found = std::accumulate(regular + begin, regular + end, size_t{0});
+    if (found == end - begin) continue;
+    lift_all(done, begin);
+    done = end;
+    std::array<int32_t, kBlock> before;
+    std::copy(target + begin, target + end, before.begin());
+    if (found > 0) lift_all(begin, end);
+    for (size_t j = begin; j < end; ++j) {
+      if (regular[j] != 0) continue;
       const bool adds = rule.direction == Direction::kAnalysis;
-      target[j++] = static_cast<int32_t>(adds ? value + change : value - change);
+      const uint32_t change = valid[j] != 0 ? changeOf(sources, exist, rule, j) : 0;
+      const auto value = static_cast<uint32_t>(before[j - begin]);
+      target[j] = static_cast<int32_t>(adds ? value + change : value - change);
     }
   }
+  lift_all(done, count);
 }
 
 void MaskedStep::findRegular(const uint8_t* valid, const StepSources<uint8_t>& exist, size_t pairs,

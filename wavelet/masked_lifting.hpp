@@ -22,7 +22,8 @@ namespace tetrakis {
 /// Samples of a plane, width * height: 1 valid, 0 void; empty: all are valid.
 using Validity = std::span<const uint8_t>;
 
-/// One step of many signals at once. Targets of which no neighbour is void go through liftStep().
+/// One step of many signals at once: through liftStep(), and of the targets that are void or have a
+/// void neighbour once more by themselves.
 class MaskedStep {
  public:
   /// valid, exist: 1 where a target or source exists, else 0; beside the values.
@@ -30,6 +31,8 @@ class MaskedStep {
             const StepSources<uint8_t>& exist, const LiftingRule& rule, size_t count);
 
  private:
+  static constexpr size_t kBlock = 64;
+
   void findRegular(const uint8_t* valid, const StepSources<uint8_t>& exist, size_t pairs,
                    size_t count);
 

@@ -32,6 +32,7 @@ void MipLevel::dropFiner(std::span<const BandPart> parts, std::span<BandPlan> ba
 
 std::vector<uint8_t> MipLevel::maskOf(Validity valid, uint32_t width) const {
   std::vector<uint8_t> mask;
+  if (splits_x_ == 0 && splits_y_ == 0) return {valid.begin(), valid.end()};
   if (valid.empty()) return mask;
   mask.reserve(size_t{low_.width} * low_.height);
   for (uint32_t y = 0; y < low_.height; ++y) {

@@ -58,15 +58,14 @@ class LevelMask {
  public:
   /// valid: of the whole plane.
   LevelMask(Validity valid, uint32_t plane_width, const LowBand& band, bool split_rows)
-      : width_(band.extent.width), height_(band.extent.height) {
-    const uint32_t lows = width_ - width_ / 2;
-    mask_.reserve(size_t{width_} * height_);
+      : width_(band.extent.width), height_(band.extent.height), mask_(size_t{width_} * height_) {
+    const uint32_t lows = split_rows ? width_ - width_ / 2 : width_;
+    const uint32_t pitch = (split_rows ? 2u : 1u) << band.splits_x;
+    uint8_t* to = mask_.data();
     for (uint32_t y = 0; y < height_; ++y) {
       const uint8_t* row = valid.data() + (size_t{y} << band.splits_y) * plane_width;
-      for (uint32_t x = 0; x < width_; ++x) {
-        const uint32_t column = !split_rows ? x : x < lows ? 2 * x : 2 * (x - lows) + 1;
-        mask_.push_back(row[size_t{column} << band.splits_x]);
-      }
+      for (uint32_t x = 0; x < lows; ++x) *to++ = row[size_t{x} * pitch];
+      for (uint32_t x = 0; x < width_ - lows; ++x) *to++ = row[size_t{x} * pitch + pitch / 2];
     }
   }
 
