@@ -62,6 +62,9 @@ void forwardLevelColour(const ColourTransform& transform, int level,
 void inverseLevelColour(const ColourTransform& transform, int level,
                         std::span<int32_t* const> planes, size_t count);
 
+/// Samples that go through the transform together: few enough for the cache.
+inline constexpr size_t kColourChunk = 2048;
+
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 /// The linear version of the shears: component i = sum_j matrix[i][j] * (channel j - centre[j]),

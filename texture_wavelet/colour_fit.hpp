@@ -4,28 +4,14 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "texture_wavelet/colour.hpp"
-#include "texture_wavelet/colour_details.hpp"
-#include "wavelet/filter_choice.hpp"
 
 namespace tetrakis {
 
 /// Centres every plane on its mean and fits the shears of RGB to the image. planes: 1 to 4 planes
 /// of width * height samples of at most 16 bits, as in forwardColour.
 ColourTransform fitColour(std::span<const int32_t* const> planes, uint32_t width, uint32_t height);
-
-/// Axes of colour that need the fewest bits: rows of rotations, luma first.
-struct ColourAxes {
-  std::vector<ColourDetails> details;  ///< empty: the image is too small to have any
-  Matrix3 overall;                     ///< for all scales, each counting as much
-  std::vector<Matrix3> levels;         ///< [i]: for level i + 1; as many as details
-};
-
-/// Of 3 or more planes.
-ColourAxes fitAxes(std::span<const int32_t* const> planes, uint32_t width, uint32_t height,
-                   Purpose purpose);
 
 /// Only centres every plane on its mean.
 ColourTransform centred(std::span<const int32_t* const> planes, size_t count);

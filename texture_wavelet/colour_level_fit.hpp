@@ -3,7 +3,7 @@
 #pragma once
 
 #include "texture_wavelet/colour.hpp"
-#include "texture_wavelet/colour_fit.hpp"
+#include "texture_wavelet/colour_axes.hpp"
 
 namespace tetrakis {
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "texture_wavelet/colour_axes.hpp"
 #include "texture_wavelet/colour_fit.hpp"
 #include "texture_wavelet/colour_level_fit.hpp"
 #include "wavelet/typical_parts.hpp"

@@ -11,7 +11,7 @@ namespace tetrakis {
 
 /// A rotation that packs the energy is best at low rates; the last bits are noise, which it spreads
 /// over all components. Takes the cheapest, by the residuals of a gradient predictor, of the
-/// fitted rotations (colour_fit.hpp), JPEG 2000's reversible transform about each channel, and
+/// fitted rotations (colour_axes.hpp), JPEG 2000's reversible transform about each channel, and
 /// none. planes: 1 to 4 planes of width * height samples, as in fitColour.
 ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, uint32_t width,
                                      uint32_t height);

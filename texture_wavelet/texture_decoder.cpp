@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <utility>
 
 #include "bitstream/parallel.hpp"
-#include "lattice/validity_decoder.hpp"
 #include "texture_wavelet/colour_levels.hpp"
 #include "texture_wavelet/drawn_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
@@ -18,9 +16,6 @@ namespace tetrakis {
 
 namespace {
 
-/// Samples that go through the colour transform together: few enough for the cache.
-constexpr size_t kChunk = 2048;
-
 /// Components, of as many samples as `texels` has places, to interleaved samples.
 void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* const> planes,
             uint32_t threads, Texels& texels) {
@@ -28,8 +23,8 @@ void finish(const TextureHeader& header, int fraction_bits, std::span<int32_t* c
   const int32_t most = texels.most();
   const ColourTransform colour = colourOf(header);
   texels.samples.resize(count * channels);
-  parallelFor(threads, (count + kChunk - 1) / kChunk, [&](size_t i) {
-    const size_t first = i * kChunk, size = std::min(kChunk, count - first);
+  parallelFor(threads, (count + kColourChunk - 1) / kColourChunk, [&](size_t i) {
+    const size_t first = i * kColourChunk, size = std::min(kColourChunk, count - first);
     std::vector<int32_t*> chunk(planes.size());
     for (size_t c = 0; c < planes.size(); ++c) chunk[c] = planes[c] + first;
     inverseColour(colour, chunk, size, fraction_bits);
@@ -51,62 +46,6 @@ void finishAlpha(std::span<const uint8_t> seen, Texels& texels) {
 Texels emptyTexels(const TextureHeader& header, uint32_t width, uint32_t height) {
   return {width, height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
 }
-
-/// The first so many bytes, which are taken off.
-std::span<const uint8_t> take(uint64_t bytes, std::span<const uint8_t>& codeword) {
-  const auto taken =
-      codeword.first(static_cast<size_t>(std::min<uint64_t>(bytes, codeword.size())));
-  codeword = codeword.subspan(taken.size());
-  return taken;
-}
-
-TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_t> alpha,
-                             std::span<const uint8_t> drawn) {
-  TextureOpening opening;
-  if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.width, header.height);
-  if (header.hidden) opening.coded = opening.seen;
-  if (header.overlay_bytes == 0) return opening;
-  opening.overlay = decodeOverlay(header, drawn);
-  const std::vector<ColourIndex>& indices = opening.overlay.indices;
-  if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
-  for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
-  return opening;
-}
-
-/// What a codeword opens with, which is taken off.
-TextureOpening takeOpening(const TextureHeader& header, TextureMemory* memory,
-                           std::span<const uint8_t>& codeword) {
-  const auto alpha = take(header.alpha_bytes, codeword);
-  const auto drawn = take(header.overlay_bytes, codeword);
-  const bool whole = alpha.size() == header.alpha_bytes && drawn.size() == header.overlay_bytes;
-  if (memory == nullptr || !whole) return decodeOpening(header, alpha, drawn);
-  if (!memory->opening) memory->opening = decodeOpening(header, alpha, drawn);
-  return *memory->opening;
-}
-
-/// The tracks taken apart.
-struct Layers {
-  Codewords coefficients;
-  TextureOpening opening;
-
-  Layers(const TextureHeader& header, const Codewords& codewords, TextureMemory* memory = nullptr)
-      : coefficients(codewords), opening(takeOpening(header, memory, coefficients.front())) {}
-
-  /// Draws over texels that lie `step` apart in the whole image, from (x0, y0) on.
-  void paint(uint32_t width, uint32_t x0, uint32_t y0, uint32_t step, Texels& texels) const {
-    if (opening.overlay.indices.empty()) return;
-    uint16_t* out = texels.samples.data();
-    for (uint32_t y = 0; y < texels.height; ++y) {
-      const ColourIndex* row =
-          opening.overlay.indices.data() + (y0 + size_t{y} * step) * width + x0;
-      for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
-        const ColourIndex index = row[size_t{x} * step];
-        if (index == kSeeThrough) continue;
-        std::copy_n(opening.overlay.colours[index].begin(), texels.channels, out);
-      }
-    }
-  }
-};
 
 /// What a track holds, and which bands of it a level needs; empty: none.
 std::vector<BandPlan> planOf(const TexturePlan& plan, std::span<const BandPart> parts,
@@ -202,43 +141,45 @@ Texels crop(const Texels& whole, const Window& window) {
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level,
                      uint32_t threads, TextureMemory* memory) {
   if (header.drawn()) return decodeDrawn(header, codewords.front(), level);
-  const Layers layers(header, codewords, memory);
+  Codewords coefficients = codewords;
+  const auto opening =
+      takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   const TexturePlan plan(header);
   const MipLevel mip(header.width, header.height, level);
   Planes planes(header, mip);
-  const Validity coded = layers.opening.coded;
+  const Validity coded = opening->coded;
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
   const int fraction_bits = tracks.run(
-      layers.coefficients,
-      [&](size_t i) { return planOf(plan, plan.parts(i), coded, header.width, mip); },
+      coefficients, [&](size_t i) { return planOf(plan, plan.parts(i), coded, header.width, mip); },
       [&](size_t i, const TrackState& state, int more_bits) {
         planes.put(state, plan.parts(i), more_bits);
       },
       memory == nullptr ? nullptr : &memory->track);
-  const auto pointers = planes.restore(mip.maskOf(layers.opening.coded, header.width), threads);
+  const auto pointers = planes.restore(mip.maskOf(coded, header.width), threads);
   Texels texels = emptyTexels(header, mip.size().width, mip.size().height);
   finish(header, fraction_bits, pointers, threads, texels);
-  std::vector<uint8_t> seen = mip.maskOf(layers.opening.seen, header.width);
+  std::vector<uint8_t> seen = mip.maskOf(opening->seen, header.width);
   if (!seen.empty()) {
     mip.thin(std::span(seen));
     finishAlpha(std::span(seen).first(mip.samples()), texels);
   }
-  layers.paint(header.width, 0, 0, uint32_t{1} << level, texels);
+  opening->paint(header.width, 0, 0, uint32_t{1} << level, texels);
   return texels;
 }
 
 Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
                            const Window& window, uint32_t threads) {
   if (header.drawn()) return crop(decodeDrawn(header, codewords.front(), 0), window);
-  const Layers layers(header, codewords);
-  const Validity coded = layers.opening.coded;
+  Codewords coefficients = codewords;
+  const auto opening = takeOpening(header, nullptr, coefficients.front());
+  const Validity coded = opening->coded;
   const TexturePlan plan(header);
   std::vector<WindowSynthesis> synthesis(
       header.components(), WindowSynthesis(specOf(header.wavelet), plan.layout().subbands(),
                                            header.width, header.height, window));
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
   const int fraction_bits = tracks.run(
-      layers.coefficients,
+      coefficients,
       [&](size_t i) {
         const std::vector<BandPart> parts = plan.parts(i);
         const bool needed = std::any_of(parts.begin(), parts.end(), [&](const BandPart& part) {
@@ -265,8 +206,8 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
   for (std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
   Texels texels = emptyTexels(header, window.width, window.height);
   finish(header, fraction_bits, pointers, threads, texels);
-  finishAlpha(cropped(layers.opening.seen), texels);
-  layers.paint(header.width, window.x, window.y, 1, texels);
+  finishAlpha(cropped(opening->seen), texels);
+  opening->paint(header.width, window.x, window.y, 1, texels);
   return texels;
 }
 

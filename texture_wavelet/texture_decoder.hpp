@@ -3,29 +3,21 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <vector>
+#include <memory>
 
 #include "bitstream/header.hpp"
 #include "bitstream/packet.hpp"
-#include "texture_wavelet/drawn_decoder.hpp"
 #include "texture_wavelet/texels.hpp"
+#include "texture_wavelet/texture_opening.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/window.hpp"
 
 namespace tetrakis {
 
-/// What comes before the coefficients of a texture.
-struct TextureOpening {
-  std::vector<uint8_t> seen;  ///< of all texels: 1 where alpha is not 0; empty: not a cut-out
-  DrawnOverlay overlay;
-  std::vector<uint8_t> coded;  ///< of all texels: 1 where coefficients count; empty: everywhere
-};
-
 /// What one call of decodeTexture() leaves to the next, whose only track is longer by some bytes
 /// and starts in the same memory. Empty at first.
 struct TextureMemory {
-  std::optional<TextureOpening> opening;  ///< once it is whole
+  std::shared_ptr<const TextureOpening> opening;  ///< once it is whole
   TrackMemory track;
 };
 

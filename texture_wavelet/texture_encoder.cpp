@@ -64,15 +64,12 @@ TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
   return header;
 }
 
-/// Samples that go through the colour transform together: few enough for the cache.
-constexpr size_t kChunk = 2048;
-
 void transformColours(const ColourTransform& colour, int fraction_bits, Planes& planes) {
   const size_t count = planes.front().size();
   std::vector<int32_t*> chunk(planes.size());
-  for (size_t first = 0; first < count; first += kChunk) {
+  for (size_t first = 0; first < count; first += kColourChunk) {
     for (size_t c = 0; c < planes.size(); ++c) chunk[c] = planes[c].data() + first;
-    forwardColour(colour, chunk, std::min(kChunk, count - first), fraction_bits);
+    forwardColour(colour, chunk, std::min(kColourChunk, count - first), fraction_bits);
   }
 }
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/texture_opening.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "lattice/validity_decoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// The first so many bytes, which are taken off.
+std::span<const uint8_t> take(uint64_t bytes, std::span<const uint8_t>& codeword) {
+  const auto taken =
+      codeword.first(static_cast<size_t>(std::min<uint64_t>(bytes, codeword.size())));
+  codeword = codeword.subspan(taken.size());
+  return taken;
+}
+
+TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_t> alpha,
+                             std::span<const uint8_t> drawn) {
+  TextureOpening opening;
+  if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.width, header.height);
+  if (header.hidden) opening.coded = opening.seen;
+  if (header.overlay_bytes == 0) return opening;
+  opening.overlay = decodeOverlay(header, drawn);
+  const std::vector<ColourIndex>& indices = opening.overlay.indices;
+  if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
+  for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
+  return opening;
+}
+
+}  // namespace
+
+void TextureOpening::paint(uint32_t width, uint32_t x0, uint32_t y0, uint32_t step,
+                           Texels& texels) const {
+  if (overlay.indices.empty()) return;
+  uint16_t* out = texels.samples.data();
+  for (uint32_t y = 0; y < texels.height; ++y) {
+    const ColourIndex* row = overlay.indices.data() + (y0 + size_t{y} * step) * width + x0;
+    for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
+      const ColourIndex index = row[size_t{x} * step];
+      if (index != kSeeThrough) std::copy_n(overlay.colours[index].begin(), texels.channels, out);
+    }
+  }
+}
+
+std::shared_ptr<const TextureOpening> takeOpening(const TextureHeader& header,
+                                                  std::shared_ptr<const TextureOpening>* memory,
+                                                  std::span<const uint8_t>& codeword) {
+  const auto alpha = take(header.alpha_bytes, codeword);
+  const auto drawn = take(header.overlay_bytes, codeword);
+  const bool whole = alpha.size() == header.alpha_bytes && drawn.size() == header.overlay_bytes;
+  if (memory != nullptr && whole && *memory != nullptr) return *memory;
+  auto opening = std::make_shared<const TextureOpening>(decodeOpening(header, alpha, drawn));
+  if (memory != nullptr && whole) *memory = opening;
+  return opening;
+}
+
+}  // namespace tetrakis
