@@ -6,7 +6,6 @@
 
 #include "api/decoder.hpp"
 #include "api/height_steps.hpp"
-#include "api/message.hpp"
 #include "api/samples.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
@@ -95,30 +94,27 @@ Status textureWindow(const tks_decoder& decoder, const WindowRequest& request) {
   return {};
 }
 
-/// Runs `decode` and keeps its sentence in the decoder.
-tks_status keeping(tks_decoder* decoder, const WindowRequest& request,
-                   Status (*decode)(const tks_decoder&, const WindowRequest&)) {
-  if (decoder == nullptr) return TKS_USAGE;
-  const Status status = guarded([&] { return decode(*decoder, request); });
-  decoder->message = status.message();
-  return status.code();
-}
-
 }  // namespace
 
 }  // namespace tetrakis
 
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes) {
-  return tetrakis::keeping(decoder, {window, out, bytes}, tetrakis::heightsWindow);
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::heightsWindow(*decoder, {window, out, bytes});
+  });
 }
 
 tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
                                      size_t count) {
-  return tetrakis::keeping(decoder, {window, out, count * sizeof(float)}, tetrakis::surfaceWindow);
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::surfaceWindow(*decoder, {window, out, count * sizeof(float)});
+  });
 }
 
 tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes) {
-  return tetrakis::keeping(decoder, {window, out, bytes}, tetrakis::textureWindow);
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::textureWindow(*decoder, {window, out, bytes});
+  });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a tks_decoder holds.
+// What a tks_decoder holds, and what the files that work on it share.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,10 @@
 #include <string>
 
 #include "api/height_layers.hpp"
+#include "api/message.hpp"
 #include "bitstream/header.hpp"
 #include "bitstream/packet.hpp"
+#include "wavelet/mip_level.hpp"
 
 struct tks_decoder {
   std::span<const uint8_t> data;  ///< the caller's
@@ -33,5 +35,19 @@ struct SurfaceScale {
   double scale, offset;
 };
 SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry);
+
+/// The coarsest mip level of the heights or the texture of a header; 0 where there are none.
+inline int coarsestLevels(const auto& part) {
+  return part ? MipLevel::coarsestLevel(part->width, part->height) : 0;
+}
+
+/// Runs f and keeps its sentence in the decoder.
+template <class F>
+tks_status keeping(tks_decoder* decoder, F&& f) {
+  if (decoder == nullptr) return TKS_USAGE;
+  const Status status = guarded(f);
+  decoder->message = status.message();
+  return status.code();
+}
 
 }  // namespace tetrakis

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a stream, or a prefix of one, says about itself, and whether it is whole.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "api/decoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+Status verify(const tks_decoder& decoder) {
+  const StreamHeader& header = decoder.parsed.header;
+  const uint64_t total = decoder.parsed.bytes + header.payload_bytes;
+  if (decoder.data.size() < total) {
+    return {TKS_TRUNCATED, "The stream ends at byte " + std::to_string(decoder.data.size()) +
+                               " of " + std::to_string(total) + "."};
+  }
+  if (decoder.data.size() > total) {
+    return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - total) +
+                             " bytes follow its end at byte " + std::to_string(total) + "."};
+  }
+  // The encoder may cut the payload to a budget; the index then runs ahead of the packets.
+  const auto& index = header.index;
+  const auto& heads = decoder.payload.heads;
+  if (!index.empty() &&
+      (heads.size() > index.size() || !std::equal(heads.begin(), heads.end(), index.begin()))) {
+    return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
+  }
+  return {};
+}
+
+void fillQuality(const tks_decoder& decoder, tks_info& info) {
+  const StreamHeader& header = decoder.parsed.header;
+  info.heights_rmse = info.texture_psnr = -1;
+  if (const auto quality = decoder.payload.quality[0]; quality && header.geometry) {
+    info.heights_rmse = rmseOf(*quality) * header.geometry->step * std::abs(header.metadata.scale);
+  }
+  if (const auto quality = decoder.payload.quality[1]; quality && header.texture) {
+    const double peak = header.texture->sample == TKS_U8 ? 255 : 65535;
+    const double rmse = rmseOf(*quality);
+    info.texture_psnr =
+        rmse == 0 ? std::numeric_limits<double>::infinity() : 20 * std::log10(peak / rmse);
+  }
+}
+
+uint64_t bytesOf(const std::vector<std::vector<uint8_t>>& codewords) {
+  uint64_t bytes = 0;
+  for (const std::vector<uint8_t>& codeword : codewords) bytes += codeword.size();
+  return bytes;
+}
+
+uint32_t sideOf(const RegionHeader& regions) {
+  return regions.side_log2 == 0 ? 0 : uint32_t{1} << regions.side_log2;
+}
+
+void fillInfo(const tks_decoder& decoder, tks_info& info) {
+  const StreamHeader& header = decoder.parsed.header;
+  info = {};
+  info.size = sizeof(tks_info);
+  info.format_version = header.version;
+  info.profile = header.profile;
+  info.level = header.level;
+  info.header_bytes = decoder.parsed.bytes;
+  info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
+  info.available_bytes = decoder.data.size();
+  info.packets = decoder.payload.heads.size();
+  info.geometry_bytes = bytesOf(decoder.payload.codewords[0]);
+  info.texture_bytes = bytesOf(decoder.payload.codewords[1]);
+  info.has_heights = header.geometry.has_value();
+  info.has_texture = header.texture.has_value();
+  info.lossless = header.lossless;
+  info.triangles = header.triangles;
+  info.max_error = -1;
+  if (header.geometry) {
+    const GeometryHeader& g = *header.geometry;
+    const MipLevel mip(g.width, g.height, decoder.heights_level);
+    info.width = mip.size().width;
+    info.height = mip.size().height;
+    info.coarsest_level = static_cast<uint32_t>(coarsestLevels(header.geometry));
+    info.regions = sideOf(g.regions);
+    info.sample = static_cast<tks_sample>(g.sample);
+    info.base = g.base;
+    info.step = g.step;
+    info.exact_steps = g.exact;
+    info.max_error = g.max_error;
+    info.has_voids = header.layers.validity_bytes > 0;
+    info.has_nodata = header.layers.has_nodata;
+    info.nodata = header.layers.nodata;
+  }
+  if (header.texture) {
+    const MipLevel mip(header.texture->width, header.texture->height, decoder.texture_level);
+    info.texture_width = mip.size().width;
+    info.texture_height = mip.size().height;
+    info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevels(header.texture));
+    info.texture_regions = sideOf(header.texture->regions);
+    info.texture_channels = header.texture->channels;
+    info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;
+    info.texture_drawn = header.texture->drawn() ? 1 : header.texture->overlay_bytes > 0 ? 2 : 0;
+    info.texture_sample = static_cast<tks_sample>(header.texture->sample);
+  }
+  const Metadata& m = header.metadata;
+  info.scale = m.scale;
+  info.offset = m.offset;
+  info.spacing_x = std::ldexp(m.spacing_x, decoder.heights_level);
+  info.spacing_y = std::ldexp(m.spacing_y, decoder.heights_level);
+  info.unit = m.unit.c_str();
+  info.vertical_datum = m.vertical_datum.c_str();
+  info.crs = m.crs.c_str();
+  fillQuality(decoder, info);
+}
+
+}  // namespace
+
+}  // namespace tetrakis
+
+tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
+  if (decoder == nullptr || info == nullptr || info->size != sizeof(tks_info)) return TKS_USAGE;
+  tetrakis::fillInfo(*decoder, *info);
+  return TKS_OK;
+}
+
+tks_status tks_verify(tks_decoder* decoder) {
+  return tetrakis::keeping(decoder, [&] { return tetrakis::verify(*decoder); });
+}
