@@ -136,6 +136,8 @@ TrackOptions EncodeJob::trackOptions(TrackId component) const {
   track.region_log2 = component == TrackId::kGeometry ? geometryRegions(*heights_, options_)
                                                       : textureRegions(*image_, options_);
   track.threads = options_.threads;
+  if (component == TrackId::kTexture && options_.psnr > 0)
+    track.mean_square = worstMeanSquare(texels_.most(), options_.psnr);
   track.visual = component == TrackId::kTexture && options_.weights == TKS_WEIGHTS_VISUAL;
   return track;
 }
@@ -186,8 +188,16 @@ void EncodeJob::encodeLosslessIfItFits() {
     lossy_texture.push_back(std::move(*texture_));
     texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(TrackId::kTexture));
   }
-  order();
-  if (restoresEverything() && totalPayload() <= options_.bytes) return;
+  const uint64_t bytes =
+      (geometry_ ? bytesOf(geometry_->tracks) : 0) + (texture_ ? bytesOf(texture_->tracks) : 0);
+  if (bytes < options_.bytes) {
+    order();
+    const std::vector<Packet> ordered = packets_;
+    packets_ = joinNeighbours(ordered);
+    const bool fits = isLossless();
+    packets_ = ordered;
+    if (fits) return;
+  }
   geometry_ = lossy_geometry;
   if (!lossy_texture.empty()) texture_ = std::move(lossy_texture.front());
   packets_ = lossy_packets;

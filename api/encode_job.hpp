@@ -51,6 +51,11 @@ uint64_t bytesOf(const std::vector<EncodedTrack>& tracks);
 /// RMSE in steps, or texel units, below which the last bit is worth a try.
 inline constexpr double kNearlyExact = 0.6;
 
+/// That meets a PSNR.
+inline double worstMeanSquare(double peak, double psnr) {
+  return peak * peak / std::pow(10, psnr / 10);
+}
+
 class EncodeJob {
  public:
   /// The arguments have passed checkArguments() and outlive the job.
@@ -121,6 +126,7 @@ class EncodeJob {
   void keepWithinBudget();
   uint64_t totalPayload() const;
   bool restoresEverything() const;
+  bool isLossless() const;
 
   const tks_heights* heights_;
   const tks_image* image_;

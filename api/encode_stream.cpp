@@ -79,12 +79,20 @@ bool EncodeJob::restoresEverything() const {
   return exact[0] && exact[1] && restored && !hidden;
 }
 
+/// All samples come back, header and all within the budget.
+bool EncodeJob::isLossless() const {
+  if (!restoresEverything()) return false;
+  const uint64_t payload = totalPayload();
+  return !budgeted() || writeHeader(makeHeader(payload, true)).size() + payload <= options_.bytes;
+}
+
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {
   std::array<Codewords, kTracks> codewords;
   if (geometry_) codewords[0] = codewordsOf(geometry_->tracks);
   if (texture_) codewords[1] = codewordsOf(texture_->tracks);
   uint64_t room = UINT64_MAX >> 1;
-  if (options_.bytes != 0) {
+  const bool lossless = isLossless();
+  if (budgeted() && !lossless) {
     const size_t header_bytes = writeHeader(makeHeader(options_.bytes, false)).size();
     if (options_.bytes < header_bytes) {
       return Status(TKS_USAGE, "A budget of " + std::to_string(options_.bytes) +
@@ -94,7 +102,6 @@ Result<std::vector<uint8_t>> EncodeJob::assemble() const {
     room = options_.bytes - header_bytes;
   }
   const uint64_t payload_bytes = std::min(room, totalPayload());
-  const bool lossless = totalPayload() <= room && restoresEverything();
   std::vector<uint8_t> stream = writeHeader(makeHeader(payload_bytes, lossless));
   const std::vector<uint8_t> payload = multiplex(packets_, codewords, payload_bytes);
   stream.insert(stream.end(), payload.begin(), payload.end());

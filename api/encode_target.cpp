@@ -13,10 +13,6 @@ namespace tetrakis {
 
 namespace {
 
-double worstMeanSquare(double peak, double psnr) {
-  return peak * peak / std::pow(10, psnr / 10);
-}
-
 /// A packet among the payload bytes of its component.
 struct PayloadRange {
   uint64_t begin, end;

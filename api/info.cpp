@@ -35,10 +35,12 @@ Status verify(const tks_decoder& decoder) {
 void fillQuality(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.heights_rmse = info.texture_psnr = -1;
-  if (const auto quality = decoder.payload.quality[0]; quality && header.geometry) {
+  auto qualities = decoder.payload.quality;
+  if (header.lossless && header.payload_bytes == 0) qualities.fill(0);  // there was nothing to send
+  if (const auto quality = qualities[0]; quality && header.geometry) {
     info.heights_rmse = rmseOf(*quality) * header.geometry->step * std::abs(header.metadata.scale);
   }
-  if (const auto quality = decoder.payload.quality[1]; quality && header.texture) {
+  if (const auto quality = qualities[1]; quality && header.texture) {
     const double peak = header.texture->sample == TKS_U8 ? 255 : 65535;
     const double rmse = rmseOf(*quality);
     info.texture_psnr =

@@ -50,6 +50,7 @@ struct TrackOptions {
   uint32_t threads = 1;         ///< nothing depends on them
   bool visual = false;          ///< a texture: what is seen comes first, not what is off most
   uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
+  double mean_square = 0;       ///< error at which a texture ends, if there is a target; else 0
 };
 
 /// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks

@@ -199,6 +199,18 @@ void expectAgreement(Prefix prefix, uint32_t level) {
   ASSERT_TRUE(texture == *decoded.texture) << "level " << level << ", " << prefix.size();
 }
 
+TEST(Cutout, LossyDrawingsLeaveAlphasExact) {
+  Raster image = make({Pattern::kSteps, 80, 70, 4, TKS_U8, 4});
+  cutOut(image, validity(VoidShape::kCoast, 80, 70));
+  tks_encode_options psnr = budget(0);
+  psnr.psnr = 30;
+  const size_t drawn = encode(nullptr, &image, lossless()).size();
+  for (const tks_encode_options& options : {psnr, budget(drawn / 2), budget(drawn * 3 / 4)}) {
+    const Bytes bytes = encode(nullptr, &image, options);
+    EXPECT_EQ(wrongAlphas(image, Stream(bytes).texture()), 0u) << bytes.size();
+  }
+}
+
 TEST(Cutout, ReferenceDecoderAgrees) {
   for (const Shape& shape : kShapes) {
     for (const VoidShape mask : kMasks) {

@@ -158,6 +158,29 @@ TEST(StreamRate, NoPsnrIsDearerThanTheLastBit) {
     EXPECT_LE(encode(&heights, &image, psnr(target)).size(), most) << target;
 }
 
+/// Where the lossless stream nearly fits, its header and heads included, the lossy one goes on.
+TEST(StreamRate, LargerBudgetsNextToTheLastBitAreNoWorse) {
+  const Raster image = make({Pattern::kRidges, 96, 80, 3, TKS_U8, 7});
+  const uint64_t most = encode(nullptr, &image, lossless()).size();
+  double before = 0;
+  for (uint64_t bytes = most - 60; bytes < most + 20; bytes += 2) {
+    const double now = psnrOf(image, encode(nullptr, &image, budget(bytes)));
+    EXPECT_GT(now, before - 0.03) << bytes << " of " << most;
+    before = now;
+  }
+  EXPECT_EQ(before, HUGE_VAL);
+}
+
+/// A drawing is complete for few bytes; the wavelet reaches what is asked for with fewer.
+TEST(StreamRate, PsnrOfDrawingsTakesNoMoreBytesThanWavelets) {
+  Raster ramp = make({Pattern::kRamp, 200, 180, 1, TKS_U8});
+  for (std::byte& sample : ramp.data) sample &= std::byte{0xf8};
+  for (const double target : {30.0, 35.0, 40.0}) {
+    const size_t bytes = encode(nullptr, &ramp, psnr(target)).size();
+    EXPECT_LT(psnrOf(ramp, encode(nullptr, &ramp, budget(bytes * 3 / 4))), target) << bytes;
+  }
+}
+
 /// What is drawn over a photograph may be coded by itself, but not before that pays.
 TEST(StreamRate, LargerBudgetsOfOverlaysAreNoWorse) {
   Raster image = make({Pattern::kRidges, 200, 150, 3, TKS_U8, 4});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A drawn texture is better than the wavelet where its last byte is in reach, and worse before, if
 // it has many colours. It also must take no more bytes than the wavelet needs for the last bit; or
-// half of them, if the last bit is not asked for.
+// half of them, if the last bit is not asked for. Where it will be cut, both are compared there.
 #include "texture_wavelet/texture_choice.hpp"
 
 #include <algorithm>
@@ -35,15 +35,52 @@ TrackOptions oneTrack(TrackOptions options) {
   return options;
 }
 
-/// Whether the wavelet restores every sample within so many bytes.
-bool restoresWithin(const Texels& texels, uint64_t bytes, uint32_t threads) {
-  return encodeByWavelet(texels, Purpose::kLossless, {bytes, 0, threads}).tracks.front().complete;
-}
-
 uint64_t bytesOf(const EncodedTexture& encoded) {
   uint64_t bytes = 0;
   for (const EncodedTrack& track : encoded.tracks) bytes += track.codeword.size();
   return bytes;
+}
+
+/// Whether a drawn texture takes too few bytes for the wavelet to restore every sample within them,
+/// or within twice as many if that is not asked for.
+bool winsWhole(const EncodedTexture& drawn, const Texels& texels, Purpose purpose,
+               uint32_t threads) {
+  const uint64_t bytes = bytesOf(drawn);
+  if (bytes <= kFewBytes) return true;
+  const uint64_t limit = purpose == Purpose::kLossless ? bytes : 2 * bytes;
+  return !encodeByWavelet(texels, Purpose::kLossless, {limit, 0, threads}).tracks.front().complete;
+}
+
+/// Bytes from which on the error is no larger than that; all of them if it never is.
+uint64_t bytesFor(const EncodedTexture& encoded, double squares) {
+  const EncodedTrack& track = encoded.tracks.front();
+  const auto reached = std::find_if(track.points.begin(), track.points.end(),
+                                    [&](const RatePoint& p) { return p.distortion <= squares; });
+  return reached == track.points.end() ? track.codeword.size() : reached->bytes;
+}
+
+/// Whether a shows the image better than b where they will be cut: in fewer bytes if there is an
+/// error aimed at, else by less error in as many bytes. samples: that count.
+bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TrackOptions& options,
+                 uint64_t samples) {
+  if (options.mean_square > 0) {
+    const double squares = options.mean_square * static_cast<double>(samples);
+    return bytesFor(a, squares) < bytesFor(b, squares);
+  }
+  const uint64_t reach = std::min({options.room, bytesOf(a), bytesOf(b)});
+  const double error_a = distortionAt(a, reach), error_b = distortionAt(b, reach);
+  return error_a != error_b ? error_a < error_b : bytesOf(a) < bytesOf(b);
+}
+
+/// The same of a drawn texture whose end will not be sent, and the wavelet. Alpha of a cut-out
+/// would not be exact.
+bool winsCut(const EncodedTexture& drawn, const Texels& texels, Purpose purpose,
+             TrackOptions options) {
+  if (!cutoutOf(texels).empty()) return false;
+  options.region_log2 = 0;
+  if (options.mean_square > 0) options.limit = bytesOf(drawn);
+  const EncodedTexture wavelet = encodeByWavelet(texels, purpose, options);
+  return showsBetter(drawn, wavelet, options, texels.samples.size());
 }
 
 /// With an overlay or without. Both are coded in one track to compare them: all of it for the last
@@ -51,16 +88,12 @@ uint64_t bytesOf(const EncodedTexture& encoded) {
 EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
                                 const TrackOptions& options) {
   const bool hides = purpose == Purpose::kLossy;
-  const std::vector<uint8_t> photograph =
-      photographOf(texels, hides ? cutoutOf(texels) : std::vector<uint8_t>());
+  const std::vector<uint8_t> seen = hides ? cutoutOf(texels) : std::vector<uint8_t>(),
+                             photograph = photographOf(texels, seen);
   if (photograph.empty()) return encodeByWavelet(texels, purpose, options);
   EncodedTexture plain = encodeByWavelet(texels, purpose, oneTrack(options)),
                  overlaid = encodeByWavelet(texels, purpose, oneTrack(options), photograph);
-  const uint64_t reach = std::min({options.room, bytesOf(plain), bytesOf(overlaid)});
-  const double plain_error = distortionAt(plain, reach),
-               overlaid_error = distortionAt(overlaid, reach);
-  const bool pays = plain_error != overlaid_error ? overlaid_error < plain_error
-                                                  : bytesOf(overlaid) < bytesOf(plain);
+  const bool pays = showsBetter(overlaid, plain, options, countedSamples(texels, seen));
   if (options.region_log2 == 0) return pays ? std::move(overlaid) : std::move(plain);
   return encodeByWavelet(texels, purpose, options, pays ? photograph : std::vector<uint8_t>());
 }
@@ -68,18 +101,12 @@ EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
 }  // namespace
 
 EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options) {
-  std::optional<EncodedTexture> drawn = encodeDrawn(texels);
+  const std::optional<EncodedTexture> drawn = encodeDrawn(texels);
   if (!drawn) return encodePhotograph(texels, purpose, options);
-  const uint64_t bytes = bytesOf(*drawn);
-  if (bytes <= std::min(kFewBytes, options.room)) return *drawn;
-  if (bytes > options.room) {
-    const EncodedTexture wavelet = encodeByWavelet(texels, purpose, oneTrack(options));
-    if (distortionAt(*drawn, options.room) < distortionAt(wavelet, options.room)) return *drawn;
-  } else if (!restoresWithin(texels, purpose == Purpose::kLossless ? bytes : 2 * bytes,
-                             options.threads)) {
-    return *drawn;
-  }
-  return encodePhotograph(texels, purpose, options);
+  const bool whole = bytesOf(*drawn) <= options.room && options.mean_square == 0;
+  const bool wins = whole ? winsWhole(*drawn, texels, purpose, options.threads)
+                          : winsCut(*drawn, texels, purpose, options);
+  return wins ? *drawn : encodePhotograph(texels, purpose, options);
 }
 
 }  // namespace tetrakis

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tetrakis command line: parses, runs one verb, and turns its Status into a sentence on
 // standard error and an exit code (docs/CLI.md).
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "tools/command.hpp"
 
@@ -44,6 +46,13 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addSynth(app, line);
 }
 
+bool isVerb(const CLI::App& app, const std::string& name) {
+  const std::vector<const CLI::App*> verbs =
+      app.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(verbs.begin(), verbs.end(),
+                     [&](const CLI::App* verb) { return verb->get_name() == name; });
+}
+
 /// The library's numbers are the exit codes; running out of memory is a limit of the machine.
 int exitCode(tks_status code) {
   return code == TKS_NO_MEMORY ? TKS_LIMIT : code;
@@ -77,6 +86,9 @@ int runCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::Success& asked_for_help) {
     return app.exit(asked_for_help);
   } catch (const CLI::ParseError& error) {
+    const std::string first = argc > 1 ? argv[1] : "-";
+    if (first.rfind('-', 0) != 0 && !isVerb(app, first))
+      return report(Status(TKS_USAGE, "there is no command '" + first + "'; --help lists them"));
     return report(Status(TKS_USAGE, std::string(error.what()) + "; --help shows the usage"));
   }
   return report(run(line));

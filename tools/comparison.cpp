@@ -72,7 +72,8 @@ Status checkImage(const ImageFile& image, const tks_info& header) {
       image.channels == header.texture_channels && image.sample == header.texture_sample)
     return Status();
   const auto describe = [](uint32_t width, uint32_t height, uint32_t channels, tks_sample sample) {
-    return shape(width, height) + " texels of " + std::to_string(channels) + " channels, " +
+    return shape(width, height) + " texels of " + std::to_string(channels) +
+           (channels == 1 ? " channel, " : " channels, ") +
            std::to_string(8 * tks_sample_bytes(sample)) + " bits";
   };
   return Status(TKS_MISMATCH,

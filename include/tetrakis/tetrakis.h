@@ -76,7 +76,8 @@ typedef struct tks_heights {
  * covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
  *
  * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of the
- * colours and comes back exactly. Unless the stream is lossless, the colours of texels with alpha 0 are
+ * colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their channels:
+ * exact in the complete stream, which is sent whole.) Unless the stream is lossless, the colours of texels with alpha 0 are
  * not kept (they come back as the mean of the others) and count in no error. */
 typedef struct tks_image {
   size_t size; /* sizeof(tks_image) */
@@ -93,7 +94,7 @@ typedef int (*tks_progress)(void* user, double done);
 typedef enum tks_weights {
   TKS_WEIGHTS_PSNR = 0,  /* their squares */
   TKS_WEIGHTS_VISUAL = 1 /* what an eye sees that has 64 samples in a degree: fine detail counts
-                            less, in colour differences much less; costs up to 1.3 dB of PSNR */
+                            less, in colour differences much less; costs up to 1.2 dB of PSNR */
 } tks_weights;
 
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */

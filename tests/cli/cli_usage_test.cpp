@@ -61,6 +61,11 @@ TEST_F(CliUsage, CommandsThatMakeNoSenseGiveOne) {
     expectFailure(arguments, 1);
 }
 
+TEST_F(CliUsage, UnknownCommandsAreNamed) {
+  EXPECT_NE(cli("fly").err.find("'fly'"), std::string::npos);
+  EXPECT_EQ(cli("--fly").err.find("command 'fly'"), std::string::npos);
+}
+
 TEST_F(CliUsage, MessagesAboutNumbersAreShort) {
   makeInputs();
   const std::pair<const char*, const char*> wrong[] = {
