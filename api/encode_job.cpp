@@ -155,7 +155,17 @@ Status EncodeJob::encodeTracks() {
   if (options_.max_error > 0) boundHeights();
   if (Status status = report(0.4); !status.ok()) return status;
   if (texture.valid()) texture_ = texture.get();
+  if (texture_ && options_.psnr > 0) reachTarget();
   return report(0.8);
+}
+
+/// Coding that ended where the account met the target goes on if samples do not.
+void EncodeJob::reachTarget() {
+  const std::vector<EncodedTrack>& tracks = texture_->tracks;
+  if (tracks.front().complete || textureMeetsTarget(bytesOf(tracks))) return;
+  TrackOptions to_the_end = trackOptions(TrackId::kTexture);
+  to_the_end.mean_square = 0;
+  texture_ = encodeTexture(texels_, texturePurpose(), to_the_end);
 }
 
 /// The budget buys so much of every track that losslessness is in reach.

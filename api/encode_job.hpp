@@ -71,6 +71,7 @@ class EncodeJob {
   Status quantise();
   Status encodeTracks();
   bool nearlyExact() const;
+  void reachTarget();
   void encodeLosslessIfItFits();
   Status report(double done) const;
 

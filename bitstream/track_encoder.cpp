@@ -178,10 +178,12 @@ class TrackCoder {
   int firstKey() const { return done() ? kNoKey : passes_->front().key; }
   bool done() const { return passes_->empty(); }
   uint64_t bytes() const { return io_.decidedBytes(); }
+  double distortion() const { return track_.points.back().distortion; }
 
-  /// Runs the passes of this key and above, until the codeword passes `limit` bytes.
-  void run(int least_key, uint64_t limit) {
-    while (!done() && firstKey() >= least_key && bytes() <= limit) {
+  /// Runs the passes of this key and above, until the codeword passes `limit` bytes or the
+  /// distortion is enough.
+  void run(int least_key, uint64_t limit, double enough) {
+    while (!done() && firstKey() >= least_key && bytes() <= limit && distortion() > enough) {
       const Pass pass = passes_->front();
       io_.select(source_.plan[pass.band].shape, source_.bands[pass.band], occupancy_[pass.band]);
       state_->run(source_.plan, pass.band, pass.kind, pass.plane, io_);
@@ -214,22 +216,26 @@ class TrackCoder {
 };
 
 /// All coders together, one bit-plane after the other.
-void runTogether(std::vector<std::optional<TrackCoder>>& coders, uint64_t limit, uint32_t threads) {
+void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOptions& options) {
   constexpr int kBitPlane = 16;
   int key = TrackCoder::kNoKey;
   for (const auto& coder : coders) key = std::max(key, coder->firstKey());
   const auto open = [&] {
     uint64_t bytes = 0;
+    double distortion = 0;
     bool done = true;
     for (const auto& coder : coders) {
       bytes += coder->bytes();
+      distortion += coder->distortion();
       done &= coder->done();
     }
-    return !done && bytes <= limit;
+    return !done && bytes <= options.limit && distortion > options.enough;
   };
+  const bool to_the_end = options.limit == UINT64_MAX && options.enough == 0;
   for (; open(); key -= kBitPlane) {
-    const int least = limit == UINT64_MAX ? TrackCoder::kNoKey : key;
-    parallelFor(threads, coders.size(), [&](size_t i) { coders[i]->run(least, UINT64_MAX); });
+    const int least = to_the_end ? TrackCoder::kNoKey : key;
+    parallelFor(options.threads, coders.size(),
+                [&](size_t i) { coders[i]->run(least, UINT64_MAX, 0); });
   }
 }
 
@@ -249,9 +255,9 @@ std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
   for (const auto& coder : coders) planes = std::max(planes, coder->planes());
   parallelFor(threads, coders.size(), [&](size_t i) { coders[i]->start(planes); });
   if (coders.size() == 1) {
-    coders.front()->run(TrackCoder::kNoKey, options.limit);
+    coders.front()->run(TrackCoder::kNoKey, options.limit, options.enough);
   } else {
-    runTogether(coders, options.limit, threads);
+    runTogether(coders, options);
   }
   std::vector<EncodedTrack> tracks;
   for (auto& coder : coders) tracks.push_back(coder->finish());

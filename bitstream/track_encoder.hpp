@@ -50,12 +50,13 @@ struct TrackOptions {
   uint32_t threads = 1;         ///< nothing depends on them
   bool visual = false;          ///< a texture: what is seen comes first, not what is off most
   uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
-  double mean_square = 0;       ///< error at which a texture ends, if there is a target; else 0
+  double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
+  double enough = 0;            ///< distortion of all tracks together below which coding ends
 };
 
 /// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks
 /// stop together, at the same key of the order of passes, after a bit-plane in which all codewords
-/// together pass the limit.
+/// together pass the limit, or their error is small enough.
 std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
                                        const TrackOptions& options);
 

@@ -100,7 +100,8 @@ EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
 
 }  // namespace
 
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options) {
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, TrackOptions options) {
+  if (purpose == Purpose::kLossless) options.mean_square = 0;
   const std::optional<EncodedTexture> drawn = encodeDrawn(texels);
   if (!drawn) return encodePhotograph(texels, purpose, options);
   const bool whole = bytesOf(*drawn) <= options.room && options.mean_square == 0;

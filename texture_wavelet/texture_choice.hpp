@@ -8,6 +8,6 @@ namespace tetrakis {
 
 /// By wavelet, or drawn in one track where that is better. options: as for encodeByWavelet().
 /// Complete tracks without fraction bits that hide nothing are lossless.
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, const TrackOptions& options);
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, TrackOptions options);
 
 }  // namespace tetrakis

@@ -163,6 +163,14 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
   return encodeTracks(sources, options);
 }
 
+/// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
+/// samples are rounded, which matters where few steps are left.
+TrackOptions untilReached(TrackOptions options, uint64_t samples) {
+  if (options.mean_square > 1)
+    options.enough = options.mean_square / 2 * static_cast<double>(samples);
+  return options;
+}
+
 }  // namespace
 
 EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
@@ -174,6 +182,7 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   if (hidden && !photograph.empty()) common = intersection(seen, photograph);
   const Validity coded = !common.empty() ? Validity(common) : hidden ? seen : photograph;
   if (!coded.empty()) hideColours(coded, planes);
+  const Validity counted = hidden ? Validity(seen) : Validity();
   const ColourTransform colour = fitColours(planes, texels, purpose);
   const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
@@ -186,7 +195,8 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   if (!photograph.empty()) overlay = encodeOverlay(texels, photograph);
   header.alpha_bytes = mask.size();
   header.overlay_bytes = overlay.size();
-  encoded.tracks = encodePlanes(header, colour, coded, options, planes);
+  encoded.tracks = encodePlanes(header, colour, coded,
+                                untilReached(options, countedSamples(texels, counted)), planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   header.regions.whole_bytes = wholeBytes(encoded);
   prependOpening(texels, overlay, mask, encoded.tracks.front());
