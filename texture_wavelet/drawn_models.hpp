@@ -40,7 +40,7 @@ class DrawnModels {
   /// neighbours have it, and which of near and causal have the next one's (of the first, for other
   /// places). General: how many.
   ModelChain candidate(const Candidates& around, int place, LevelKind kind) {
-    const Candidate& c = around[place];
+    const ColourCandidate& c = around[place];
     const bool centre = kind == LevelKind::kCentres;
     const uint32_t pattern =
         (static_cast<uint32_t>(2 * place + centre) << kPatternBits) + c.pattern;

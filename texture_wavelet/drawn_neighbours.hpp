@@ -22,7 +22,7 @@
 namespace tetrakis {
 
 /// A colour among the neighbours.
-struct Candidate {
+struct ColourCandidate {
   ColourIndex colour;
   uint16_t pattern;            ///< of the neighbours that have it, in the order above, bit 0 first
   uint8_t near, causal, ring;  ///< how many of them
@@ -54,7 +54,7 @@ class Candidates {
   static Candidates unanimous() { return Candidates(Colours{}, (1u << kNeighbours) - 1); }
 
   int count() const { return count_; }
-  const Candidate& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
+  const ColourCandidate& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
 
  private:
   void add(ColourIndex colour, uint32_t pattern) {
@@ -77,12 +77,12 @@ class Candidates {
       const auto first = all_.begin() + place;
       const auto best = std::max_element(
           first, all_.begin() + count_,
-          [](const Candidate& a, const Candidate& b) { return a.votes < b.votes; });
+          [](const ColourCandidate& a, const ColourCandidate& b) { return a.votes < b.votes; });
       std::rotate(first, best, best + 1);
     }
   }
 
-  std::array<Candidate, kNeighbours> all_;  // only the first count_ are written
+  std::array<ColourCandidate, kNeighbours> all_;  // only the first count_ are written
   int count_ = 0;
 };
 

@@ -109,7 +109,7 @@ class DrawnPass {
     for (uint32_t c = 0; c < format_.channels; ++c) {
       int mean = half;
       if (around.count() > 0) {
-        const Candidate &a = around[0], &b = around[std::min(around.count() - 1, 1)];
+        const ColourCandidate &a = around[0], &b = around[std::min(around.count() - 1, 1)];
         mean = (colours_[a.colour][c] + colours_[b.colour][c]) / 2;
       }
       const int expected = std::clamp(mean + carried, 0, most);
