@@ -3,23 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/positive.hpp"
+
 namespace tetrakis::bench {
-
-namespace {
-
-/// CLI11's own answers with the 309 digits of the largest double.
-CLI::Validator above0() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && value > 0
-                   ? std::string()
-                   : "'" + text + "' is not a number above 0";
-      },
-      "");
-}
-
-}  // namespace
 
 Arguments::Arguments(const char* description) : app_(std::make_unique<CLI::App>(description)) {}
 
@@ -51,11 +37,15 @@ void Arguments::numbers(OptionText option, std::vector<double>& values) {
 }
 
 void Arguments::positive(OptionText option, double& value) {
-  app_->add_option(option.name, value, option.help)->check(above0())->capture_default_str();
+  app_->add_option(option.name, value, option.help)
+      ->check(tools::positive())
+      ->capture_default_str();
 }
 
 void Arguments::positive(OptionText option, uint64_t& value) {
-  app_->add_option(option.name, value, option.help)->check(above0())->capture_default_str();
+  app_->add_option(option.name, value, option.help)
+      ->check(tools::positive())
+      ->capture_default_str();
 }
 
 void Arguments::within(OptionText option, uint32_t& value, uint32_t least, uint32_t most) {
@@ -79,7 +69,7 @@ void Arguments::maxPixels(uint64_t& pixels) {
 
 void Arguments::runs(int& runs) {
   app_->add_option("--runs", runs, "Runs that each median of times is taken of")
-      ->check(above0())
+      ->check(tools::positive())
       ->capture_default_str();
 }
 

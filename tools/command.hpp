@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "bitstream/status.hpp"
+#include "tools/positive.hpp"
 #include "tools/scene.hpp"
 #include "tools/stream.hpp"
 #include "tools/units.hpp"
@@ -35,18 +36,6 @@ void addSynth(CLI::App& app, CommandLine& line);
 /// Without the description that CLI11 would append to the option's type.
 inline CLI::Validator silent(CLI::Validator validator) {
   return validator.description("");
-}
-
-/// CLI11's own says "in range [2.2e-308 - 1.8e+308]", with all digits.
-inline CLI::Validator positive() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && value > 0
-                   ? std::string()
-                   : "'" + text + "' is not a number above 0";
-      },
-      "");
 }
 
 /// --bytes SIZE with the suffixes k, M, G.

@@ -77,8 +77,8 @@ typedef struct tks_heights {
  *
  * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of the
  * colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their channels:
- * exact in the complete stream, which is sent whole.) Unless the stream is lossless, the colours of texels with alpha 0 are
- * not kept (they come back as the mean of the others) and count in no error. */
+ * exact in the complete stream, which is sent whole.) Unless the stream is lossless, the colours of
+ * texels with alpha 0 are not kept (they come back as the mean of the others) and count in no error. */
 typedef struct tks_image {
   size_t size; /* sizeof(tks_image) */
   uint32_t width, height, channels;

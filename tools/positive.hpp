@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What command lines take for a number above 0.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace tetrakis::tools {
+
+/// CLI11's own says "in range [2.2e-308 - 1.8e+308]", with all digits.
+inline CLI::Validator positive() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value > 0
+                   ? std::string()
+                   : "'" + text + "' is not a number above 0";
+      },
+      "");
+}
+
+}  // namespace tetrakis::tools
