@@ -8,6 +8,7 @@
 
 #include "api/encode_job.hpp"
 #include "api/message.hpp"
+#include "api/proof.hpp"
 
 namespace tetrakis {
 
@@ -86,6 +87,8 @@ Status encode(const tks_heights* heights, const tks_image* image, const tks_enco
   if (Status status = checkArguments(heights, image, options); !status.ok()) return status;
   Result<std::vector<uint8_t>> stream = EncodeJob(heights, image, *options).run();
   if (!stream.ok()) return stream.status();
+  if (Status status = prove(*stream, heights, image, *options); !status.ok()) return status;
+  if (Status status = reportProgress(*options, 1); !status.ok()) return status;
   out->data = static_cast<uint8_t*>(std::malloc(stream->size()));
   if (out->data == nullptr) throw std::bad_alloc();
   std::memcpy(out->data, stream->data(), stream->size());

@@ -160,7 +160,7 @@ bool EncodeJob::withinBound() const {
 bool EncodeJob::widenSteps(double bound) {
   EncodedHeights& g = *geometry_;
   if (heights_->sample != TKS_F32 || heights_->step > 0 || 2 * bound <= g.steps.step) return false;
-  Result<HeightSteps> wide = toSteps(*heights_, {2 * bound, false, 0});
+  Result<HeightSteps> wide = toSteps(*heights_, {.given = 2 * bound});
   if (!wide.ok()) return false;
   g.steps = std::move(*wide);
   encodeRounded();
@@ -181,7 +181,7 @@ void EncodeJob::roundHeights(int32_t largest) {
 
 void EncodeJob::encodeRounded() {
   EncodedHeights& g = *geometry_;
-  if (!g.steps.exact) g.left = errorsOf(*heights_, g.steps).squares / (g.steps.step * g.steps.step);
+  if (!g.steps.exact) g.left = g.squaresOf(*heights_, g.steps);
   encodeGeometry(Purpose::kLossless);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/encode_job.hpp"
+#include "api/stored_heights.hpp"
 #include "codec/corrections_encoder.hpp"
 #include "codec/geometry_encoder.hpp"
 #include "lattice/validity_encoder.hpp"
@@ -27,8 +28,7 @@ void EncodeJob::encodeSideLayers(bool restore_samples) {
   const std::vector<uint8_t> hints = sampleHints(g.steps.steps, *header.geometry);
   g.corrections = encodeCorrections(sampleCorrections(*heights_, g.steps),
                                     {heights_->width, heights_->height, g.steps.valid, hints});
-  g.left = std::max(errorsOf(*heights_, g.steps).squares / (g.steps.step * g.steps.step),
-                    EncodedHeights::kSomething);
+  g.left = std::max(g.squaresOf(*heights_, g.steps), EncodedHeights::kSomething);
 }
 
 void EncodeJob::encodeGeometry(Purpose purpose) {
@@ -67,6 +67,38 @@ void EncodeJob::joinLayers(std::vector<EncodedTrack> coefficients) {
     track.points.insert(track.points.begin(), {0, unknown});
   }
   if (!g.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
+}
+
+/// In place of coefficients and corrections.
+void EncodeJob::storeHeights() {
+  EncodedHeights& g = *geometry_;
+  g.wavelet = {};
+  g.corrections.clear();
+  g.layers.corrections = CorrectionKind::kNone;
+  g.layers.coefficient_bytes = 0;
+  g.regions = {};
+  g.left = EncodedHeights::kSomething;
+  EncodedTrack track;
+  track.codeword = g.validity;
+  const std::vector<uint8_t> samples = storeSamples(*heights_, g.steps.valid);
+  track.codeword.insert(track.codeword.end(), samples.begin(), samples.end());
+  track.planes = GeometryHeader::kStoredPlanes;
+  g.tracks = {std::move(track)};
+  accountForStored();
+}
+
+/// An account with a point for the mask and for each plane of bytes.
+void EncodeJob::accountForStored() {
+  EncodedTrack& track = geometry_->tracks.front();
+  const size_t sample_bytes = tks_sample_bytes(heights_->sample);
+  const uint64_t opening = geometry_->validity.size();
+  const uint64_t plane = (track.codeword.size() - opening) / sample_bytes;
+  track.points.push_back({0, geometrySquares(0)});
+  for (uint64_t planes = 0; planes <= sample_bytes; ++planes) {
+    const uint64_t end = opening + planes * plane;
+    const RatePoint point{end, geometrySquares(end)}, &last = track.points.back();
+    if (end > last.bytes && point.distortion < last.distortion) track.points.push_back(point);
+  }
 }
 
 }  // namespace tetrakis

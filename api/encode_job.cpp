@@ -78,17 +78,22 @@ Result<std::vector<uint8_t>> EncodeJob::run() {
   Result<Needs> wanted = needs();
   if (!wanted.ok()) return wanted.status();
   if (options_.psnr > 0) preferLossless(*wanted);
+  preferStored(*wanted);
   keepNeeded(*wanted);
   packets_ = joinNeighbours(packets_);
   keepWithinBudget();
   Result<std::vector<uint8_t>> stream = assemble();
-  if (Status status = report(1); !status.ok()) return status;
+  if (Status status = report(0.95); !status.ok()) return status;
   return stream;
 }
 
-Status EncodeJob::report(double done) const {
-  if (options_.progress == nullptr || options_.progress(options_.user, done) == 0) return {};
+Status reportProgress(const tks_encode_options& options, double done) {
+  if (options.progress == nullptr || options.progress(options.user, done) == 0) return {};
   return {TKS_USAGE, "Encoding was stopped by the caller."};
+}
+
+Status EncodeJob::report(double done) const {
+  return reportProgress(options_, done);
 }
 
 Status EncodeJob::quantise() {
@@ -96,7 +101,7 @@ Status EncodeJob::quantise() {
   if (heights_ == nullptr) return {};
   const double error = options_.max_error / std::abs(heights_->scale);
   bool restore = options_.lossless != 0;
-  Result<HeightSteps> steps = toSteps(*heights_, {heights_->step, restore, error});
+  Result<HeightSteps> steps = toSteps(*heights_, {heights_->step, restore, error, budgeted()});
   if (steps.ok() && error > 0 && errorsOf(*heights_, *steps).largest > error) {
     if (heights_->step > 0) {
       return {TKS_USAGE,
@@ -104,7 +109,7 @@ Status EncodeJob::quantise() {
               "step."};
     }
     restore = true;
-    steps = toSteps(*heights_, {0, restore, 0});
+    steps = toSteps(*heights_, {.lossless = true});
   }
   if (!steps.ok()) return steps.status();
   geometry_.emplace();
@@ -188,7 +193,7 @@ bool EncodeJob::nearlyExact() const {
 /// are the cheaper way to lossless.
 void EncodeJob::encodeLosslessIfItFits() {
   const bool possible = !geometry_ || geometry_->steps.exact;
-  const bool drawn = texture_ && texture_->header.drawn();  // lossless as it stands
+  const bool drawn = texture_ && texture_->header.direct();  // lossless as it stands
   if (!budgeted() || !possible || (drawn && !geometry_) || !nearlyExact()) return;
   const std::vector<Packet> lossy_packets = packets_;
   const std::optional<EncodedHeights> lossy_geometry = geometry_;

@@ -35,9 +35,28 @@ struct EncodedHeights {
   std::vector<EncodedTrack> tracks;
   RegionHeader regions;
 
+  bool stored() const {
+    return !tracks.empty() && tracks.front().planes == GeometryHeader::kStoredPlanes;
+  }
+  /// The complete tracks restore every sample.
+  bool restoresSamples() const {
+    return stored() || steps.exact || layers.corrections == CorrectionKind::kSamples;
+  }
+
   /// What a sample costs whose validity is not yet known rightly, in squared steps: as much as a
   /// height that is off by a quarter of their range.
   double validityWorth() const { return std::exp2(2.0 * steps.range_bits - 4); }
+
+  /// Squared error, in steps, that a sample counts at most while packets are ordered: four times
+  /// the range. An exception of the steps may be off by 1e38, beside which nothing else
+  /// would count.
+  double mostOfASample() const { return std::exp2(2.0 * steps.range_bits + 4); }
+
+  /// Squared error of such steps, in steps.
+  double squaresOf(const tks_heights& truth, const HeightSteps& of) const {
+    const double unit = steps.step * steps.step;
+    return errorsOf(truth, of, mostOfASample() * unit).squares / unit;
+  }
 };
 
 /// Decoded samples against the input's, over the valid ones; in sample units.
@@ -55,6 +74,9 @@ inline constexpr double kNearlyExact = 0.6;
 inline double worstMeanSquare(double peak, double psnr) {
   return peak * peak / std::pow(10, psnr / 10);
 }
+
+/// done: from 0 to 1. TKS_USAGE if the caller wants no more.
+Status reportProgress(const tks_encode_options& options, double done);
 
 class EncodeJob {
  public:
@@ -80,6 +102,8 @@ class EncodeJob {
   void encodeGeometry(Purpose purpose);
   std::vector<EncodedTrack> encodeCoefficients() const;
   void joinLayers(std::vector<EncodedTrack> coefficients);
+  void storeHeights();
+  void accountForStored();
   Purpose geometryPurpose() const;
   Purpose texturePurpose() const;
   TrackOptions trackOptions(TrackId component) const;
@@ -118,6 +142,7 @@ class EncodeJob {
   bool geometryMeetsTarget(uint64_t bytes) const;
   bool textureMeetsTarget(uint64_t bytes) const;
   void preferLossless(Needs& needs);
+  void preferStored(Needs& needs);
   void keepNeeded(const Needs& needs);
   uint8_t qualityAfter(TrackId component, uint64_t bytes) const;
 

@@ -125,7 +125,8 @@ AuditScope EncodeJob::auditScope(uint64_t samples) const {
 /// Sum of squared errors of the samples, in steps, voids that are not known among them.
 double EncodeJob::geometrySquares(uint64_t bytes, HeightsMemory* memory) const {
   const EncodedHeights& g = *geometry_;
-  if (g.layers.corrections == CorrectionKind::kSamples && bytes == bytesOf(g.tracks)) return 0;
+  const bool corrected = g.layers.corrections == CorrectionKind::kSamples;
+  if ((corrected || g.stored()) && bytes == bytesOf(g.tracks)) return 0;
   const DecodedGeometry decoded = decodedHeights(bytes, memory).geometry;
   HeightSteps prefix = {wholeSteps(decoded), g.steps.valid, g.steps.base, g.steps.step};
   double unknown = 0;
@@ -134,7 +135,7 @@ double EncodeJob::geometrySquares(uint64_t bytes, HeightsMemory* memory) const {
     unknown += g.validityWorth();
     prefix.valid[i] = 0;
   }
-  const double squares = errorsOf(*heights_, prefix).squares / (g.steps.step * g.steps.step);
+  const double squares = g.squaresOf(*heights_, prefix);
   return unknown + std::max(squares, std::min(g.left, EncodedHeights::kSomething));
 }
 

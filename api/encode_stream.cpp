@@ -73,8 +73,7 @@ bool EncodeJob::restoresEverything() const {
                                      !texture_ || nothingLeft(texture_->tracks)};
   for (const Packet& packet : packets_)
     exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
-  const bool restored = !geometry_ || geometry_->steps.exact ||
-                        geometry_->layers.corrections == CorrectionKind::kSamples;
+  const bool restored = !geometry_ || geometry_->restoresSamples();
   const bool hidden = texture_ && texture_->header.hidden;
   return exact[0] && exact[1] && restored && !hidden;
 }

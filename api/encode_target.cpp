@@ -6,6 +6,7 @@
 
 #include "api/encode_job.hpp"
 #include "api/samples.hpp"
+#include "api/stored_heights.hpp"
 #include "api/voids.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 
@@ -144,12 +145,23 @@ void EncodeJob::preferLossless(Needs& needs) {
     encodeGeometry(Purpose::kLossless);
     decide(geometry_, std::move(lossy), needs[0]);
   }
-  if (texture_ && !texture_->header.drawn() && nearly_exact(TrackId::kTexture)) {
+  if (texture_ && !texture_->header.direct() && nearly_exact(TrackId::kTexture)) {
     std::optional<EncodedTexture> lossy = std::move(texture_);
     texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(TrackId::kTexture));
     decide(texture_, std::move(lossy), needs[1]);
   }
   if (changed) order();
+}
+
+/// Heights that no model helps, as noise, take more bytes coded than stored.
+void EncodeJob::preferStored(Needs& needs) {
+  if (!geometry_ || budgeted()) return;
+  const uint64_t coded = std::min(needs[0], bytesOf(geometry_->tracks));
+  const uint64_t stored = storedBytes(*heights_, geometry_->steps.validCount());
+  if (stored == 0 || coded <= geometry_->validity.size() + stored) return;
+  storeHeights();
+  needs[0] = UINT64_MAX;
+  order();
 }
 
 /// The last packet of a component ends where its need does.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/height_steps.hpp"
+#include "api/stored_heights.hpp"
 #include "codec/corrections_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
 
@@ -80,6 +81,10 @@ DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& he
                             const GeometryLayers& layers, int level, uint32_t threads,
                             HeightsMemory* memory) {
   const Layers taken(codewords, layers);
+  if (header.stored()) {
+    return decodeStored(header, taken.coefficients.front(),
+                        validityOf(taken, header, layers, memory), level);
+  }
   DecodedHeights decoded;
   decoded.geometry =
       decodeGeometry(header, taken.coefficients, validityOf(taken, header, layers, memory), level,
@@ -100,7 +105,7 @@ DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHead
                                   uint32_t threads) {
   const Layers taken(codewords, layers);
   DecodedHeights decoded;
-  if (taken.corrections.empty()) {
+  if (taken.corrections.empty() && !header.stored()) {
     decoded.geometry = decodeGeometryWindow(header, taken.coefficients,
                                             validityOf(taken, header, layers), window, threads);
     return decoded;

@@ -2,36 +2,18 @@
 #include "api/height_steps.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <string>
 #include <type_traits>
 
 #include "api/integer_scale.hpp"
+#include "api/restore.hpp"
 #include "api/sample_order.hpp"
 #include "api/samples.hpp"
-#include "api/voids.hpp"
 
 namespace tetrakis {
 
 namespace {
-
-constexpr double kMostSteps = 1 << 26;
-constexpr double kLossySteps = 1 << 20;  // finer than any lossy stream resolves
-
-template <class T>
-T restore(double base, double step, int32_t q) {
-  const double value = base + static_cast<double>(q) * step;
-  if constexpr (std::is_floating_point_v<T>) {
-    return static_cast<T>(value);
-  } else {
-    const double low = static_cast<double>(std::numeric_limits<T>::min());
-    const double high = static_cast<double>(std::numeric_limits<T>::max());
-    return static_cast<T>(std::clamp(std::round(value), low, high));
-  }
-}
 
 template <class T>
 void restoreAll(const DecodedGeometry& geometry, const GeometryHeader& header, T* samples) {
@@ -48,140 +30,6 @@ void restoreAll(const DecodedGeometry& geometry, const GeometryHeader& header, T
   }
   for (size_t i = 0; i < count; ++i)
     samples[i] = restore<T>(header.base, header.step, wholeStep(heights[i], fraction_bits));
-}
-
-template <class T>
-bool same(T a, T b) {
-  return orderOf(a) == orderOf(b);
-}
-
-/// The valid samples, their range, and the middle of the steps.
-template <class T>
-class Stepper {
- public:
-  Stepper(const tks_heights& heights, const std::vector<uint8_t>& valid)
-      : samples_(static_cast<const T*>(heights.data)),
-        count_(size_t{heights.width} * heights.height),
-        valid_(valid.empty() ? nullptr : valid.data()) {
-    const SampleRange range = rangeOf(heights, valid);
-    low_ = range.low;
-    range_ = range.high - range.low;
-  }
-
-  double range() const { return range_; }
-  bool fits(double step) const { return range_ / step < kMostSteps; }
-
-  HeightSteps with(double step) const {
-    HeightSteps out;
-    out.step = step;
-    out.base = low_ + step * std::floor(range_ / step / 2);
-    if constexpr (std::is_floating_point_v<T>) out.base = step * std::round(out.base / step);
-    out.steps.resize(count_);
-    out.exact = true;
-    forEachValid([&](size_t i) {
-      out.steps[i] = quantise(out, i);
-      out.exact &= same(restore<T>(out.base, step, out.steps[i]), samples_[i]);
-    });
-    out.range_bits =
-        std::bit_width(static_cast<uint32_t>(std::min(range_ / step, kMostSteps)) + 1u);
-    return out;
-  }
-
-  /// All valid samples are one value, their base; or there is none.
-  HeightSteps flat() const {
-    HeightSteps out;
-    out.steps.assign(count_, 0);
-    out.base = low_;
-    out.exact = true;
-    const T value = restore<T>(out.base, out.step, 0);
-    forEachValid([&](size_t i) { out.exact &= same(value, samples_[i]); });
-    return out;
-  }
-
-  /// Whether `step` restores every sample.
-  bool restores(double step) const {
-    HeightSteps trial;
-    trial.step = step;
-    trial.base = step * std::round((low_ + range_ / 2) / step);
-    for (size_t i = 0; i < count_; ++i) {
-      if (!isValid(i)) continue;
-      if (!same(restore<T>(trial.base, step, quantise(trial, i)), samples_[i])) return false;
-    }
-    return true;
-  }
-
-  /// Greatest common divisor of the differences between integer samples.
-  double commonDivisor() const {
-    uint64_t divisor = 0;
-    for (size_t i = 0; i < count_ && divisor != 1; ++i) {
-      if (!isValid(i)) continue;
-      divisor = std::gcd(divisor, static_cast<uint64_t>(static_cast<double>(samples_[i]) - low_));
-    }
-    return divisor == 0 ? 1 : static_cast<double>(divisor);
-  }
-
-  /// The largest power of two that divides every float; 1 if all are 0.
-  double commonPowerOfTwo() const {
-    int lowest = std::numeric_limits<int>::max();
-    forEachValid([&](size_t i) {
-      if (samples_[i] == 0) return;
-      int exponent = 0;
-      const double fraction = std::frexp(static_cast<double>(samples_[i]), &exponent);
-      const auto mantissa = static_cast<uint32_t>(std::ldexp(std::abs(fraction), 24));
-      lowest = std::min(lowest, exponent - 24 + std::countr_zero(mantissa));
-    });
-    return lowest == std::numeric_limits<int>::max() ? 1 : std::ldexp(1.0, lowest);
-  }
-
-  /// Sixteen times the distance between neighbouring floats where they are largest. The last bits
-  /// of a height are noise: coding them as corrections takes 1 to 2 % less than lifting them.
-  double correctedStep() const {
-    const double largest = std::max(std::abs(low_), std::abs(low_ + range_));
-    return std::ldexp(16.0, spacingExponent(static_cast<float>(largest)));
-  }
-
- private:
-  bool isValid(size_t i) const { return valid_ == nullptr || valid_[i]; }
-  template <class F>
-  void forEachValid(const F& f) const {
-    for (size_t i = 0; i < count_; ++i) {
-      if (isValid(i)) f(i);
-    }
-  }
-  int32_t quantise(const HeightSteps& s, size_t i) const {
-    return static_cast<int32_t>(std::lround((static_cast<double>(samples_[i]) - s.base) / s.step));
-  }
-
-  const T* samples_;
-  size_t count_;
-  const uint8_t* valid_;
-  double low_ = 0, range_ = 0;
-};
-
-double powerOfTwoBelow(double x) {
-  return std::exp2(std::floor(std::log2(x)));
-}
-
-double lossyStep(double range, double error) {
-  double step = powerOfTwoBelow(range / kLossySteps) * 2;
-  if (error > 0) step = std::min(step, powerOfTwoBelow(error / 64));
-  return std::max(step, powerOfTwoBelow(range / kMostSteps) * 2);
-}
-
-double chooseStep(const Stepper<float>& stepper, const StepNeeds& needs) {
-  for (const double step : {1.0, 0.1, 0.01, 0.001}) {
-    if (stepper.fits(step) && stepper.restores(step)) return step;
-  }
-  const double binary = stepper.commonPowerOfTwo();
-  if (stepper.fits(binary) && stepper.restores(binary)) return binary;
-  return needs.lossless ? stepper.correctedStep() : lossyStep(stepper.range(), needs.error);
-}
-
-template <class T>
-double chooseStep(const Stepper<T>& stepper, const StepNeeds&) {
-  double step = stepper.commonDivisor();
-  while (!stepper.fits(step)) step *= 2;
-  return step;
 }
 
 template <class T>
@@ -206,25 +54,6 @@ T besides(T sample) {
 size_t HeightSteps::validCount() const {
   return valid.empty() ? steps.size()
                        : static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{1}));
-}
-
-Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs) {
-  Result<std::vector<uint8_t>> valid = findVoids(heights);
-  if (!valid.ok()) return valid.status();
-  Result<HeightSteps> result =
-      withSampleType(heights.sample, [&](auto type) -> Result<HeightSteps> {
-        using T = decltype(type);
-        const Stepper<T> stepper(heights, *valid);
-        const bool chosen = needs.given <= 0;
-        if (std::is_floating_point_v<T> && chosen && stepper.range() == 0) return stepper.flat();
-        const double step = chosen ? chooseStep(stepper, needs) : needs.given;
-        if (stepper.fits(step)) return stepper.with(step);
-        return Status(TKS_USAGE, "A step of " + std::to_string(step) +
-                                     " divides the range of the heights into more than 2^26 "
-                                     "parts; give a larger one.");
-      });
-  if (result.ok()) result->valid = std::move(*valid);
-  return result;
 }
 
 void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
@@ -274,7 +103,7 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
   return corrections;
 }
 
-StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps) {
+StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double most) {
   return withSampleType(heights.sample, [&](auto type) {
     using T = decltype(type);
     const auto* samples = static_cast<const T*>(heights.data);
@@ -285,7 +114,7 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps) {
           std::abs(static_cast<double>(restore<T>(steps.base, steps.step, steps.steps[i])) -
                    static_cast<double>(samples[i]));
       errors.largest = std::max(errors.largest, error);
-      errors.squares += error * error;
+      errors.squares += std::min(error * error, most);
     }
     return errors;
   });

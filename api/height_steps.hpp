@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,14 +29,18 @@ struct StepNeeds {
   double given = 0;       ///< > 0: the step itself, in sample units; nothing is chosen
   bool lossless = false;  ///< corrections will restore the samples
   double error = 0;       ///< > 0: largest error wanted, in sample units
+  /// A few samples so far from the others that no steps show both may be lost; for `lossless`
+  /// corrections restore them.
+  bool leave_outliers = false;
 };
 
 /// Chooses base and step. Integers get the greatest common divisor of their differences, doubled
 /// until 2^26 steps suffice; floats the coarsest of 1, 0.1, 0.01, 0.001 or a power of two that
-/// restores every sample. Where no step does that within 2^26 steps: for lossless
-/// sixteen times the spacing of the largest floats (corrections do the rest); else a power of two
-/// near range / 2^20, but not above error / 64 unless that takes more than 2^26 steps. TKS_USAGE: a
-/// sample is infinite, or the given step needs more than 2^26 steps.
+/// restores the value of every sample, or of all but one in 256 where these may be exceptions.
+/// Where no step does that within 2^26 steps: for lossless sixteen times the spacing of the largest
+/// floats (corrections do the rest); else a power of two near range / 2^20, but not above error /
+/// 64 unless that takes more than 2^26 steps. TKS_USAGE: a sample is infinite, or the given step
+/// needs more than 2^26 steps.
 Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
 
 /// Writes samples of header.sample, one for each height of `decoded`; integers saturate at their
@@ -52,9 +57,11 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
 
 /// Largest distance between a valid sample and what its step becomes, and the sum of the squared
 /// distances; in sample units.
+/// most: what one sample adds to the squares at most.
 struct StepErrors {
   double largest = 0, squares = 0;
 };
-StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps);
+StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps,
+                    double most = std::numeric_limits<double>::infinity());
 
 }  // namespace tetrakis

@@ -58,6 +58,11 @@ uint32_t sideOf(const RegionHeader& regions) {
   return regions.side_log2 == 0 ? 0 : uint32_t{1} << regions.side_log2;
 }
 
+int codingOf(const TextureHeader& texture) {
+  if (texture.direct()) return texture.stored ? 3 : 1;
+  return texture.overlay_bytes > 0 ? 2 : 0;
+}
+
 void fillInfo(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info = {};
@@ -88,6 +93,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.step = g.step;
     info.exact_steps = g.exact;
     info.max_error = g.max_error;
+    info.heights_stored = g.stored();
     info.has_voids = header.layers.validity_bytes > 0;
     info.has_nodata = header.layers.has_nodata;
     info.nodata = header.layers.nodata;
@@ -100,7 +106,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.texture_regions = sideOf(header.texture->regions);
     info.texture_channels = header.texture->channels;
     info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;
-    info.texture_drawn = header.texture->drawn() ? 1 : header.texture->overlay_bytes > 0 ? 2 : 0;
+    info.texture_drawn = codingOf(*header.texture);
     info.texture_sample = static_cast<tks_sample>(header.texture->sample);
   }
   const Metadata& m = header.metadata;

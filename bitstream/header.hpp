@@ -78,13 +78,17 @@ struct GeometryHeader {
     v.varint("geometry_width", width, 2, kMaxSide);
     v.varint("geometry_height", height, 2, kMaxSide);
     v.u8("geometry_sample", sample, 0, TKS_F32);
-    v.u8("geometry_planes", planes, 0, 30);
+    v.u8("geometry_planes", planes, 0, kStoredPlanes);
     v.u8("exact", exact, 0, 1);
     v.f64("base", base);
     v.f64("step", step);
     v.f64("max_error", max_error);
-    wavelet.visit(v);
+    if (!stored()) wavelet.visit(v);
   }
+  bool stored() const { return planes == kStoredPlanes; }
+
+  /// In the place of a number of bit-planes: the samples are stored (bitstream/byte_planes.hpp).
+  static constexpr uint8_t kStoredPlanes = 31;
 };
 
 /// What a geometry track holds besides coefficients, which then lie between the two:
@@ -116,8 +120,9 @@ struct GeometryLayers {
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
 };
 
-/// In the place of a number of bit-planes: the texture is drawn (texture_wavelet/drawn_pass.hpp).
-inline constexpr uint8_t kDrawnPlanes = 31;
+/// In the place of a number of bit-planes: the texture is drawn (texture_wavelet/drawn_pass.hpp),
+/// or its samples are stored (bitstream/byte_planes.hpp).
+inline constexpr uint8_t kDrawnPlanes = 31, kStoredTexture = 63;
 
 /// What is added to the priority of a component at its finest levels, in 1/16 of a binary order of
 /// magnitude: how visible errors of a band are. A part of the header of its own.
@@ -145,8 +150,8 @@ struct BandWeights {
   }
 };
 
-/// Texture: centre, order and shears as in texture_wavelet/colour.hpp. Drawn ones end with
-/// `planes`.
+/// Texture: centre, order and shears as in texture_wavelet/colour.hpp. Drawn and stored ones end
+/// with `planes`.
 struct TextureHeader {
   uint32_t width = 0, height = 0;
   uint8_t channels = 0;
@@ -166,6 +171,7 @@ struct TextureHeader {
   uint8_t hidden = 0;  ///< of a cut-out: colours where alpha is 0 are not coded
   /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
   uint64_t overlay_bytes = 0;
+  bool stored = false;  ///< sample by sample, without a transform
 
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
@@ -178,10 +184,12 @@ struct TextureHeader {
     channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
     v.u8("texture_sample", sample, 0, TKS_U16);
     const uint8_t overlaid = kDrawnPlanes + 1;
-    uint8_t coding = static_cast<uint8_t>(planes + (overlay_bytes > 0 ? overlaid : 0));
-    v.u8("texture_planes", coding, 0, kDrawnPlanes + overlaid - 1);
+    auto coding =
+        static_cast<uint8_t>(stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0));
+    v.u8("texture_planes", coding, 0, kStoredTexture);
     planes = coding % overlaid;
-    if (drawn()) return;
+    stored = coding == kStoredTexture;
+    if (direct()) return;
     wavelet.visit(v);
     if (kind > 4) {
       v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
@@ -201,7 +209,9 @@ struct TextureHeader {
       for (int64_t& shear : shears) v.zigzag("colour_shear", shear, INT16_MAX);
     }
   }
-  bool drawn() const { return planes == kDrawnPlanes; }
+  bool drawn() const { return direct() && !stored; }
+  /// Without a transform: drawn or stored.
+  bool direct() const { return planes == kDrawnPlanes; }
 
   static constexpr int64_t kMaxPriority = 128;
   static constexpr uint8_t kOrders = 6;      ///< of channels

@@ -173,15 +173,18 @@ class TrackCoder {
     const double energy = energyOf(source_);
     io_.start(energy);
     track_.points.push_back({0, energy});
+    nothing_to_say_ = energy == 0;
   }
 
   int firstKey() const { return done() ? kNoKey : passes_->front().key; }
-  bool done() const { return passes_->empty(); }
+  /// A track of zeros is complete without a byte: RegionHeader::whole_bytes tells the decoder that
+  /// none of its decisions is missing.
+  bool done() const { return nothing_to_say_ || passes_->empty(); }
   uint64_t bytes() const { return io_.decidedBytes(); }
   double distortion() const { return track_.points.back().distortion; }
 
   /// Runs the passes of this key and above, until the codeword passes `limit` bytes or the
-  /// distortion is enough.
+  /// distortion is enough. Every turn takes one of the 3 * planes passes of a band off the queue.
   void run(int least_key, uint64_t limit, double enough) {
     while (!done() && firstKey() >= least_key && bytes() <= limit && distortion() > enough) {
       const Pass pass = passes_->front();
@@ -211,11 +214,13 @@ class TrackCoder {
   std::vector<Occupancy> occupancy_;
   std::optional<TrackState> state_;
   std::optional<PassQueue> passes_;
+  bool nothing_to_say_ = false;
   EncodingIo io_;
   EncodedTrack track_;
 };
 
-/// All coders together, one bit-plane after the other.
+/// All coders together, one bit-plane after the other. It ends: `key` falls below the key of every
+/// pass, and a coder that is asked for all keys from there on is done.
 void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOptions& options) {
   constexpr int kBitPlane = 16;
   int key = TrackCoder::kNoKey;

@@ -49,7 +49,10 @@ void printStream(const std::string& name, std::span<const uint8_t> stream) {
 int printAll() {
   for (const auto& vector_case : conformance::vectorCases()) {
     const auto stream = conformance::encodeCase(vector_case);
-    if (!stream.ok()) return stream.status().code();
+    if (!stream.ok()) {
+      std::fprintf(stderr, "%s\n", stream.status().message().c_str());
+      return stream.status().code();
+    }
     printStream(vector_case.name, *stream);
   }
   const auto heights = samples::make({samples::Pattern::kRidges, 385, 300, 1, TKS_U16});

@@ -89,6 +89,123 @@ TEST(HostileHeights, InfinityIsRefusedOrVoid) {
   tks_free_buffer(&buffer);
 }
 
+/// Ground of whole metres, as floats.
+std::vector<float> wholeMetres(uint32_t side) {
+  const Raster ridges = make({Pattern::kRidges, side, side, 1, TKS_U8});
+  std::vector<float> values;
+  for (size_t i = 0; i < size_t{side} * side; ++i)
+    values.push_back(static_cast<float>(sampleAt(ridges.data, TKS_U8, i)));
+  return values;
+}
+
+size_t losslessBytes(const Raster& raster) {
+  const Bytes bytes = encode(&raster, nullptr, lossless());
+  Stream stream(bytes);
+  EXPECT_EQ(stream.heights(), raster.data);
+  return bytes.size();
+}
+
+/// What one sample is must not make all the others finer.
+TEST(HostileHeights, AnOddSampleCostsAFewBytes) {
+  const std::vector<float> plain = wholeMetres(96);
+  const size_t before = losslessBytes(rasterOf(plain, 96, TKS_F32));
+  for (const float odd : {-0.0f, 0.37f, 1e-42f, 1e30f, -3.4028235e38f, 3.4028235e38f, -9999.5f}) {
+    std::vector<float> values = plain;
+    values[1234] = odd;
+    EXPECT_LT(losslessBytes(rasterOf(values, 96, TKS_F32)), before + 300) << odd;
+  }
+}
+
+/// Rounding makes them, as many as there is sea.
+TEST(HostileHeights, NegativeZerosCostLittle) {
+  std::vector<float> sea = wholeMetres(96);
+  for (float& v : sea) v = std::max(v - 100, 0.0f);
+  const size_t before = losslessBytes(rasterOf(sea, 96, TKS_F32));
+  for (size_t i = 0; i < sea.size(); ++i) {
+    if (sea[i] == 0 && i / 96 < 48) sea[i] = -0.0f;
+  }
+  EXPECT_LT(losslessBytes(rasterOf(sea, 96, TKS_F32)), before + before / 8);
+}
+
+/// An undeclared void of 3.4e38 takes neither the bound nor the budget from the rest.
+TEST(HostileHeights, AnOutlierDoesNotDrownTheRest) {
+  std::vector<float> values = wholeMetres(300);
+  for (float& v : values) v *= 1.37f;
+  values[777] = std::numeric_limits<float>::max();
+  const Raster raster = rasterOf(values, 300, TKS_F32);
+  tks_encode_options bounded = lossless();
+  bounded.lossless = 0;
+  bounded.max_error = 0.5;
+  EXPECT_LE(largestError(raster, Stream(encode(&raster, nullptr, bounded)).heights()), 0.5);
+  const auto decoded = Stream(encode(&raster, nullptr, budget(20000))).heights();
+  double squares = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double error = i == 777 ? 0 : sampleAt(decoded, TKS_F32, i) - double{values[i]};
+    squares += error * error;
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(values.size())), 10);
+}
+
+/// Noise takes what it takes and a header, of every type, beside voids and in textures.
+TEST(HostileHeights, NoiseIsStored) {
+  for (const tks_sample sample : {TKS_U8, TKS_I16, TKS_U32, TKS_F32}) {
+    std::mt19937 random(3);
+    Raster raster{30, 21, 1, sample, {}};
+    while (raster.data.size() < size_t{30} * 21 * tks_sample_bytes(sample)) {
+      auto byte = static_cast<uint8_t>(random());
+      const bool exponent = sample == TKS_F32 && raster.data.size() % 4 == 3;
+      if (exponent && (byte & 0x7f) == 0x7f) byte = 0;  // neither infinite nor NaN
+      raster.data.push_back(static_cast<std::byte>(byte));
+    }
+    const Bytes bytes = encode(&raster, nullptr, lossless());
+    EXPECT_LE(bytes.size(), raster.data.size() + 64);
+    for (size_t cut = 40; cut < bytes.size(); cut += 97) {
+      Stream stream(Prefix(bytes).first(cut));
+      EXPECT_EQ(stream.heights().size(), raster.data.size());
+    }
+    Stream stream(bytes);
+    EXPECT_EQ(stream.info().heights_stored, 1);
+    EXPECT_EQ(stream.heights(), raster.data);
+  }
+}
+
+TEST(HostileHeights, NoiseInTexturesIsStored) {
+  for (const tks_sample sample : {TKS_U8, TKS_U16}) {
+    std::mt19937 random(4);
+    Raster image{40, 50, 3, sample, {}};
+    while (image.data.size() < size_t{40} * 50 * 3 * tks_sample_bytes(sample))
+      image.data.push_back(static_cast<std::byte>(random()));
+    const Bytes bytes = encode(nullptr, &image, lossless());
+    EXPECT_LE(bytes.size(), image.data.size() + 64);
+    Stream stream(bytes);
+    EXPECT_EQ(stream.info().texture_drawn, 3);
+    EXPECT_EQ(stream.texture(), image.data);
+    const tks_window window = {7, 9, 12, 5};
+    std::vector<std::byte> part(size_t{12} * 5 * 3 * tks_sample_bytes(sample));
+    EXPECT_EQ(tks_decode_texture_window(stream.get(), &window, part.data(), part.size()), TKS_OK);
+    EXPECT_EQ(part.front(), image.data[(size_t{9} * 40 + 7) * 3 * tks_sample_bytes(sample)]);
+  }
+}
+
+/// Each prefix of a stored plane is nearer to it, byte by byte of the samples.
+TEST(HostileHeights, StoredSamplesComeHighBytesFirst) {
+  std::mt19937 random(5);
+  std::vector<uint16_t> values(600);
+  for (uint16_t& v : values) v = static_cast<uint16_t>(random());
+  const Raster raster = rasterOf(values, 30, TKS_U16);
+  const Bytes bytes = encode(&raster, nullptr, lossless());
+  const Stream whole(bytes);
+  const size_t header = static_cast<size_t>(whole.info().header_bytes);
+  double before = std::numeric_limits<double>::infinity();
+  for (const size_t end : {header, header + 300, header + 603, header + 900, bytes.size()}) {
+    Stream stream(Prefix(bytes).first(end));
+    const double squares = squaredError(raster, stream.heights());
+    EXPECT_LT(squares, before);
+    before = squares;
+  }
+  EXPECT_EQ(before, 0);
+}
+
 tks_encode_options within(double error) {
   tks_encode_options options = {};
   options.size = sizeof options;

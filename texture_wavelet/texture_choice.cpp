@@ -2,6 +2,7 @@
 // A drawn texture is better than the wavelet where its last byte is in reach, and worse before, if
 // it has many colours. It also must take no more bytes than the wavelet needs for the last bit; or
 // half of them, if the last bit is not asked for. Where it will be cut, both are compared there.
+// What takes more bytes to code than to store is stored.
 #include "texture_wavelet/texture_choice.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "texture_wavelet/cutout.hpp"
 #include "texture_wavelet/drawn_encoder.hpp"
 #include "texture_wavelet/overlay.hpp"
+#include "texture_wavelet/stored_encoder.hpp"
 
 namespace tetrakis {
 
@@ -100,14 +102,25 @@ EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
 
 }  // namespace
 
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, TrackOptions options) {
-  if (purpose == Purpose::kLossless) options.mean_square = 0;
+namespace {
+
+EncodedTexture encodeModelled(const Texels& texels, Purpose purpose, const TrackOptions& options) {
   const std::optional<EncodedTexture> drawn = encodeDrawn(texels);
   if (!drawn) return encodePhotograph(texels, purpose, options);
   const bool whole = bytesOf(*drawn) <= options.room && options.mean_square == 0;
   const bool wins = whole ? winsWhole(*drawn, texels, purpose, options.threads)
                           : winsCut(*drawn, texels, purpose, options);
   return wins ? *drawn : encodePhotograph(texels, purpose, options);
+}
+
+}  // namespace
+
+EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, TrackOptions options) {
+  if (purpose == Purpose::kLossless) options.mean_square = 0;
+  EncodedTexture encoded = encodeModelled(texels, purpose, options);
+  const uint64_t stored = storedBytes(texels);
+  const bool shorter = stored < bytesOf(encoded) && stored <= options.room;
+  return purpose == Purpose::kLossless && shorter ? storeTexture(texels) : std::move(encoded);
 }
 
 }  // namespace tetrakis

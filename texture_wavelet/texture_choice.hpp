@@ -6,8 +6,8 @@
 
 namespace tetrakis {
 
-/// By wavelet, or drawn in one track where that is better. options: as for encodeByWavelet().
-/// Complete tracks without fraction bits that hide nothing are lossless.
+/// By wavelet; or drawn, or stored, in one track where that is better. options: as for
+/// encodeByWavelet(). Complete tracks without fraction bits that hide nothing are lossless.
 EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, TrackOptions options);
 
 }  // namespace tetrakis

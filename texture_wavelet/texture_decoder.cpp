@@ -8,6 +8,7 @@
 #include "bitstream/parallel.hpp"
 #include "texture_wavelet/colour_levels.hpp"
 #include "texture_wavelet/drawn_decoder.hpp"
+#include "texture_wavelet/stored_texture.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/mip_level.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -140,6 +141,7 @@ Texels crop(const Texels& whole, const Window& window) {
 
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level,
                      uint32_t threads, TextureMemory* memory) {
+  if (header.stored) return decodeStoredTexture(header, codewords.front(), level);
   if (header.drawn()) return decodeDrawn(header, codewords.front(), level);
   Codewords coefficients = codewords;
   const auto opening =
@@ -169,7 +171,8 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, in
 
 Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
                            const Window& window, uint32_t threads) {
-  if (header.drawn()) return crop(decodeDrawn(header, codewords.front(), 0), window);
+  if (header.stored || header.drawn())
+    return crop(decodeTexture(header, codewords, 0, threads), window);
   Codewords coefficients = codewords;
   const auto opening = takeOpening(header, nullptr, coefficients.front());
   const Validity coded = opening->coded;

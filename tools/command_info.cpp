@@ -46,6 +46,7 @@ Json heightsJson(const tks_info& info) {
           {"step", info.step},
           {"base", info.base},
           {"exact_steps", info.exact_steps != 0},
+          {"coding", info.heights_stored != 0 ? "stored" : "wavelet"},
           {"voids", info.has_voids != 0},
           {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
           {"regions", info.regions > 0 ? Json(info.regions) : Json()},
@@ -54,7 +55,7 @@ Json heightsJson(const tks_info& info) {
 }
 
 /// What texture_drawn stands for.
-constexpr std::array<const char*, 3> kCodings = {"wavelet", "drawn", "overlay"};
+constexpr std::array<const char*, 4> kCodings = {"wavelet", "drawn", "overlay", "stored"};
 
 Json textureJson(const tks_info& info) {
   if (!info.has_texture) return {};

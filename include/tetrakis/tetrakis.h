@@ -179,13 +179,15 @@ typedef struct tks_info {
   uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
   uint32_t texture_coarsest_level;
   int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are not kept */
-  int texture_drawn;       /* 1: colours coded as they are; 2: those of an overlay on a photograph */
+  int texture_drawn;       /* 1: colours coded as they are; 2: those of an overlay on a photograph; 3:
+                              samples stored, because nothing codes them in fewer bytes */
   tks_sample texture_sample;
   double heights_rmse;     /* stated by the last complete packet, in unit; < 0: not yet stated */
   double texture_psnr;     /* likewise, dB; < 0: not yet stated; infinity: exact */
   const char* unit;            /* "" when unknown; owned by the decoder */
   const char* vertical_datum;
   const char* crs;
+  int heights_stored;      /* samples stored, because nothing codes them in fewer bytes */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an encoder promises it proves before anybody sees the stream.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/status.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis {
+
+/// Decodes the finished stream through the public interface and compares: a budget, a largest
+/// error, and every bit where the target or the stream says lossless. heights and image (null:
+/// there is none) are what was encoded. TKS_MISMATCH with a sentence if a promise is broken, which
+/// is a fault of the encoder. Streams that promise nothing are not decoded.
+Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const tks_image* image,
+             const tks_encode_options& options);
+
+}  // namespace tetrakis

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/awkward/promises.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "tetrakis/tetrakis.hpp"
+
+namespace tetrakis::test {
+
+namespace {
+
+using Samples = std::vector<std::byte>;
+
+template <class F>
+auto withType(tks_sample sample, F&& f) {
+  switch (sample) {
+    case TKS_U8:
+      return f(uint8_t{});
+    case TKS_I8:
+      return f(int8_t{});
+    case TKS_U16:
+      return f(uint16_t{});
+    case TKS_I16:
+      return f(int16_t{});
+    case TKS_U32:
+      return f(uint32_t{});
+    case TKS_I32:
+      return f(int32_t{});
+    case TKS_F32:
+      break;
+  }
+  return f(float{});
+}
+
+struct Decoded {
+  Samples samples;
+  std::string complaint;
+};
+
+/// Of the heights, or of the texture.
+Decoded decode(tks_decoder* decoder, bool heights) {
+  tks_info info = {};
+  info.size = sizeof info;
+  tks_get_info(decoder, &info);
+  Decoded out;
+  const size_t count = heights ? size_t{info.width} * info.height * tks_sample_bytes(info.sample)
+                               : size_t{info.texture_width} * info.texture_height *
+                                     info.texture_channels * tks_sample_bytes(info.texture_sample);
+  out.samples.resize(count);
+  const tks_status status = heights ? tks_decode_heights(decoder, out.samples.data(), count)
+                                    : tks_decode_texture(decoder, out.samples.data(), count);
+  if (status != TKS_OK) out.complaint = std::string("decoding fails: ") + tks_message(decoder);
+  return out;
+}
+
+/// Compares samples; voids of the input are skipped, but no other sample may become the value that
+/// voids have.
+class Comparison {
+ public:
+  explicit Comparison(const AwkwardCase& c) : c_(c) {}
+
+  std::string complaint(const Samples& decoded, bool lossless) const {
+    return withType(c_.heights.sample, [&](auto type) {
+      using T = decltype(type);
+      std::vector<T> truth(decoded.size() / sizeof(T)), seen(truth.size());
+      std::memcpy(truth.data(), c_.heights.data.data(), decoded.size());
+      std::memcpy(seen.data(), decoded.data(), decoded.size());
+      for (size_t i = 0; i < truth.size(); ++i) {
+        if (std::string found = at<T>(truth[i], seen[i], lossless); !found.empty())
+          return "sample " + std::to_string(i) + " " + found;
+      }
+      return std::string();
+    });
+  }
+
+ private:
+  template <class T>
+  bool isVoid(T sample) const {
+    const auto value = static_cast<double>(sample);
+    return std::isnan(value) ||
+           (c_.nodata && value == static_cast<double>(static_cast<T>(*c_.nodata)));
+  }
+
+  template <class T>
+  std::string at(T truth, T seen, bool lossless) const {
+    const std::string became = "of " + std::to_string(truth) + " became " + std::to_string(seen);
+    if (isVoid(truth)) return isVoid(seen) ? "" : became + " though it is void";
+    if (isVoid(seen)) return became + ", the value of voids";
+    if (lossless && std::memcmp(&truth, &seen, sizeof truth) != 0) return became;
+    const double error = std::abs(static_cast<double>(truth) - static_cast<double>(seen));
+    if (c_.options.max_error > 0 && error > c_.options.max_error) return became;
+    return {};
+  }
+
+  const AwkwardCase& c_;
+};
+
+/// What a stream may take at most beside its samples: the header, and a mask that no model helps.
+uint64_t mostBytes(const AwkwardCase& c) {
+  const uint64_t samples = c.heights.data.size() / tks_sample_bytes(c.heights.sample);
+  return c.heights.data.size() + 64 + samples / 6 +
+         (c.texture ? c.texture->data.size() * 5 / 4 + 200 : 0) + 64;
+}
+
+std::string checkWhole(const AwkwardCase& c, std::span<const uint8_t> stream) {
+  tks_decoder* decoder = nullptr;
+  if (tks_open(stream.data(), stream.size(), nullptr, &decoder, nullptr, 0) != TKS_OK)
+    return "the stream does not open";
+  const std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> owner(decoder, tks_close);
+  tks_info info = {};
+  info.size = sizeof info;
+  tks_get_info(decoder, &info);
+  if (tks_verify(decoder) != TKS_OK) return std::string("verify: ") + tks_message(decoder);
+  if (c.options.bytes > 0 && stream.size() > c.options.bytes) return "the budget is exceeded";
+  if (c.options.lossless && !info.lossless) return "the stream does not call itself lossless";
+  if (c.options.max_error > 0 && info.max_error != c.options.max_error)
+    return "the stream does not state its bound";
+  if (info.lossless && !c.options.index && stream.size() > mostBytes(c))
+    return std::to_string(stream.size()) + " bytes, the samples take " +
+           std::to_string(c.heights.data.size());
+  const Decoded heights = decode(decoder, true);
+  if (!heights.complaint.empty()) return heights.complaint;
+  const std::string found = Comparison(c).complaint(heights.samples, info.lossless != 0);
+  if (!found.empty() || !c.texture) return found;
+  const Decoded texture = decode(decoder, false);
+  if (!texture.complaint.empty()) return texture.complaint;
+  return info.lossless && texture.samples != c.texture->data ? "a texel has changed" : "";
+}
+
+/// A prefix decodes, and so do a level and a mesh of it.
+std::string checkCut(std::span<const uint8_t> prefix) {
+  tks_decoder* decoder = nullptr;
+  const tks_status status = tks_open(prefix.data(), prefix.size(), nullptr, &decoder, nullptr, 0);
+  if (status == TKS_TRUNCATED) return {};
+  if (status != TKS_OK) return "a prefix does not open";
+  const std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> owner(decoder, tks_close);
+  if (std::string found = decode(decoder, true).complaint; !found.empty()) return found;
+  tks_mesh mesh = {};
+  if (tks_decode_mesh(decoder, TKS_MESH_BUDGET, 40, &mesh) != TKS_OK) return tks_message(decoder);
+  tks_free_mesh(&mesh);
+  if (tks_set_levels(decoder, 1, 0) != TKS_OK) return {};
+  return decode(decoder, true).complaint;
+}
+
+}  // namespace
+
+std::string brokenPromise(const AwkwardCase& c) {
+  const tks_heights heights = c.input();
+  const tks_image image = c.texture ? c.texture->image() : tks_image{};
+  tks_buffer buffer = {};
+  char message[256] = "";
+  const tks_status status = tks_encode(&heights, c.texture ? &image : nullptr, &c.options, &buffer,
+                                       message, sizeof message);
+  const Buffer owner(buffer);
+  if (status == TKS_USAGE && !c.options.lossless && message[0] != 0) return {};
+  if (status != TKS_OK) return "encoding fails: " + std::string(message);
+  const std::span<const uint8_t> stream = owner.bytes();
+  if (std::string found = checkWhole(c, stream); !found.empty()) return found;
+  for (uint64_t part = 0; part < 4; ++part) {
+    const size_t cut = stream.size() * (2 * part + 1) / 8;
+    if (std::string found = checkCut(stream.first(cut)); !found.empty())
+      return "cut at " + std::to_string(cut) + ": " + found;
+  }
+  return {};
+}
+
+}  // namespace tetrakis::test

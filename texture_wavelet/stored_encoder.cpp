@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/stored_encoder.hpp"
+
+#include <span>
+#include <utility>
+
+#include "bitstream/byte_planes.hpp"
+#include "texture_wavelet/cutout.hpp"
+#include "texture_wavelet/stored_texture.hpp"
+
+namespace tetrakis {
+
+uint64_t storedBytes(const Texels& texels) {
+  return texels.samples.size() * static_cast<uint64_t>(texels.bits / 8);
+}
+
+EncodedTexture storeTexture(const Texels& texels) {
+  EncodedTexture encoded;
+  TextureHeader& header = encoded.header;
+  header.width = texels.width;
+  header.height = texels.height;
+  header.channels = static_cast<uint8_t>(texels.channels);
+  header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
+  header.planes = kDrawnPlanes;
+  header.stored = true;
+  EncodedTrack& track = encoded.tracks.emplace_back();
+  track.codeword = toBytePlanes(std::vector<uint32_t>(texels.samples.begin(), texels.samples.end()),
+                                texels.bits / 8);
+  track.planes = kDrawnPlanes;
+  for (uint64_t bytes = 0; bytes <= track.codeword.size(); bytes += texels.samples.size()) {
+    const Texels decoded = decodeStoredTexture(header, std::span(track.codeword).first(bytes), 0);
+    const double squares = countedSquares(texels, decoded, {});
+    const bool last = bytes == track.codeword.size();
+    if (track.points.empty() || last || squares < track.points.back().distortion)
+      track.points.push_back({bytes, squares});
+  }
+  return encoded;
+}
+
+}  // namespace tetrakis
