@@ -32,10 +32,14 @@ void EncodeJob::encodeSideLayers(bool restore_samples) {
 }
 
 void EncodeJob::encodeGeometry(Purpose purpose) {
-  const HeightSteps& steps = geometry_->steps;
-  geometry_->wavelet = chooseWavelet(steps.steps, steps.valid, heights_->width, heights_->height,
-                                     steps.range_bits, purpose);
+  geometry_->wavelet = waveletFor(purpose);
   joinLayers(encodeCoefficients());
+}
+
+WaveletHeader EncodeJob::waveletFor(Purpose purpose) const {
+  const HeightSteps& steps = geometry_->steps;
+  return chooseWavelet(steps.steps, steps.valid, heights_->width, heights_->height,
+                       steps.range_bits, purpose);
 }
 
 std::vector<EncodedTrack> EncodeJob::encodeCoefficients() const {

@@ -156,8 +156,11 @@ Status EncodeJob::encodeTracks() {
   if (image_ != nullptr) {
     texture = std::async(parallel ? std::launch::async : std::launch::deferred, encode_texture);
   }
-  if (geometry_) encodeGeometry(geometryPurpose());
-  if (options_.max_error > 0) boundHeights();
+  if (options_.max_error > 0) {
+    boundHeights();
+  } else if (geometry_) {
+    encodeGeometry(geometryPurpose());
+  }
   if (Status status = report(0.4); !status.ok()) return status;
   if (texture.valid()) texture_ = texture.get();
   if (texture_ && options_.psnr > 0) reachTarget();

@@ -100,6 +100,7 @@ class EncodeJob {
   // encode_heights.cpp: the tracks of the heights.
   void encodeSideLayers(bool restore_samples);
   void encodeGeometry(Purpose purpose);
+  WaveletHeader waveletFor(Purpose purpose) const;
   std::vector<EncodedTrack> encodeCoefficients() const;
   void joinLayers(std::vector<EncodedTrack> coefficients);
   void storeHeights();
@@ -131,7 +132,8 @@ class EncodeJob {
   void roundHeights(int32_t largest);
   void encodeRounded();
   double floatSpacing() const;
-  void correctHeights(int32_t largest);
+  bool boundWithin(int32_t largest, double bound);
+  void correctHeights(int32_t largest, std::optional<double> mean_square);
   bool withinBound() const;
 
   // encode_target.cpp: how much of each track a quality target needs.

@@ -8,30 +8,29 @@ namespace tetrakis {
 namespace {
 
 constexpr uint32_t kWholeSide = 256;
-constexpr uint32_t kPartSide = 96;
 constexpr uint32_t kFields = 3;  // along each side
 
 struct Interval {
   uint32_t first, length;
 };
 
-/// At most kPartSide samples in the middle of a field of a side.
-Interval middleOf(uint32_t field, uint32_t side) {
+/// At most so many samples in the middle of a field of a side.
+Interval middleOf(uint32_t field, uint32_t side, uint32_t most) {
   const auto begin = static_cast<uint32_t>(uint64_t{side} * field / kFields);
   const auto end = static_cast<uint32_t>(uint64_t{side} * (field + 1) / kFields);
-  const uint32_t length = std::min(end - begin, kPartSide);
+  const uint32_t length = std::min(end - begin, most);
   return {begin + (end - begin - length) / 2, length};
 }
 
 }  // namespace
 
-std::vector<Part> typicalParts(uint32_t width, uint32_t height) {
+std::vector<Part> typicalParts(uint32_t width, uint32_t height, uint32_t side) {
   if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};
   std::vector<Part> parts;
   for (uint32_t row = 0; row < kFields; ++row) {
-    const Interval y = middleOf(row, height);
+    const Interval y = middleOf(row, height, side);
     for (uint32_t column = 0; column < kFields; ++column) {
-      const Interval x = middleOf(column, width);
+      const Interval x = middleOf(column, width, side);
       if (x.length > 0 && y.length > 0) parts.push_back({x.first, y.first, x.length, y.length});
     }
   }

@@ -14,7 +14,8 @@ struct Part {
 
 /// The parts that stand for a plane of width * height samples, none of them 0, where trying all of
 /// it would take too long. One part if neither side is above 256. Otherwise one in the middle of
-/// each field of a grid of 3 by 3: one part alone may be water, or a lawn.
-std::vector<Part> typicalParts(uint32_t width, uint32_t height);
+/// each field of a grid of 3 by 3, of `side` samples at most along each side: one part alone may be
+/// water, or a lawn.
+std::vector<Part> typicalParts(uint32_t width, uint32_t height, uint32_t side = 96);
 
 }  // namespace tetrakis
