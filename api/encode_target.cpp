@@ -76,7 +76,9 @@ HeightErrors EncodeJob::heightErrors(uint64_t bytes) const {
   });
 }
 
+/// Where voids are belongs to what is asked for.
 bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
+  if (bytes < geometry_->validity.size()) return false;
   const HeightErrors errors = heightErrors(bytes);
   return errors.mean_square <= worstMeanSquare(errors.range, options_.psnr);
 }
