@@ -2,6 +2,9 @@
 // How picture files store their samples, format by format.
 #include "tools/stored_form.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "tools/exif.hpp"
 #include "tools/jpeg.hpp"
 #include "tools/tiff.hpp"
@@ -25,6 +28,7 @@ Status noteTiff(Raster& raster) {
     return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
   }
   raster.further_pages = form->further_pages;
+  raster.mask = form->mask;
   if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
   const std::string colours = raster.spec.get_string_attribute("tiff:ColorSpace");
   raster.palette = colours == "palette";
@@ -38,6 +42,28 @@ Status noteJpeg(Raster& raster) {
   const auto bytes = readBytes(raster.file.path());
   if (!bytes.ok()) return bytes.status();
   return checkJpeg(*bytes, raster.name);
+}
+
+/// OpenImageIO hands signed samples over shifted, and others than 8 and 16 bits rescaled. SIZ
+/// marker segment (ITU-T T.800, A.5.1): 38 bytes behind its length, for each component bits - 1,
+/// and 128 if signed.
+Status noteJpeg2000(Raster& raster) {
+  const auto bytes = readBytes(raster.file.path());
+  if (!bytes.ok()) return bytes.status();
+  constexpr std::array<std::byte, 4> kStart{std::byte{0xFF}, std::byte{0x4F}, std::byte{0xFF},
+                                            std::byte{0x51}};
+  constexpr ptrdiff_t kFirstComponent = 42;
+  const auto start = std::search(bytes->begin(), bytes->end(), kStart.begin(), kStart.end());
+  if (bytes->end() - start <= kFirstComponent)
+    return {TKS_IO, "cannot read " + raster.name + ": it ends early or is damaged"};
+  const auto depth = static_cast<unsigned>(start[kFirstComponent]);
+  if (depth & 128U) {
+    return {TKS_USAGE, raster.name +
+                           " holds signed JPEG 2000 samples, which reading would shift: "
+                           "convert it to TIFF"};
+  }
+  raster.stored_bits = static_cast<int>(depth) + 1;
+  return {};
 }
 
 /// OpenImageIO states the bits of palette files alone, and reads those of greys as grey.
@@ -72,7 +98,9 @@ Status noteStoredForm(Raster& raster) {
   raster.profile = raster.spec.find_attribute("ICCProfile") != nullptr;
   if (format == "tiff") return noteTiff(raster);
   if (format == "jpeg") return noteJpeg(raster);
+  if (format == "jpeg2000") return noteJpeg2000(raster);
   if (format == "webp") return noteWebp(raster);
+  raster.stored_bits = raster.spec.get_int_attribute("oiio:BitsPerSample");
   if (format == "gif") raster.further_pages = hasSecondFrame(raster);
   if (format == "gif") raster.palette = true;
   if (format == "bmp") noteBmp(raster);
