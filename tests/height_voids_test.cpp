@@ -281,5 +281,18 @@ TEST_F(HeightVoids, Jpeg2000IsReadExactlyOrRefused) {
   }
 }
 
+/// OpenImageIO would stretch what does not fill its type.
+TEST_F(HeightVoids, GreymapsAreReadExactlyOrRefused) {
+  for (const unsigned white : {255U, 65535U, 200U, 1000U}) {
+    std::string text = "P2\n# 9 9 9\n4 2 " + std::to_string(white) + "\n0 1 2 3 4 5 6 199\n";
+    const auto heights = readHeights(save("a.pgm", std::vector(text.begin(), text.end())));
+    const bool fits = white == 255 || white == 65535;
+    EXPECT_EQ(heights.status().code(), fits ? TKS_OK : TKS_USAGE) << heights.status().message();
+    if (!fits || !heights.ok()) continue;
+    EXPECT_EQ(heights->data[white == 255 ? 7 : 14], std::byte{199});
+    EXPECT_EQ(heights->data.size(), white == 255 ? 8U : 16U);
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::tools

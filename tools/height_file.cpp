@@ -52,6 +52,11 @@ Result<tks_sample> sampleOf(const Raster& raster) {
   if (raster.white_is_zero) {
     return Status(TKS_USAGE, raster.name + " stores white as 0: heights are no shades");
   }
+  if (raster.stretched) {
+    return Status(TKS_USAGE, raster.name +
+                                 " has samples that reading would stretch to all of 8 or "
+                                 "16 bits: convert it to TIFF");
+  }
   const int bits = static_cast<int>(8 * spec.format.size());
   const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(), [&](const auto& known) {
     return known.stored == spec.format.basetype;

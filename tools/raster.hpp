@@ -24,6 +24,7 @@ struct Raster {
   int stored_bits = 0;                      ///< of one sample in the file; 0: as spec.format
   bool palette = false;                     ///< expanded to RGB by reading
   bool cmyk = false;                        ///< converted to RGB by reading
+  bool stretched = false;                   ///< to the whole range of the type by reading
   bool white_is_zero = false;               ///< inverted by reading
   bool further_pages = false;               ///< pages or frames that are not read
   bool mask = false;                        ///< a TIFF's mask page, which is not applied by reading

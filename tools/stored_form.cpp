@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
+#include <sstream>
+#include <string>
 
 #include "tools/exif.hpp"
 #include "tools/jpeg.hpp"
@@ -66,6 +69,23 @@ Status noteJpeg2000(Raster& raster) {
   return {};
 }
 
+/// Portable greymaps say which value is white, and OpenImageIO stretches the others to that. The
+/// header is the magic number, width, height and that value, with comments from # to line ends.
+Status notePnm(Raster& raster) {
+  const auto bytes = readBytes(raster.file.path());
+  if (!bytes.ok()) return bytes.status();
+  constexpr size_t kMaxHeader = 4096;
+  const std::string head(reinterpret_cast<const char*>(bytes->data()),
+                         std::min(bytes->size(), kMaxHeader));
+  std::istringstream text(std::regex_replace(head, std::regex("#[^\n\r]*"), " "));
+  std::string magic;
+  uint64_t width = 0, height = 0, white = 0;
+  text >> magic >> width >> height >> white;
+  const bool has_white = magic == "P2" || magic == "P3" || magic == "P5" || magic == "P6";
+  raster.stretched = has_white && white != 255 && white != 65535;
+  return {};
+}
+
 /// OpenImageIO states the bits of palette files alone, and reads those of greys as grey.
 void noteBmp(Raster& raster) {
   const int bits = raster.spec.get_int_attribute("bmp:bitsperpixel");
@@ -101,6 +121,7 @@ Status noteStoredForm(Raster& raster) {
   if (format == "jpeg2000") return noteJpeg2000(raster);
   if (format == "webp") return noteWebp(raster);
   raster.stored_bits = raster.spec.get_int_attribute("oiio:BitsPerSample");
+  if (format == "pnm") return notePnm(raster);
   if (format == "gif") raster.further_pages = hasSecondFrame(raster);
   if (format == "gif") raster.palette = true;
   if (format == "bmp") noteBmp(raster);
