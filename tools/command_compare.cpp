@@ -99,7 +99,7 @@ Status checkPromise(const tks_info& info, const Measurement& measurement) {
   if (info.lossless && error != 0)
     return Status(TKS_MISMATCH,
                   "the stream says lossless, but heights differ by up to " + std::to_string(error));
-  if (info.max_error >= 0 && !(error <= info.max_error))
+  if (info.max_error >= 0 && !(error <= info.max_error + measurement.heights->rounding))
     return Status(TKS_MISMATCH, "the stream promises heights within " +
                                     std::to_string(info.max_error) + ", but they differ by up to " +
                                     std::to_string(error));

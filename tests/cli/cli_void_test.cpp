@@ -36,7 +36,6 @@ TEST_F(CliVoids, DeclaredNodataComesBackDeclared) {
 TEST_F(CliVoids, NodataIsMetAsGdalMeetsIt) {
   tools::HeightFile heights = hills(17);
   heights.sample = TKS_F32;
-  heights.scale = 1;
   heights.data.assign(17 * 17 * sizeof(float), {});
   for (size_t i = 0; i < 17 * 17; ++i) {
     const float sample = i < 20 ? -3.40282306e+38F : i < 40 ? -3.40282347e+38F : float(i % 90);
@@ -45,6 +44,7 @@ TEST_F(CliVoids, NodataIsMetAsGdalMeetsIt) {
   ASSERT_TRUE(tools::writeHeights(path("plain.tif"), heights).ok());
   heights.nodata = -3.4028234663852886e+38;
   ASSERT_TRUE(tools::writeHeights(path("declared.tif"), heights).ok());
+  // Five samples times 0.1 are 0.5 and, in doubles, a trifle more.
   const std::string target = " --max-error 0.5 -o v.tks -f";
   const Outcome declared = cli("encode declared.tif" + target);
   EXPECT_NE(declared.err.find("40 samples are void"), std::string::npos) << declared.err;
@@ -87,7 +87,7 @@ TEST_F(CliVoids, BoundsInMetresHoldForHeightsInFeet) {
 
 /// They are so nearly the same length that heights and texture are ordered alike.
 TEST_F(CliVoids, SurveyFeetAreWorthAsMuchAsFeet) {
-  makeInputs(33);
+  makeInputs();
   std::string payloads[2];
   for (const char* unit : {"ft", "US_survey_foot"}) {
     const std::string encode = "encode height.tif --texture texture.png --lossless -f -o u.tks";
