@@ -70,11 +70,11 @@ TrackCurve priced(OrderedTracks tracks, MeanSquare mean_square, Cost cost, uint6
 
 double metresPerUnit(const char* unit) {
   const std::string name = unit ? unit : "";
-  return name == "ft"   ? 0.3048
-         : name == "cm" ? 0.01
-         : name == "mm" ? 0.001
-         : name == "km" ? 1000
-                        : 1;
+  return name == "ft" || name == "us-ft" ? 0.3048
+         : name == "cm"                  ? 0.01
+         : name == "mm"                  ? 0.001
+         : name == "km"                  ? 1000
+                                         : 1;
 }
 
 }  // namespace

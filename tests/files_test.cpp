@@ -206,7 +206,7 @@ TEST_F(ScratchFolder, HeightsThatAreNoneAreRefused) {
                                                          {six + ":2x2:u8", TKS_USAGE},
                                                          {six + ":2x3:u16", TKS_USAGE},
                                                          {six + ":0x0:u8", TKS_USAGE},
-                                                         {square, TKS_USAGE},
+                                                         {square, TKS_IO},
                                                          {text, TKS_IO},
                                                          {empty, TKS_IO},
                                                          {path("missing.tif"), TKS_IO},

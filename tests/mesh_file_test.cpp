@@ -221,19 +221,41 @@ TEST_F(ScratchFolder, GlbBoundsAreExact) {
   }
 }
 
-TEST_F(ScratchFolder, GlbNormalsPointUpAndHaveLengthOne) {
+TEST_P(MeshFormats, NormalsPointUpAndHaveLengthOne) {
   MeshFile mesh = hill(9);
   mesh.positions.insert(mesh.positions.end(), {0, 0, 0});  // no triangle meets this vertex
-  mesh.texcoords.clear();
-  ASSERT_TRUE(writeMesh(path("a.glb"), mesh).ok());
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path("a.glb"), 0);
-  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
-  const aiMesh& read = *scene->mMeshes[0];
-  ASSERT_TRUE(read.HasNormals());
-  for (unsigned i = 0; i < read.mNumVertices; ++i) {
-    EXPECT_NEAR(read.mNormals[i].Length(), 1, 1e-6);
-    EXPECT_GT(read.mNormals[i].y, 0);
+  for (const bool textured : {false, true}) {
+    if (!textured) mesh.texcoords.clear();
+    if (textured) mesh.texcoords.resize(mesh.positions.size() / 3 * 2);
+    ASSERT_TRUE(writeMesh(file(), mesh).ok());
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(file(), 0);
+    ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+    const aiMesh& read = *scene->mMeshes[0];
+    ASSERT_TRUE(read.HasNormals());
+    for (unsigned i = 0; i < read.mNumVertices; ++i) {
+      EXPECT_NEAR(read.mNormals[i].Length(), 1, 1e-6);
+      EXPECT_GT(read.mNormals[i].y, 0);
+    }
+  }
+}
+
+TEST_F(ScratchFolder, GlbIndicesTake16BitsWhereTheyCan) {
+  constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125;
+  for (const size_t vertices : {9U, 65535U, 65536U}) {
+    MeshFile mesh = hill(3);
+    mesh.texcoords.clear();
+    mesh.positions.resize(3 * vertices);
+    mesh.triangles.insert(mesh.triangles.end(), {0, 1, static_cast<uint32_t>(vertices - 1)});
+    ASSERT_TRUE(writeMesh(path("a.glb"), mesh).ok());
+    const auto document = documentOf(path("a.glb"));
+    const size_t indices = document["meshes"][0]["primitives"][0]["indices"];
+    EXPECT_EQ(document["accessors"][indices]["componentType"],
+              vertices <= 65535 ? kUnsignedShort : kUnsignedInt);
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(path("a.glb"), 0);
+    ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+    expectSameCorners(*scene->mMeshes[0], mesh, Coordinates::kBinary);
   }
 }
 

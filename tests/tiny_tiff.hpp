@@ -17,6 +17,7 @@ class TinyTiff {
  public:
   enum Type : uint16_t { kAscii = 2, kShort = 3, kLong = 4, kDouble = 12 };
   enum Tag : uint16_t {
+    kSubfileType = 254,
     kWidth = 256,
     kHeight = 257,
     kBitsPerSample = 258,
@@ -55,11 +56,33 @@ class TinyTiff {
   }
   void remove(uint16_t tag) { entries_.erase(tag); }
 
-  /// Header, pixels, values longer than four bytes, directory.
+  /// Follows this picture in the file.
+  void addPage(const TinyTiff& page) { pages_.push_back(page); }
+
+  /// Header, then for each page pixels, values longer than four bytes, directory.
   std::vector<uint8_t> bytes() const {
-    std::vector<uint8_t> file(kHeader + pixels_.size());
+    std::vector<uint8_t> file(kHeader);
     std::copy_n("II\x2A\0", 4, file.begin());
-    std::copy(pixels_.begin(), pixels_.end(), file.begin() + kHeader);
+    uint32_t link = appendTo(file, 4);
+    for (TinyTiff page : pages_) {
+      if (file.size() % 2 != 0) file.push_back(0);
+      page.longs(kStripOffsets, {uint32_t(file.size())});
+      link = page.appendTo(file, link);
+    }
+    return file;
+  }
+
+ private:
+  static constexpr uint32_t kHeader = 8;
+  struct Entry {
+    uint16_t type = 0;
+    uint32_t count = 0;
+    std::vector<uint8_t> value;
+  };
+
+  /// Lets the offset at `link` point to this page, and returns where that of the next one stands.
+  uint32_t appendTo(std::vector<uint8_t>& file, uint32_t link) const {
+    file.insert(file.end(), pixels_.begin(), pixels_.end());
     std::vector<uint8_t> directory;
     put(directory, uint16_t(entries_.size()));
     for (const auto& [tag, entry] : entries_) {
@@ -80,18 +103,10 @@ class TinyTiff {
     put(directory, uint32_t{0});
     if (file.size() % 2 != 0) file.push_back(0);
     const auto start = uint32_t(file.size());
-    std::memcpy(file.data() + 4, &start, 4);
+    std::memcpy(file.data() + link, &start, 4);
     file.insert(file.end(), directory.begin(), directory.end());
-    return file;
+    return uint32_t(file.size() - 4);
   }
-
- private:
-  static constexpr uint32_t kHeader = 8;
-  struct Entry {
-    uint16_t type = 0;
-    uint32_t count = 0;
-    std::vector<uint8_t> value;
-  };
 
   template <class T>
   static void put(std::vector<uint8_t>& to, T value) {
@@ -108,6 +123,7 @@ class TinyTiff {
 
   std::vector<uint8_t> pixels_;
   std::map<uint16_t, Entry> entries_;
+  std::vector<TinyTiff> pages_;
 };
 
 }  // namespace tetrakis::test

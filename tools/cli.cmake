@@ -8,7 +8,7 @@ set(commands
 tks_room(tks_cli
   SOURCES
     ${commands} comparison.cpp json.cpp output.cpp output_names.cpp progress.cpp
-    report.cpp report_page.cpp report_plot.cpp scene.cpp stream.cpp units.cpp viewed_mesh.cpp
+    report.cpp report_page.cpp report_plot.cpp scene.cpp stream.cpp viewed_mesh.cpp
   USES tetrakis tks_files tks_render tks_synth tks_conformance CLI11::CLI11
     nlohmann_json::nlohmann_json)
 target_link_libraries(tks_cli PRIVATE PkgConfig::TKS_FILE_FORMATS)  # base64

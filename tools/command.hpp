@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -33,9 +35,33 @@ void addCompare(CLI::App& app, CommandLine& line);
 void addVerify(CLI::App& app, CommandLine& line);
 void addSynth(CLI::App& app, CommandLine& line);
 
+/// A line on standard error, unless it is empty or -q is given.
+inline void tellNote(const std::string& text, bool quiet) {
+  if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
+}
+
+/// What is to be said of a mesh that has more triangles than were asked for (0: any number); "" of
+/// others.
+inline std::string coarsestNote(uint32_t triangles, uint32_t asked) {
+  if (asked == 0 || triangles <= asked) return "";
+  return "the mesh has " + std::to_string(triangles) + " triangles: the coarsest one";
+}
+
 /// Without the description that CLI11 would append to the option's type.
 inline CLI::Validator silent(CLI::Validator validator) {
   return validator.description("");
+}
+
+/// A number that is neither infinite nor NaN.
+inline CLI::Validator finite() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && std::isfinite(value)
+                   ? std::string()
+                   : "'" + text + "' is not a finite number";
+      },
+      "");
 }
 
 /// --bytes SIZE with the suffixes k, M, G.

@@ -58,12 +58,15 @@ Json measurementJson(const Measurement& measurement, const std::vector<Camera>& 
   return json;
 }
 
-Result<Reference> readReference(const CompareArguments& arguments, bool quiet) {
+/// Heights with the voids of the stream.
+Result<Reference> readReference(const CompareArguments& arguments, const tks_info& info,
+                                bool quiet) {
   if (arguments.height.empty() && arguments.texture.empty())
     return Status(TKS_USAGE, "nothing to compare with: give --height or --texture");
   Reference reference;
   if (!arguments.height.empty()) {
-    Result<HeightFile> heights = readHeights(arguments.height);
+    Result<HeightFile> heights =
+        readHeights(arguments.height, info.has_nodata ? std::optional(info.nodata) : std::nullopt);
     if (!heights.ok()) return heights.status();
     reference.heights = std::move(*heights);
   }
@@ -71,7 +74,7 @@ Result<Reference> readReference(const CompareArguments& arguments, bool quiet) {
     std::string note;
     Result<ImageFile> image = readImage(arguments.texture, &note);
     if (!image.ok()) return image.status();
-    if (!note.empty() && !quiet) std::fprintf(stderr, "note: %s\n", note.c_str());
+    tellNote(note, quiet);
     reference.image = std::move(*image);
   }
   return reference;
@@ -82,7 +85,7 @@ Result<Reference> readReference(const CompareArguments& arguments, bool quiet) {
 Status look(Comparer& comparer, const CameraChoice& cameras, bool quiet) {
   const Status status = comparer.look(cameras);
   if (status.ok() || status.code() != TKS_UNSUPPORTED || !cameras.isDefault()) return status;
-  if (!quiet) std::fprintf(stderr, "note: no screen figures: %s\n", status.message().c_str());
+  tellNote("no screen figures: " + status.message(), quiet);
   return Status();
 }
 
@@ -96,7 +99,7 @@ Status checkPromise(const tks_info& info, const Measurement& measurement) {
   if (info.lossless && error != 0)
     return Status(TKS_MISMATCH,
                   "the stream says lossless, but heights differ by up to " + std::to_string(error));
-  if (info.max_error >= 0 && !(error <= info.max_error))
+  if (info.max_error >= 0 && !(error <= info.max_error + measurement.heights->rounding))
     return Status(TKS_MISMATCH, "the stream promises heights within " +
                                     std::to_string(info.max_error) + ", but they differ by up to " +
                                     std::to_string(error));
@@ -107,7 +110,7 @@ Status compare(const CompareArguments& arguments, bool quiet) {
   const Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
   const tks_info& info = stream->decoder.info();
-  const Result<Reference> reference = readReference(arguments, quiet);
+  const Result<Reference> reference = readReference(arguments, info, quiet);
   if (!reference.ok()) return reference.status();
   Result<Comparer> comparer = Comparer::create(*reference, info);
   if (!comparer.ok()) return comparer.status();
@@ -115,6 +118,7 @@ Status compare(const CompareArguments& arguments, bool quiet) {
   const Result<Measurement> measurement =
       comparer->measure(octets(stream->bytes), arguments.triangles);
   if (!measurement.ok()) return measurement.status();
+  tellNote(coarsestNote(measurement->triangles.value_or(0), arguments.triangles), quiet);
   const Json json = measurementJson(*measurement, comparer->cameras());
   if (Status status = print(arguments.json ? dump(json) : table(json)); !status.ok()) return status;
   return arguments.triangles == 0 ? checkPromise(info, *measurement) : Status();

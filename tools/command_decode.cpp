@@ -60,8 +60,8 @@ tks_window texelsOver(const tks_window& samples, const tks_info& info) {
 /// Decodes into staged outputs; the caller commits them when all have succeeded.
 class Decoding {
  public:
-  Decoding(const DecodeArguments& arguments, OpenStream& stream)
-      : arguments_(arguments), stream_(stream), decoder_(stream.decoder) {}
+  Decoding(const DecodeArguments& arguments, OpenStream& stream, bool quiet)
+      : arguments_(arguments), stream_(stream), decoder_(stream.decoder), quiet_(quiet) {}
 
   /// Begins the texture beside the heights where there are threads for both.
   void start() {
@@ -107,6 +107,7 @@ class Decoding {
       return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
     const Result<Mesh> mesh = chosenMesh();
     if (!mesh.ok()) return mesh.status();
+    tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
     MeshFile file = placeMesh(*mesh, frameOf(info));
     ImageFile texture;
     if (info.has_texture) {
@@ -119,10 +120,10 @@ class Decoding {
   }
 
   Status commit() {
+    std::vector<Output*> outputs;
     for (std::optional<Output>* output : {&height_, &texture_, &mesh_})
-      if (*output)
-        if (Status status = (*output)->commit(); !status.ok()) return status;
-    return Status();
+      if (*output) outputs.push_back(&**output);
+    return Output::commitAll(std::move(outputs));
   }
 
  private:
@@ -163,6 +164,7 @@ class Decoding {
   const DecodeArguments& arguments_;
   const OpenStream& stream_;
   Decoder& decoder_;
+  bool quiet_;
   std::optional<Output> height_, texture_, mesh_;
   std::optional<Result<ImageFile>> image_;
   std::future<Result<ImageFile>> beside_;
@@ -182,7 +184,7 @@ Status checkWindow(const DecodeArguments& arguments, const tks_info& info) {
                                std::to_string(height) + " samples");
 }
 
-Status decode(const DecodeArguments& arguments) {
+Status decode(const DecodeArguments& arguments, bool quiet) {
   if (Status status = checkOutputs(arguments); !status.ok()) return status;
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
@@ -192,7 +194,7 @@ Status decode(const DecodeArguments& arguments) {
                  texture_level = arguments.texture.empty() ? 0 : arguments.level;
   const Expected<void> set = stream->decoder.setLevels(heights_level, texture_level);
   if (!set) return toStatus(set.error());
-  Decoding decoding(arguments, *stream);
+  Decoding decoding(arguments, *stream, quiet);
   if (Status status = decoding.plan(); !status.ok()) return status;
   decoding.start();
   if (!arguments.height.empty())
@@ -245,7 +247,9 @@ void addDecode(CLI::App& app, CommandLine& line) {
       ->excludes(level);
   addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);
-  verb.callback([arguments, &line] { line.action = [arguments] { return decode(*arguments); }; });
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return decode(*arguments, line.quiet); };
+  });
 }
 
 }  // namespace tetrakis::tools

@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "tools/encode_arguments.hpp"
+#include "tools/file_bytes.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/report.hpp"
+#include "tools/text.hpp"
 #include "tools/units.hpp"
 
 namespace tetrakis::tools {
@@ -22,27 +24,18 @@ namespace {
 /// millimetre a metre.
 constexpr double kLeastParallax = 1e-3;
 
-void note(const std::string& text, bool quiet) {
-  if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
-}
-
 std::string voidNote(const HeightFile& heights) {
   const Surface surface = heightsOf(heights);
   const auto count = std::count_if(surface.values.begin(), surface.values.end(),
                                    [](double height) { return std::isnan(height); });
-  return count == 0 ? "" : std::to_string(count) + " samples are void";
-}
-
-/// As a sample of this type holds it.
-double sampleValue(double value, tks_sample sample) {
-  return sample == TKS_F32 ? static_cast<double>(static_cast<float>(value)) : value;
+  return count == 0 ? ""
+                    : counted(static_cast<uint64_t>(count), "sample is", "samples are") + " void";
 }
 
 Status describe(const EncodeArguments& arguments, HeightFile& heights) {
   heights.scale = arguments.scale.value_or(heights.scale);
   heights.offset = arguments.offset.value_or(heights.offset);
-  if (arguments.nodata) heights.nodata = sampleValue(*arguments.nodata, heights.sample);
-  heights.unit = arguments.unit.value_or(heights.unit);
+  if (arguments.unit) heights.unit = canonicalUnit(*arguments.unit);
   heights.vertical_datum = arguments.vertical_datum.value_or(heights.vertical_datum);
   heights.crs = arguments.crs.value_or(heights.crs);
   if (arguments.spacing.empty()) return Status();
@@ -53,20 +46,31 @@ Status describe(const EncodeArguments& arguments, HeightFile& heights) {
   return Status();
 }
 
+/// Notes that an option does not answer.
+void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet) {
+  for (const auto& [text, option] : notes) {
+    const bool answered = (option == "--spacing" && !arguments.spacing.empty()) ||
+                          (option == "--unit" && arguments.unit);
+    if (!answered) tellNote(quoted(arguments.height) + ": " + text, quiet);
+  }
+}
+
 Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   Reference inputs;
   if (!arguments.height.empty()) {
-    Result<HeightFile> heights = readHeights(arguments.height);
+    Notes notes;
+    Result<HeightFile> heights = readHeights(arguments.height, arguments.nodata, &notes);
     if (!heights.ok()) return heights.status();
+    tellNotes(notes, arguments, quiet);
     if (Status status = describe(arguments, *heights); !status.ok()) return status;
-    note(voidNote(*heights), quiet);
+    tellNote(voidNote(*heights), quiet);
     inputs.heights = std::move(*heights);
   }
   if (!arguments.texture.empty()) {
     std::string remark;
     Result<ImageFile> image = readImage(arguments.texture, &remark);
     if (!image.ok()) return image.status();
-    note(remark, quiet);
+    tellNote(remark, quiet);
     inputs.image = std::move(*image);
   }
   return inputs;
@@ -222,9 +226,10 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (outputs->report) {
     if (Status status = stageReport(arguments, *inputs, bytes, *outputs->report); !status.ok())
       return status;
-    if (Status status = outputs->report->commit(); !status.ok()) return status;
   }
-  if (Status status = outputs->stream.commit(); !status.ok()) return status;
+  std::vector<Output*> all{&outputs->stream};
+  if (outputs->report) all.push_back(&*outputs->report);
+  if (Status status = Output::commitAll(std::move(all)); !status.ok()) return status;
   if (quiet) return Status();
   const Result<std::string> line = summary(arguments.output, bytes);
   if (line.ok()) std::fprintf(stderr, "%s\n", line->c_str());

@@ -33,6 +33,9 @@ HeightErrors heightErrors(const Surface& reference, const Surface& test) {
   }
   const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
   errors.rmse = std::sqrt(mean);
+  // Scale and offset round twice on either side.
+  const double largest = count > 0 ? std::max(std::abs(low), std::abs(high)) : 0;
+  errors.rounding = 4 * std::numeric_limits<double>::epsilon() * largest;
   errors.psnr = psnr(count > 0 ? high - low : 0, mean);
   return errors;
 }

@@ -26,6 +26,7 @@ struct Reference {
 struct HeightErrors {
   double rmse = 0, max_error = 0;  ///< in the unit of the stream
   double psnr = 0;                 ///< dB; the peak is the range of the reference's heights
+  double rounding = 0;             ///< how far off max_error may be, as heights are doubles
 };
 
 struct Measurement {

@@ -48,8 +48,10 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
 }
 
 void addDescription(CLI::App& verb, EncodeArguments& arguments) {
-  verb.add_option("--scale", arguments.scale, "Height = sample * scale + offset")->type_name("X");
-  verb.add_option("--offset", arguments.offset, "See --scale")->type_name("X");
+  verb.add_option("--scale", arguments.scale, "Height = sample * scale + offset")
+      ->check(finite())
+      ->type_name("X");
+  verb.add_option("--offset", arguments.offset, "See --scale")->check(finite())->type_name("X");
   verb.add_option("--nodata", arguments.nodata, "Samples of this value are void; NaN always is")
       ->type_name("X");
   verb.add_option("--step", arguments.step, "Quantisation step in samples; else exact if possible")

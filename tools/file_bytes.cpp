@@ -2,16 +2,14 @@
 // Whole files as bytes, and standard input as a file.
 #include "tools/file_bytes.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace tetrakis::tools {
 namespace {
@@ -81,26 +79,16 @@ Result<InputFile> InputFile::open(const std::string& path) {
     if (!file || (std::fread(&first, 1, 1, file.get()) == 0 && std::ferror(file.get()))) {
       return failure("read", path, errno);
     }
-    return InputFile(path, false);
+    return InputFile(path, {});
   }
   const auto bytes = readBytes(path);
   if (!bytes.ok()) return bytes.status();
-  std::error_code no_folder;
-  std::string name = (std::filesystem::temp_directory_path(no_folder) / "tetrakis-XXXXXX").string();
-  const int descriptor = mkstemp(name.data());
-  if (descriptor < 0) return failure("write", name, errno);
-  close(descriptor);
-  InputFile copy(name, true);
-  const Status written = writeBytes(name, *bytes);
+  auto copy = Temporary::makeFile();
+  if (!copy.ok()) return copy.status();
+  const Status written = writeBytes(copy->path(), *bytes);
   if (!written.ok()) return written;
-  return copy;
-}
-
-InputFile::InputFile(InputFile&& other) noexcept
-    : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, false)) {}
-
-InputFile::~InputFile() {
-  if (temporary_) std::remove(path_.c_str());
+  const std::string name = copy->path();
+  return InputFile(name, std::move(*copy));
 }
 
 }  // namespace tetrakis::tools

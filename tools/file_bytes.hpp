@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bitstream/status.hpp"
+#include "tools/temporary.hpp"
 
 namespace tetrakis::tools {
 
@@ -33,15 +35,12 @@ void reorderBytes(std::span<std::byte> items, size_t item_bytes, std::endian ord
 class InputFile {
  public:
   static Result<InputFile> open(const std::string& path);
-  InputFile(InputFile&& other) noexcept;
-  InputFile& operator=(InputFile&&) = delete;
-  ~InputFile();
   const std::string& path() const { return path_; }
 
  private:
-  InputFile(std::string path, bool temporary) : path_(std::move(path)), temporary_(temporary) {}
+  InputFile(std::string path, Temporary copy) : path_(std::move(path)), copy_(std::move(copy)) {}
   std::string path_;
-  bool temporary_;
+  Temporary copy_;
 };
 
 }  // namespace tetrakis::tools

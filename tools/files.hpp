@@ -30,6 +30,13 @@ struct HeightFile {
   std::string unit, vertical_datum, crs;  ///< "" when unknown
 };
 
+/// Something about a file that is read that its user should know.
+struct Note {
+  std::string text;    ///< a sentence without the name of the file
+  std::string option;  ///< of `encode`, which answers it; "" if none does
+};
+using Notes = std::vector<Note>;
+
 /// 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA; sample is TKS_U8 or TKS_U16; interleaved, host byte order.
 struct ImageFile {
   uint32_t width = 0, height = 0, channels = 0;
@@ -46,12 +53,16 @@ struct MeshFile {
   const ImageFile* texture = nullptr;  ///< not owned; may be null
 };
 
-/// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt, or
-/// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian). "-"
-/// reads standard input. Samples come as stored, never rescaled; half floats become floats. Spacing
+/// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt,
+/// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian), and
+/// what else OpenImageIO reads as stored. "-" reads standard input. Samples come as stored, never
+/// rescaled; half floats, and doubles that are floats exactly, become floats. What GDAL takes for
+/// void is: floats that nearly meet the nodata value become that value, so do samples that a mask
+/// (a page, or "path.msk") leaves out. `nodata` replaces the value that the file declares. Spacing
 /// in degrees is turned into metres at the raster's centre. Fails with TKS_IO if the file cannot be
 /// read, TKS_USAGE if it does not hold heights (channels, sample type, size).
-Result<HeightFile> readHeights(const std::string& path);
+Result<HeightFile> readHeights(const std::string& path, const std::optional<double>& nodata = {},
+                               Notes* notes = nullptr);
 
 /// Writes the same integer or float type, losslessly, in the format of the extension. .tif holds
 /// all types and the tags (but CRS: there is no position to go with it), .png u8 and u16, .exr u32
@@ -78,10 +89,10 @@ Status writeImage(const std::string& path, const ImageFile& image, const std::st
 /// 100.
 Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
 
-/// .glb (32-bit indices, smooth normals, texture embedded: JPEG, or PNG when it has alpha or 16
-/// bits, reduced to 8), .obj (+ .mtl and .png of the same name when textured), .ply (binary,
-/// texture coordinates but no texture). Coordinates come back bit for bit. Fails with TKS_USAGE on
-/// an empty or inconsistent mesh.
+/// .glb (texture embedded: JPEG, or PNG when it has alpha or 16 bits, reduced to 8), .obj (+ .mtl
+/// and .png of the same name when textured), .ply (binary, texture coordinates but no texture); all
+/// with smooth normals. Coordinates come back bit for bit. Fails with TKS_USAGE on an empty or
+/// inconsistent mesh.
 Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "");
 
 }  // namespace tetrakis::tools

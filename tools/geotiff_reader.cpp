@@ -1,70 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a height file's TIFF tags tell: grid spacing, nodata, unit, datum, CRS.
 // Sources: OGC GeoTIFF 1.1 (19-008r4), sections 7.1 (keys), 7.3 (model); GDAL GTiff driver.
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <pugixml.hpp>
 #include <vector>
 
 #include "tools/earth.hpp"
+#include "tools/geo_keys.hpp"
+#include "tools/geo_units.hpp"
 #include "tools/tiff.hpp"
+#include "tools/units.hpp"
 
 namespace tetrakis::tools {
 namespace {
-
-/// The values of a tag, empty unless it is there with this type.
-template <class T>
-std::vector<T> tagValues(TIFF* tiff, uint32_t tag, TIFFDataType type) {
-  const TIFFField* field = TIFFFindField(tiff, tag, TIFF_ANY);
-  // libtiff gives tags that it does not know a 32-bit count before the values.
-  if (!field || TIFFFieldDataType(field) != type || !TIFFFieldPassCount(field) ||
-      TIFFFieldReadCount(field) != TIFF_VARIABLE2) {
-    return {};
-  }
-  uint32_t count = 0;
-  const T* values = nullptr;
-  if (!TIFFGetField(tiff, tag, &count, &values) || !values) return {};
-  return {values, values + count};
-}
-
-std::string tagText(TIFF* tiff, uint32_t tag) {
-  const std::vector<char> text = tagValues<char>(tiff, tag, TIFF_ASCII);
-  return {text.begin(), std::find(text.begin(), text.end(), '\0')};
-}
-
-struct GeoKeys {
-  std::map<uint16_t, uint16_t> codes;
-  std::map<uint16_t, std::string> texts;
-
-  /// 0 (undefined) when missing.
-  uint16_t code(GeoKey key) const { return codes.contains(key) ? codes.at(key) : uint16_t{0}; }
-  std::string text(GeoKey key) const { return texts.contains(key) ? texts.at(key) : ""; }
-};
-
-/// Key directory: four 16-bit words of header, the last one the number of keys; then for each key
-/// its id, the tag that holds its value (0: the fourth word is the value), count, and index there.
-GeoKeys readGeoKeys(TIFF* tiff) {
-  GeoKeys keys;
-  const auto words = tagValues<uint16_t>(tiff, kGeoKeyDirectoryTag, TIFF_SHORT);
-  const std::string ascii = tagText(tiff, kGeoAsciiParamsTag);
-  if (words.size() < 4) return keys;
-  const size_t count = std::min<size_t>(words[3], words.size() / 4 - 1);
-  for (size_t i = 1; i <= count; ++i) {
-    const uint16_t id = words[4 * i], place = words[4 * i + 1];
-    const uint16_t length = words[4 * i + 2], value = words[4 * i + 3];
-    if (place == 0) {
-      keys.codes[id] = value;
-    } else if (place == kGeoAsciiParamsTag && value < ascii.size()) {
-      std::string text = ascii.substr(value, length);
-      if (text.ends_with('|')) text.pop_back();
-      keys.texts[id] = text;
-    }
-  }
-  return keys;
-}
 
 /// Size of one sample in the CRS's own units, and the vertical coordinate of the raster's centre.
 struct Grid {
@@ -99,61 +49,54 @@ MetresPerDegree metresPerUnit(const GeoKeys& keys, const Grid& grid) {
     return unit == 0 || unit == kDegree ? metresPerDegree(grid.centre_y) : MetresPerDegree{};
   }
   if (model != kModelTypeProjected) return {};
-  const uint16_t unit = keys.code(kProjLinearUnitsGeoKey);
-  if (unit == 0) return {1, 1};  // GeoTIFF's default is the metre
-  for (const LengthUnit& known : kLengthUnits) {
-    if (known.code == unit) return {known.metres, known.metres};
-  }
-  return {};
+  const double metres = gridUnit(keys).value_or(0);
+  return {metres, metres};
 }
 
-void setSpacing(HeightFile& heights, const GeoKeys& keys, const Grid& grid) {
+void setSpacing(HeightFile& heights, const GeoKeys& keys, const Grid& grid, Notes& notes) {
   const MetresPerDegree metres = metresPerUnit(keys, grid);
+  const bool projected = keys.code(kGtModelTypeGeoKey) == kModelTypeProjected;
+  if (projected && grid.step_x > 0 && metres.east == 0) {
+    notes.push_back(
+        {"the unit of the grid is not stated, so its spacing is unknown: give --spacing",
+         "--spacing"});
+  }
   const double x = grid.step_x * metres.east, y = grid.step_y * metres.north;
   if (!std::isfinite(x) || !std::isfinite(y) || x <= 0 || y <= 0) return;
   heights.spacing_x = x;
   heights.spacing_y = y;
 }
 
-std::string firstText(const GeoKeys& keys, std::initializer_list<GeoKey> order) {
-  for (const GeoKey key : order) {
-    if (const std::string text = keys.text(key); !text.empty()) return text;
-  }
-  return "";
-}
-
-std::string epsg(uint16_t code) {
-  return code == 0 || code == kUserDefined ? "" : "EPSG:" + std::to_string(code);
-}
-
 void setReferences(HeightFile& heights, const GeoKeys& keys) {
   const bool projected = keys.code(kGtModelTypeGeoKey) == kModelTypeProjected;
-  heights.crs = epsg(keys.code(projected ? kProjectedCrsGeoKey : kGeodeticCrsGeoKey));
+  heights.crs = keys.epsg(projected ? kProjectedCrsGeoKey : kGeodeticCrsGeoKey);
   if (heights.crs.empty()) {
-    heights.crs = projected ? firstText(keys, {kProjectedCitationGeoKey, kGtCitationGeoKey})
-                            : firstText(keys, {kGeodeticCitationGeoKey, kGtCitationGeoKey});
+    heights.crs = keys.firstText(
+        {projected ? kProjectedCitationGeoKey : kGeodeticCitationGeoKey, kGtCitationGeoKey});
   }
-  heights.vertical_datum = epsg(keys.code(kVerticalGeoKey));
+  heights.vertical_datum = keys.epsg(kVerticalGeoKey);
   if (heights.vertical_datum.empty()) heights.vertical_datum = keys.text(kVerticalCitationGeoKey);
-  for (const LengthUnit& known : kLengthUnits) {
-    if (known.code == keys.code(kVerticalUnitsGeoKey)) heights.unit = known.name;
-  }
 }
 
-template <class T>
+/// What GDAL's metadata say of the unit goes before the keys.
+void setUnit(HeightFile& heights, const GeoKeys& keys, Notes& notes) {
+  if (!heights.unit.empty() || !statesHeights(keys)) return;
+  if (const std::optional<std::string> unit = heightUnit(keys)) {
+    heights.unit = *unit;
+    return;
+  }
+  const std::string& datum = heights.vertical_datum;
+  notes.push_back({"the unit of the heights" + (datum.empty() ? "" : " over " + datum) +
+                       " is not known and counts as metres: give --unit",
+                   "--unit"});
+}
+
 std::optional<double> number(std::string_view text) {
   const size_t start = text.find_first_not_of(" +");
   if (start == std::string_view::npos) return {};
-  T value{};
+  double value = 0;
   const auto end = std::from_chars(text.data() + start, text.data() + text.size(), value);
-  return end.ec == std::errc() ? std::optional<double>(value) : std::nullopt;
-}
-
-std::string unitName(const std::string& text) {
-  for (const char* metre : {"metre", "meter", "metres", "meters", "Meter", "Metre"}) {
-    if (text == metre) return "m";
-  }
-  return text;
+  return end.ec == std::errc() ? std::optional(value) : std::nullopt;
 }
 
 /// <GDALMetadata><Item sample="0" role="scale|offset|unittype">value</Item></GDALMetadata>
@@ -164,25 +107,24 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml) {
     if (item.attribute("sample").as_int() != 0) continue;
     const std::string_view role = item.attribute("role").value();
     const std::string text = item.text().get();
-    const double value = number<double>(text).value_or(std::numeric_limits<double>::quiet_NaN());
+    const double value = number(text).value_or(std::numeric_limits<double>::quiet_NaN());
     if (role == "scale" && std::isfinite(value) && value != 0) heights.scale = value;
     if (role == "offset" && std::isfinite(value)) heights.offset = value;
-    if (role == "unittype") heights.unit = unitName(text);
+    if (role == "unittype") heights.unit = canonicalUnit(text);
   }
 }
 
 }  // namespace
 
-Status readGeoTags(const std::string& path, HeightFile& heights) {
+Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
   const auto file = TiffFile::open(path, "r");
   if (!file.ok()) return file.status();
   const GeoKeys keys = readGeoKeys(file->get());
-  setSpacing(heights, keys, readGrid(file->get(), heights));
+  setSpacing(heights, keys, readGrid(file->get(), heights), notes);
   setReferences(heights, keys);
   setGdalMetadata(heights, tagText(file->get(), kGdalMetadataTag));
-  // As a float where samples are floats: the text must meet the sample's bits.
-  const std::string nodata = tagText(file->get(), kGdalNodataTag);
-  heights.nodata = heights.sample == TKS_F32 ? number<float>(nodata) : number<double>(nodata);
+  setUnit(heights, keys, notes);
+  heights.nodata = number(tagText(file->get(), kGdalNodataTag));
   return {};
 }
 

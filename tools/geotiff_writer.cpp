@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tools/text.hpp"
 #include "tools/tiff.hpp"
 
 namespace tetrakis::tools {
@@ -38,13 +39,6 @@ bool setTag(TIFF* tiff, uint32_t tag, std::span<const T> values) {
 /// With its terminating zero, which TIFF counts.
 bool setTag(TIFF* tiff, uint32_t tag, const std::string& text) {
   return setTag(tiff, tag, std::span<const char>(text.c_str(), text.size() + 1));
-}
-
-/// The shortest decimal that reads back as this value.
-std::string decimal(double value) {
-  if (std::isnan(value)) return "nan";  // a sign would puzzle readers
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 /// Keys in rising order (the directory must be sorted) with the text values behind them.
@@ -113,13 +107,13 @@ bool setGdalTags(TIFF* tiff, const HeightFile& heights) {
     item.append_attribute("role") = role;
     item.text() = value.c_str();
   };
-  if (heights.offset != 0) add("OFFSET", "offset", decimal(heights.offset));
-  if (heights.scale != 1) add("SCALE", "scale", decimal(heights.scale));
+  if (heights.offset != 0) add("OFFSET", "offset", shortest(heights.offset));
+  if (heights.scale != 1) add("SCALE", "scale", shortest(heights.scale));
   if (!heights.unit.empty()) add("UNITTYPE", "unittype", heights.unit);
   std::ostringstream xml;
   document.save(xml, "  ", pugi::format_indent | pugi::format_no_declaration);
   if (!root.first_child().empty() && !setTag(tiff, kGdalMetadataTag, xml.str())) return false;
-  return !heights.nodata || setTag(tiff, kGdalNodataTag, decimal(*heights.nodata));
+  return !heights.nodata || setTag(tiff, kGdalNodataTag, shortest(*heights.nodata));
 }
 
 bool setLayout(TIFF* tiff, const HeightFile& heights, uint32_t rows_per_strip) {

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-constexpr int kFloat = 5126, kUnsignedInt = 5125;
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
 constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
 
 /// An array of one. Braces would not do: compilers disagree on whether {value} is an array or a
@@ -54,38 +54,6 @@ struct Glb {
                         {"type", "VEC" + std::to_string(dimension)}});
   }
 };
-
-/// Sums of cross products, that is normals weighted by twice the area, scaled to length 1; straight
-/// up where no triangle with an area meets the vertex.
-std::vector<float> smoothNormals(const MeshFile& mesh) {
-  std::vector<double> sums(mesh.positions.size(), 0);
-  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const float* corner[3];
-    double edge[2][3];
-    for (size_t k = 0; k < 3; ++k) corner[k] = &mesh.positions[3 * size_t{mesh.triangles[i + k]}];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      edge[0][axis] = double{corner[1][axis]} - corner[0][axis];
-      edge[1][axis] = double{corner[2][axis]} - corner[0][axis];
-    }
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
-      const double area = edge[0][next] * edge[1][last] - edge[0][last] * edge[1][next];
-      for (size_t k = 0; k < 3; ++k) sums[3 * size_t{mesh.triangles[i + k]} + axis] += area;
-    }
-  }
-  std::vector<float> normals(sums.size(), 0);
-  for (size_t i = 0; i < sums.size(); i += 3) {
-    const double length = std::hypot(sums[i], sums[i + 1], sums[i + 2]);
-    if (!(length > 0) || !std::isfinite(length)) {
-      normals[i + 1] = 1;
-      continue;
-    }
-    for (size_t axis = 0; axis < 3; ++axis) {
-      normals[i + axis] = static_cast<float>(sums[i + axis] / length);
-    }
-  }
-  return normals;
-}
 
 json boundsOf(const std::vector<float>& positions) {
   json low = json::array(), high = json::array();
@@ -153,6 +121,23 @@ Status addMaterial(Glb& glb, const ImageFile* image) {
   return {};
 }
 
+/// In 16 bits where they hold every index; 65535 itself is none (primitive restart).
+size_t addTriangles(Glb& glb, const MeshFile& mesh) {
+  constexpr size_t kMaxShortVertices = 65535;
+  const bool small = mesh.positions.size() / 3 <= kMaxShortVertices;
+  size_t view = 0;
+  if (small) {
+    const std::vector<uint16_t> indices(mesh.triangles.begin(), mesh.triangles.end());
+    view = glb.addView(std::span(indices), kElementArrayBuffer);
+  } else {
+    view = glb.addView(std::span(mesh.triangles), kElementArrayBuffer);
+  }
+  return glb.addAccessor({{"bufferView", view},
+                          {"componentType", small ? kUnsignedShort : kUnsignedInt},
+                          {"count", mesh.triangles.size()},
+                          {"type", "SCALAR"}});
+}
+
 void addGeometry(Glb& glb, const MeshFile& mesh) {
   json attributes;
   const size_t positions = glb.addVectors(mesh.positions, 3);
@@ -160,12 +145,7 @@ void addGeometry(Glb& glb, const MeshFile& mesh) {
   attributes["POSITION"] = positions;
   attributes["NORMAL"] = glb.addVectors(smoothNormals(mesh), 3);
   if (!mesh.texcoords.empty()) attributes["TEXCOORD_0"] = glb.addVectors(mesh.texcoords, 2);
-  const std::span<const uint32_t> indices(mesh.triangles);
-  const size_t triangles =
-      glb.addAccessor({{"bufferView", glb.addView(indices, kElementArrayBuffer)},
-                       {"componentType", kUnsignedInt},
-                       {"count", indices.size()},
-                       {"type", "SCALAR"}});
+  const size_t triangles = addTriangles(glb, mesh);
   json primitive{{"attributes", attributes}, {"indices", triangles}, {"material", 0}};
   glb.document["meshes"] = listOf({{"primitives", listOf(primitive)}});
 }

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Height fields on disk: which format, which sample type. The samples themselves are never
-// converted, but for half floats, which float holds exactly.
+// converted, but for half floats, which float holds exactly, and doubles that it holds exactly.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
 
 #include "tools/file_bytes.hpp"
 #include "tools/files.hpp"
+#include "tools/height_mask.hpp"
 #include "tools/plain_heights.hpp"
 #include "tools/png.hpp"
 #include "tools/raster.hpp"
 #include "tools/tiff.hpp"
+#include "tools/void_samples.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -20,14 +25,15 @@ struct SampleType {
   TypeDesc::BASETYPE stored;
   tks_sample sample;
 };
-constexpr std::array<SampleType, 8> kSampleTypes{{{TypeDesc::UINT8, TKS_U8},
+constexpr std::array<SampleType, 9> kSampleTypes{{{TypeDesc::UINT8, TKS_U8},
                                                   {TypeDesc::INT8, TKS_I8},
                                                   {TypeDesc::UINT16, TKS_U16},
                                                   {TypeDesc::INT16, TKS_I16},
                                                   {TypeDesc::UINT32, TKS_U32},
                                                   {TypeDesc::INT32, TKS_I32},
                                                   {TypeDesc::FLOAT, TKS_F32},
-                                                  {TypeDesc::HALF, TKS_F32}}};
+                                                  {TypeDesc::HALF, TKS_F32},
+                                                  {TypeDesc::DOUBLE, TKS_F32}}};
 
 /// What OpenImageIO calls a sample type.
 TypeDesc typeOf(tks_sample sample) {
@@ -46,6 +52,11 @@ Result<tks_sample> sampleOf(const Raster& raster) {
   if (raster.white_is_zero) {
     return Status(TKS_USAGE, raster.name + " stores white as 0: heights are no shades");
   }
+  if (raster.stretched) {
+    return Status(TKS_USAGE, raster.name +
+                                 " has samples that reading would stretch to all of 8 or "
+                                 "16 bits: convert it to TIFF");
+  }
   const int bits = static_cast<int>(8 * spec.format.size());
   const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(), [&](const auto& known) {
     return known.stored == spec.format.basetype;
@@ -59,22 +70,94 @@ Result<tks_sample> sampleOf(const Raster& raster) {
   return type->sample;
 }
 
-Result<HeightFile> readRasterHeights(const std::string& path) {
+/// Doubles as floats, those that meet the nodata value as its float or NaN. Fails if the others
+/// are not floats exactly.
+Result<std::vector<std::byte>> narrowed(const std::vector<std::byte>& doubles,
+                                        const std::optional<double>& nodata,
+                                        const std::string& name) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const auto mark = static_cast<float>(nodata ? asSample(*nodata, TKS_F32).value_or(kNaN) : kNaN);
+  std::vector<std::byte> floats(doubles.size() / sizeof(double) * sizeof(float));
+  for (size_t i = 0; i < floats.size() / sizeof(float); ++i) {
+    double value = 0;
+    std::memcpy(&value, doubles.data() + i * sizeof value, sizeof value);
+    const bool is_void = nodata && meetsNodata(value, *nodata);
+    const float sample = is_void ? mark : toFloat(value);
+    if (!is_void && !std::isnan(value) && static_cast<double>(sample) != value) {
+      return Status(TKS_USAGE, name +
+                                   " holds 64-bit floats that 32 bits do not hold; round them: "
+                                   "gdal_translate -ot Float32 IN.tif OUT.tif");
+    }
+    std::memcpy(floats.data() + i * sizeof sample, &sample, sizeof sample);
+  }
+  return floats;
+}
+
+/// Heights, and the mask that their file holds (empty: none).
+struct Reading {
+  HeightFile heights;
+  std::vector<uint8_t> mask;
+};
+
+/// The nodata value is as given, else as the file declares it.
+Result<Reading> readRasterHeights(const std::string& path, const std::optional<double>& nodata,
+                                  Notes& notes) {
   auto raster = openRaster(path);
   if (!raster.ok()) return raster.status();
   const auto sample = sampleOf(*raster);
   if (!sample.ok()) return sample.status();
-  auto data = readSamples(*raster, typeOf(*sample));
-  if (!data.ok()) return data.status();
-  HeightFile heights;
+  Reading reading;
+  HeightFile& heights = reading.heights;
   heights.width = static_cast<uint32_t>(raster->spec.width);
   heights.height = static_cast<uint32_t>(raster->spec.height);
   heights.sample = *sample;
+  if (raster->is_tiff()) {
+    const Status tags = readGeoTags(raster->file.path(), heights, notes);
+    if (!tags.ok()) return tags;
+  }
+  if (nodata) heights.nodata = nodata;
+  const bool wide = raster->spec.format == TypeDesc::DOUBLE;
+  auto data = readSamples(*raster, wide ? TypeDesc(TypeDesc::DOUBLE) : typeOf(*sample));
+  if (data.ok() && wide) data = narrowed(*data, heights.nodata, raster->name);
+  if (!data.ok()) return data.status();
   heights.data = std::move(*data);
-  if (!raster->is_tiff()) return heights;
-  const Status tags = readGeoTags(raster->file.path(), heights);
-  if (!tags.ok()) return tags;
-  return heights;
+  if (raster->further_pages) notes.push_back({"only the first page is read", ""});
+  if (!raster->mask) return reading;
+  auto mask = readMaskPage(raster->file.path(), heights.width, heights.height);
+  if (!mask.ok()) return mask.status();
+  reading.mask = std::move(*mask);
+  return reading;
+}
+
+Result<Reading> readPlain(Result<HeightFile> heights) {
+  if (!heights.ok()) return heights.status();
+  return Reading{std::move(*heights), {}};
+}
+
+Result<Reading> readAnyHeights(const std::string& path, const std::optional<double>& nodata,
+                               Notes& notes) {
+  if (const auto raw = parseRawName(path)) return readPlain(readRaw(*raw));
+  const std::string format = formatOf(path, "");
+  if (format == "hgt") return readPlain(readHgt(path));
+  if (format == "raw") {
+    return Status(TKS_USAGE, quoted(path) + " needs its shape: give " + path +
+                                 ":WIDTHxHEIGHT:TYPE with type u8, i8, u16, i16, u32, i32 or f32");
+  }
+  return readRasterHeights(path, nodata, notes);
+}
+
+/// A mask beside the file goes before the one in it, as GDAL has it.
+Status settleVoids(const std::string& path, Reading& reading, Notes& notes) {
+  HeightFile& heights = reading.heights;
+  if (heights.sample == TKS_F32 && heights.nodata)
+    heights.nodata = asSample(*heights.nodata, TKS_F32);
+  matchNodata(heights);
+  auto beside = readMaskBeside(path, heights.width, heights.height);
+  if (!beside.ok()) return beside.status();
+  const Status masked = applyMask(heights, beside->empty() ? reading.mask : *beside, notes);
+  if (!masked.ok()) return {masked.code(), quoted(path) + ": " + masked.message()};
+  if (const auto note = noteOnOutliers(heights)) notes.push_back(*note);
+  return {};
 }
 
 Status cannotHold(const std::string& format) {
@@ -106,15 +189,16 @@ Status checkShape(const HeightFile& heights) {
 
 }  // namespace
 
-Result<HeightFile> readHeights(const std::string& path) {
-  if (const auto raw = parseRawName(path)) return readRaw(*raw);
-  const std::string format = formatOf(path, "");
-  if (format == "hgt") return readHgt(path);
-  if (format == "raw") {
-    return Status(TKS_USAGE, quoted(path) + " needs its shape: give " + path +
-                                 ":WIDTHxHEIGHT:TYPE with type u8, i8, u16, i16, u32, i32 or f32");
-  }
-  return readRasterHeights(path);
+Result<HeightFile> readHeights(const std::string& path, const std::optional<double>& nodata,
+                               Notes* notes) {
+  Notes unread;
+  Notes& told = notes ? *notes : unread;
+  auto reading = readAnyHeights(path, nodata, told);
+  if (!reading.ok()) return reading.status();
+  if (nodata) reading->heights.nodata = nodata;
+  const Status settled = settleVoids(path, *reading, told);
+  if (!settled.ok()) return settled;
+  return std::move(reading->heights);
 }
 
 Status writeHeights(const std::string& path, const HeightFile& heights, const std::string& format) {

@@ -40,6 +40,7 @@ std::string noteOn(const Raster& raster) {
   if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
   if (raster.orientation != 1) add("turned upright as its orientation tag says");
   if (raster.profile) add("colour profile not applied and not kept");
+  if (raster.mask) add("mask not applied and not kept");
   if (raster.further_pages) add("further pages left out");
   return note.empty() ? note : raster.name + ": " + note;
 }

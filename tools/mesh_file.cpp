@@ -64,12 +64,15 @@ std::string objText(const MeshFile& mesh, const std::string& library) {
   for (size_t i = 0; i < mesh.texcoords.size(); i += 2) {
     appendRow(text, "vt", std::array{mesh.texcoords[i], 1 - mesh.texcoords[i + 1]});
   }
+  const std::vector<float> normals = smoothNormals(mesh);
+  for (size_t i = 0; i < normals.size(); i += 3) {
+    appendRow(text, "vn", std::span(normals).subspan(i, 3));
+  }
   for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
     text += 'f';
     for (size_t corner = 0; corner < 3; ++corner) {
       const std::string index = std::to_string(uint64_t{mesh.triangles[i + corner]} + 1);
-      text += ' ' + index;
-      if (!mesh.texcoords.empty()) text += '/' + index;
+      text += ' ' + index + '/' + (mesh.texcoords.empty() ? "" : index) + '/' + index;
     }
     text += '\n';
   }
@@ -87,12 +90,15 @@ std::vector<std::byte> encodePly(const MeshFile& mesh) {
   const size_t vertices = mesh.positions.size() / 3;
   LittleEndianBuffer file;
   file.putText("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) +
-               "\nproperty float x\nproperty float y\nproperty float z\n" +
+               "\nproperty float x\nproperty float y\nproperty float z\n"
+               "property float nx\nproperty float ny\nproperty float nz\n" +
                (textured ? "property float s\nproperty float t\n" : "") + "element face " +
                std::to_string(mesh.triangles.size() / 3) +
                "\nproperty list uchar int vertex_indices\nend_header\n");
+  const std::vector<float> normals = smoothNormals(mesh);
   for (size_t i = 0; i < vertices; ++i) {
     file.putAll(std::span(mesh.positions).subspan(3 * i, 3));
+    file.putAll(std::span(normals).subspan(3 * i, 3));
     if (!textured) continue;
     file.put(mesh.texcoords[2 * i]);
     file.put(1 - mesh.texcoords[2 * i + 1]);

@@ -5,8 +5,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tools/file_bytes.hpp"
+#include "tools/output_names.hpp"
 
 namespace tetrakis::tools {
 namespace fs = std::filesystem;
@@ -43,55 +44,24 @@ std::string replaceAll(std::string text, const std::string& from, const std::str
   return text;
 }
 
-Result<fs::path> makeStagingFolder(const fs::path& parent) {
-  std::string name = (parent / ".tetrakis-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    return ioError("cannot create a temporary folder in " + quoted(parent.string()) + ": " +
-                   std::strerror(errno));
-  return fs::path(name);
-}
-
 }  // namespace
 
 Output::Output(fs::path path, Kind kind, bool force, std::string name)
     : path_(std::move(path)), kind_(kind), force_(force), name_(std::move(name)) {}
 
-Output::Output(Output&& other) noexcept
-    : path_(std::move(other.path_)),
-      kind_(other.kind_),
-      force_(other.force_),
-      name_(std::move(other.name_)),
-      folder_(std::exchange(other.folder_, {})) {}
-
-Output& Output::operator=(Output&& other) noexcept {
-  std::swap(path_, other.path_);
-  std::swap(kind_, other.kind_);
-  std::swap(force_, other.force_);
-  std::swap(name_, other.name_);
-  std::swap(folder_, other.folder_);
-  return *this;
-}
-
-Output::~Output() {
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
-
 Result<Output> Output::plan(const std::string& path, bool force, const std::string& extension) {
   const std::string unnamed = "output" + extension;
   if (path.empty()) return Status(TKS_USAGE, "an output needs a name");
   if (path == "-") return Output(path, Kind::kStdout, force, unnamed);
-  fs::path target = path;
-  const fs::file_type type = typeOf(target);
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  if (type == fs::file_type::none)
+    return ioError("cannot write " + quoted(path) + ": " + error.message());
   if (type == fs::file_type::directory) return ioError(quoted(path) + " is a folder; name a file");
   if (type != fs::file_type::regular && type != fs::file_type::not_found)
-    return Output(target, Kind::kDevice, force, unnamed);
-  if (type == fs::file_type::regular) {
-    if (!force) return alreadyExists(target);
-    std::error_code ignored;
-    const fs::path resolved = fs::canonical(target, ignored);
-    if (!resolved.empty()) target = resolved;
-  }
+    return Output(path, Kind::kDevice, force, unnamed);
+  if (type == fs::file_type::regular && !force) return alreadyExists(path);
+  const fs::path target = followLinks(path);
   const fs::path folder = folderOf(target);
   if (typeOf(folder) != fs::file_type::directory)
     return ioError("cannot write " + quoted(path) + ": there is no folder " +
@@ -102,15 +72,15 @@ Result<Output> Output::plan(const std::string& path, bool force, const std::stri
 }
 
 Status Output::stage(const std::function<Status(const std::string& path)>& write) {
-  if (folder_.empty()) {
+  if (folder_.path().empty()) {
     std::error_code error;
     const fs::path parent = kind_ == Kind::kFile ? folderOf(path_) : fs::temp_directory_path(error);
     if (error) return ioError("there is no folder for temporary files: " + error.message());
-    Result<fs::path> folder = makeStagingFolder(parent);
+    Result<Temporary> folder = Temporary::makeFolder(parent);
     if (!folder.ok()) return folder.status();
-    folder_ = *folder;
+    folder_ = std::move(*folder);
   }
-  const std::string staged = (folder_ / name_).string();
+  const std::string staged = (folder_.path() / name_).string();
   const Status status = write(staged);
   if (status.ok()) return status;
   return Status(status.code(), replaceAll(status.message(), staged, path_.string()));
@@ -121,7 +91,15 @@ Status Output::stage(std::span<const std::byte> bytes) {
 }
 
 Status Output::commit() {
-  return kind_ == Kind::kFile ? moveIntoPlace() : copyTo(folder_ / name_);
+  return kind_ == Kind::kFile ? moveIntoPlace() : copyTo(folder_.path() / name_);
+}
+
+Status Output::commitAll(std::vector<Output*> outputs) {
+  std::stable_partition(outputs.begin(), outputs.end(),
+                        [](const Output* output) { return output->kind_ != Kind::kFile; });
+  for (Output* const output : outputs)
+    if (Status status = output->commit(); !status.ok()) return status;
+  return Status();
 }
 
 Status Output::copyTo(const fs::path& staged) {
@@ -145,10 +123,11 @@ Status Output::moveIntoPlace() {
   const fs::path target_folder = folderOf(path_);
   std::vector<fs::path> staged;
   std::error_code error;
-  for (fs::directory_iterator entry(folder_, error), end; !error && entry != end;
+  for (fs::directory_iterator entry(folder_.path(), error), end; !error && entry != end;
        entry.increment(error))
     staged.push_back(entry->path());
-  if (error) return ioError("cannot read " + quoted(folder_.string()) + ": " + error.message());
+  if (error)
+    return ioError("cannot read " + quoted(folder_.path().string()) + ": " + error.message());
   for (const fs::path& file : staged) {
     const fs::path target = target_folder / file.filename();
     if (!force_ && typeOf(target) != fs::file_type::not_found) return alreadyExists(target);
@@ -162,18 +141,22 @@ Status Output::moveIntoPlace() {
 }
 
 Result<OutputFolder> OutputFolder::create(const std::string& path) {
+  OutputFolder result(path);
   std::error_code error;
-  const bool created = fs::create_directories(path, error);
+  std::vector<fs::path> missing;
+  fs::path folder = fs::path(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  for (; !folder.empty() && typeOf(folder) == fs::file_type::not_found;
+       folder = folder.parent_path())
+    missing.push_back(folder);
+  for (auto next = missing.rbegin(); next != missing.rend(); ++next) {
+    Result<Temporary> made = Temporary::makeUnlessEmpty(*next);
+    if (!made.ok()) return made.status();
+    result.created_.insert(result.created_.begin(), std::move(*made));
+  }
+  fs::create_directories(path, error);  // tells what else stands there
   if (error) return ioError("cannot create " + quoted(path) + ": " + error.message());
-  return OutputFolder(path, created);
-}
-
-OutputFolder::OutputFolder(OutputFolder&& other) noexcept
-    : path_(std::move(other.path_)), created_(std::exchange(other.created_, false)) {}
-
-OutputFolder::~OutputFolder() {
-  std::error_code not_empty;
-  if (created_) fs::remove(path_, not_empty);
+  return result;
 }
 
 }  // namespace tetrakis::tools

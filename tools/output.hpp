@@ -8,8 +8,10 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bitstream/status.hpp"
+#include "tools/temporary.hpp"
 
 namespace tetrakis::tools {
 
@@ -23,10 +25,6 @@ class Output {
   /// that is missing or not writable. `extension` (".tif") tells the writer the format where the
   /// path does not: on standard output and devices.
   static Result<Output> plan(const std::string& path, bool force, const std::string& extension);
-
-  Output(Output&& other) noexcept;
-  Output& operator=(Output&& other) noexcept;
-  ~Output();
 
   /// Calls `write` with the path of a file to create; it may create others beside it (an .obj has
   /// its .mtl). Messages of `write` are passed on with the final name in place of the temporary
@@ -42,6 +40,9 @@ class Output {
   /// Makes what was staged visible.
   Status commit();
 
+  /// Makes all of them visible: first pipes, so that no file is there if one of them breaks.
+  static Status commitAll(std::vector<Output*> outputs);
+
  private:
   enum class Kind { kFile, kDevice, kStdout };
   Output(std::filesystem::path path, Kind kind, bool force, std::string name);
@@ -49,28 +50,25 @@ class Output {
   Status copyTo(const std::filesystem::path& staged);
   Status moveIntoPlace();
 
-  std::filesystem::path path_;  ///< as given; a symbolic link to a file is resolved
+  std::filesystem::path path_;  ///< as given; a symbolic link is resolved
   Kind kind_;
   bool force_;
-  std::string name_;              ///< name of the main file inside the staging folder
-  std::filesystem::path folder_;  ///< staging folder; empty: none
+  std::string name_;  ///< name of the main file inside the staging folder
+  Temporary folder_;  ///< staging folder, if there is one yet
 };
 
-/// A folder for outputs, created if it is missing and removed again if it stays empty.
+/// A folder for outputs, created with its parents if they are missing, all removed again if they
+/// stay empty.
 class OutputFolder {
  public:
   static Result<OutputFolder> create(const std::string& path);
-  OutputFolder(OutputFolder&& other) noexcept;
-  OutputFolder& operator=(OutputFolder&&) = delete;
-  ~OutputFolder();
 
   std::string file(const std::string& name) const { return (path_ / name).string(); }
 
  private:
-  OutputFolder(std::filesystem::path path, bool created)
-      : path_(std::move(path)), created_(created) {}
+  explicit OutputFolder(std::filesystem::path path) : path_(std::move(path)) {}
   std::filesystem::path path_;
-  bool created_;
+  std::vector<Temporary> created_;  ///< from the inside out
 };
 
 }  // namespace tetrakis::tools

@@ -10,13 +10,22 @@
 namespace tetrakis::tools {
 namespace fs = std::filesystem;
 
+fs::path followLinks(fs::path path) {
+  constexpr int kMaxLinks = 40;  // as Linux has it
+  std::error_code ignored;
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(path, ignored)); ++i)
+    path = path.parent_path() / fs::read_symlink(path, ignored);
+  return path;
+}
+
 Status checkDistinct(const std::vector<std::string>& names) {
   std::set<fs::path> taken;
   for (const std::string& name : names) {
     std::error_code ignored;
     if (name != "-" && fs::exists(name, ignored) && !fs::is_regular_file(name, ignored)) continue;
     const fs::path path =
-        name == "-" ? fs::path(name) : fs::weakly_canonical(fs::absolute(name, ignored), ignored);
+        name == "-" ? fs::path(name)
+                    : fs::weakly_canonical(fs::absolute(followLinks(name), ignored), ignored);
     if (taken.insert(path.empty() ? fs::path(name) : path).second) continue;
     if (name == "-") return {TKS_USAGE, "only one output can be standard output"};
     return {TKS_USAGE, "two outputs would be " + quoted(name) + ": give each a name of its own"};

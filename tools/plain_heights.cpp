@@ -88,8 +88,8 @@ Result<HeightFile> readHgt(const std::string& path) {
   if (!bytes.ok()) return bytes.status();
   const auto side = static_cast<uint32_t>(std::lround(std::sqrt(bytes->size() / sizeof(int16_t))));
   if (side < 2 || uint64_t{side} * side * sizeof(int16_t) != bytes->size()) {
-    return Status(TKS_USAGE, quoted(path) + " holds " + std::to_string(bytes->size()) +
-                                 " bytes, which is no square of 16-bit samples");
+    return Status(TKS_IO, quoted(path) + " holds " + std::to_string(bytes->size()) +
+                              " bytes, which is no square of 16-bit samples");
   }
   HeightFile heights;
   heights.width = heights.height = side;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <string>
 
 namespace tetrakis::tools {
@@ -12,7 +13,7 @@ inline CLI::Validator positive() {
   return CLI::Validator(
       [](const std::string& text) {
         double value = 0;
-        return CLI::detail::lexical_cast(text, value) && value > 0
+        return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
                    ? std::string()
                    : "'" + text + "' is not a number above 0";
       },

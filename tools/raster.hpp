@@ -24,8 +24,10 @@ struct Raster {
   int stored_bits = 0;                      ///< of one sample in the file; 0: as spec.format
   bool palette = false;                     ///< expanded to RGB by reading
   bool cmyk = false;                        ///< converted to RGB by reading
+  bool stretched = false;                   ///< to the whole range of the type by reading
   bool white_is_zero = false;               ///< inverted by reading
   bool further_pages = false;               ///< pages or frames that are not read
+  bool mask = false;                        ///< a TIFF's mask page, which is not applied by reading
   bool profile = false;                     ///< an ICC profile that is not applied
   int orientation = 1;                      ///< as TIFF counts; not applied by reading
   /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.

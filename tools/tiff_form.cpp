@@ -25,17 +25,38 @@ bool associatedAlpha(TIFF* tiff) {
          kinds[0] == EXTRASAMPLE_ASSOCALPHA;
 }
 
+uint32_t kindOf(TIFF* tiff) {
+  uint32_t kind = 0;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
+  return kind;
+}
+
 /// Leaves the first directory.
-bool hasFurtherPages(TIFF* tiff) {
+void notePages(TIFF* tiff, TiffForm& form) {
+  const auto [width, height] = sizeOfPage(tiff);
   while (TIFFReadDirectory(tiff)) {
-    uint32_t kind = 0;
-    TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
-    if (!(kind & FILETYPE_REDUCEDIMAGE)) return true;
+    if (isMaskPage(tiff, width, height)) {
+      form.mask = true;
+    } else if (!(kindOf(tiff) & FILETYPE_REDUCEDIMAGE)) {
+      form.further_pages = true;
+    }
   }
-  return false;
 }
 
 }  // namespace
+
+std::pair<uint32_t, uint32_t> sizeOfPage(TIFF* tiff) {
+  std::pair<uint32_t, uint32_t> size(0, 0);
+  TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &size.first);
+  TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &size.second);
+  return size;
+}
+
+bool isMaskPage(TIFF* tiff, uint32_t width, uint32_t height) {
+  const uint32_t kind = kindOf(tiff);
+  return (kind & FILETYPE_MASK) && !(kind & FILETYPE_REDUCEDIMAGE) &&
+         sizeOfPage(tiff) == std::pair(width, height);
+}
 
 Result<TiffForm> tiffForm(const std::string& path) {
   const auto file = TiffFile::open(path, "r");
@@ -46,7 +67,7 @@ Result<TiffForm> tiffForm(const std::string& path) {
   uint16_t bits = 1;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
   TiffForm form{bits, unknown_size || holdsAllStrips(tiff, bytes), associatedAlpha(tiff)};
-  form.further_pages = hasFurtherPages(tiff);
+  notePages(tiff, form);
   return form;
 }
 

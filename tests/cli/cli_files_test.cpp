@@ -150,6 +150,29 @@ TEST_F(CliFiles, LinksStayLinks) {
   EXPECT_EQ(content("target"), content("a.tks").substr(0, 300));
 }
 
+TEST_F(CliFiles, LinksToNothingGetTheirTarget) {
+  makeStream();
+  std::filesystem::create_directory(path("there"));
+  std::filesystem::create_symlink("there/a.tif", path("hop"));
+  std::filesystem::create_symlink("hop", path("link.tif"));
+  ASSERT_EQ(cli("decode a.tks --height link.tif").code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.tif")));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("hop")));
+  EXPECT_TRUE(content("there/a.tif").starts_with("II"));
+  EXPECT_EQ(cli("decode a.tks --height link.tif").code, 2) << "it exists now";
+  std::filesystem::remove(path("there/a.tif"));
+  EXPECT_EQ(cli("decode a.tks --height link.tif --texture there/a.tif").code, 1) << "one file";
+  std::filesystem::create_symlink("missing/a.tif", path("lost.tif"));
+  std::filesystem::create_symlink("loop.tif", path("loop.tif"));
+  const std::set<std::string> before = names();
+  for (const char* name : {"lost.tif", "loop.tif"}) {
+    const Outcome run = cli("decode a.tks --height " + std::string(name));
+    EXPECT_EQ(run.code, 2) << name;
+    EXPECT_NE(run.err.find("cannot write '" + std::string(name)), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(names(), before);
+}
+
 TEST_F(CliFiles, MeshesOfEveryFormatAreWrittenWithTheirSideFiles) {
   makeStream();
   for (const char* name : {"m.glb", "m.obj", "m.ply"}) {

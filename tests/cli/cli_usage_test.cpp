@@ -83,10 +83,37 @@ TEST_F(CliUsage, MessagesAboutNumbersAreShort) {
   }
 }
 
+TEST_F(CliUsage, NumbersAreFinite) {
+  makeStream();
+  const std::string encode = "encode height.tif -o b.tks -q ";
+  for (const char* number : {"nan", "inf", "-inf", "-nan", "1e999"}) {
+    for (const char* option : {"--scale", "--offset", "--step", "--spacing"}) {
+      const std::string arguments = encode + "--lossless " + option + "=" + number;
+      expectFailure(arguments, 1);
+      EXPECT_NE(cli(arguments).err.find(number), std::string::npos) << arguments;
+    }
+    for (const char* option : {"--psnr", "--max-error", "--bytes", "--triangles"})
+      expectFailure(encode + option + "=" + number, 1);
+  }
+}
+
+TEST_F(CliUsage, MeshesThatCannotBeSoSmallSayTheirSize) {
+  makeStream();
+  const Outcome run = cli("decode a.tks --mesh m.glb --triangles 1");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("note: the mesh has 2 triangles"), std::string::npos) << run.err;
+  EXPECT_EQ(cli("decode a.tks --mesh n.glb --triangles 1 -q").err, "");
+  EXPECT_EQ(cli("decode a.tks --mesh o.glb --triangles 2").err, "");
+  const Outcome measured = cli("compare a.tks --height height.tif --triangles 1");
+  EXPECT_NE(measured.err.find("note: the mesh has 2 triangles"), std::string::npos);
+}
+
 TEST_F(CliUsage, WhatCannotBeReadOrWrittenGivesTwo) {
   makeStream();
+  write("odd.hgt", "seven b");
   for (const char* arguments : {
            "encode missing.tif -o b.tks --lossless",
+           "encode odd.hgt -o b.tks --lossless",
            "encode height.tif -o missing/b.tks --lossless",
            "encode height.tif -o . --lossless",
            "encode height.tif --texture missing.png -o b.tks --lossless",

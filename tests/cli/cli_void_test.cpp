@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "tests/cli/cli_fixture.hpp"
+#include "tests/tiny_tiff.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -29,6 +30,74 @@ TEST_F(CliVoids, DeclaredNodataComesBackDeclared) {
   ASSERT_TRUE(decoded.ok());
   EXPECT_EQ(decoded->data, heights.data);
   EXPECT_EQ(decoded->nodata, 65535);
+}
+
+/// The text of a nodata value and the samples seldom agree to the last bit.
+TEST_F(CliVoids, NodataIsMetAsGdalMeetsIt) {
+  tools::HeightFile heights = hills(17);
+  heights.sample = TKS_F32;
+  heights.data.assign(17 * 17 * sizeof(float), {});
+  for (size_t i = 0; i < 17 * 17; ++i) {
+    const float sample = i < 20 ? -3.40282306e+38F : i < 40 ? -3.40282347e+38F : float(i % 90);
+    std::memcpy(heights.data.data() + 4 * i, &sample, sizeof sample);
+  }
+  ASSERT_TRUE(tools::writeHeights(path("plain.tif"), heights).ok());
+  heights.nodata = -3.4028234663852886e+38;
+  ASSERT_TRUE(tools::writeHeights(path("declared.tif"), heights).ok());
+  // Five samples times 0.1 are 0.5 and, in doubles, a trifle more.
+  const std::string target = " --max-error 0.5 -o v.tks -f";
+  const Outcome declared = cli("encode declared.tif" + target);
+  EXPECT_NE(declared.err.find("40 samples are void"), std::string::npos) << declared.err;
+  EXPECT_EQ(cli("compare v.tks --height declared.tif").code, 0);
+  const Outcome plain = cli("encode plain.tif --lossless -o p.tks");
+  EXPECT_NE(plain.err.find("--nodata -3.4028235e+38"), std::string::npos) << plain.err;
+  EXPECT_EQ(cli("encode plain.tif --lossless -o q.tks -q").err, "");
+  const Outcome given = cli("encode plain.tif --nodata -3.4028235e+38" + target);
+  EXPECT_NE(given.err.find("note: 40 samples are void"), std::string::npos) << given.err;
+  EXPECT_EQ(given.err.find("--nodata"), std::string::npos) << given.err;
+  EXPECT_EQ(cli("compare v.tks --height plain.tif").code, 0);
+}
+
+TEST_F(CliVoids, MasksOfPagesAreVoids) {
+  TinyTiff tiff(32, 32, 1, 8, std::vector<uint8_t>(32 * 32, 7));
+  TinyTiff mask(32, 32, 1, 1, std::vector<uint8_t>(32 * 4, 0xF0));  // every other four
+  mask.longs(TinyTiff::kSubfileType, {4});
+  tiff.addPage(mask);
+  const std::vector<uint8_t> bytes = tiff.bytes();
+  write("m.tif", {bytes.begin(), bytes.end()});
+  for (const char* nodata : {"", " --nodata 9"}) {
+    const Outcome run = cli("encode m.tif --lossless -f -o m.tks" + std::string(nodata));
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("512 samples are void"), std::string::npos) << run.err;
+    EXPECT_EQ(cli("compare m.tks --height m.tif").code, 0);
+  }
+}
+
+/// 1 m is 3.28 survey feet: a bound of 1 ft would take more bytes.
+TEST_F(CliVoids, BoundsInMetresHoldForHeightsInFeet) {
+  TinyTiff tiff(32, 32, 1, 8, std::vector<uint8_t>(32 * 32, 7));
+  tiff.shorts(34735, {1, 1, 1, 3, 1024, 0, 1, 1, 3072, 0, 1, 2227, 4096, 0, 1, 6360});
+  const std::vector<uint8_t> bytes = tiff.bytes();
+  write("feet.tif", {bytes.begin(), bytes.end()});
+  ASSERT_EQ(cli("encode feet.tif --max-error 1m -o f.tks").code, 0);
+  const std::string info = cli("info f.tks").out;
+  EXPECT_NE(info.find("us-ft"), std::string::npos) << info;
+  EXPECT_NE(info.find("3.2808333333333"), std::string::npos) << info;
+}
+
+/// They are so nearly the same length that heights and texture are ordered alike.
+TEST_F(CliVoids, SurveyFeetAreWorthAsMuchAsFeet) {
+  makeInputs();
+  std::string payloads[2];
+  for (const char* unit : {"ft", "US_survey_foot"}) {
+    const std::string encode = "encode height.tif --texture texture.png --lossless -f -o u.tks";
+    ASSERT_EQ(cli(encode + " --unit " + unit).code, 0);
+    const std::string info = cli("info u.tks").out;
+    const size_t header = std::stoul(info.substr(info.find("header_bytes") + 12));
+    payloads[unit[0] == 'U'] = content("u.tks").substr(header);
+    EXPECT_EQ(info.find("us-ft") != info.npos, unit[0] == 'U') << info;
+  }
+  EXPECT_EQ(payloads[0], payloads[1]);
 }
 
 TEST_F(CliVoids, OptionDeclaresThemForAnyFormat) {

@@ -17,6 +17,19 @@ TEST(Units, SuffixesConvertToTheUnitOfTheHeights) {
   EXPECT_DOUBLE_EQ(*parseLength("0.3048m", "ft"), 1);
 }
 
+TEST(Units, SurveyFeetAreNotFeet) {
+  for (const char* unit : {"us-ft", "ftUS", "US survey foot", "us_survey_feet", "Foot_US"}) {
+    EXPECT_EQ(canonicalUnit(unit), "us-ft");
+    EXPECT_DOUBLE_EQ(*metresPerUnit(unit), 1200.0 / 3937);
+    EXPECT_DOUBLE_EQ(*parseLength("1200m", unit), 3937);
+  }
+  EXPECT_DOUBLE_EQ(*parseLength("1us-ft", "m"), 1200.0 / 3937);
+  EXPECT_EQ(lengthName(1200.0 / 3937), "us-ft");
+  EXPECT_EQ(lengthName(0.3048), "ft");
+  EXPECT_EQ(lengthName(0.3), "");
+  EXPECT_EQ(canonicalUnit("K"), "K");
+}
+
 TEST(Units, NonsenseIsRefused) {
   for (const char* text : {"", "m", "-1", "1 m", "1parsec", "nan", "inf", "1m2", "1,5", "0x1m"})
     EXPECT_EQ(parseLength(text, "m").status().code(), TKS_USAGE) << text;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What PROJ's database says of the units of coordinate reference systems.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tetrakis::tools {
+
+struct CrsUnit {
+  std::string name;  ///< ours ("m", "ft", "us-ft") where it is one of them, else EPSG's
+  double metres = 0;
+};
+
+enum class CrsAxis { kHorizontal, kVertical };
+
+/// The unit of an axis of a projected, vertical or compound CRS given as "EPSG:code", WKT, or its
+/// exact name. Nothing if PROJ does not know it, it has no such axis, the axis is no length, or the
+/// machine lacks PROJ's database.
+std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis);
+
+/// A unit of length by its EPSG code; metres and feet are known without PROJ's database.
+std::optional<CrsUnit> epsgUnit(uint16_t code);
+
+}  // namespace tetrakis::tools
