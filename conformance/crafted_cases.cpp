@@ -156,7 +156,7 @@ std::vector<VectorCase> nodataCases() {
                      kLargest, 1e38, kInfinity, false),
           nodataCase("nodata_largest_24x20", "voids are the largest float", kLargest, 3e31,
                      kLargest, true),
-          nodataCase("nodata_least_24x20", "voids are minus infinity", -kLargest, 1e38, -kInfinity,
+          nodataCase("nodata_least_24x20", "voids are minus infinity", -3.6e38, 1e37, -kInfinity,
                      true)};
 }
 

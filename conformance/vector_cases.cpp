@@ -308,13 +308,13 @@ std::vector<VectorCase> sparseCases() {
   return {
       declared(heightsCase("nodata_unused_u8_64x48", "a nodata value is declared, nothing is void",
                            {Pattern::kRidges, 64, 48, 1, TKS_U8}, budget(900)),
-               100),
+               175),
       declared(heightsCase("nodata_beyond_u8_20x20", "a nodata value that the type does not have",
                            {Pattern::kExtreme, 20, 20, 1, TKS_U8}, lossless()),
                -9999),
       withVoids(
           declared(heightsCase("nodata_most_u8_40x30", "voids of the largest value of the type",
-                               {Pattern::kChecker, 40, 30, 1, TKS_U8}, budget(400)),
+                               {Pattern::kExtreme, 40, 30, 1, TKS_U8}, budget(700)),
                    255),
           VoidShape::kCoast, 255),
       withVoids(heightsCase("half_void_i16_256x40", "blocks without a coefficient that exists",
