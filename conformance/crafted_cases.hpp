@@ -12,4 +12,7 @@ namespace tetrakis::conformance {
 /// Cases whose stream is written out (VectorCase::stream).
 std::vector<VectorCase> craftedCases();
 
+/// The same for headers and packets that decoders have to take as they are, or to refuse.
+std::vector<VectorCase> unusualAndRefusedCases();
+
 }  // namespace tetrakis::conformance

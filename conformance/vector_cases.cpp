@@ -299,7 +299,7 @@ std::vector<VectorCase> sparseCases() {
     return vector_case;
   };
   VectorCase tiny = heightsCase("tiny_float_24x40", "floats around the smallest normal one",
-                                {Pattern::kRidges, 24, 40, 1, TKS_F32}, lossless());
+                                {Pattern::kSteps, 24, 40, 1, TKS_F32}, lossless());
   tiny.exponent = -131;
   tiny.thirds = true;
   VectorCase spikes = heightsCase("spikes_300x300", "a large plain with few spikes: header level 1",
@@ -374,6 +374,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
   for (VectorCase& next : craftedCases()) all.push_back(std::move(next));
+  for (VectorCase& next : unusualAndRefusedCases()) all.push_back(std::move(next));
   for (VectorCase& next : damagedCases()) all.push_back(std::move(next));
   return all;
 }
