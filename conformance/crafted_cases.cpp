@@ -57,6 +57,8 @@ std::vector<VectorCase> correctionCases() {
       sampleCorrections("noise_corrections_f32_30x20", "noise: hints of floats of all sizes",
                         TKS_F32, 1e-30, 14),
       sampleCorrections("noise_hints_u8_30x20", "noise: the largest hint", TKS_U8, 1e100, 16),
+      sampleCorrections("noise_subnormal_30x20", "noise: hints of floats without an exponent",
+                        TKS_F32, 0x1p-137, 24, 13),
       sampleCorrections("noise_hints_f32_30x20", "noise: the smallest hints", TKS_F32, 1, 18, 28)};
 }
 
@@ -197,14 +199,14 @@ std::vector<VectorCase> wholeBytesCases() {
   flat.options.lossless = voids.options.lossless = 1;
   flat.options.regions = voids.options.regions = 16;
   flat.heights = samples::Recipe{samples::Pattern::kRidges, 40, 37, 1, TKS_I8};
-  voids.heights = samples::Recipe{samples::Pattern::kRidges, 40, 37, 1, TKS_F32};
-  voids.voids = samples::VoidShape::kCoast;
-  voids.thirds = true;
+  voids.heights = flat.heights;
+  voids.voids = samples::VoidShape::kSpeckle;
+  voids.nodata = -128;
   VectorCase half =
       wholeBytesCase("whole_bytes_half_40x37", "regions count as whole from half of their bytes on",
                      flat, [](uint64_t bytes) { return bytes / 2; });
   VectorCase layers =
-      wholeBytesCase("whole_bytes_layers_40x37", "validity and corrections are no coefficients",
+      wholeBytesCase("whole_bytes_layers_40x37", "bytes of validity are none of coefficients",
                      voids, [](uint64_t bytes) { return bytes / 2; });
   for (VectorCase* each : {&half, &layers}) each->dense = true;
   return {half, layers,
