@@ -41,12 +41,30 @@ T voidSample(const GeometryLayers& layers) {
   }
 }
 
-/// The next larger sample, of the largest one the next smaller: a height that came out as the value
-/// of voids must not be taken for one.
+/// Whether T has the value that is declared for voids. If not no sample can be taken for one.
 template <class T>
-T besides(T sample) {
-  const bool largest = sample == std::numeric_limits<T>::max();
-  return fromOrder<T>(largest ? orderOf(sample) - 1 : orderOf(sample) + 1);
+bool holdsNodata(const GeometryLayers& layers) {
+  if (layers.has_nodata == 0) return false;
+  return std::is_floating_point_v<T> || static_cast<double>(voidSample<T>(layers)) == layers.nodata;
+}
+
+/// What a height becomes that came out as the value of voids: the next larger sample, beside the
+/// largest finite one, or infinity, the next smaller. Both zeros have the same neighbour.
+template <class T>
+T besides(T nodata) {
+  if (nodata >= std::numeric_limits<T>::max()) return fromOrder<T>(orderOf(nodata) - 1);
+  return fromOrder<T>(orderOf(nodata == 0 ? T{0} : nodata) + 1);
+}
+
+/// Voids get their value, and no height keeps it.
+template <class T>
+void markVoids(const std::vector<uint8_t>& valid, const GeometryLayers& layers,
+               std::span<T> samples) {
+  const T nodata = voidSample<T>(layers);
+  if (holdsNodata<T>(layers)) std::replace(samples.begin(), samples.end(), nodata, besides(nodata));
+  for (size_t i = 0; i < valid.size(); ++i) {
+    if (!valid[i]) samples[i] = nodata;
+  }
 }
 
 }  // namespace
@@ -67,15 +85,7 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
       const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
       samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
     }
-    if (layers.validity_bytes == 0) return;
-    const T nodata = voidSample<T>(layers);
-    for (size_t i = 0; i < geometry.valid.size(); ++i) {
-      if (!geometry.valid[i]) {
-        samples[i] = nodata;
-      } else if (samples[i] == nodata) {
-        samples[i] = besides(nodata);
-      }
-    }
+    markVoids(geometry.valid, layers, std::span(samples, geometry.heights.size()));
   });
 }
 

@@ -44,8 +44,8 @@ struct StepNeeds {
 Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
 
 /// Writes samples of header.sample, one for each height of `decoded`; integers saturate at their
-/// type's range. Voids become layers.nodata or NaN; a height that would be that value becomes the
-/// next sample.
+/// type's range. Voids become layers.nodata or NaN; a height that would be the declared nodata
+/// value becomes the next sample, whether there are voids or not.
 void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
                const GeometryLayers& layers, void* out);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 
 namespace tetrakis {
 
@@ -91,6 +92,13 @@ Status needMore(size_t bytes) {
                              " bytes are needed."};
 }
 
+/// Whether an integer sample type has that value.
+bool holds(uint8_t sample, double value) {
+  constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
+  constexpr double kMost[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
+  return kLeast[sample] <= value && value <= kMost[sample] && value == std::trunc(value);
+}
+
 Status checkLayers(const StreamHeader& header) {
   const GeometryLayers& layers = header.layers;
   if (layers.isDefault()) return {};
@@ -98,11 +106,12 @@ Status checkLayers(const StreamHeader& header) {
     return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
   }
   const bool integer = header.geometry->sample != TKS_F32;
-  if (integer && !layers.has_nodata && layers.validity_bytes > 0) {
+  if (integer && layers.validity_bytes > 0 &&
+      !(layers.has_nodata && holds(header.geometry->sample, layers.nodata))) {
     return {TKS_CORRUPT, "Corrupt stream: integer heights have voids but no value for them."};
   }
   if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata))) {
-    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no sample."};
+    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no number."};
   }
   return {};
 }
@@ -118,25 +127,47 @@ Status checkRegions(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its regions are smaller than 16 samples."};
 }
 
+Status checkNumbers(const StreamHeader& header) {
+  const auto finite = [](std::initializer_list<double> values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (header.geometry) {
+    const GeometryHeader& g = *header.geometry;
+    if (!finite({g.base, g.step, g.max_error}) || g.step <= 0) {
+      return {TKS_CORRUPT,
+              "Corrupt stream: base, step or largest error of the heights is out of range."};
+    }
+  }
+  const Metadata& m = header.metadata;
+  if (!finite({m.scale, m.offset, m.spacing_x, m.spacing_y}) || m.scale == 0 || m.spacing_x < 0 ||
+      m.spacing_y < 0) {
+    return {TKS_CORRUPT,
+            "Corrupt stream: scale, offset or spacing of the heights is out of range."};
+  }
+  return {};
+}
+
+/// A drawn texture is one track of all its channels.
+Status checkTexture(const StreamHeader& header) {
+  if (!header.texture) return {};
+  const TextureHeader& t = *header.texture;
+  if (t.sample != TKS_U8 && t.sample != TKS_U16) {
+    return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
+  }
+  if (t.drawn() && (t.regions.side_log2 > 0 || t.weights.levels > 0)) {
+    return {TKS_CORRUPT, "Corrupt stream: a drawn texture has regions or weights."};
+  }
+  return {};
+}
+
 Status checkMeaning(const StreamHeader& header) {
   if (!header.geometry && !header.texture) {
     return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
   }
-  if (header.geometry) {
-    const GeometryHeader& g = *header.geometry;
-    if (!std::isfinite(g.base) || !std::isfinite(g.step) || g.step <= 0) {
-      return {TKS_CORRUPT, "Corrupt stream: base or step of the heights is not a finite number."};
-    }
-  }
+  if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (Status regions = checkRegions(header); !regions.ok()) return regions;
-  if (header.texture) {
-    const TextureHeader& t = *header.texture;
-    if (t.sample != TKS_U8 && t.sample != TKS_U16) {
-      return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
-    }
-  }
-  return {};
+  return checkTexture(header);
 }
 
 }  // namespace

@@ -236,11 +236,11 @@ void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOpti
     }
     return !done && bytes <= options.limit && distortion > options.enough;
   };
-  const bool to_the_end = options.limit == UINT64_MAX && options.enough == 0;
+  const bool to_the_end = options.limit == UINT64_MAX && options.enough == TrackOptions::kNever;
   for (; open(); key -= kBitPlane) {
     const int least = to_the_end ? TrackCoder::kNoKey : key;
     parallelFor(options.threads, coders.size(),
-                [&](size_t i) { coders[i]->run(least, UINT64_MAX, 0); });
+                [&](size_t i) { coders[i]->run(least, UINT64_MAX, TrackOptions::kNever); });
   }
 }
 

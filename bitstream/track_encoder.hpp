@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -45,13 +46,16 @@ EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<Ba
 
 /// How a component is coded.
 struct TrackOptions {
+  /// An error of which the account, a sum of floats, never falls short: all passes are coded.
+  static constexpr double kNever = -std::numeric_limits<double>::infinity();
+
   uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
   int region_log2 = 0;          ///< bitstream/regions.hpp; 0: one track
   uint32_t threads = 1;         ///< nothing depends on them
   bool visual = false;          ///< a texture: what is seen comes first, not what is off most
   uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
   double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
-  double enough = 0;            ///< distortion of all tracks together below which coding ends
+  double enough = kNever;       ///< distortion of all tracks together below which coding ends
 };
 
 /// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks

@@ -13,14 +13,23 @@
 namespace tetrakis::conformance {
 namespace {
 
+/// Of a stream that does not open: where statuses change, and every byte of its end.
+std::vector<size_t> cutsOfRefused(size_t size) {
+  std::vector<size_t> cuts{0, 1, 4, 5, 7, 8, 9};
+  for (size_t back = 16; back-- > 0;) cuts.push_back(size - back);
+  return cuts;
+}
+
 /// Around the header's end, then evenly and oddly through the payload, then everything.
-std::vector<size_t> cutsOf(std::span<const uint8_t> stream) {
+std::vector<size_t> cutsOf(std::span<const uint8_t> stream, bool dense) {
   const size_t size = stream.size();
   const auto decoder = Decoder::open(stream);
-  if (!decoder) return {size};
+  if (!decoder) return cutsOfRefused(size);
   const size_t header = static_cast<size_t>(decoder->info().header_bytes);
   std::vector<size_t> cuts{header - 1, header, header + 1, header + 7};
-  for (size_t part = 1; part < 8; ++part) cuts.push_back(header + (size - header) * part / 8);
+  const size_t parts = dense ? 96 : 8;
+  for (size_t part = 1; part < parts; ++part)
+    cuts.push_back(header + (size - header) * part / parts);
   cuts.push_back(size - 1);
   cuts.push_back(size);
   std::erase_if(cuts, [size](size_t cut) { return cut > size; });
@@ -29,13 +38,24 @@ std::vector<size_t> cutsOf(std::span<const uint8_t> stream) {
   return cuts;
 }
 
+/// All mip levels of the whole stream, and every other one of three fifths of it.
+void addLevels(std::span<const uint8_t> stream, Vector& vector) {
+  const auto decoder = Decoder::open(stream);
+  if (!decoder) return;
+  const tks_info info = decoder->info();
+  const int coarsest = static_cast<int>(std::max(info.coarsest_level, info.texture_coarsest_level));
+  for (int level = 1; level <= coarsest; level += 2)
+    vector.cuts.push_back(decodeCut(stream.first(stream.size() * 3 / 5), level));
+  for (int level = 1; level <= coarsest; ++level) vector.cuts.push_back(decodeCut(stream, level));
+}
+
 Result<Vector> makeVector(const VectorCase& vector_case, const std::string& directory) {
   const auto stream = encodeCase(vector_case);
   if (!stream.ok()) return stream.status();
   Vector vector{vector_case.name, vector_case.name + ".tks", vector_case.purpose, {}};
-  for (const size_t cut : cutsOf(*stream)) {
+  for (const size_t cut : cutsOf(*stream, vector_case.dense))
     vector.cuts.push_back(decodeCut(std::span(*stream).first(cut)));
-  }
+  addLevels(*stream, vector);
   const Status written =
       writeFile(directory + "/" + vector.file, std::string(stream->begin(), stream->end()));
   if (!written.ok()) return written;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manifest as JSON: {"vectors": [{name, file, purpose, cuts: [{bytes, status, heights?,
-// texture?}]}]}.
+// Manifest as JSON: {"vectors": [{name, file, purpose, cuts: [{bytes, level?, status,
+// heights?, texture?}]}]}.
 #include "conformance/manifest.hpp"
 
 #include <fstream>
@@ -13,7 +13,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json toJson(const Cut& cut) {
-  Json json{{"bytes", cut.bytes}, {"status", cut.status}};
+  Json json{{"bytes", cut.bytes}};
+  if (cut.level > 0) json["level"] = cut.level;
+  json["status"] = cut.status;
   if (!cut.heights.empty()) json["heights"] = cut.heights;
   if (!cut.texture.empty()) json["texture"] = cut.texture;
   return json;
@@ -29,8 +31,8 @@ Json toJson(const Vector& vector) {
 }
 
 Cut cutOf(const Json& json) {
-  return {json.at("bytes").get<uint64_t>(), json.at("status").get<int>(), json.value("heights", ""),
-          json.value("texture", "")};
+  return {json.at("bytes").get<uint64_t>(), json.value("level", 0), json.at("status").get<int>(),
+          json.value("heights", ""), json.value("texture", "")};
 }
 
 Vector vectorOf(const Json& json) {

@@ -29,10 +29,10 @@ bool runVector(const Vector& vector, std::span<const uint8_t> stream, std::ostre
       passed = false;
       continue;
     }
-    const Cut got = decodeCut(stream.first(static_cast<size_t>(wanted.bytes)));
+    const Cut got = decodeCut(stream.first(static_cast<size_t>(wanted.bytes)), wanted.level);
     if (same(wanted, got)) continue;
-    log << "  " << vector.name << " at " << wanted.bytes << " bytes\n    wanted "
-        << describe(wanted) << "\n    got    " << describe(got) << "\n";
+    log << "  " << vector.name << " at " << wanted.bytes << " bytes, level " << wanted.level
+        << "\n    wanted " << describe(wanted) << "\n    got    " << describe(got) << "\n";
     passed = false;
   }
   return passed;
@@ -40,13 +40,23 @@ bool runVector(const Vector& vector, std::span<const uint8_t> stream, std::ostre
 
 }  // namespace
 
-Cut decodeCut(std::span<const uint8_t> prefix) {
+Cut decodeCut(std::span<const uint8_t> prefix, int level) {
   Cut cut;
   cut.bytes = prefix.size();
+  cut.level = level;
   auto decoder = Decoder::open(prefix);
   if (!decoder) {
     cut.status = decoder.error().code;
     return cut;
+  }
+  if (level > 0) {
+    const auto up_to = [&](uint32_t coarsest) {
+      return std::min(static_cast<uint32_t>(level), coarsest);
+    };
+    const tks_info info = decoder->info();
+    const auto set =
+        decoder->setLevels(up_to(info.coarsest_level), up_to(info.texture_coarsest_level));
+    if (!set) cut.status = set.error().code;
   }
   if (decoder->info().has_heights) {
     const auto heights = decoder->heights();

@@ -21,7 +21,8 @@ struct VectorSummary {
 /// that is missing or decodes differently counts as failed.
 Result<VectorSummary> runVectors(const std::string& directory, std::ostream& log);
 
-/// What this library's decoder makes of `prefix`; the manifest's digests come from here.
-Cut decodeCut(std::span<const uint8_t> prefix);
+/// What this library's decoder makes of `prefix` at a mip level (Cut::level); the manifest's
+/// digests come from here.
+Cut decodeCut(std::span<const uint8_t> prefix, int level = 0);
 
 }  // namespace tetrakis::conformance

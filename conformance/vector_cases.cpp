@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "api/samples.hpp"
+#include "conformance/crafted_cases.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::conformance {
@@ -288,6 +290,43 @@ std::vector<VectorCase> regionCases() {
           joint, budgeted, withVoids(corrected, samples::VoidShape::kCoast, NAN)};
 }
 
+/// Voids, values declared for them, and planes of which most is empty.
+std::vector<VectorCase> sparseCases() {
+  using samples::VoidShape;
+  const auto declared = [](VectorCase vector_case, double nodata) {
+    vector_case.nodata = nodata;
+    vector_case.apart = true;
+    return vector_case;
+  };
+  VectorCase tiny = heightsCase("tiny_float_24x40", "floats around the smallest normal one",
+                                {Pattern::kSteps, 24, 40, 1, TKS_F32}, lossless());
+  tiny.exponent = -131;
+  tiny.thirds = true;
+  VectorCase spikes = heightsCase("spikes_300x300", "a large plain with few spikes: header level 1",
+                                  {Pattern::kFlat, 300, 300, 1, TKS_I16}, lossless());
+  spikes.spikes = 9001;
+  return {
+      declared(heightsCase("nodata_unused_u8_64x48", "a nodata value is declared, nothing is void",
+                           {Pattern::kRidges, 64, 48, 1, TKS_U8}, budget(900)),
+               175),
+      declared(heightsCase("nodata_beyond_u8_20x20", "a nodata value that the type does not have",
+                           {Pattern::kExtreme, 20, 20, 1, TKS_U8}, lossless()),
+               -9999),
+      withVoids(
+          declared(heightsCase("nodata_most_u8_40x30", "voids of the largest value of the type",
+                               {Pattern::kExtreme, 40, 30, 1, TKS_U8}, budget(700)),
+                   255),
+          VoidShape::kCoast, 255),
+      withVoids(heightsCase("half_void_i16_256x40", "blocks without a coefficient that exists",
+                            {Pattern::kRidges, 256, 40, 1, TKS_I16}, budget(6000)),
+                VoidShape::kHalf, -1),
+      heightsCase("long_i16_9000x4", "twelve levels of one side: more than ten splits",
+                  {Pattern::kRidges, 9000, 4, 1, TKS_I16}, budget(500)),
+      tiny,
+      spikes,
+  };
+}
+
 /// Streams that a decoder must refuse, by the byte that is wrong (docs/FORMAT.md, section 2).
 std::vector<VectorCase> damagedCases() {
   const Recipe heights{Pattern::kRidges, 9, 9, 1, TKS_I16};
@@ -312,6 +351,12 @@ samples::Raster surfaceOf(const VectorCase& vector_case) {
       std::byte* at = surface.data.data() + i * sizeof sample;
       std::memcpy(&sample, at, sizeof sample);
       if (vector_case.thirds) sample = static_cast<decltype(sample)>(sample / 3);
+      if constexpr (std::is_floating_point_v<decltype(sample)>)
+        sample = std::ldexp(sample, vector_case.exponent);
+      const auto number = static_cast<uint32_t>(i);
+      if (vector_case.spikes > 0 && samples::hash(number, 0, 45) % vector_case.spikes == 0)
+        sample = static_cast<decltype(sample)>(samples::hash(number, 1, 45));
+      if (vector_case.apart && static_cast<double>(sample) == vector_case.nodata) ++sample;
       if (!valid[i]) sample = static_cast<decltype(sample)>(vector_case.nodata);
       std::memcpy(at, &sample, sizeof sample);
     }
@@ -327,11 +372,15 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
+  for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
+  for (VectorCase& next : craftedCases()) all.push_back(std::move(next));
+  for (VectorCase& next : unusualAndRefusedCases()) all.push_back(std::move(next));
   for (VectorCase& next : damagedCases()) all.push_back(std::move(next));
   return all;
 }
 
 Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
+  if (!vector_case.stream.empty()) return vector_case.stream;
   samples::Raster surface, picture;
   tks_heights heights = {};
   tks_image image = {};
@@ -341,7 +390,7 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     heights.scale = vector_case.scale;
     heights.offset = vector_case.offset;
     heights.unit = "m";
-    heights.has_nodata = vector_case.voids && !std::isnan(vector_case.nodata);
+    heights.has_nodata = !std::isnan(vector_case.nodata);
     if (heights.has_nodata) heights.nodata = vector_case.nodata;
   }
   if (vector_case.texture) {

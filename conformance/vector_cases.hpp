@@ -26,7 +26,12 @@ struct VectorCase {
   std::optional<samples::VoidShape> cutout;   ///< alpha is 0 there, else the largest value
   std::optional<samples::VoidShape> overlay;  ///< drawn over there
   double nodata = NAN;                        ///< the value of voids; a number is declared
-  int damaged_byte = -1;  ///< inverted after encoding; such a stream must not open
+  bool apart = false;                         ///< valid samples that equal nodata are changed
+  int exponent = 0;                           ///< float heights are multiplied by 2^exponent
+  uint32_t spikes = 0;                        ///< one in so many heights stands out of a plain
+  std::vector<uint8_t> stream;  ///< not empty: nothing is encoded, these are the bytes
+  bool dense = false;           ///< cuts lie close to each other in the middle
+  int damaged_byte = -1;        ///< inverted after encoding; such a stream must not open
 };
 
 /// All cases, in the order of the manifest.

@@ -201,6 +201,57 @@ TEST(Header, EveryCorruptByteIsNoticed) {
   }
 }
 
+/// Numbers that no encoder writes, and that would spread through all that is computed with them.
+TEST(Header, RefusesNumbersThatAreNone) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto opens = [](auto&& change) {
+    StreamHeader header = sampleHeader();
+    change(header);
+    return readHeader(writeHeader(header)).ok();
+  };
+  EXPECT_TRUE(opens([](StreamHeader&) {}));
+  for (const double wrong : {kInfinity, -kInfinity, std::nan("")}) {
+    EXPECT_FALSE(opens([&](StreamHeader& h) { h.geometry->base = wrong; }));
+    EXPECT_FALSE(opens([&](StreamHeader& h) { h.geometry->step = wrong; }));
+    EXPECT_FALSE(opens([&](StreamHeader& h) { h.geometry->max_error = wrong; }));
+    EXPECT_FALSE(opens([&](StreamHeader& h) { h.metadata.scale = wrong; }));
+    EXPECT_FALSE(opens([&](StreamHeader& h) { h.metadata.offset = wrong; }));
+    EXPECT_FALSE(opens([&](StreamHeader& h) { h.metadata.spacing_x = wrong; }));
+    EXPECT_FALSE(opens([&](StreamHeader& h) { h.metadata.spacing_y = wrong; }));
+  }
+  EXPECT_FALSE(opens([](StreamHeader& h) { h.geometry->step = 0; }));
+  EXPECT_FALSE(opens([](StreamHeader& h) { h.metadata.scale = 0; }));
+  EXPECT_FALSE(opens([](StreamHeader& h) { h.metadata.spacing_x = -1; }));
+}
+
+/// Voids of integers need a value that the type has; without voids any number may be declared.
+TEST(Header, VoidsOfIntegersNeedASample) {
+  const auto opens = [](uint64_t validity_bytes, double nodata) {
+    StreamHeader header = sampleHeader();
+    header.geometry->sample = TKS_U8;
+    header.layers.validity_bytes = validity_bytes;
+    header.layers.has_nodata = 1;
+    header.layers.nodata = nodata;
+    return readHeader(writeHeader(header)).ok();
+  };
+  EXPECT_TRUE(opens(9, 0) && opens(9, 255) && opens(0, -9999) && opens(0, 0.5));
+  EXPECT_FALSE(opens(9, -1) || opens(9, 256) || opens(9, 0.5) || opens(9, 1e300));
+}
+
+TEST(Header, DrawnTexturesHaveNeitherRegionsNorWeights) {
+  const auto opens = [](uint8_t region_log2, uint8_t levels) {
+    StreamHeader header = sampleHeader();
+    header.texture->planes = kDrawnPlanes;
+    header.texture->regions.side_log2 = region_log2;
+    header.texture->weights.levels = levels;
+    header.index.clear();
+    return readHeader(writeHeader(header)).ok();
+  };
+  EXPECT_TRUE(opens(0, 0));
+  EXPECT_FALSE(opens(4, 0));
+  EXPECT_FALSE(opens(0, 1));
+}
+
 TEST(Packets, DemultiplexUndoesMultiplexAtEveryCut) {
   std::vector<uint8_t> geometry(700), texture(300);
   for (size_t i = 0; i < geometry.size(); ++i) geometry[i] = static_cast<uint8_t>(i * 7);

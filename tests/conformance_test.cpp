@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <sstream>
 
 #include "bitstream/header.hpp"
 #include "conformance/digest.hpp"
+#include "conformance/reference_decoder.hpp"
 #include "conformance/runner.hpp"
 #include "conformance/vector_cases.hpp"
 
@@ -47,6 +49,46 @@ TEST_F(Vectors, AllPass) {
   ASSERT_TRUE(summary.ok()) << summary.status().message();
   EXPECT_EQ(summary->failed, 0) << log_.str();
   EXPECT_GE(summary->passed, 12);
+}
+
+tks_status statusOf(reference::Outcome outcome) {
+  switch (outcome) {
+    case reference::Outcome::kDone:
+      return TKS_OK;
+    case reference::Outcome::kTruncated:
+      return TKS_TRUNCATED;
+    case reference::Outcome::kCorrupt:
+      return TKS_CORRUPT;
+    case reference::Outcome::kUnsupported:
+      return TKS_UNSUPPORTED;
+    case reference::Outcome::kTooLarge:
+      return TKS_LIMIT;
+  }
+  return TKS_USAGE;
+}
+
+/// Samples of the reference decoder are little endian bytes already.
+std::string digestOf(const std::optional<std::vector<uint8_t>>& samples) {
+  return samples ? sampleDigest(std::as_bytes(std::span(*samples)), TKS_U8) : "";
+}
+
+/// The decoder that was written from the text alone gives what the library gave.
+TEST_F(Vectors, ReferenceDecoderPasses) {
+  const auto vectors = readManifest(kVectors);
+  ASSERT_TRUE(vectors.ok());
+  for (const Vector& vector : *vectors) {
+    const auto stream = readFile(std::string(kVectors) + "/" + vector.file);
+    ASSERT_TRUE(stream.ok());
+    for (const Cut& cut : vector.cuts) {
+      SCOPED_TRACE(vector.name + " at " + std::to_string(cut.bytes) + " bytes");
+      const reference::Decoded decoded =
+          reference::decode(std::span(*stream).first(static_cast<size_t>(cut.bytes)),
+                            reference::kMaxSamples, {cut.level, cut.level});
+      EXPECT_EQ(statusOf(decoded.outcome), cut.status);
+      EXPECT_EQ(digestOf(decoded.heights), cut.heights);
+      EXPECT_EQ(digestOf(decoded.texture), cut.texture);
+    }
+  }
 }
 
 /// Every stream on disk is listed, in the manifest and in the README, and small.

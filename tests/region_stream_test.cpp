@@ -162,6 +162,23 @@ TEST(RegionStream, VoidsAndCorrections) {
   expectWindows(bytes);
 }
 
+/// Most regions hold nothing but zeros, and sums of squares beside them need not come out as 0.
+TEST(RegionStream, RestoresPlanesOfWhichMostIsFlat) {
+  for (const tks_sample sample : {TKS_I16, TKS_F32}) {
+    Raster raster = make({Pattern::kFlat, 64, 64, 1, sample});
+    const Raster detail = make({Pattern::kExtreme, 13, 12, 1, TKS_U8});
+    for (size_t i = 0; i < detail.data.size(); ++i) {
+      const auto value = std::to_integer<int16_t>(detail.data[i]);
+      const auto third = static_cast<float>(value) / 3;
+      std::byte* at = raster.data.data() + (i / 13 * 64 + i % 13) * tks_sample_bytes(sample);
+      if (sample == TKS_I16) std::memcpy(at, &value, sizeof value);
+      if (sample == TKS_F32) std::memcpy(at, &third, sizeof third);
+    }
+    const Bytes bytes = encode(&raster, nullptr, inRegions(lossless()));
+    EXPECT_TRUE(Stream(bytes).heights() == raster.data);
+  }
+}
+
 TEST(RegionStream, MeetsItsTargets) {
   const Raster heights = make({Pattern::kRidges, 90, 70, 1, TKS_I16});
   const Raster image = make({Pattern::kRidges, 80, 100, 3, TKS_U8, 7});

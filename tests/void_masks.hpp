@@ -17,6 +17,7 @@ enum class VoidShape {
   kFrame,     ///< a margin of three samples
   kOneValid,  ///< one sample is valid
   kOneVoid,   ///< one sample is void
+  kHalf,      ///< the right half
   kAll        ///< nothing is valid
 };
 
@@ -39,6 +40,8 @@ inline bool isVoid(VoidShape shape, uint32_t width, uint32_t height, uint32_t x,
       return !middle;
     case VoidShape::kOneVoid:
       return middle;
+    case VoidShape::kHalf:
+      return 2 * x >= width;
     case VoidShape::kAll:
       return true;
   }

@@ -3,6 +3,7 @@
 // the shape of the voids and the target; every prefix decodes; meshes stay off voids.
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "tests/stream_fixture.hpp"
 #include "tests/void_masks.hpp"
@@ -159,6 +160,91 @@ TEST(VoidStream, HeightsNeverReadAsNodata) {
     const Bytes bytes = encode(h, within(error));
     Stream stream(bytes);
     EXPECT_LE(checkedError(h, stream), error);
+  }
+}
+
+/// One of 16 samples around the nodata value; those that the type has, and the value itself never.
+template <class T>
+T around(T nodata, uint32_t number) {
+  const double distance = number < 8 ? number + 1.0 : 7.0 - number;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (std::abs(nodata) > 1000) return nodata * static_cast<T>(1 - std::abs(distance) / 64);
+    return nodata + static_cast<T>(distance);
+  } else {
+    const double value = static_cast<double>(nodata) + distance;
+    const bool there = value >= static_cast<double>(std::numeric_limits<T>::min()) &&
+                       value <= static_cast<double>(std::numeric_limits<T>::max());
+    return static_cast<T>(there ? value : static_cast<double>(nodata) - distance);
+  }
+}
+
+void expectNodataWhereVoid(const std::vector<std::byte>& samples, tks_sample sample, double nodata,
+                           const std::vector<uint8_t>& valid) {
+  for (size_t i = 0; i < valid.size(); ++i)
+    ASSERT_EQ(sampleAt(samples, sample, i) == nodata, !valid[i]) << i;
+}
+
+/// The whole, a window, and the first mip level.
+void expectNodataWhereVoid(const Holed& h, Stream& stream) {
+  const tks_sample sample = h.raster.sample;
+  const std::vector<uint8_t> valid = decodedValidity(stream);
+  expectNodataWhereVoid(stream.heights(), sample, *h.nodata, valid);
+  const tks_window window = {5, 3, 21, 17};
+  std::vector<std::byte> part(21 * 17 * tks_sample_bytes(sample));
+  ASSERT_EQ(tks_decode_heights_window(stream.get(), &window, part.data(), part.size()), TKS_OK);
+  std::vector<uint8_t> seen;
+  for (size_t i = 0; i < 21 * 17; ++i) seen.push_back(valid[(3 + i / 21) * 40 + 5 + i % 21]);
+  expectNodataWhereVoid(part, sample, *h.nodata, seen);
+  ASSERT_EQ(tks_set_levels(stream.get(), 1, 0), TKS_OK);
+  std::vector<std::byte> half(20 * 16 * tks_sample_bytes(sample));
+  seen.resize(20 * 16);
+  ASSERT_EQ(tks_decode_heights(stream.get(), half.data(), half.size()), TKS_OK);
+  ASSERT_EQ(tks_decode_validity(stream.get(), seen.data(), seen.size()), TKS_OK);
+  expectNodataWhereVoid(half, sample, *h.nodata, seen);
+}
+
+/// The declared value belongs to voids, whether a stream has any or not: whatever is cut off, no
+/// valid sample equals it.
+template <class T>
+void expectNoValidSampleReadsAsNodata(tks_sample sample, T nodata, bool holes) {
+  Holed h{make({Pattern::kRidges, 40, 31, 1, sample}), validity(VoidShape::kCoast, 40, 31), {}};
+  if (!holes) h.valid.assign(h.valid.size(), 1);
+  h.nodata = static_cast<double>(nodata);
+  for (size_t i = 0; i < h.valid.size(); ++i) {
+    const uint32_t number = samples::hash(static_cast<uint32_t>(i), 0, 9) % 16;
+    put(h.raster, i, h.valid[i] ? around(nodata, number) : nodata);
+  }
+  for (tks_encode_options options : {lossless(), budget(400), within(2)}) {
+    for (const uint32_t regions : {1u, 16u}) {
+      options.regions = regions;
+      const Bytes bytes = encode(h, options);
+      for (const size_t n : {bytes.size() * 2 / 3, bytes.size()}) {
+        Stream stream(Prefix(bytes).first(n));
+        ASSERT_EQ(stream.status(), TKS_OK);
+        expectNodataWhereVoid(h, stream);
+      }
+      Stream whole(bytes);
+      const double most = options.max_error > 0 ? 2 : options.lossless ? 0 : HUGE_VAL;
+      EXPECT_LE(checkedError(h, whole), most);
+    }
+  }
+}
+
+TEST(VoidStream, NoValidSampleReadsAsNodata) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  for (const bool holes : {false, true}) {
+    for (const int nodata : {0, 100, 255}) {
+      SCOPED_TRACE(nodata);
+      expectNoValidSampleReadsAsNodata<uint8_t>(TKS_U8, static_cast<uint8_t>(nodata), holes);
+      expectNoValidSampleReadsAsNodata<int16_t>(TKS_I16, static_cast<int16_t>(nodata), holes);
+    }
+    expectNoValidSampleReadsAsNodata<int8_t>(TKS_I8, 127, holes);
+    expectNoValidSampleReadsAsNodata<uint16_t>(TKS_U16, 65535, holes);
+    expectNoValidSampleReadsAsNodata<int16_t>(TKS_I16, -32768, holes);
+    expectNoValidSampleReadsAsNodata<uint32_t>(TKS_U32, 0xffffffffu, holes);
+    expectNoValidSampleReadsAsNodata<int32_t>(TKS_I32, 0x7fffffff, holes);
+    for (const float nodata : {0.0f, -0.0f, 100.0f, kLargest, -kLargest})
+      expectNoValidSampleReadsAsNodata<float>(TKS_F32, nodata, holes);
   }
 }
 

@@ -156,23 +156,40 @@ void correctSamples(const GeometryHeader& header, std::span<const uint8_t> codew
   }
 }
 
+/// FORMAT 8.1, "Voids": whether samples equal the nodata value V.
+bool equalsNodata(const GeometryHeader& header, double nodata, uint32_t bits) {
+  switch (header.sample) {
+    case kF32:
+      return std::bit_cast<float>(bits) == static_cast<float>(nodata);
+    case kU8:
+    case kU16:
+    case kU32:
+      return bits == nodata;
+    default:
+      return static_cast<int32_t>(bits) == nodata;
+  }
+}
+
+/// FORMAT 8.1, "Voids": the sample beside V.
+uint32_t besides(const GeometryHeader& header, double nodata) {
+  constexpr uint32_t kLargest[] = {255, 127, 65535, 32767, 0xFFFFFFFF, 0x7FFFFFFF, 0x7F7FFFFF};
+  constexpr uint32_t kInfinity = 0x7F800000;
+  const uint32_t v = sampleOf(header, nodata);
+  if (header.sample == kF32 && static_cast<float>(nodata) == 0) return 1;
+  if (header.sample == kF32 && v == kInfinity) return kLargest[kF32];
+  return orderOf(header, orderOf(header, v) + (v == kLargest[header.sample] ? 0xFFFFFFFF : 1));
+}
+
 /// FORMAT 8.1, "Voids": voids get their value, and no other sample has it.
 void putVoids(const GeometryHeader& header, const Layers& layers, const Plane& plane,
               std::vector<uint32_t>& samples) {
   constexpr uint32_t kQuietNan = 0x7FC00000;
   const uint32_t hole = layers.hasNodata ? sampleOf(header, layers.nodata) : kQuietNan;
-  constexpr uint32_t kLargest[] = {255, 127, 65535, 32767, 0xFFFFFFFF, 0x7FFFFFFF, 0x7F7FFFFF};
-  const auto equal = [&](uint32_t a, uint32_t b) {
-    if (header.sample != kF32) return a == b;
-    return std::bit_cast<float>(a) == std::bit_cast<float>(b);
-  };
-  const uint32_t besides =
-      orderOf(header, orderOf(header, hole) + (hole == kLargest[header.sample] ? 0xFFFFFFFF : 1));
   for (size_t i = 0; i < samples.size(); ++i) {
-    if (!plane.valid[i]) {
+    if (!plane.valid.empty() && !plane.valid[i]) {
       samples[i] = hole;
-    } else if (equal(samples[i], hole)) {
-      samples[i] = besides;
+    } else if (layers.hasNodata && equalsNodata(header, layers.nodata, samples[i])) {
+      samples[i] = besides(header, layers.nodata);
     }
   }
 }
@@ -204,7 +221,7 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   std::vector<uint32_t> samples = samplesOf(header, surface);
   if (layers.corrections == 2 && level == 0)
     correctSamples(header, codeword, surface.plane, samples);
-  if (layers.validityBytes > 0) putVoids(header, layers, surface.plane, samples);
+  putVoids(header, layers, surface.plane, samples);
   return bytesOf(header, samples);
 }
 

@@ -101,11 +101,18 @@ GeometryHeader readGeometry(Reader& in) {
   in.u8(0, 1);  // exact
   g.base = in.f64();
   g.step = in.f64();
-  in.f64();  // max_error
+  const double maxError = in.f64();
   g.wavelet = readWavelet(in);
-  const bool finite = std::isfinite(g.base) && std::isfinite(g.step);
+  const bool finite = std::isfinite(g.base) && std::isfinite(g.step) && std::isfinite(maxError);
   if (!finite || g.step <= 0) in.fail(Outcome::kCorrupt);
   return g;
+}
+
+/// Whether a value is an integer of the type.
+bool holds(int sample, double value) {
+  constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
+  constexpr double kLargest[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
+  return value >= kLeast[sample] && value <= kLargest[sample] && value == std::floor(value);
 }
 
 /// FORMAT 2, table Layers.
@@ -122,7 +129,10 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   const bool meant = layers.validityBytes > 0 || layers.hasNodata || layers.corrections > 0;
   if (meant && !geometry) in.fail(Outcome::kCorrupt);
   const bool integer = geometry && geometry->sample != kF32;
-  if (integer && !layers.hasNodata && layers.validityBytes > 0) in.fail(Outcome::kCorrupt);
+  if (integer && layers.validityBytes > 0) {
+    const bool held = layers.hasNodata && holds(geometry->sample, layers.nodata);
+    if (!held) in.fail(Outcome::kCorrupt);
+  }
   if (std::isnan(layers.nodata)) in.fail(Outcome::kCorrupt);
   if (integer && std::isinf(layers.nodata)) in.fail(Outcome::kCorrupt);
   return layers;
@@ -191,7 +201,12 @@ bool namesTracks(const Stream& stream, uint64_t component) {
 
 /// FORMAT 2, Metadata and Index: they decode nothing, but their syntax counts.
 void skipMetadata(Reader& in) {
-  for (int i = 0; i < 4; ++i) in.f64();
+  const double scale = in.f64(), offset = in.f64();
+  const double spacingX = in.f64(), spacingY = in.f64();
+  for (const double v : {scale, offset, spacingX, spacingY}) {
+    if (!std::isfinite(v)) in.fail(Outcome::kCorrupt);
+  }
+  if (scale == 0 || spacingX < 0 || spacingY < 0) in.fail(Outcome::kCorrupt);
   for (int i = 0; i < 3; ++i) in.take(in.varint(0, UINT64_MAX));
 }
 
@@ -231,6 +246,9 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (parts & 32 && stream.geometry) stream.geometry->regions = readRegions(in);
   if (parts & 32 && stream.texture) stream.texture->regions = readRegions(in);
   if (parts & 64 && stream.texture) readWeights(in, *stream.texture);
+  if (stream.texture && stream.texture->planes == kDrawnPlanes &&
+      (stream.texture->regions.log2 > 0 || parts & 64))
+    in.fail(Outcome::kCorrupt);
   if (parts & 8) skipIndex(in, stream);
   if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
   return payloadBytes;
@@ -241,6 +259,7 @@ std::span<const uint8_t> readHeader(std::span<const uint8_t> prefix, Stream& str
   Reader in(prefix);
   for (const int expected : {0x54, 0x4B, 0x53, 0x1A}) in.u8(expected, expected);
   const uint8_t version = in.byte(), profile = in.byte(), level = in.byte();
+  if (in.rest().empty()) in.fail(Outcome::kTruncated);  // says nothing of the version
   if (version != 1 || profile != 0) in.fail(Outcome::kUnsupported);
   const auto body = in.take(in.varint(0, 1 << 20));
   const auto sealed = prefix.first(prefix.size() - in.rest().size());

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/crafted_cases.hpp"
+
+#include <functional>
+#include <limits>
+
+#include "bitstream/range_encoder.hpp"
+#include "conformance/crafted_streams.hpp"
+#include "texture_wavelet/drawn_pass.hpp"
+
+namespace tetrakis::conformance {
+namespace {
+
+/// Coefficients of all bit-planes: sums leave 32 bits.
+std::vector<VectorCase> wideCases() {
+  StreamHeader plain = heightsHeader(70, 40, TKS_I32, 30);
+  StreamHeader holed = plain;
+  holed.layers.validity_bytes = 60;
+  holed.layers.has_nodata = 1;
+  holed.layers.nodata = 7;
+  StreamHeader deep = heightsHeader(2, 300, TKS_I32, 30);
+  deep.geometry->wavelet.fraction_bits = 8;
+  Bytes mask = noise(60, 2);
+  append(mask, noise(2500, 3, 3));
+  return {crafted("noise_i32_70x40", "noise: sums wrap at 32 bits, but not above level 3",
+                  streamOf(plain, noise(2500, 1, 3))),
+          crafted("noise_voids_i32_70x40", "noise: sums are wide where there are voids",
+                  streamOf(holed, mask)),
+          crafted("noise_fraction_2x300", "noise: eight fraction bits, levels of one side",
+                  streamOf(deep, noise(900, 4, 2)))};
+}
+
+/// Of samples: all classes, and hints at both ends.
+VectorCase sampleCorrections(const std::string& name, const std::string& purpose, tks_sample sample,
+                             double step, uint32_t seed, int planes = 12) {
+  StreamHeader header = heightsHeader(30, 20, sample, planes);
+  header.geometry->step = step;
+  header.layers.corrections = CorrectionKind::kSamples;
+  header.layers.coefficient_bytes = 200;
+  Bytes codeword = noise(200, seed);
+  append(codeword, noise(2000, seed + 1, 9));
+  return crafted(name, purpose, streamOf(header, codeword));
+}
+
+std::vector<VectorCase> correctionCases() {
+  StreamHeader steps = heightsHeader(33, 21, TKS_I32, 12);
+  steps.layers.corrections = CorrectionKind::kSteps;
+  steps.layers.coefficient_bytes = 200;
+  steps.layers.correction_step = uint32_t{1} << 26;
+  Bytes codeword = noise(200, 10);
+  append(codeword, noise(1500, 11, 9));
+  return {
+      crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
+              streamOf(steps, codeword)),
+      sampleCorrections("noise_corrections_u32_30x20",
+                        "noise: corrections of samples of all classes", TKS_U32, 1, 12),
+      sampleCorrections("noise_corrections_f32_30x20", "noise: hints of floats of all sizes",
+                        TKS_F32, 1e-30, 14),
+      sampleCorrections("noise_hints_u8_30x20", "noise: the largest hint", TKS_U8, 1e100, 16),
+      sampleCorrections("noise_subnormal_30x20", "noise: hints of floats without an exponent",
+                        TKS_F32, 0x1p-137, 24, 13),
+      sampleCorrections("noise_hints_f32_30x20", "noise: the smallest hints", TKS_F32, 1, 18, 28)};
+}
+
+/// base + q · step for few q, of which some are the declared nodata value.
+VectorCase nodataCase(const std::string& name, const std::string& purpose, double base, double step,
+                      double nodata, bool voids) {
+  StreamHeader header = heightsHeader(24, 20, TKS_F32, 3);
+  header.geometry->base = base;
+  header.geometry->step = step;
+  header.layers.has_nodata = 1;
+  header.layers.nodata = nodata;
+  header.layers.validity_bytes = voids ? 40 : 0;
+  Bytes codeword = voids ? noise(40, 20) : Bytes();
+  append(codeword, noise(300, 21));
+  return crafted(name, purpose, streamOf(header, codeword));
+}
+
+std::vector<VectorCase> nodataCases() {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  StreamHeader halves = heightsHeader(20, 20, TKS_I16, 4);
+  halves.geometry->base = -2.5;
+  return {crafted("halves_i16_20x20", "halves below 0 are rounded away from it",
+                  streamOf(halves, noise(300, 22))),
+          nodataCase("nodata_zero_24x20", "voids are 0, heights neither 0 nor -0", -1e-60, 1e-45, 0,
+                     true),
+          nodataCase("nodata_minus_zero_24x20", "no voids, nodata that becomes -0", -1e-60, 1e-45,
+                     -1e-60, false),
+          nodataCase("nodata_infinity_24x20", "no voids, nodata and heights beyond the floats",
+                     kLargest, 1e38, kInfinity, false),
+          nodataCase("nodata_largest_24x20", "voids are the largest float", kLargest, 3e31,
+                     kLargest, true),
+          nodataCase("nodata_least_24x20", "voids are minus infinity", -3.6e38, 1e37, -kInfinity,
+                     true)};
+}
+
+/// Sets of shears for more levels than there are, or for fewer.
+VectorCase shearCase(uint32_t width, uint32_t height, size_t sets, int planes) {
+  StreamHeader header = textureHeader(width, height, 3, TKS_U16, planes);
+  header.texture->colour_shears.resize(sets + 1);
+  uint32_t count = 0;
+  for (auto& shears : header.texture->colour_shears) {
+    for (int64_t& shear : shears) {
+      const uint32_t h = samples::hash(++count, width, 42);
+      shear = planes > 20 ? h % 65535 - int64_t{32767} : h % 301 - int64_t{150};
+    }
+  }
+  header.texture->colour_order = static_cast<uint8_t>(sets % 6);
+  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  return crafted("shears_" + std::to_string(sets) + "_" + size,
+                 "noise: " + std::to_string(sets) + " sets of shears of coefficients",
+                 streamOf(header, noise(700, static_cast<uint32_t>(sets))));
+}
+
+VectorCase weightCase(uint32_t channels, uint8_t levels) {
+  StreamHeader header = textureHeader(100, 60, channels, TKS_U8, 9);
+  header.texture->weights.levels = levels;
+  for (size_t c = 0; c < channels; ++c) {
+    header.texture->priority[c] = c % 2 == 0 ? -128 : 128;
+    for (size_t i = 0; i < size_t{2} * levels; ++i) {
+      const uint32_t h = samples::hash(static_cast<uint32_t>(i), levels, 43 + channels);
+      header.texture->weights.priority[c][i] = h % 257 - int64_t{128};
+    }
+  }
+  const std::string name = std::to_string(levels);
+  return crafted("weights_" + name + "_100x60", "noise: weights of " + name + " levels",
+                 streamOf(header, noise(900, levels)));
+}
+
+/// Makes a drawing as it goes: `fresh` colours, then indices that nothing foretells.
+class ColourIo {
+ public:
+  explicit ColourIo(uint32_t fresh) : fresh_(fresh) {}
+
+  ColourIndex target(size_t) {
+    const uint32_t h = samples::hash(++count_, 0, 44);
+    colour_ = {static_cast<uint16_t>(h & 255)};
+    return count_ <= fresh_ ? kNoColour : static_cast<ColourIndex>(h >> 8 & 4095);
+  }
+  const DrawnColour& colour(size_t) const { return colour_; }
+  bool bit(AdaptiveBit& model, bool ours) {
+    encoder_.encode(model, ours);
+    return ours;
+  }
+  bool evenBit(bool ours) {
+    encoder_.encodeEven(ours);
+    return ours;
+  }
+  bool stopped() const { return false; }
+  Bytes finish() { return encoder_.finish(); }
+
+ private:
+  uint32_t fresh_, count_ = 0;
+  DrawnColour colour_{};
+  RangeEncoder encoder_;
+};
+
+Bytes drawnStream(uint32_t width, uint32_t height, uint32_t fresh) {
+  const Texels format{width, height, 1, 8, {}};
+  std::vector<ColourIndex> indices(size_t{width} * height, kNoColour);
+  DrawnColours colours;
+  ColourIo io(fresh);
+  DrawnPass<ColourIo>(format, indices, colours, io).run();
+  return streamOf(textureHeader(width, height, 1, TKS_U8, kDrawnPlanes), io.finish());
+}
+
+std::vector<VectorCase> drawnCases() {
+  StreamHeader kind = textureHeader(21, 20, 2, TKS_U16, kDrawnPlanes);
+  StreamHeader over = textureHeader(40, 30, 3, TKS_U8, 6);
+  over.texture->overlay_bytes = 150;
+  return {crafted("colours_4096_67x65", "drawn: more texels than the list of colours holds",
+                  drawnStream(67, 65, 4200)),
+          crafted("colours_beyond_30x25", "drawn: indices beyond the list of colours",
+                  drawnStream(30, 25, 40)),
+          crafted("noise_drawn_21x20", "drawn: noise", streamOf(kind, noise(500, 31))),
+          crafted("noise_overlay_40x30", "noise: an overlay before coefficients",
+                  streamOf(over, noise(700, 32)))};
+}
+
+/// A complete stream of regions with another whole_bytes than its encoder wrote.
+VectorCase wholeBytesCase(const std::string& name, const std::string& purpose,
+                          const VectorCase& source,
+                          const std::function<uint64_t(uint64_t)>& change) {
+  const auto stream = encodeCase(source);
+  if (!stream.ok()) return crafted(name, purpose, {0});
+  ParsedHeader parsed = *readHeader(*stream);
+  RegionHeader& regions = parsed.header.geometry->regions;
+  regions.whole_bytes = change(regions.whole_bytes);
+  Bytes bytes = writeHeader(parsed.header);
+  bytes.insert(bytes.end(), stream->begin() + static_cast<ptrdiff_t>(parsed.bytes), stream->end());
+  return crafted(name, purpose, std::move(bytes));
+}
+
+std::vector<VectorCase> wholeBytesCases() {
+  VectorCase flat, voids;
+  flat.name = voids.name = "regions";
+  flat.options.size = voids.options.size = sizeof(tks_encode_options);
+  flat.options.lossless = voids.options.lossless = 1;
+  flat.options.regions = voids.options.regions = 16;
+  flat.heights = samples::Recipe{samples::Pattern::kRidges, 40, 37, 1, TKS_I8};
+  voids.heights = flat.heights;
+  voids.voids = samples::VoidShape::kSpeckle;
+  voids.nodata = -128;
+  VectorCase half =
+      wholeBytesCase("whole_bytes_half_40x37", "regions count as whole from half of their bytes on",
+                     flat, [](uint64_t bytes) { return bytes / 2; });
+  VectorCase layers =
+      wholeBytesCase("whole_bytes_layers_40x37", "bytes of validity are none of coefficients",
+                     voids, [](uint64_t bytes) { return bytes / 2; });
+  for (VectorCase* each : {&half, &layers}) each->dense = true;
+  return {half, layers,
+          wholeBytesCase("whole_bytes_never_40x37", "regions that are never whole", flat,
+                         [](uint64_t) { return 0; })};
+}
+
+std::vector<VectorCase> shearCases() {
+  return {shearCase(40, 33, 5, 30), shearCase(41, 22, 2, 12), shearCase(20, 20, 7, 30),
+          shearCase(8, 8, 3, 12)};
+}
+
+}  // namespace
+
+std::vector<VectorCase> craftedCases() {
+  std::vector<VectorCase> all = {weightCase(3, 2), weightCase(4, 8)};
+  for (const auto& cases : {wideCases(), correctionCases(), nodataCases(), shearCases(),
+                            drawnCases(), wholeBytesCases()})
+    all.insert(all.end(), cases.begin(), cases.end());
+  return all;
+}
+
+}  // namespace tetrakis::conformance

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Headers and packets that are unusual and decode, and those that do not.
+#include <functional>
+#include <limits>
+
+#include "conformance/crafted_cases.hpp"
+#include "conformance/crafted_streams.hpp"
+#include "tests/header_seal.hpp"
+
+namespace tetrakis::conformance {
+namespace {
+
+/// `header` before a packet, its body changed, and sealed again.
+Bytes withBody(const StreamHeader& header, const std::function<void(Bytes&)>& change) {
+  const Bytes stream = streamOf(header, noise(60, 51));
+  const size_t end = readHeader(stream)->bytes, start = 8;  // the body is short
+  Bytes body(stream.begin() + start, stream.begin() + static_cast<ptrdiff_t>(end) - 4);
+  change(body);
+  Bytes out(stream.begin(), stream.begin() + 7);
+  append(out, varint(body.size()));
+  append(out, body);
+  out.resize(out.size() + 4);
+  append(out, Bytes(stream.begin() + static_cast<ptrdiff_t>(end), stream.end()));
+  test::sealHeader(out);
+  return out;
+}
+
+/// What is unusual and decodes.
+std::vector<VectorCase> unusualCases() {
+  const StreamHeader heights = heightsHeader(9, 9, TKS_I16, 8);
+  StreamHeader text = heights;
+  text.metadata.unit = "\xff\xfe";
+  VectorCase tail =
+      crafted("behind_end_9x9", "a packet behind payload_bytes is no part of the stream",
+              streamOf(heights, noise(60, 52)));
+  append(tail.stream, Bytes(tail.stream.end() - 62, tail.stream.end()));
+  return {tail,
+          crafted("body_longer_9x9", "bytes behind the last part of the body",
+                  withBody(heights,
+                           [](Bytes& body) {
+                             append(body, {1, 2, 3});
+                           })),
+          crafted("varint_longer_9x9", "a varint of more bytes than it needs",
+                  withBody(heights,
+                           [](Bytes& body) { body[1] |= 128, body.insert(body.begin() + 2, 0); })),
+          crafted("text_9x9", "text that is not UTF-8", streamOf(text, noise(60, 53)))};
+}
+
+/// Header fields, each of them wrong, in front of a sound packet.
+std::vector<VectorCase> refusedHeaders() {
+  std::vector<VectorCase> cases;
+  const StreamHeader heights = heightsHeader(9, 9, TKS_I16, 8);
+  const auto refuse = [&](const std::string& name, const std::string& purpose,
+                          const std::function<void(StreamHeader&)>& spoil) {
+    StreamHeader header = heights;
+    spoil(header);
+    cases.push_back(crafted("refused_" + name, purpose, streamOf(header, noise(40, 54))));
+  };
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  refuse("scale", "a scale of NaN", [](StreamHeader& h) { h.metadata.scale = kNaN; });
+  refuse("max_error", "a largest error of NaN",
+         [](StreamHeader& h) { h.geometry->max_error = kNaN; });
+  refuse("planes", "31 bit-planes of heights", [](StreamHeader& h) { h.geometry->planes = 31; });
+  refuse("filter", "a filter that there is not",
+         [](StreamHeader& h) { h.geometry->wavelet.filters[1] = 4; });
+  refuse("voids", "integer heights with voids and no value for them",
+         [](StreamHeader& h) { h.layers.validity_bytes = 9; });
+  refuse("nodata", "voids of a value that the type has not",
+         [](StreamHeader& h) { h.layers = {.validity_bytes = 9, .has_nodata = 1, .nodata = 0.5}; });
+  refuse("layers", "layers of heights without heights", [](StreamHeader& h) {
+    h = textureHeader(9, 9, 1, TKS_U8, 8);
+    h.layers.corrections = CorrectionKind::kSamples;
+  });
+  refuse("regions", "regions of 8 samples",
+         [](StreamHeader& h) { h.geometry->regions.side_log2 = 3; });
+  refuse("drawn_regions", "a drawn texture in regions", [](StreamHeader& h) {
+    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+    h.texture->regions.side_log2 = 4;
+  });
+  refuse("texels", "a texture of signed samples",
+         [](StreamHeader& h) { h = textureHeader(9, 9, 1, TKS_I8, 8); });
+  return cases;
+}
+
+/// A sound header before a packet that is none.
+std::vector<VectorCase> refusedPackets() {
+  const auto refuse = [](const std::string& name, const std::string& purpose, const Bytes& packet) {
+    StreamHeader header = heightsHeader(9, 9, TKS_I16, 8);
+    header.payload_bytes = 40;
+    Bytes stream = writeHeader(header);
+    append(stream, packet);
+    stream.resize(stream.size() + 12);
+    return crafted("refused_" + name, purpose, stream);
+  };
+  return {refuse("empty_packet", "a packet of no bytes", {0, 7}),
+          refuse("component", "a packet of a component that there is not", {1 << 2 | 1, 7}),
+          refuse("varint", "a varint of more than 64 bits",
+                 {255, 255, 255, 255, 255, 255, 255, 255, 255, 2, 7})};
+}
+
+}  // namespace
+
+std::vector<VectorCase> unusualAndRefusedCases() {
+  std::vector<VectorCase> all;
+  for (const auto& cases : {unusualCases(), refusedHeaders(), refusedPackets()})
+    all.insert(all.end(), cases.begin(), cases.end());
+  return all;
+}
+
+}  // namespace tetrakis::conformance
