@@ -41,8 +41,10 @@ HeightFile heightsOf(const synth::Relief& relief, uint32_t size) {
 SynthTerrain synthesize(const SynthOptions& options) {
   assert(options.size >= 2);
   const synth::Relief relief = synth::makeRelief(options.size, options.seed);
-  return {heightsOf(relief, options.size), synth::photograph(relief, options.size, options.seed),
-          synth::drawMap(relief, options.size)};
+  const synth::Rivers rivers(relief, 2 * (options.size - 1));
+  return {heightsOf(relief, options.size),
+          synth::photograph(relief, rivers, options.size, options.seed),
+          synth::drawMap(relief, rivers, options.size)};
 }
 
 }  // namespace tetrakis::tools
