@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis synth: a deterministic sample terrain, its texture and its map.
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -18,6 +19,7 @@ namespace {
 struct SynthArguments {
   std::string folder;
   SynthOptions options;
+  std::string kind = kSynthKinds[0];
   bool force = false;
 };
 
@@ -31,7 +33,10 @@ Status synth(const SynthArguments& arguments) {
     if (!output.ok()) return output.status();
     outputs.push_back(std::move(*output));
   }
-  const SynthTerrain terrain = synthesize(arguments.options);
+  SynthOptions options = arguments.options;
+  const auto kind = std::find(kSynthKinds.begin(), kSynthKinds.end(), arguments.kind);
+  options.kind = static_cast<SynthKind>(kind - kSynthKinds.begin());
+  const SynthTerrain terrain = synthesize(options);
   const std::array<std::function<Status(const std::string&)>, 3> writers = {
       [&](const std::string& path) { return writeHeights(path, terrain.heights); },
       [&](const std::string& path) { return writeImage(path, terrain.texture); },
@@ -61,6 +66,12 @@ void addSynth(CLI::App& app, CommandLine& line) {
   verb.add_option("--seed", arguments->options.seed, "Another seed, another terrain")
       ->capture_default_str()
       ->type_name("S");
+  verb.add_option("--kind", arguments->kind,
+                  "Of terrain: mountains, coast, lakes, steps, voids, plain, city")
+      ->capture_default_str()
+      ->check(
+          silent(CLI::IsMember(std::vector<std::string>(kSynthKinds.begin(), kSynthKinds.end()))))
+      ->type_name("NAME");
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] { line.action = [arguments] { return synth(*arguments); }; });
 }

@@ -166,6 +166,14 @@ void addWater(uint64_t seed, const Site& site, Ground& ground) {
   cover(ground, sea, site.sea, 0);
 }
 
+/// Tiles and concrete: roofs of one height are of one colour.
+void addRoof(uint64_t seed, const Site& site, Ground& ground) {
+  if (site.roof <= 0) return;
+  static constexpr Colour kRoofs[] = {{148, 92, 74}, {120, 84, 74}, {138, 134, 130}, {96, 98, 102}};
+  const uint64_t lot = hash(seed, floorOf(site.height / 0.1 + 0.5), 0);
+  cover(ground, times(kRoofs[lot >> 62], 0.85 + 0.3 * unitHash(lot, 1, 0)), site.roof, 0);
+}
+
 /// What covers all is asked first: nothing below it shows.
 Ground landAt(uint64_t seed, const Site& site) {
   Ground ground;
@@ -191,6 +199,7 @@ Ground landAt(uint64_t seed, const Site& site) {
 Ground groundAt(uint64_t seed, const Site& site) {
   Ground ground;
   if (site.lake + site.sea < 1) ground = landAt(seed, site);
+  addRoof(seed + 8000, site, ground);
   addWater(seed + 7000, site, ground);
   return ground;
 }

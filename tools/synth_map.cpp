@@ -10,7 +10,7 @@ namespace {
 using Rgb = std::array<uint8_t, 3>;
 
 constexpr Rgb kSea{151, 193, 222}, kInland{120, 175, 214}, kContour{178, 137, 96},
-    kIndexContour{139, 94, 60};
+    kIndexContour{139, 94, 60}, kHouse{92, 88, 86};
 constexpr std::array<Rgb, 7> kBelts = {{{172, 208, 165},
                                         {189, 204, 150},
                                         {225, 228, 181},
@@ -40,6 +40,7 @@ class Cartographer {
     const Cover cover = relief_.cover.clamped(static_cast<int64_t>(std::floor(p.x + 0.5)),
                                               static_cast<int64_t>(std::floor(p.y + 0.5)));
     if (cover == Cover::kSea) return kSea;
+    if (cover == Cover::kRoof) return kHouse;
     if (cover == Cover::kLake || river < 0) return kInland;
     const auto [lowest, highest] =
         std::minmax({contourBelow(x, y), contourBelow(x + 1, y), contourBelow(x, y + 1)});

@@ -8,7 +8,7 @@
 namespace tetrakis::tools::synth {
 
 /// RGB8 of 2 (size - 1) texels a side over the terrain without its margin: a tint for each belt of
-/// heights, contour lines, water. Eleven colours, every edge sharp.
+/// heights, contour lines, water, houses. Twelve colours at most, every edge sharp.
 ImageFile drawMap(const Relief& relief, const Rivers& rivers, uint32_t size);
 
 }  // namespace tetrakis::tools::synth

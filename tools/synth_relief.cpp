@@ -167,15 +167,10 @@ void fillDepressions(Relief& relief, const Raster<uint8_t>& sea, double lake_dep
 
 }  // namespace
 
-Relief makeRelief(uint32_t size, uint64_t seed) {
-  const Layout layout(seed);
-  const uint32_t margin = std::max(4u, size / 16);
-  const Frame frame{size, margin, 1};
-  const Raster<uint8_t> sea = seaOf(layout, frame);
-  Relief relief{margin, carve(layout, size, margin), Raster<Cover>(frame.side(), Cover::kLand), {}};
-  digLake(relief.height, layout, frame);
+void settle(Relief& relief, const Raster<uint8_t>& sea, double lake_depth) {
+  relief.cover = Raster<Cover>(relief.height.side(), Cover::kLand);
   levelSea(relief.height, sea);
-  fillDepressions(relief, sea, 0.0125 * reliefOf(size));
+  fillDepressions(relief, sea, lake_depth);
   for (size_t cell = 0; cell < sea.size(); ++cell) {
     double steps = std::max(1.0, std::floor(relief.height[cell] / kHeightStep + 0.5));
     if (sea[cell]) {
@@ -185,6 +180,16 @@ Relief makeRelief(uint32_t size, uint64_t seed) {
     relief.height[cell] = steps * kHeightStep;
   }
   relief.drainage = drain(relief.height, sea);
+}
+
+Relief makeRelief(uint32_t size, uint64_t seed) {
+  const Layout layout(seed);
+  const uint32_t margin = std::max(4u, size / 16);
+  const Frame frame{size, margin, 1};
+  Relief relief{
+      .margin = margin, .height = carve(layout, size, margin), .cover = {}, .drainage = {}};
+  digLake(relief.height, layout, frame);
+  settle(relief, seaOf(layout, frame), 0.0125 * reliefOf(size));
   return relief;
 }
 

@@ -12,7 +12,7 @@ struct Survey {
   Grid surroundings;  // mean height around
   Grid wetness;
   Grid land;  // blurred
-  double summit = 1;
+  double summit;
 };
 
 /// floor(log2) with a linear fraction: close to log2, and the same bits everywhere.
@@ -38,6 +38,7 @@ Survey surveyOf(const Relief& relief) {
     return relief.cover.at(x, y) == Cover::kLand ? 1.0 : 0.0;
   });
   survey.land = boxBlur(boxBlur(land, 9), 9);
+  survey.summit = relief.summit;
   for (const double height : h) survey.summit = std::max(survey.summit, height);
   return survey;
 }
@@ -60,14 +61,15 @@ Place placeAt(Point p) {
 }
 
 /// Height differences over one sample, divided by the spacing.
-Point slopeAt(const Grid& h, const Place& place) {
+Point slopeAt(const Relief& relief, const Place& place) {
+  const Grid& h = relief.height;
   const auto rise = [&](int64_t dx, int64_t dy) {
     return place.mixed([&](int64_t x, int64_t y) {
       // As of the nearest sample beyond the border.
       const int64_t last = int64_t{h.side()} - 1;
       x = std::clamp<int64_t>(x, 0, last);
       y = std::clamp<int64_t>(y, 0, last);
-      return (h.clamped(x + dx, y + dy) - h.clamped(x - dx, y - dy)) / (2 * kSpacing);
+      return (h.clamped(x + dx, y + dy) - h.clamped(x - dx, y - dy)) / (2 * relief.spacing);
     });
   };
   return {rise(1, 0), rise(0, 1)};
@@ -85,7 +87,7 @@ Site siteAt(const Relief& relief, const Survey& survey, Point terrain, double ri
   const Point p{terrain.x + relief.margin, terrain.y + relief.margin};
   const Place place = placeAt(p);
   Site site;
-  site.metres = {terrain.x * kSpacing, terrain.y * kSpacing};
+  site.metres = {terrain.x * relief.spacing, terrain.y * relief.spacing};
   site.height = sampleAt(relief.height, p);
   site.altitude = site.height / survey.summit;
   site.slope = std::sqrt(slope.x * slope.x + slope.y * slope.y);
@@ -95,6 +97,7 @@ Site siteAt(const Relief& relief, const Survey& survey, Point terrain, double ri
   site.land = sampleAt(survey.land, p);
   site.lake = shareOf(relief, Cover::kLake, place);
   site.sea = shareOf(relief, Cover::kSea, place);
+  site.roof = shareOf(relief, Cover::kRoof, place);
   return site;
 }
 
@@ -123,7 +126,7 @@ class Scene {
   Colour colourAt(uint32_t x, uint32_t y, double river) const {
     const Point terrain{(x + 0.5) / 2, (y + 0.5) / 2};
     const Place place = placeAt({terrain.x + relief_.margin, terrain.y + relief_.margin});
-    const Point slope = slopeAt(relief_.height, place);
+    const Point slope = slopeAt(relief_, place);
     const Site site = siteAt(relief_, survey_, terrain, river, slope);
     const Ground ground = groundAt(seed_, site);
     return times(ground.colour, sunlight(seed_ + 1, site, slope, ground.roughness));
