@@ -44,9 +44,8 @@ using Grid = Raster<double>;
 
 /// Bilinear, the border continued.
 inline double sampleAt(const Grid& grid, Point p) {
-  const double fx = std::floor(p.x), fy = std::floor(p.y);
-  const int64_t x = static_cast<int64_t>(fx), y = static_cast<int64_t>(fy);
-  const double u = p.x - fx, v = p.y - fy;
+  const int64_t x = floorOf(p.x), y = floorOf(p.y);
+  const double u = p.x - static_cast<double>(x), v = p.y - static_cast<double>(y);
   return mix(mix(grid.clamped(x, y), grid.clamped(x + 1, y), u),
              mix(grid.clamped(x, y + 1), grid.clamped(x + 1, y + 1), u), v);
 }

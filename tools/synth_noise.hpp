@@ -83,15 +83,22 @@ inline double noise(uint64_t seed, Point p) {
 }
 
 /// Sum of octaves, each of twice the frequency and half the amplitude: within -1 and 1. The turn
-/// between octaves (3-4-5 triangle) hides the lattice.
-inline double fractal(uint64_t seed, Point p, int octaves) {
+/// between octaves (3-4-5 triangle) hides the lattice. Ends where enough(sum, rest) says that the
+/// octaves left, which add up to less than `rest`, do not matter.
+template <class Enough>
+double fractalUntil(uint64_t seed, Point p, int octaves, Enough enough) {
   double sum = 0, amplitude = 0.5;
   for (int i = 0; i < octaves; ++i) {
     sum += amplitude * noise(seed + static_cast<uint64_t>(i), p);
+    if (enough(sum, amplitude)) break;
     p = {2 * (0.8 * p.x - 0.6 * p.y), 2 * (0.6 * p.x + 0.8 * p.y)};
     amplitude /= 2;
   }
   return sum;
+}
+
+inline double fractal(uint64_t seed, Point p, int octaves) {
+  return fractalUntil(seed, p, octaves, [](double, double) { return false; });
 }
 
 /// Ridged multifractal in about 0 to 1: folded noise, detail only where the coarser octaves are

@@ -56,8 +56,8 @@ struct Place {
 };
 
 Place placeAt(Point p) {
-  const double fx = std::floor(p.x), fy = std::floor(p.y);
-  return {static_cast<int64_t>(fx), static_cast<int64_t>(fy), p.x - fx, p.y - fy};
+  const int64_t x = floorOf(p.x), y = floorOf(p.y);
+  return {x, y, p.x - static_cast<double>(x), p.y - static_cast<double>(y)};
 }
 
 /// Height differences over one sample, divided by the spacing.
