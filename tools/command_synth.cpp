@@ -6,9 +6,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "bitstream/parallel.hpp"
 #include "tools/command.hpp"
 #include "tools/output.hpp"
 #include "tools/synth.hpp"
@@ -41,8 +43,11 @@ Status synth(const SynthArguments& arguments) {
       [&](const std::string& path) { return writeHeights(path, terrain.heights); },
       [&](const std::string& path) { return writeImage(path, terrain.texture); },
       [&](const std::string& path) { return writeImage(path, terrain.map); }};
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    if (Status status = outputs[i].stage(writers[i]); !status.ok()) return status;
+  std::array<Status, 3> written;
+  parallelFor(std::thread::hardware_concurrency(), written.size(),
+              [&](size_t i) { written[i] = outputs[i].stage(writers[i]); });
+  for (const Status& status : written) {
+    if (!status.ok()) return status;
   }
   for (Output& output : outputs) {
     if (Status status = output.commit(); !status.ok()) return status;
