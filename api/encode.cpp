@@ -3,12 +3,14 @@
 // to the caller.
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
 #include "api/encode_job.hpp"
 #include "api/message.hpp"
 #include "api/proof.hpp"
+#include "api/sized.hpp"
 
 namespace tetrakis {
 
@@ -19,8 +21,7 @@ Status misuse(const std::string& sentence) {
 }
 
 Status checkHeights(const tks_heights& h) {
-  if (h.size != sizeof(tks_heights) || h.data == nullptr)
-    return misuse("The heights are not filled in.");
+  if (h.data == nullptr) return misuse("The heights have no samples.");
   if (tks_sample_bytes(h.sample) == 0) return misuse("The heights have an unknown sample type.");
   if (h.width < 2 || h.height < 2 || h.width > kMaxSide || h.height > kMaxSide) {
     return misuse("Heights of " + std::to_string(h.width) + " x " + std::to_string(h.height) +
@@ -37,8 +38,7 @@ Status checkHeights(const tks_heights& h) {
 }
 
 Status checkImage(const tks_image& i) {
-  if (i.size != sizeof(tks_image) || i.data == nullptr)
-    return misuse("The texture is not filled in.");
+  if (i.data == nullptr) return misuse("The texture has no samples.");
   if (i.sample != TKS_U8 && i.sample != TKS_U16)
     return misuse("A texture has 8 or 16 bits a sample.");
   if (i.channels < 1 || i.channels > 4) return misuse("A texture has 1 to 4 channels.");
@@ -50,8 +50,6 @@ Status checkImage(const tks_image& i) {
 }
 
 Status checkOptions(const tks_encode_options& o, bool has_heights) {
-  if (o.size != sizeof(tks_encode_options))
-    return misuse("The encoding options are not filled in.");
   const int targets = (o.bytes != 0) + (o.psnr != 0) + (o.max_error != 0) + (o.lossless != 0);
   if (targets != 1) return misuse("Give exactly one of bytes, psnr, max-error and lossless.");
   if (!std::isfinite(o.psnr) || o.psnr < 0 || !std::isfinite(o.max_error) || o.max_error < 0) {
@@ -70,25 +68,43 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
   return {};
 }
 
-Status checkArguments(const tks_heights* heights, const tks_image* image,
-                      const tks_encode_options* options) {
+/// The caller's structs as this library knows them, checked.
+struct Arguments {
+  tks_heights heights;
+  tks_image image;
+  tks_encode_options options;
+};
+
+Status takeArguments(const tks_heights* heights, const tks_image* image,
+                     const tks_encode_options* options, Arguments& out) {
   if (options == nullptr) return misuse("The encoding options are missing.");
   if (heights == nullptr && image == nullptr)
     return misuse("There is nothing to encode: give heights or a texture.");
-  if (Status status = checkOptions(*options, heights != nullptr); !status.ok()) return status;
-  if (heights != nullptr) {
-    if (Status status = checkHeights(*heights); !status.ok()) return status;
+  constexpr size_t kTargets = offsetof(tks_encode_options, parallax);
+  Status status = takeSized("encoding options", *options, kTargets, out.options);
+  if (status.ok()) status = checkOptions(out.options, heights != nullptr);
+  if (status.ok() && heights != nullptr) {
+    status = takeSized("heights", *heights, offsetof(tks_heights, step), out.heights);
+    if (status.ok()) status = checkHeights(out.heights);
   }
-  return image != nullptr ? checkImage(*image) : Status();
+  if (status.ok() && image != nullptr) {
+    status = takeSized("texture", *image, sizeof(tks_image), out.image);
+    if (status.ok()) status = checkImage(out.image);
+  }
+  return status;
 }
 
 Status encode(const tks_heights* heights, const tks_image* image, const tks_encode_options* options,
               tks_buffer* out) {
-  if (Status status = checkArguments(heights, image, options); !status.ok()) return status;
-  Result<std::vector<uint8_t>> stream = EncodeJob(heights, image, *options).run();
+  Arguments known;
+  if (Status status = takeArguments(heights, image, options, known); !status.ok()) return status;
+  const tks_heights* known_heights = heights != nullptr ? &known.heights : nullptr;
+  const tks_image* known_image = image != nullptr ? &known.image : nullptr;
+  Result<std::vector<uint8_t>> stream = EncodeJob(known_heights, known_image, known.options).run();
   if (!stream.ok()) return stream.status();
-  if (Status status = prove(*stream, heights, image, *options); !status.ok()) return status;
-  if (Status status = reportProgress(*options, 1); !status.ok()) return status;
+  Status proved = prove(*stream, known_heights, known_image, known.options);
+  if (!proved.ok()) return proved;
+  if (Status status = reportProgress(known.options, 1); !status.ok()) return status;
   out->data = static_cast<uint8_t*>(std::malloc(stream->size()));
   if (out->data == nullptr) throw std::bad_alloc();
   std::memcpy(out->data, stream->data(), stream->size());

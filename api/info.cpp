@@ -2,10 +2,12 @@
 // What a stream, or a prefix of one, says about itself, and whether it is whole.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 
 #include "api/decoder.hpp"
+#include "api/sized.hpp"
 
 namespace tetrakis {
 
@@ -65,8 +67,6 @@ int codingOf(const TextureHeader& texture) {
 
 void fillInfo(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
-  info = {};
-  info.size = sizeof(tks_info);
   info.format_version = header.version;
   info.profile = header.profile;
   info.level = header.level;
@@ -125,8 +125,13 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
 }  // namespace tetrakis
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
-  if (decoder == nullptr || info == nullptr || info->size != sizeof(tks_info)) return TKS_USAGE;
-  tetrakis::fillInfo(*decoder, *info);
+  constexpr size_t kVersions = offsetof(tks_info, header_bytes);
+  if (decoder == nullptr || info == nullptr || info->size < kVersions ||
+      info->size > tetrakis::kMostStructBytes)
+    return TKS_USAGE;
+  tks_info full = {};
+  tetrakis::fillInfo(*decoder, full);
+  tetrakis::giveSized(full, *info);
   return TKS_OK;
 }
 

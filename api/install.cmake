@@ -1,11 +1,13 @@
-# What `cmake --install` puts in place: the rooms below api/ as static libraries, the public headers,
-# and the files that find_package(tetrakis) and pkg-config read.
+# What `cmake --install` puts in place: the libraries, the public headers, and the files that
+# find_package(tetrakis) and pkg-config read.
 include(CMakePackageConfigHelpers)
-get_property(rooms GLOBAL PROPERTY TKS_ROOMS)
-set(archives ${CMAKE_INSTALL_LIBDIR}/tetrakis)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/tetrakis)
+set(libraries tetrakis_decoder_static tetrakis_static)
+if(BUILD_SHARED_LIBS)
+  list(APPEND libraries tetrakis_decoder_shared tetrakis_shared)
+endif()
 
-install(TARGETS ${rooms} tks_headers EXPORT tetrakis ARCHIVE DESTINATION ${archives})
+install(TARGETS ${libraries} EXPORT tetrakis)
 install(EXPORT tetrakis FILE tetrakisTargets.cmake NAMESPACE tetrakis:: DESTINATION ${package})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/tetrakis DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
@@ -16,9 +18,19 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/tetrakisConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/tetrakisConfig.cmake
   ${CMAKE_BINARY_DIR}/tetrakisConfigVersion.cmake DESTINATION ${package})
 
-# A room is defined after those that it uses; a linker wants users first.
-list(REVERSE rooms)
-list(TRANSFORM rooms PREPEND -l)
-list(JOIN rooms " " TETRAKIS_ARCHIVES)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/tetrakis.pc.in ${CMAKE_BINARY_DIR}/tetrakis.pc @ONLY)
-install(FILES ${CMAKE_BINARY_DIR}/tetrakis.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+# Archives alone: everyone needs what they need. Beside a shared library: who links statically.
+list(TRANSFORM TKS_RUNTIME PREPEND -l REGEX "^[^-]" OUTPUT_VARIABLE runtime)
+list(JOIN runtime " " TKS_PC_RUNTIME)
+string(APPEND TKS_PC_RUNTIME " -pthread")
+if(BUILD_SHARED_LIBS)
+  set(TKS_PC_LIBS "\nLibs.private: ${TKS_PC_RUNTIME}")
+else()
+  set(TKS_PC_LIBS " ${TKS_PC_RUNTIME}")
+endif()
+file(RELATIVE_PATH TKS_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" TKS_PC_UP ${TKS_PC_UP})
+foreach(name IN ITEMS tetrakis tetrakis_decoder)
+  set(TKS_PC_NAME ${name})
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/tetrakis.pc.in ${CMAKE_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

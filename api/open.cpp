@@ -5,6 +5,7 @@
 
 #include "api/decoder.hpp"
 #include "api/message.hpp"
+#include "api/sized.hpp"
 
 namespace tetrakis {
 
@@ -23,13 +24,13 @@ Status exceeds(const char* what, uint64_t value, uint64_t limit) {
                          std::to_string(limit) + "."};
 }
 
-Status checkLimits(const StreamHeader& header, const tks_limits* limits) {
+Status checkLimits(const StreamHeader& header, const tks_limits& limits) {
   const auto or_default = [](uint64_t given, uint64_t fallback) {
     return given != 0 ? given : fallback;
   };
-  const uint64_t most_samples = or_default(limits ? limits->max_samples : 0, kDefaultSamples);
-  const uint64_t most_texels = or_default(limits ? limits->max_texels : 0, kDefaultSamples);
-  const uint64_t most_memory = or_default(limits ? limits->max_memory : 0, kDefaultMemory);
+  const uint64_t most_samples = or_default(limits.max_samples, kDefaultSamples);
+  const uint64_t most_texels = or_default(limits.max_texels, kDefaultSamples);
+  const uint64_t most_memory = or_default(limits.max_memory, kDefaultMemory);
   uint64_t memory = 0;
   if (header.geometry) {
     const uint64_t samples = uint64_t{header.geometry->width} * header.geometry->height;
@@ -54,11 +55,16 @@ Status checkLimits(const StreamHeader& header, const tks_limits* limits) {
 
 Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder& decoder) {
   decoder.data = data;
+  tks_limits known{};
+  if (limits != nullptr) {
+    if (Status status = takeSized("limits", *limits, sizeof limits->size, known); !status.ok())
+      return status;
+  }
   Result<ParsedHeader> parsed = readHeader(data);
   if (!parsed.ok()) return parsed.status();
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;
-  if (Status status = checkLimits(header, limits); !status.ok()) return status;
+  if (Status status = checkLimits(header, known); !status.ok()) return status;
   const size_t start = decoder.parsed.bytes;
   const auto available =
       static_cast<size_t>(std::min<uint64_t>(data.size() - start, header.payload_bytes));

@@ -1,26 +1,5 @@
 # The walls between rooms (docs/ARCHITECTURE.md), checked when CMake configures.
 
-# Every library that `target` links, directly or not.
-function(tks_closure target out)
-  set(open ${target})
-  set(closed)
-  while(open)
-    list(POP_FRONT open next)
-    if(next IN_LIST closed)
-      continue()
-    endif()
-    list(APPEND closed ${next})
-    if(TARGET ${next})
-      get_target_property(libraries ${next} INTERFACE_LINK_LIBRARIES)
-      if(libraries)
-        list(APPEND open ${libraries})
-      endif()
-    endif()
-  endwhile()
-  list(REMOVE_ITEM closed ${target})
-  set(${out} ${closed} PARENT_SCOPE)
-endfunction()
-
 # tks_wall(TARGET REGEX...): no library that TARGET links may match.
 function(tks_wall target)
   tks_closure(${target} libraries)

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis synth: a deterministic sample terrain, its texture and its map.
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "bitstream/parallel.hpp"
 #include "tools/command.hpp"
 #include "tools/output.hpp"
 #include "tools/synth.hpp"
@@ -18,6 +21,7 @@ namespace {
 struct SynthArguments {
   std::string folder;
   SynthOptions options;
+  std::string kind = kSynthKinds[0];
   bool force = false;
 };
 
@@ -31,13 +35,19 @@ Status synth(const SynthArguments& arguments) {
     if (!output.ok()) return output.status();
     outputs.push_back(std::move(*output));
   }
-  const SynthTerrain terrain = synthesize(arguments.options);
+  SynthOptions options = arguments.options;
+  const auto kind = std::find(kSynthKinds.begin(), kSynthKinds.end(), arguments.kind);
+  options.kind = static_cast<SynthKind>(kind - kSynthKinds.begin());
+  const SynthTerrain terrain = synthesize(options);
   const std::array<std::function<Status(const std::string&)>, 3> writers = {
       [&](const std::string& path) { return writeHeights(path, terrain.heights); },
       [&](const std::string& path) { return writeImage(path, terrain.texture); },
       [&](const std::string& path) { return writeImage(path, terrain.map); }};
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    if (Status status = outputs[i].stage(writers[i]); !status.ok()) return status;
+  std::array<Status, 3> written;
+  parallelFor(std::thread::hardware_concurrency(), written.size(),
+              [&](size_t i) { written[i] = outputs[i].stage(writers[i]); });
+  for (const Status& status : written) {
+    if (!status.ok()) return status;
   }
   for (Output& output : outputs) {
     if (Status status = output.commit(); !status.ok()) return status;
@@ -61,6 +71,12 @@ void addSynth(CLI::App& app, CommandLine& line) {
   verb.add_option("--seed", arguments->options.seed, "Another seed, another terrain")
       ->capture_default_str()
       ->type_name("S");
+  verb.add_option("--kind", arguments->kind,
+                  "Of terrain: mountains, coast, lakes, steps, voids, plain, city")
+      ->capture_default_str()
+      ->check(
+          silent(CLI::IsMember(std::vector<std::string>(kSynthKinds.begin(), kSynthKinds.end()))))
+      ->type_name("NAME");
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] { line.action = [arguments] { return synth(*arguments); }; });
 }

@@ -1,17 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// Priority flood (Barnes, Lehman, Mulla, "Priority-flood", Computers & Geosciences 62, 2014): water
-// rises from the outlets, so each cell is reached over its lowest pass. Steepest descent then
-// chooses among the neighbours that were reached before.
+// Water takes the steepest way down between the levels to which depressions fill. Level ground is
+// flooded from the cells that drain (Barnes, Lehman, Mulla, "Priority-flood", Computers &
+// Geosciences 62, 2014), so that each cell there is reached.
 #include "tools/synth_drainage.hpp"
 
 #include <functional>
+#include <limits>
 #include <queue>
 #include <tuple>
+
+#include "tools/synth_basins.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {
 
-/// A cell that water has reached. The order is total, so ties fall the same way everywhere; on
+constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
+
+uint32_t lowestCell(const Grid& height) {
+  uint32_t lowest = 0;
+  for (uint32_t cell = 1; cell < height.size(); ++cell)
+    if (height[cell] < height[lowest]) lowest = cell;
+  return lowest;
+}
+
+/// kNoCell where no neighbour is lower.
+Raster<uint32_t> steepestDescent(const Grid& level, const Raster<uint8_t>& outlet) {
+  return rasterOf<uint32_t>(level.side(), [&](uint32_t x, uint32_t y) {
+    const uint32_t cell = y * level.side() + x;
+    if (outlet[cell]) return cell;
+    double steepest = 0;
+    uint32_t receiver = kNoCell;
+    forNeighbours(level, cell, [&](uint32_t next, const Step& step) {
+      const double slope = (level[cell] - level[next]) / step.length;
+      if (slope > steepest) {
+        steepest = slope;
+        receiver = next;
+      }
+    });
+    return receiver;
+  });
+}
+
+/// A cell that the flood has reached. The order is total, so ties fall the same way everywhere; on
 /// flats a hash decides, which lets rivers wander there instead of following the raster.
 struct Front {
   double level;
@@ -22,80 +52,62 @@ struct Front {
   }
 };
 
-class Flood {
- public:
-  Flood(const Grid& height, Drainage& drainage)
-      : height_(height), drainage_(drainage), reached_(height.side(), 0) {}
-
-  void enter(uint32_t cell, double level, uint32_t from) {
-    reached_[cell] = 1;
-    drainage_.level[cell] = level;
-    drainage_.receiver[cell] = from;
-    front_.push({level, static_cast<uint32_t>(latticeHash(0, cell, 0) >> 32), cell});
-  }
-
-  void run() {
-    while (!front_.empty()) {
-      const Front front = front_.top();
-      front_.pop();
-      drainage_.order.push_back(front.cell);
-      forNeighbours(height_, front.cell, [&](uint32_t next, const Step&) {
-        if (!reached_[next]) enter(next, std::max(front.level, height_[next]), front.cell);
-      });
-    }
-  }
-
- private:
-  const Grid& height_;
-  Drainage& drainage_;
-  Raster<uint8_t> reached_;
-  std::priority_queue<Front, std::vector<Front>, std::greater<>> front_;
-};
-
-uint32_t lowestCell(const Grid& height) {
-  uint32_t lowest = 0;
-  for (uint32_t cell = 1; cell < height.size(); ++cell)
-    if (height[cell] < height[lowest]) lowest = cell;
-  return lowest;
-}
-
-/// On flats, where no neighbour is lower, the flood's own path stays.
-void followSteepestDescent(Drainage& drainage) {
-  for (const uint32_t cell : drainage.order) {
-    if (drainage.receiver[cell] == cell) continue;
-    double steepest = 0;
-    forNeighbours(drainage.level, cell, [&](uint32_t next, const Step& step) {
-      const double slope = (drainage.level[cell] - drainage.level[next]) / step.length;
-      if (slope > steepest) {
-        steepest = slope;
-        drainage.receiver[cell] = next;
-      }
+/// Receivers on level ground, from its cells that have one.
+void floodFlats(const Grid& level, Raster<uint32_t>& receiver) {
+  std::priority_queue<Front, std::vector<Front>, std::greater<>> fronts;
+  const auto enter = [&](uint32_t cell) {
+    fronts.push({level[cell], static_cast<uint32_t>(latticeHash(0, cell, 0) >> 32), cell});
+  };
+  for (uint32_t cell = 0; cell < level.size(); ++cell) {
+    if (receiver[cell] != kNoCell) continue;
+    forNeighbours(level, cell, [&](uint32_t next, const Step&) {
+      if (receiver[next] != kNoCell && level[next] == level[cell]) enter(next);
     });
   }
+  while (!fronts.empty()) {
+    const Front front = fronts.top();
+    fronts.pop();
+    forNeighbours(level, front.cell, [&](uint32_t next, const Step&) {
+      if (receiver[next] != kNoCell || level[next] != front.level) return;
+      receiver[next] = front.cell;
+      enter(next);
+    });
+  }
+}
+
+/// A cell hands on what it has when the last of its donors has handed on.
+Raster<uint32_t> areaOf(const Raster<uint32_t>& receiver) {
+  Raster<uint8_t> donors(receiver.side());
+  for (uint32_t cell = 0; cell < receiver.size(); ++cell)
+    if (receiver[cell] != cell) ++donors[receiver[cell]];
+  Raster<uint32_t> area(receiver.side(), 1);
+  constexpr uint8_t kDone = 255;
+  for (uint32_t start = 0; start < receiver.size(); ++start) {
+    for (uint32_t cell = start; donors[cell] == 0;) {
+      donors[cell] = kDone;
+      const uint32_t to = receiver[cell];
+      if (to == cell) break;
+      area[to] += area[cell];
+      --donors[to];
+      cell = to;
+    }
+  }
+  return area;
 }
 
 }  // namespace
 
 Drainage drain(const Grid& height, const Raster<uint8_t>& outlet) {
-  Drainage drainage{{}, Raster<uint32_t>(height.side()), Grid(height.side()), {}};
-  drainage.order.reserve(height.size());
-  Flood flood(height, drainage);
-  bool drained = false;
-  for (uint32_t cell = 0; cell < height.size(); ++cell) {
-    if (!outlet[cell]) continue;
-    flood.enter(cell, height[cell], cell);
-    drained = true;
+  if (std::find(outlet.begin(), outlet.end(), uint8_t{1}) == outlet.end()) {
+    Raster<uint8_t> lowest(height.side());
+    lowest[lowestCell(height)] = 1;
+    return drain(height, lowest);
   }
-  if (!drained) {
-    const uint32_t cell = lowestCell(height);
-    flood.enter(cell, height[cell], cell);
-  }
-  flood.run();
-  followSteepestDescent(drainage);
-  drainage.area = Grid(height.side(), 1);
-  for (auto cell = drainage.order.rbegin(); cell != drainage.order.rend(); ++cell)
-    if (const uint32_t to = drainage.receiver[*cell]; to != *cell)
-      drainage.area[to] += drainage.area[*cell];
+  Drainage drainage;
+  drainage.level = waterLevel(height, outlet);
+  drainage.receiver = steepestDescent(drainage.level, outlet);
+  floodFlats(drainage.level, drainage.receiver);
+  drainage.area = areaOf(drainage.receiver);
   return drainage;
 }
 

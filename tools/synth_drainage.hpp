@@ -10,13 +10,12 @@
 namespace tetrakis::tools::synth {
 
 struct Drainage {
-  std::vector<uint32_t> order;  ///< all cells, each after its receiver
-  Raster<uint32_t> receiver;    ///< the neighbour that takes the water; outlets take their own
-  Grid level;                   ///< height, or the water level of the depression
-  Grid area;                    ///< cells that drain through, itself included
+  Raster<uint32_t> receiver;  ///< the neighbour that takes the water; outlets take their own
+  Grid level;                 ///< height, or the water level of the depression
+  Raster<uint32_t> area;      ///< cells that drain through, itself included
 };
 
-/// Cells with outlet != 0 are where water leaves; without any, the lowest cell is one.
+/// Cells with outlet 1 are where water leaves; without any, the lowest cell is one.
 Drainage drain(const Grid& height, const Raster<uint8_t>& outlet);
 
 /// Steps to the eight neighbours; kStepLength in cells.
@@ -28,6 +27,20 @@ inline constexpr double kSqrt2 = 1.4142135623730951;
 inline constexpr Step kSteps[8] = {{1, 0, 1},       {-1, 0, 1},      {0, 1, 1},
                                    {0, -1, 1},      {1, 1, kSqrt2},  {-1, 1, kSqrt2},
                                    {1, -1, kSqrt2}, {-1, -1, kSqrt2}};
+
+/// Calls visit(cell) for every cell, each after its receiver.
+template <class Visit>
+void forUpstream(const Raster<uint32_t>& receiver, Visit visit) {
+  Raster<uint8_t> visited(receiver.side());
+  std::vector<uint32_t> path;
+  for (uint32_t start = 0; start < receiver.size(); ++start) {
+    for (uint32_t cell = start; !visited[cell]; cell = receiver[cell]) {
+      visited[cell] = 1;
+      path.push_back(cell);
+    }
+    for (; !path.empty(); path.pop_back()) visit(path.back());
+  }
+}
 
 /// Calls visit(cell, step) for the neighbours inside the raster.
 template <class T, class Visit>

@@ -15,32 +15,43 @@ double sideNeighbour(const Grid& height, uint32_t x, uint32_t y, const Step& ste
 
 /// With F = K dt sqrt(area) / distance: h' = (h + uplift + F h'(receiver)) / (1 + F). Area and
 /// distance are both in cells, so F does not depend on the resolution.
-void incise(Grid& height, const Grid& uplift, const Drainage& drainage, double erodibility) {
+void incise(Grid& height, const Grid* uplift, const Drainage& drainage, double erodibility) {
   const uint32_t side = height.side();
-  for (const uint32_t cell : drainage.order) {
+  forUpstream(drainage.receiver, [&](uint32_t cell) {
     const uint32_t to = drainage.receiver[cell];
-    if (to == cell) continue;
+    if (to == cell) return;
     const bool straight = cell % side == to % side || cell / side == to / side;
     const double f = erodibility * std::sqrt(drainage.area[cell]) / (straight ? 1 : kSqrt2);
-    height[cell] = (height[cell] + uplift[cell] + f * height[to]) / (1 + f);
-  }
+    const double raised = uplift != nullptr ? height[cell] + (*uplift)[cell] : height[cell];
+    height[cell] = (raised + f * height[to]) / (1 + f);
+  });
+}
+
+/// Each cell that is not fixed becomes function(heights before, x, y).
+template <class Function>
+void update(Grid& height, const Raster<uint8_t>& fixed, Function function) {
+  const Grid before = height;
+  const uint32_t side = height.side();
+  forRows(side, side, [&](uint32_t first, uint32_t end) {
+    for (uint32_t y = first; y < end; ++y) {
+      for (uint32_t x = 0; x < side; ++x) {
+        if (!fixed.at(x, y)) height.at(x, y) = function(before, x, y);
+      }
+    }
+  });
 }
 
 void creep(Grid& height, const Raster<uint8_t>& fixed, double share) {
-  const Grid before = height;
-  for (uint32_t y = 0; y < height.side(); ++y) {
-    for (uint32_t x = 0; x < height.side(); ++x) {
-      if (fixed.at(x, y)) continue;
-      double sum = 0;
-      for (const Step& step : kSides) sum += sideNeighbour(before, x, y, step);
-      height.at(x, y) = mix(before.at(x, y), sum / 4, share);
-    }
-  }
+  update(height, fixed, [share](const Grid& before, uint32_t x, uint32_t y) {
+    double sum = 0;
+    for (const Step& step : kSides) sum += sideNeighbour(before, x, y, step);
+    return mix(before.at(x, y), sum / 4, share);
+  });
 }
 
 }  // namespace
 
-void erode(Grid& height, const Grid& uplift, const Raster<uint8_t>& fixed,
+void erode(Grid& height, const Grid* uplift, const Raster<uint8_t>& fixed,
            const StreamPower& power) {
   for (int round = 0; round < power.rounds; ++round) {
     incise(height, uplift, drain(height, fixed), power.erodibility);
@@ -52,19 +63,15 @@ void erode(Grid& height, const Grid& uplift, const Raster<uint8_t>& fixed,
 // overshoot, and what one cell gives the other takes.
 void slide(Grid& height, const Raster<uint8_t>& fixed, double drop, int rounds) {
   for (int round = 0; round < rounds; ++round) {
-    const Grid before = height;
-    for (uint32_t y = 0; y < height.side(); ++y) {
-      for (uint32_t x = 0; x < height.side(); ++x) {
-        if (fixed.at(x, y)) continue;
-        const double here = before.at(x, y);
-        double moved = 0;
-        for (const Step& step : kSides) {
-          const double rise = sideNeighbour(before, x, y, step) - here;
-          moved += rise - std::clamp(rise, -drop, drop);
-        }
-        height.at(x, y) = here + 0.2 * moved;
+    update(height, fixed, [drop](const Grid& before, uint32_t x, uint32_t y) {
+      const double here = before.at(x, y);
+      double moved = 0;
+      for (const Step& step : kSides) {
+        const double rise = sideNeighbour(before, x, y, step) - here;
+        moved += rise - std::clamp(rise, -drop, drop);
       }
-    }
+      return here + 0.2 * moved;
+    });
   }
 }
 

@@ -22,15 +22,15 @@ inline Colour times(const Colour& a, double s) {
 
 /// All that decides about the ground at one place.
 struct Site {
-  Point metres;              ///< from the north-western corner
-  double altitude = 0;       ///< share of the terrain's relief
-  double height = 0;         ///< metres above the sea
-  double slope = 0;          ///< tangent
-  double hollow = 0;         ///< metres below the mean of the surroundings
-  double wetness = 0;        ///< log2 of the cells that drain through
-  double river = 0;          ///< metres to the nearest bank, negative in the water
-  double land = 1;           ///< share of land around: falls off the shore
-  double lake = 0, sea = 0;  ///< share of the texel
+  Point metres;                        ///< from the north-western corner
+  double altitude = 0;                 ///< share of the terrain's relief
+  double height = 0;                   ///< metres above the sea
+  double slope = 0;                    ///< tangent
+  double hollow = 0;                   ///< metres below the mean of the surroundings
+  double wetness = 0;                  ///< log2 of the cells that drain through
+  double river = 0;                    ///< metres to the nearest bank, negative in the water
+  double land = 1;                     ///< share of land around: falls off the shore
+  double lake = 0, sea = 0, roof = 0;  ///< share of the texel
 };
 
 /// Reflected colour, and how rough the surface looks under slanting light.

@@ -3,6 +3,12 @@
 #include "tools/synth_layout.hpp"
 
 namespace tetrakis::tools::synth {
+namespace {
+
+constexpr double kBend = 0.2;  // of belts by noise
+constexpr int kOctaves = 9;
+
+}  // namespace
 
 // With t = tan(angle / 2), (2 t, 1 - t^2) / (1 + t^2) is the unit vector at that angle from the
 // north.
@@ -11,11 +17,24 @@ Layout::Layout(uint64_t seed) : seed_(hash(seed, 1, 0)) {
   inland_direction_ = {2 * t / (1 + t * t), -(1 - t * t) / (1 + t * t)};
 }
 
-double Layout::inland(Point p) const {
+double Layout::belt(Point p) const {
   const Point d = inland_direction_;
   const double reach = std::abs(d.x) + std::abs(d.y);  // of the square along d
-  const double straight = 0.5 + ((p.x - 0.5) * d.x + (p.y - 0.5) * d.y) / reach;
-  return straight + 0.2 * fractal(seed_ + 10, {3 * p.x, 3 * p.y}, 9);
+  return 0.5 + ((p.x - 0.5) * d.x + (p.y - 0.5) * d.y) / reach;
+}
+
+double Layout::inland(Point p) const {
+  return belt(p) + kBend * fractal(seed_ + 10, {3 * p.x, 3 * p.y}, kOctaves);
+}
+
+bool Layout::isSea(Point p) const {
+  constexpr double kRounding = 1e-9;
+  const double straight = belt(p);
+  const auto decided = [&](double sum, double rest) {
+    return std::abs(straight + kBend * sum - kCoast) > kBend * rest + kRounding;
+  };
+  return straight + kBend * fractalUntil(seed_ + 10, {3 * p.x, 3 * p.y}, kOctaves, decided) <
+         kCoast;
 }
 
 double Layout::uplift(Point p) const {

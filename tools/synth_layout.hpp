@@ -16,7 +16,7 @@ class Layout {
 
   /// 0 at the sea's end of the terrain, 1 at the mountains', about kCoast at the shore.
   double inland(Point p) const;
-  bool isSea(Point p) const { return inland(p) < kCoast; }
+  bool isSea(Point p) const;  ///< inland(p) < kCoast, mostly from fewer octaves
 
   /// Uplift in 0 to about 1: mountains ridged and warped, hills in places, almost nothing on the
   /// plain.
@@ -27,6 +27,8 @@ class Layout {
   uint64_t seed() const { return seed_; }
 
  private:
+  double belt(Point p) const;  ///< inland() without its noise
+
   static constexpr double kCoast = 0.2, kFoot = 0.4, kRange = 0.72;
 
   uint64_t seed_;

@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <array>
 
-#include "tools/synth_rivers.hpp"
-
 namespace tetrakis::tools::synth {
 namespace {
 
 using Rgb = std::array<uint8_t, 3>;
 
 constexpr Rgb kSea{151, 193, 222}, kInland{120, 175, 214}, kContour{178, 137, 96},
-    kIndexContour{139, 94, 60};
+    kIndexContour{139, 94, 60}, kHouse{92, 88, 86};
 constexpr std::array<Rgb, 7> kBelts = {{{172, 208, 165},
                                         {189, 204, 150},
                                         {225, 228, 181},
@@ -34,15 +32,16 @@ Rgb beltOf(double height) {
 
 class Cartographer {
  public:
-  Cartographer(const Relief& relief, uint32_t texels)
-      : relief_(relief), river_(riverDistance(relief, texels)) {}
+  explicit Cartographer(const Relief& relief) : relief_(relief) {}
 
-  Rgb colourAt(uint32_t x, uint32_t y) const {
+  /// `river`: metres to the nearest bank, negative in the water.
+  Rgb colourAt(uint32_t x, uint32_t y, double river) const {
     const Point p = onTerrain(x, y);
     const Cover cover = relief_.cover.clamped(static_cast<int64_t>(std::floor(p.x + 0.5)),
                                               static_cast<int64_t>(std::floor(p.y + 0.5)));
     if (cover == Cover::kSea) return kSea;
-    if (cover == Cover::kLake || river_.at(x, y) < 0) return kInland;
+    if (cover == Cover::kRoof) return kHouse;
+    if (cover == Cover::kLake || river < 0) return kInland;
     const auto [lowest, highest] =
         std::minmax({contourBelow(x, y), contourBelow(x + 1, y), contourBelow(x, y + 1)});
     if (highest == lowest) return beltOf(sampleAt(relief_.height, p));
@@ -59,21 +58,23 @@ class Cartographer {
   }
 
   const Relief& relief_;
-  Grid river_;
 };
 
 }  // namespace
 
-ImageFile drawMap(const Relief& relief, uint32_t size) {
+ImageFile drawMap(const Relief& relief, const Rivers& rivers, uint32_t size) {
   const uint32_t texels = kTexelsPerSample * (size - 1);
-  const Cartographer cartographer(relief, texels);
-  ImageFile map{texels, texels, 3, TKS_U8, {}};
-  map.data.reserve(size_t{3} * texels * texels);
-  for (uint32_t y = 0; y < texels; ++y) {
-    for (uint32_t x = 0; x < texels; ++x) {
-      for (const uint8_t value : cartographer.colourAt(x, y)) map.data.push_back(std::byte{value});
+  const Cartographer cartographer(relief);
+  ImageFile map{texels, texels, 3, TKS_U8, std::vector<std::byte>(size_t{3} * texels * texels)};
+  rivers.forStrips([&](const RiverStrip& strip) {
+    std::byte* out = &map.data[size_t{3} * strip.first * texels];
+    for (uint32_t y = strip.first; y < strip.end; ++y) {
+      for (uint32_t x = 0; x < texels; ++x) {
+        for (const uint8_t value : cartographer.colourAt(x, y, strip.distance(x, y)))
+          *out++ = std::byte{value};
+      }
     }
-  }
+  });
   return map;
 }
 

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "tools/files.hpp"
-#include "tools/synth_relief.hpp"
+#include "tools/synth_rivers.hpp"
 
 namespace tetrakis::tools::synth {
 
 /// RGB8 of 2 (size - 1) texels a side over the terrain without its margin: a tint for each belt of
-/// heights, contour lines, water. Eleven colours, every edge sharp.
-ImageFile drawMap(const Relief& relief, uint32_t size);
+/// heights, contour lines, water, houses. Twelve colours at most, every edge sharp.
+ImageFile drawMap(const Relief& relief, const Rivers& rivers, uint32_t size);
 
 }  // namespace tetrakis::tools::synth

@@ -62,11 +62,16 @@ inline double gradientDot(uint64_t h, double x, double y) {
   return direction.x * x + direction.y * y;
 }
 
-/// Gradient noise, about -1 to 1, zero mean, features about one unit wide.
+/// Floor of what an int64_t holds, as fast without SSE 4.1 as with it.
+inline int64_t floorOf(double v) {
+  const int64_t whole = static_cast<int64_t>(v);
+  return whole - (static_cast<double>(whole) > v);
+}
+
+/// Gradient noise, within -1 and 1, zero mean, features about one unit wide.
 inline double noise(uint64_t seed, Point p) {
-  const double fx = std::floor(p.x), fy = std::floor(p.y);
-  const int64_t ix = static_cast<int64_t>(fx), iy = static_cast<int64_t>(fy);
-  const double x = p.x - fx, y = p.y - fy;
+  const int64_t ix = floorOf(p.x), iy = floorOf(p.y);
+  const double x = p.x - static_cast<double>(ix), y = p.y - static_cast<double>(iy);
   const auto fade = [](double t) { return t * t * t * (t * (6 * t - 15) + 10); };
   const double u = fade(x), v = fade(y);
   const auto corner = [&](int dx, int dy) {
@@ -77,16 +82,23 @@ inline double noise(uint64_t seed, Point p) {
   return 1.4 * mix(top, bottom, v);
 }
 
-/// Sum of octaves, each of twice the frequency and half the amplitude. The turn between octaves
-/// (3-4-5 triangle) hides the lattice.
-inline double fractal(uint64_t seed, Point p, int octaves) {
+/// Sum of octaves, each of twice the frequency and half the amplitude: within -1 and 1. The turn
+/// between octaves (3-4-5 triangle) hides the lattice. Ends where enough(sum, rest) says that the
+/// octaves left, which add up to less than `rest`, do not matter.
+template <class Enough>
+double fractalUntil(uint64_t seed, Point p, int octaves, Enough enough) {
   double sum = 0, amplitude = 0.5;
   for (int i = 0; i < octaves; ++i) {
     sum += amplitude * noise(seed + static_cast<uint64_t>(i), p);
+    if (enough(sum, amplitude)) break;
     p = {2 * (0.8 * p.x - 0.6 * p.y), 2 * (0.6 * p.x + 0.8 * p.y)};
     amplitude /= 2;
   }
   return sum;
+}
+
+inline double fractal(uint64_t seed, Point p, int octaves) {
+  return fractalUntil(seed, p, octaves, [](double, double) { return false; });
 }
 
 /// Ridged multifractal in about 0 to 1: folded noise, detail only where the coarser octaves are

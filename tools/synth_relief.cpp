@@ -35,22 +35,15 @@ double reliefOf(uint32_t size) {
   return std::min(kHighest, kHigh * (ratio < 1 ? ratio : std::sqrt(ratio)));
 }
 
-template <class T, class Function>
-Raster<T> fill(const Frame& frame, Function function) {
-  Raster<T> raster(frame.side());
-  for (uint32_t y = 0; y < raster.side(); ++y)
-    for (uint32_t x = 0; x < raster.side(); ++x) raster.at(x, y) = function(x, y);
-  return raster;
-}
-
 Raster<uint8_t> seaOf(const Layout& layout, const Frame& frame) {
-  return fill<uint8_t>(
-      frame, [&](uint32_t x, uint32_t y) { return uint8_t{layout.isSea(frame.share(x, y))}; });
+  return rasterOf<uint8_t>(frame.side(), [&](uint32_t x, uint32_t y) {
+    return uint8_t{layout.isSea(frame.share(x, y))};
+  });
 }
 
 Grid upliftOf(const Layout& layout, const Frame& frame) {
-  return fill<double>(frame,
-                      [&](uint32_t x, uint32_t y) { return layout.uplift(frame.share(x, y)); });
+  return rasterOf<double>(frame.side(),
+                          [&](uint32_t x, uint32_t y) { return layout.uplift(frame.share(x, y)); });
 }
 
 void scaleAll(Grid& grid, double factor) {
@@ -80,7 +73,7 @@ Grid refine(const Grid& coarse, const Frame& fine) {
     return between(coarse.clamped(i - 1, y), coarse.clamped(i, y), coarse.clamped(i + 1, y),
                    coarse.clamped(i + 2, y));
   };
-  return fill<double>(fine, [&](uint32_t x, uint32_t y) {
+  return rasterOf<double>(fine.side(), [&](uint32_t x, uint32_t y) {
     const int64_t j = y / 2;
     if (y % 2 == 0) return alongRow(x, j);
     return between(alongRow(x, j - 1), alongRow(x, j), alongRow(x, j + 1), alongRow(x, j + 2));
@@ -89,31 +82,27 @@ Grid refine(const Grid& coarse, const Frame& fine) {
 
 /// Noise at the scale of the raster, stronger on steep ground, as rock is rougher than meadow.
 void roughen(Grid& height, const Frame& frame, const Layout& layout) {
-  const Grid before = height;
-  const double metres = kSpacing * frame.stride;
-  for (uint32_t y = 0; y < height.side(); ++y) {
-    for (uint32_t x = 0; x < height.side(); ++x) {
-      const int64_t ix = x, iy = y;
-      const double dx = before.clamped(ix + 1, iy) - before.clamped(ix - 1, iy);
-      const double dy = before.clamped(ix, iy + 1) - before.clamped(ix, iy - 1);
-      const double rise = std::sqrt(dx * dx + dy * dy) / 2;
-      const Point p = frame.samples(x, y);
-      const double wave = 3.1 * frame.stride;
-      const double n = fractal(layout.seed() + 50 + frame.stride, {p.x / wave, p.y / wave}, 2);
-      height.at(x, y) += n * (0.003 * metres + 0.55 * rise);
-    }
-  }
+  const double metres = kSpacing * frame.stride, wave = 3.1 * frame.stride;
+  height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
+    const int64_t ix = x, iy = y;
+    const double dx = height.clamped(ix + 1, iy) - height.clamped(ix - 1, iy);
+    const double dy = height.clamped(ix, iy + 1) - height.clamped(ix, iy - 1);
+    const double rise = std::sqrt(dx * dx + dy * dy) / 2;
+    const Point p = frame.samples(x, y);
+    const double n = fractal(layout.seed() + 50 + frame.stride, {p.x / wave, p.y / wave}, 2);
+    return height.at(x, y) + n * (0.003 * metres + 0.55 * rise);
+  });
 }
 
 Grid raiseMountains(const Layout& layout, const Frame& frame, double relief) {
   const Raster<uint8_t> sea = seaOf(layout, frame);
   const Grid uplift = upliftOf(layout, frame);
-  Grid height = fill<double>(frame, [&](uint32_t x, uint32_t y) {
+  Grid height = rasterOf<double>(frame.side(), [&](uint32_t x, uint32_t y) {
     return 0.02 * layout.inland(frame.share(x, y)) +
            0.01 * fractal(layout.seed() + 60, {0.3 * x, 0.3 * y}, 2);
   });
   levelSea(height, sea);
-  erode(height, uplift, sea, {60, 0.25, 0.08});
+  erode(height, &uplift, sea, {60, 0.25, 0.08});
   const double most = highest(height);
   if (most > 0) scaleAll(height, relief / most);
   return height;
@@ -124,8 +113,7 @@ Grid carveDetail(Grid height, const Layout& layout, const Frame& frame) {
   const Raster<uint8_t> sea = seaOf(layout, frame);
   roughen(height, frame, layout);
   levelSea(height, sea);
-  const Grid uplift(height.side(), 0.0);
-  erode(height, uplift, sea, {4, 0.012, 0.06});
+  erode(height, nullptr, sea, {4, 0.012, 0.06});
   constexpr double kRepose = 0.8;  // tan 39 degrees
   slide(height, sea, kRepose * kSpacing * frame.stride, 12);
   return height;
@@ -146,17 +134,18 @@ Grid carve(const Layout& layout, uint32_t size, uint32_t margin) {
 
 /// A bowl is dug; the flood tells how high it fills before it spills over.
 void digLake(Grid& height, const Layout& layout, const Frame& frame) {
+  constexpr double kBend = 0.7 / 12;  // at most, as noise lies within -1 and 1
   const Point middle = layout.lake();
   const double depth = 0.07 * reliefOf(frame.size);
-  for (uint32_t y = 0; y < height.side(); ++y) {
-    for (uint32_t x = 0; x < height.side(); ++x) {
-      const Point p = frame.share(x, y);
-      const Point bent = warp(layout.seed() + 70, {12 * p.x, 12 * p.y}, 0.7, 6);
-      const double dx = (bent.x / 12 - middle.x) / 0.085, dy = (bent.y / 12 - middle.y) / 0.06;
-      const double inside = 1 - dx * dx - dy * dy;
-      if (inside > 0) height.at(x, y) = height.at(x, y) - depth * inside;
-    }
-  }
+  height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
+    const Point p = frame.share(x, y);
+    if (std::abs(p.x - middle.x) > 0.085 + kBend || std::abs(p.y - middle.y) > 0.06 + kBend)
+      return height.at(x, y);
+    const Point bent = warp(layout.seed() + 70, {12 * p.x, 12 * p.y}, 0.7, 6);
+    const double dx = (bent.x / 12 - middle.x) / 0.085, dy = (bent.y / 12 - middle.y) / 0.06;
+    const double inside = 1 - dx * dx - dy * dy;
+    return height.at(x, y) - depth * std::max(0.0, inside);
+  });
 }
 
 /// Deep depressions hold lakes, each at one level; shallow ones have silted up.
@@ -178,15 +167,10 @@ void fillDepressions(Relief& relief, const Raster<uint8_t>& sea, double lake_dep
 
 }  // namespace
 
-Relief makeRelief(uint32_t size, uint64_t seed) {
-  const Layout layout(seed);
-  const uint32_t margin = std::max(4u, size / 16);
-  const Frame frame{size, margin, 1};
-  const Raster<uint8_t> sea = seaOf(layout, frame);
-  Relief relief{margin, carve(layout, size, margin), Raster<Cover>(frame.side(), Cover::kLand), {}};
-  digLake(relief.height, layout, frame);
+void settle(Relief& relief, const Raster<uint8_t>& sea, double lake_depth) {
+  relief.cover = Raster<Cover>(relief.height.side(), Cover::kLand);
   levelSea(relief.height, sea);
-  fillDepressions(relief, sea, 0.0125 * reliefOf(size));
+  fillDepressions(relief, sea, lake_depth);
   for (size_t cell = 0; cell < sea.size(); ++cell) {
     double steps = std::max(1.0, std::floor(relief.height[cell] / kHeightStep + 0.5));
     if (sea[cell]) {
@@ -196,6 +180,16 @@ Relief makeRelief(uint32_t size, uint64_t seed) {
     relief.height[cell] = steps * kHeightStep;
   }
   relief.drainage = drain(relief.height, sea);
+}
+
+Relief makeRelief(uint32_t size, uint64_t seed) {
+  const Layout layout(seed);
+  const uint32_t margin = std::max(4u, size / 16);
+  const Frame frame{size, margin, 1};
+  Relief relief{
+      .margin = margin, .height = carve(layout, size, margin), .cover = {}, .drainage = {}};
+  digLake(relief.height, layout, frame);
+  settle(relief, seaOf(layout, frame), 0.0125 * reliefOf(size));
   return relief;
 }
 

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "tools/files.hpp"
-#include "tools/synth_relief.hpp"
+#include "tools/synth_rivers.hpp"
 
 namespace tetrakis::tools::synth {
 
 /// RGB8, 2 (size - 1) texels a side, north up, sun in the north-west.
-ImageFile photograph(const Relief& relief, uint32_t size, uint64_t seed);
+ImageFile photograph(const Relief& relief, const Rivers& rivers, uint32_t size, uint64_t seed);
 
 }  // namespace tetrakis::tools::synth

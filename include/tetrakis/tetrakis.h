@@ -8,6 +8,14 @@
  * Trust contract: every decoding function is safe on untrusted input. It returns TKS_OK and fully
  * written outputs, or an error and untouched outputs; it never prints, exits or throws. Truncation
  * is not an error. All functions are reentrant; one handle serves one thread at a time.
+ *
+ * Structs that begin with their `size` may grow at their end; programs compiled before keep working.
+ * Set it to sizeof: fields that a shorter struct lacks count as 0, which is every default. One that is
+ * too short for its first fields gives TKS_USAGE (through tks_encode_options.triangles,
+ * tks_heights.offset, tks_image.data, tks_limits.size, tks_info.level). In a longer one this library
+ * leaves 0 what it does not know of tks_info; elsewhere such fields must be 0, else TKS_UNSUPPORTED.
+ *
+ * C99 or any C++.
  */
 #ifndef TETRAKIS_TETRAKIS_H
 #define TETRAKIS_TETRAKIS_H
@@ -21,6 +29,9 @@
 
 #ifdef __cplusplus
 extern "C" {
+#endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) /* the library is compiled with hidden symbols */
 #endif
 
 /* Stable numbers; the command line returns them as its exit codes. */
@@ -282,6 +293,9 @@ tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32
 tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out);
 void tks_free_mesh_tree(tks_mesh_tree* tree);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

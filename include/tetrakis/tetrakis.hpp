@@ -3,6 +3,10 @@
 // throws nothing but std::bad_alloc. The trust contract is that of tetrakis.h.
 #pragma once
 
+#if __cplusplus < 202002L
+#error "tetrakis.hpp takes C++20 (-std=c++20); tetrakis.h takes C99 or any C++."
+#endif
+
 #include <algorithm>
 #include <cassert>
 #include <cstddef>

@@ -56,6 +56,7 @@ TEST_F(CliUsage, CommandsThatMakeNoSenseGiveOne) {
            "compare a.tks",
            "compare a.tks --texture texture.png --triangles 9",
            "synth -o s --size 1",
+           "synth -o s --kind moon",
            "verify",
        })
     expectFailure(arguments, 1);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structs of the C interface that begin with their size: callers compiled against an older or a
+// newer tetrakis.h hand over fewer or more fields than this library knows.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string>
+
+#include "bitstream/status.hpp"
+
+namespace tetrakis {
+
+/// No struct is ever as large: a greater size was never set.
+inline constexpr size_t kMostStructBytes = 4096;
+
+/// Copies what the caller has of a struct; fields that it lacks are 0. `least` bytes are needed.
+/// Fields unknown to this library may be there as long as they are 0, which is every field's
+/// default. A field does not straddle a multiple of alignof(T), so no half of one is taken.
+template <class T>
+Status takeSized(const std::string& name, const T& given, size_t least, T& out) {
+  const size_t size = given.size;
+  if (size < least || size > kMostStructBytes) {
+    return {TKS_USAGE, "The struct of the " + name + " takes a size of at least " +
+                           std::to_string(least) + " bytes, not " + std::to_string(size) + "."};
+  }
+  const auto* bytes = reinterpret_cast<const std::byte*>(&given);
+  if (size > sizeof(T) &&
+      std::any_of(bytes + sizeof(T), bytes + size, [](std::byte b) { return b != std::byte{0}; })) {
+    return {TKS_UNSUPPORTED,
+            "The struct of the " + name + " sets a field that this library does not know."};
+  }
+  out = T{};
+  std::memcpy(&out, bytes, std::min(size, sizeof(T)) / alignof(T) * alignof(T));
+  out.size = sizeof(T);
+  return {};
+}
+
+/// Fills the caller's struct as far as it goes; what is unknown to this library becomes 0. Its size
+/// stays.
+template <class T>
+void giveSized(const T& full, T& out) {
+  const size_t size = out.size;
+  auto* bytes = reinterpret_cast<std::byte*>(&out);
+  std::memcpy(bytes, &full, std::min(size, sizeof(T)));
+  if (size > sizeof(T)) std::memset(bytes + sizeof(T), 0, size - sizeof(T));
+  out.size = size;
+}
+
+}  // namespace tetrakis
