@@ -26,39 +26,25 @@ class DecodingIo {
   DrawnColour unknown_{};
 };
 
-/// Leaves the texels at multiples of the step.
-void thin(uint32_t step, Texels& texels) {
-  if (step == 1) return;
-  auto out = texels.samples.begin();
-  for (uint32_t y = 0; y < texels.height; y += step) {
-    for (uint32_t x = 0; x < texels.width; x += step) {
-      const size_t from = (size_t{y} * texels.width + x) * texels.channels;
-      out =
-          std::copy_n(texels.samples.begin() + static_cast<ptrdiff_t>(from), texels.channels, out);
-    }
-  }
-  texels.samples.erase(out, texels.samples.end());
-  texels.width = (texels.width - 1) / step + 1;
-  texels.height = (texels.height - 1) / step + 1;
-}
-
 Texels formatOf(const TextureHeader& header) {
   return {header.width, header.height, header.channels, header.sample == TKS_U8 ? 8 : 16, {}};
 }
 
 }  // namespace
 
+/// Every 2^level-th texel is a grid of its own: no vertex needs one of a finer level.
 Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
+  const std::vector<Level> levels = levelsOf(header.width, header.height, level);
   Texels texels = formatOf(header);
-  const size_t count = size_t{header.width} * header.height;
+  texels.width = ((header.width - 1) >> level) + 1;
+  texels.height = ((header.height - 1) >> level) + 1;
+  const size_t count = size_t{texels.width} * texels.height;
   std::vector<ColourIndex> indices(count, kNoColour);
   DrawnColours colours;
   DecodingIo io(codeword);
-  const uint32_t step = uint32_t{1} << level;
-  DrawnPass<DecodingIo>(texels, indices, colours, io).run(step);
+  DrawnPass<DecodingIo>(texels, indices, colours, io).run(levels);
   texels.samples.resize(count * header.channels);
-  fillDrawn(indices, colours, step, texels);
-  thin(step, texels);
+  fillDrawn(levels, indices, colours, texels);
   return texels;
 }
 
@@ -68,7 +54,8 @@ DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t>
   overlay.indices.assign(size_t{header.width} * header.height, kNoColour);
   overlay.colours.add(greyOf(format));
   DecodingIo io(codeword);
-  DrawnPass<DecodingIo>(format, overlay.indices, overlay.colours, io).run();
+  DrawnPass<DecodingIo>(format, overlay.indices, overlay.colours, io)
+      .run(levelsOf(header.width, header.height));
   std::replace(overlay.indices.begin(), overlay.indices.end(), kNoColour, kSeeThrough);
   return overlay;
 }
