@@ -7,6 +7,7 @@
 #include "api/height_steps.hpp"
 #include "codec/corrections_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
+#include "wavelet/mip_level.hpp"
 
 namespace tetrakis {
 
@@ -75,6 +76,17 @@ std::vector<uint8_t> validityOf(const Layers& taken, const GeometryHeader& heade
 }
 
 }  // namespace
+
+std::vector<uint8_t> decodeValidityLayer(const Codewords& codewords, const GeometryHeader& header,
+                                         const GeometryLayers& layers, int level) {
+  std::vector<uint8_t> valid = validityOf(Layers(codewords, layers), header, layers);
+  if (level == 0 || valid.empty()) return valid;
+  const MipLevel mip(header.width, header.height, level);
+  valid = mip.maskOf(valid, header.width);
+  mip.thin(std::span(valid));
+  valid.resize(mip.samples());
+  return valid;
+}
 
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
                             const GeometryLayers& layers, int level, uint32_t threads,
