@@ -81,9 +81,13 @@ Result<ChosenMesh> fittedVertices(const CoarseSurface& surface, bool choose_coar
 
 }  // namespace
 
+uint32_t budgetMeshLevel(const Lattice& lattice, uint32_t max_triangles) {
+  return std::max(spareLevels(lattice, kPerTriangle, max_triangles), 1u) - 1;
+}
+
 Result<SurfaceMesh> budgetMesh(tks_decoder& decoder, Lattice lattice, uint32_t max_triangles) {
   const uint32_t chosen_level = spareLevels(lattice, kPerTriangle, max_triangles);
-  Result<KnownSurface> known = surfaceOf(decoder, std::max(chosen_level, 1u) - 1);
+  Result<KnownSurface> known = surfaceOf(decoder, budgetMeshLevel(lattice, max_triangles));
   if (!known.ok()) return known.status();
   const uint32_t quiet_level =
       std::min(known->quiet_level, spareLevels(lattice, kPerQuietTriangle, max_triangles));

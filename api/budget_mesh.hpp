@@ -14,6 +14,9 @@
 
 namespace tetrakis {
 
+/// The mip level of the heights that the mesh is fitted to, or a coarser one.
+uint32_t budgetMeshLevel(const Lattice& lattice, uint32_t max_triangles);
+
 /// A mesh of at most max_triangles > 0 of a surface without voids, which the decoder holds.
 /// lattice: that of the surface.
 Result<SurfaceMesh> budgetMesh(tks_decoder& decoder, Lattice lattice, uint32_t max_triangles);

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights and texels of whole planes, or of a mip level.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include "api/decoder.hpp"
-#include "api/height_steps.hpp"
+#include "api/memory.hpp"
 #include "api/samples.hpp"
+#include "api/written.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {
-
-namespace {
 
 Status wrongSize(uint64_t wanted, uint64_t given) {
   return {TKS_USAGE, "The output takes " + std::to_string(wanted) + " bytes, the buffer has " +
                          std::to_string(given) + "."};
 }
 
-}  // namespace
+Status noHeights() {
+  return {TKS_USAGE, "The stream holds no heights."};
+}
+
+Status noTexture() {
+  return {TKS_USAGE, "The stream holds no texture."};
+}
 
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
   const StreamHeader& header = decoder.parsed.header;
-  if (!header.geometry) return Status(TKS_USAGE, "The stream holds no heights.");
+  if (!header.geometry) return noHeights();
   if (!decoder.heights) {
     decoder.heights =
         decodeLayers(decoder.payload.codewordsOf(TrackId::kGeometry), *header.geometry,
@@ -38,47 +41,62 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
   return &(*heights)->geometry;
 }
 
-SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry) {
-  const GeometryHeader& g = *header.geometry;
-  const double step = std::ldexp(g.step, -geometry.fraction_bits);
-  return {step * header.metadata.scale, g.base * header.metadata.scale + header.metadata.offset};
-}
-
 namespace {
 
+/// Samples of the level that is set; 0: there are no heights.
+size_t heightCount(const tks_decoder& decoder) {
+  const auto& header = decoder.parsed.header.geometry;
+  return header ? MipLevel(header->width, header->height, decoder.heights_level).samples() : 0;
+}
+
+/// The stream holds heights, the output is of the right size, and memory suffices.
+Status admitHeights(tks_decoder& decoder, tks_part part, const void* out, size_t bytes,
+                    size_t sample_bytes) {
+  if (!decoder.parsed.header.geometry) return noHeights();
+  const size_t wanted = heightCount(decoder) * sample_bytes;
+  if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
+  return checkMemory(decoder, {part, nullptr, 0});
+}
+
 Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
+  const auto& header = decoder.parsed.header.geometry;
+  const auto sample = static_cast<tks_sample>(header ? header->sample : 0);
+  Status status = admitHeights(decoder, TKS_PART_HEIGHTS, out, bytes, tks_sample_bytes(sample));
+  if (!status.ok()) return status;
+  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+    writeUnsentHeights(decoder, out, heightCount(decoder));
+    return {};
+  }
   const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
   if (!decoded.ok()) return decoded.status();
-  const StreamHeader& header = decoder.parsed.header;
-  const size_t wanted = (*decoded)->geometry.heights.size() *
-                        tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample));
-  if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  fromSteps(**decoded, *header.geometry, header.layers, out);
+  writeHeights(decoder, **decoded, out);
   return {};
 }
 
 Status decodeSurface(tks_decoder& decoder, float* out, size_t count) {
-  const Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
-  if (!decoded.ok()) return decoded.status();
-  const std::vector<int32_t>& heights = (*decoded)->heights;
-  const std::vector<uint8_t>& valid = (*decoded)->valid;
-  if (count != heights.size() || out == nullptr)
-    return wrongSize(heights.size() * sizeof(float), count * sizeof(float));
-  const SurfaceScale scale = surfaceScale(decoder.parsed.header, **decoded);
-  for (size_t i = 0; i < count; ++i)
-    out[i] = static_cast<float>(heights[i] * scale.scale + scale.offset);
-  for (size_t i = 0; i < valid.size(); ++i) {
-    if (!valid[i]) out[i] = std::numeric_limits<float>::quiet_NaN();
+  Status status =
+      admitHeights(decoder, TKS_PART_HEIGHTS, out, count * sizeof(float), sizeof(float));
+  if (!status.ok()) return status;
+  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+    writeUnsentSurface(decoder, out, count);
+    return {};
   }
+  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
+  if (!decoded.ok()) return decoded.status();
+  writeSurface(decoder, **decoded, out);
   return {};
 }
 
 Status decodeValidity(tks_decoder& decoder, uint8_t* out, size_t count) {
-  const Result<const DecodedGeometry*> decoded = decodedGeometry(decoder);
-  if (!decoded.ok()) return decoded.status();
-  const std::vector<uint8_t>& valid = (*decoded)->valid;
-  const size_t wanted = (*decoded)->heights.size();
-  if (count != wanted || out == nullptr) return wrongSize(wanted, count);
+  if (Status s = admitHeights(decoder, TKS_PART_VALIDITY, out, count, 1); !s.ok()) return s;
+  std::vector<uint8_t> valid;
+  if (decoder.heights) {
+    valid = decoder.heights->geometry.valid;
+  } else if (!decoder.payload.nothingOf(TrackId::kGeometry)) {
+    const StreamHeader& header = decoder.parsed.header;
+    valid = decodeValidityLayer(decoder.payload.codewordsOf(TrackId::kGeometry), *header.geometry,
+                                header.layers, decoder.heights_level);
+  }
   if (valid.empty()) {
     std::fill_n(out, count, uint8_t{1});
   } else {
@@ -89,18 +107,20 @@ Status decodeValidity(tks_decoder& decoder, uint8_t* out, size_t count) {
 
 Status decodeTexels(tks_decoder& decoder, void* out, size_t bytes) {
   const auto& header = decoder.parsed.header.texture;
-  if (!header) return {TKS_USAGE, "The stream holds no texture."};
+  if (!header) return noTexture();
   const auto sample = static_cast<tks_sample>(header->sample);
   const int level = decoder.texture_level;
-  const size_t wanted = MipLevel(header->width, header->height, level).samples() *
-                        header->channels * tks_sample_bytes(sample);
+  const size_t count = MipLevel(header->width, header->height, level).samples();
+  const size_t wanted = count * header->channels * tks_sample_bytes(sample);
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  const Texels texels = decodeTexture(*header, decoder.payload.codewordsOf(TrackId::kTexture),
-                                      level, decoder.threads);
-  withSampleType(sample, [&](auto type) {
-    std::transform(texels.samples.begin(), texels.samples.end(), static_cast<decltype(type)*>(out),
-                   [](int32_t v) { return static_cast<decltype(type)>(v); });
-  });
+  if (Status s = checkMemory(decoder, {TKS_PART_TEXTURE, nullptr, 0}); !s.ok()) return s;
+  if (decoder.payload.nothingOf(TrackId::kTexture)) {
+    writeUnsentTexels(*header, out, count);
+    return {};
+  }
+  writeTexels(decodeTexture(*header, decoder.payload.codewordsOf(TrackId::kTexture), level,
+                            decoder.threads),
+              sample, out);
   return {};
 }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Windows of a stream, through the C interface (include/tetrakis/tetrakis.h).
-#include <algorithm>
-#include <limits>
 #include <string>
 
 #include "api/decoder.hpp"
-#include "api/height_steps.hpp"
-#include "api/samples.hpp"
+#include "api/memory.hpp"
+#include "api/written.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {
@@ -20,23 +18,16 @@ struct WindowRequest {
   size_t bytes;
 
   Window asked() const { return {window->x, window->y, window->width, window->height}; }
+  size_t places() const { return size_t{window->width} * window->height; }
 
-  /// width, height: of the component; level: that the decoder is set to; sample_bytes: of what is
+  /// part: of the stream, of width * height places, which holds it; sample_bytes: of what is
   /// written for each place.
-  Status check(uint32_t width, uint32_t height, int level, size_t sample_bytes) const {
-    if (window == nullptr) return {TKS_USAGE, "The window is missing."};
-    if (level > 0) return {TKS_USAGE, "Windows are parts of level 0; set the level to 0."};
-    const tks_window& w = *window;
-    const bool inside = w.width > 0 && w.height > 0 && w.width <= width && w.height <= height &&
-                        w.x <= width - w.width && w.y <= height - w.height;
-    if (!inside) {
-      return {TKS_USAGE, "The window must lie inside the " + std::to_string(width) + " x " +
-                             std::to_string(height) + " samples and hold one or more."};
-    }
-    const size_t wanted = size_t{w.width} * w.height * sample_bytes;
-    if (bytes == wanted && out != nullptr) return {};
-    return {TKS_USAGE, "The output takes " + std::to_string(wanted) + " bytes, the buffer has " +
-                           std::to_string(bytes) + "."};
+  Status check(tks_decoder& decoder, tks_part part, const auto& header, size_t sample_bytes) const {
+    const int level = part == TKS_PART_TEXTURE ? decoder.texture_level : decoder.heights_level;
+    if (Status s = checkWindow(window, header.width, header.height, level); !s.ok()) return s;
+    const size_t wanted = places() * sample_bytes;
+    if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
+    return checkMemory(decoder, {part, window, 0});
   }
 };
 
@@ -46,55 +37,61 @@ DecodedHeights windowOf(const tks_decoder& decoder, const Window& window) {
                             header.layers, window, decoder.threads);
 }
 
-Status heightsWindow(const tks_decoder& decoder, const WindowRequest& request) {
-  const StreamHeader& header = decoder.parsed.header;
-  if (!header.geometry) return {TKS_USAGE, "The stream holds no heights."};
-  const GeometryHeader& g = *header.geometry;
-  const auto sample = static_cast<tks_sample>(g.sample);
-  if (Status s = request.check(g.width, g.height, decoder.heights_level, tks_sample_bytes(sample));
-      !s.ok())
-    return s;
-  const DecodedHeights decoded = windowOf(decoder, request.asked());
-  fromSteps(decoded, g, header.layers, request.out);
-  return {};
-}
-
-Status surfaceWindow(const tks_decoder& decoder, const WindowRequest& request) {
-  const StreamHeader& header = decoder.parsed.header;
-  if (!header.geometry) return {TKS_USAGE, "The stream holds no heights."};
-  const GeometryHeader& g = *header.geometry;
-  if (Status s = request.check(g.width, g.height, decoder.heights_level, sizeof(float)); !s.ok())
-    return s;
-  const DecodedGeometry geometry = windowOf(decoder, request.asked()).geometry;
-  const SurfaceScale scale = surfaceScale(header, geometry);
-  auto* out = static_cast<float*>(request.out);
-  for (size_t i = 0; i < geometry.heights.size(); ++i) {
-    const bool valid = geometry.valid.empty() || geometry.valid[i];
-    out[i] = valid ? static_cast<float>(geometry.heights[i] * scale.scale + scale.offset)
-                   : std::numeric_limits<float>::quiet_NaN();
+Status heightsWindow(tks_decoder& decoder, const WindowRequest& request) {
+  const auto& header = decoder.parsed.header.geometry;
+  if (!header) return noHeights();
+  const size_t sample_bytes = tks_sample_bytes(static_cast<tks_sample>(header->sample));
+  if (Status s = request.check(decoder, TKS_PART_HEIGHTS, *header, sample_bytes); !s.ok()) return s;
+  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+    writeUnsentHeights(decoder, request.out, request.places());
+  } else {
+    writeHeights(decoder, windowOf(decoder, request.asked()), request.out);
   }
   return {};
 }
 
-Status textureWindow(const tks_decoder& decoder, const WindowRequest& request) {
+Status surfaceWindow(tks_decoder& decoder, const WindowRequest& request) {
+  const auto& header = decoder.parsed.header.geometry;
+  if (!header) return noHeights();
+  if (Status s = request.check(decoder, TKS_PART_HEIGHTS, *header, sizeof(float)); !s.ok())
+    return s;
+  auto* const out = static_cast<float*>(request.out);
+  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+    writeUnsentSurface(decoder, out, request.places());
+  } else {
+    writeSurface(decoder, windowOf(decoder, request.asked()), out);
+  }
+  return {};
+}
+
+Status textureWindow(tks_decoder& decoder, const WindowRequest& request) {
   const auto& header = decoder.parsed.header.texture;
-  if (!header) return {TKS_USAGE, "The stream holds no texture."};
+  if (!header) return noTexture();
   const auto sample = static_cast<tks_sample>(header->sample);
   const size_t texel_bytes = tks_sample_bytes(sample) * header->channels;
-  if (Status s = request.check(header->width, header->height, decoder.texture_level, texel_bytes);
-      !s.ok())
-    return s;
-  const Texels texels = decodeTextureWindow(*header, decoder.payload.codewordsOf(TrackId::kTexture),
-                                            request.asked(), decoder.threads);
-  withSampleType(sample, [&](auto type) {
-    std::transform(texels.samples.begin(), texels.samples.end(),
-                   static_cast<decltype(type)*>(request.out),
-                   [](uint16_t v) { return static_cast<decltype(type)>(v); });
-  });
+  if (Status s = request.check(decoder, TKS_PART_TEXTURE, *header, texel_bytes); !s.ok()) return s;
+  if (decoder.payload.nothingOf(TrackId::kTexture)) {
+    writeUnsentTexels(*header, request.out, request.places());
+  } else {
+    writeTexels(decodeTextureWindow(*header, decoder.payload.codewordsOf(TrackId::kTexture),
+                                    request.asked(), decoder.threads),
+                sample, request.out);
+  }
   return {};
 }
 
 }  // namespace
+
+Status checkWindow(const tks_window* window, uint32_t width, uint32_t height, int level) {
+  if (window == nullptr) return {TKS_USAGE, "The window is missing."};
+  if (level > 0) return {TKS_USAGE, "Windows are parts of level 0; set the level to 0."};
+  const tks_window& w = *window;
+  const bool inside = w.width > 0 && w.height > 0 && w.width <= width && w.height <= height &&
+                      w.x <= width - w.width && w.y <= height - w.height;
+  if (inside) return {};
+  return {TKS_USAGE, "The window must lie inside the " + std::to_string(width) + " x " +
+                         std::to_string(height) + " samples and hold one or more."};
+}
 
 }  // namespace tetrakis
 

@@ -19,6 +19,8 @@ struct tks_decoder {
   int heights_level = 0, texture_level = 0;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   uint32_t threads = 1;
+  uint64_t max_memory = 0;     ///< of the decoder and any call
+  uint64_t payload_bytes = 0;  ///< that `payload` takes, at most
   std::string message;
 };
 
@@ -29,6 +31,14 @@ Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
 
 /// Of these, the heights between the steps.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
+
+/// TKS_USAGE, with their sentences.
+Status wrongSize(uint64_t wanted, uint64_t given);
+Status noHeights();
+Status noTexture();
+
+/// TKS_USAGE unless the window lies inside level 0 of a component of that size.
+Status checkWindow(const tks_window* window, uint32_t width, uint32_t height, int level);
 
 /// Height in the unit = heights value * scale + offset.
 struct SurfaceScale {

@@ -8,6 +8,7 @@
 #include "api/stored_heights.hpp"
 #include "codec/corrections_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
+#include "wavelet/mip_level.hpp"
 
 namespace tetrakis {
 
@@ -77,13 +78,24 @@ std::vector<uint8_t> validityOf(const Layers& taken, const GeometryHeader& heade
 
 }  // namespace
 
+std::vector<uint8_t> decodeValidityLayer(const Codewords& codewords, const GeometryHeader& header,
+                                         const GeometryLayers& layers, int level) {
+  std::vector<uint8_t> valid = validityOf(Layers(codewords, layers), header, layers);
+  if (level == 0 || valid.empty()) return valid;
+  const MipLevel mip(header.width, header.height, level);
+  valid = mip.maskOf(valid, header.width);
+  mip.thin(std::span(valid));
+  valid.resize(mip.samples());
+  return valid;
+}
+
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
                             const GeometryLayers& layers, int level, uint32_t threads,
                             HeightsMemory* memory) {
   const Layers taken(codewords, layers);
   if (header.stored()) {
-    return decodeStored(header, taken.coefficients.front(),
-                        validityOf(taken, header, layers, memory), level);
+    const std::vector<uint8_t> valid = validityOf(taken, header, layers, memory);
+    return decodeStored(header, taken.coefficients.front(), valid, level);
   }
   DecodedHeights decoded;
   decoded.geometry =

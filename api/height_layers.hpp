@@ -24,6 +24,10 @@ struct HeightsMemory {
   TrackMemory track;
 };
 
+/// The validity of a level's samples alone; empty: all are valid.
+std::vector<uint8_t> decodeValidityLayer(const Codewords& codewords, const GeometryHeader& header,
+                                         const GeometryLayers& layers, int level);
+
 /// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes.
 /// level: as decodeGeometry takes it; above 0 without corrections, which are those of the samples.
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,

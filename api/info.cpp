@@ -50,9 +50,9 @@ void fillQuality(const tks_decoder& decoder, tks_info& info) {
   }
 }
 
-uint64_t bytesOf(const std::vector<std::vector<uint8_t>>& codewords) {
+uint64_t bytesOf(const std::map<uint32_t, std::vector<uint8_t>>& codewords) {
   uint64_t bytes = 0;
-  for (const std::vector<uint8_t>& codeword : codewords) bytes += codeword.size();
+  for (const auto& [number, codeword] : codewords) bytes += codeword.size();
   return bytes;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "api/budget_mesh.hpp"
+#include "api/memory.hpp"
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
 #include "api/void_mesh.hpp"
@@ -19,11 +20,17 @@ struct Chosen {
   std::vector<double> fitted;  ///< one for each vertex of the mesh; empty: those of the samples
 };
 
-Result<Chosen> chosenVertices(const Lattice& lattice, const DecodedGeometry& geometry,
-                              tks_mesh_kind kind, uint32_t max_triangles) {
+Result<Chosen> chosenVertices(const tks_decoder& decoder, const Lattice& lattice,
+                              const DecodedGeometry& geometry, tks_mesh_kind kind,
+                              uint32_t max_triangles) {
   if (kind == TKS_MESH_CODED) return Chosen{codedVertices(lattice, geometry.significant), {}};
   if (max_triangles == 0) return Chosen{allVertices(lattice), {}};
-  Result<FittedVertices> beside = verticesBesideVoids(lattice, geometry, max_triangles);
+  const auto admits = [&](uint64_t triangles) -> Status {
+    if (triangles <= max_triangles) return {};
+    return checkBytes(decoder, {TKS_PART_BUDGET_MESH, nullptr, max_triangles},
+                      voidMeshBytes(lattice, triangles));
+  };
+  Result<FittedVertices> beside = verticesBesideVoids(lattice, geometry, max_triangles, admits);
   if (!beside.ok()) return beside.status();
   return Chosen{std::move(beside->vertices), std::move(beside->heights)};
 }
@@ -43,15 +50,17 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
   if (decoder.heights_level > 0)
     return Status(TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles.");
   const StreamHeader& header = decoder.parsed.header;
-  if (!header.geometry) return Status(TKS_USAGE, "The stream holds no heights.");
+  if (!header.geometry) return noHeights();
   Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
   if (!lattice.ok()) return lattice.status();
+  const tks_part part = kind == TKS_MESH_CODED ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
+  if (Status s = checkMemory(decoder, {part, nullptr, max_triangles}); !s.ok()) return s;
   const bool has_voids = header.layers.validity_bytes > 0;
   if (kind == TKS_MESH_BUDGET && max_triangles > 0 && !has_voids)
     return budgetMesh(decoder, std::move(*lattice), max_triangles);
   const Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
   if (!geometry.ok()) return geometry.status();
-  Result<Chosen> chosen = chosenVertices(*lattice, **geometry, kind, max_triangles);
+  Result<Chosen> chosen = chosenVertices(decoder, *lattice, **geometry, kind, max_triangles);
   if (!chosen.ok()) return chosen.status();
   LatticeMesh mesh = meshOf(*lattice, chosen->vertices);
   std::vector<float> heights;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "api/decoder.hpp"
+#include "api/memory.hpp"
 #include "api/message.hpp"
 #include "api/sized.hpp"
 
@@ -13,43 +14,44 @@ namespace {
 
 constexpr uint64_t kDefaultSamples = uint64_t{1} << 28;
 constexpr uint64_t kDefaultMemory = uint64_t{8} << 30;
-// Working memory: coefficients and band state of one track, and the output.
-constexpr uint64_t kBytesPerHeight = 24;
-constexpr uint64_t kBytesPerLayer = 6;   // validity or corrections, with their hints
-constexpr uint64_t kBytesPerTexel = 24;  // per channel
-constexpr uint64_t kBytesPerRegion = 64;
 
 Status exceeds(const char* what, uint64_t value, uint64_t limit) {
   return {TKS_LIMIT, "The stream holds " + std::to_string(value) + " " + what + "; the limit is " +
                          std::to_string(limit) + "."};
 }
 
-Status checkLimits(const StreamHeader& header, const tks_limits& limits) {
-  const auto or_default = [](uint64_t given, uint64_t fallback) {
-    return given != 0 ? given : fallback;
-  };
-  const uint64_t most_samples = or_default(limits.max_samples, kDefaultSamples);
-  const uint64_t most_texels = or_default(limits.max_texels, kDefaultSamples);
-  const uint64_t most_memory = or_default(limits.max_memory, kDefaultMemory);
-  uint64_t memory = 0;
+uint64_t orDefault(uint64_t given, uint64_t fallback) {
+  return given != 0 ? given : fallback;
+}
+
+Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
+  const uint64_t most_samples = orDefault(limits.max_samples, kDefaultSamples);
+  const uint64_t most_texels = orDefault(limits.max_texels, kDefaultSamples);
   if (header.geometry) {
     const uint64_t samples = uint64_t{header.geometry->width} * header.geometry->height;
     if (samples > most_samples) return exceeds("height samples", samples, most_samples);
-    const uint64_t layers =
-        (header.layers.validity_bytes > 0) + (header.layers.corrections != CorrectionKind::kNone);
-    memory = std::max(memory, samples * (kBytesPerHeight + layers * kBytesPerLayer) +
-                                  kBytesPerRegion * trackCounts(header)[0].tracks);
   }
   if (header.texture) {
     const uint64_t texels = uint64_t{header.texture->width} * header.texture->height;
     if (texels > most_texels) return exceeds("texels", texels, most_texels);
-    memory = std::max(memory, texels * header.texture->channels * kBytesPerTexel +
-                                  kBytesPerRegion * trackCounts(header)[1].tracks);
   }
-  if (memory > most_memory) {
-    return {TKS_LIMIT, "Decoding takes about " + std::to_string(memory) +
-                           " bytes of memory; the limit is " + std::to_string(most_memory) + "."};
+  return {};
+}
+
+/// Takes the packets apart.
+Status readPayload(std::span<const uint8_t> payload, tks_decoder& decoder) {
+  const TrackCounts tracks = trackCounts(decoder.parsed.header);
+  const Result<PayloadCount> count = countPackets(payload, decoder.parsed.bytes, tracks);
+  if (!count.ok()) return count.status();
+  decoder.payload_bytes = payloadBytes(*count, tracks);
+  if (decoder.payload_bytes > decoder.max_memory) {
+    return {TKS_LIMIT, "Opening the stream takes " + describeBytes(decoder.payload_bytes) +
+                           " of memory; the limit (max_memory) is " +
+                           describeBytes(decoder.max_memory) + "."};
   }
+  Result<Demultiplexed> taken = demultiplex(payload, decoder.parsed.bytes, tracks, count->packets);
+  if (!taken.ok()) return taken.status();
+  decoder.payload = std::move(*taken);
   return {};
 }
 
@@ -64,15 +66,12 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   if (!parsed.ok()) return parsed.status();
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;
-  if (Status status = checkLimits(header, known); !status.ok()) return status;
+  if (Status status = checkSizes(header, known); !status.ok()) return status;
+  decoder.max_memory = orDefault(known.max_memory, kDefaultMemory);
   const size_t start = decoder.parsed.bytes;
   const auto available =
       static_cast<size_t>(std::min<uint64_t>(data.size() - start, header.payload_bytes));
-  Result<Demultiplexed> payload =
-      demultiplex(data.subspan(start, available), start, trackCounts(header));
-  if (!payload.ok()) return payload.status();
-  decoder.payload = std::move(*payload);
-  return {};
+  return readPayload(data.subspan(start, available), decoder);
 }
 
 }  // namespace

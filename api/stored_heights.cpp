@@ -22,48 +22,63 @@ int32_t nearestStep(double sample, const GeometryHeader& header) {
   return std::isnan(steps) ? 0 : static_cast<int32_t>(std::clamp(steps, -kMost, kMost));
 }
 
-/// Word k is that of the k-th valid sample; -1 for voids.
-std::vector<int64_t> numbersOfValid(std::span<const uint8_t> valid, size_t count) {
-  std::vector<int64_t> numbers(count, -1);
-  int64_t next = 0;
-  for (size_t i = 0; i < count; ++i) {
-    if (valid.empty() || valid[i]) numbers[i] = next++;
+template <class T>
+class StoredSamples {
+ public:
+  StoredSamples(const GeometryHeader& header, const BytePlanes& words, DecodedHeights& out)
+      : header_(header), words_(words), out_(out) {}
+
+  /// Sample i of what comes out is the stored one with that number.
+  void put(size_t i, size_t number) {
+    if (!words_.knows(number)) return;
+    const uint32_t word = words_[number];
+    int32_t& step = out_.geometry.heights[i];
+    step = nearestStep(static_cast<double>(fromOrder<T>(word)), header_);
+    const T near = restore<T>(header_.base, header_.step, step);
+    out_.corrections[i] = static_cast<int32_t>(word - orderOf(near));
+    out_.geometry.significant[i] = 1;
   }
-  return numbers;
+
+ private:
+  const GeometryHeader& header_;
+  const BytePlanes& words_;
+  DecodedHeights& out_;
+};
+
+DecodedHeights emptyHeights(const MipLevel& mip, bool masked) {
+  DecodedHeights out;
+  out.geometry.width = mip.size().width;
+  out.geometry.height = mip.size().height;
+  out.geometry.heights.resize(mip.samples());
+  out.geometry.significant.resize(mip.samples());
+  if (masked) out.geometry.valid.resize(mip.samples());
+  out.corrections.resize(mip.samples());
+  return out;
 }
 
 }  // namespace
 
 DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_t> bytes,
-                            std::vector<uint8_t> valid, int level) {
+                            std::span<const uint8_t> valid, int level) {
   const size_t count = size_t{header.width} * header.height;
+  const auto voids = static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{0}));
   const auto sample = static_cast<tks_sample>(header.sample);
-  const std::vector<int64_t> numbers = numbersOfValid(valid, count);
-  const auto stored = static_cast<size_t>(
-      std::count_if(numbers.begin(), numbers.end(), [](int64_t number) { return number >= 0; }));
-  const std::vector<uint32_t> words =
-      fromBytePlanes(bytes, stored, static_cast<int>(tks_sample_bytes(sample)));
+  const BytePlanes words(bytes, count - voids, static_cast<int>(tks_sample_bytes(sample)));
   const MipLevel mip(header.width, header.height, level);
-  DecodedHeights decoded;
-  DecodedGeometry& g = decoded.geometry;
-  g.width = mip.size().width;
-  g.height = mip.size().height;
-  g.heights.resize(mip.samples());
-  g.significant.resize(mip.samples());
-  if (!valid.empty()) g.valid.resize(mip.samples());
-  decoded.corrections.resize(mip.samples());
+  DecodedHeights decoded = emptyHeights(mip, !valid.empty());
+  const size_t between = (size_t{1} << level) - 1;
   withSampleType(sample, [&](auto type) {
-    using T = decltype(type);
-    for (size_t i = 0; i < mip.samples(); ++i) {
-      const size_t at = ((i / g.width) * header.width + i % g.width) << level;
-      const int64_t number = numbers[at];
-      if (!valid.empty()) g.valid[i] = valid[at];
-      if (number < 0 || static_cast<size_t>(number) >= words.size()) continue;
-      const uint32_t word = words[static_cast<size_t>(number)];
-      g.heights[i] = nearestStep(static_cast<double>(fromOrder<T>(word)), header);
-      const T near = restore<T>(header.base, header.step, g.heights[i]);
-      decoded.corrections[i] = static_cast<int32_t>(word - orderOf(near));
-      g.significant[i] = 1;
+    StoredSamples<decltype(type)> samples(header, words, decoded);
+    size_t at = 0, i = 0, number = 0;
+    for (uint32_t y = 0; y < header.height; ++y) {
+      for (uint32_t x = 0; x < header.width; ++x, ++at) {
+        const bool is_valid = valid.empty() || valid[at];
+        const bool taken = ((x | y) & between) == 0;
+        if (taken && is_valid) samples.put(i, number);
+        if (taken && !valid.empty()) decoded.geometry.valid[i] = is_valid;
+        i += taken;
+        number += is_valid;
+      }
     }
   });
   return decoded;

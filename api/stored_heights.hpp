@@ -17,7 +17,7 @@ namespace tetrakis {
 /// plane, or empty. level: every 2^level-th sample. Steps are the nearest to the samples, and
 /// corrections restore these. Samples of which nothing is there are those of step 0.
 DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_t> bytes,
-                            std::vector<uint8_t> valid, int level);
+                            std::span<const uint8_t> valid, int level);
 
 /// Bytes that storing the valid samples takes.
 uint64_t storedBytes(const tks_heights& heights, size_t valid_samples);

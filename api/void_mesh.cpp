@@ -60,12 +60,15 @@ size_t longestOnLand(const MeshSequence& sequence, const std::vector<uint8_t>& v
 }  // namespace
 
 Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const DecodedGeometry& geometry,
-                                           uint32_t max_triangles) {
+                                           uint32_t max_triangles,
+                                           const std::function<Status(uint64_t)>& admits) {
   const std::vector<int32_t> pits = heightsOverPits(geometry);
   const Result<MeshSequence> sequence = decimate({lattice.width(), lattice.height(), pits});
   if (!sequence.ok()) return sequence.status();
   FittedVertices result{sequence->order(), {}};
   result.vertices.resize(longestOnLand(*sequence, geometry.valid, max_triangles));
+  const Status admitted = admits(sequence->triangleCount(result.vertices.size()));
+  if (!admitted.ok()) return admitted;
   const SurfaceView view{lattice.width(), lattice.height(), geometry.heights};
   FittedMoments fitted(lattice, {view, geometry.valid});
   fitted.coarsen(result.vertices);

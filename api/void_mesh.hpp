@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,10 @@ struct FittedVertices {
 /// decimation they are a pit, a quarter of the range below the lowest height: the wall at the coast
 /// keeps vertices along it, where a triangle that reaches into the void would be lost as a whole;
 /// the floor costs nothing. Heights are then fitted to the valid samples alone.
+/// admits: whether memory suffices for so many triangles, those in voids included.
 Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const DecodedGeometry& geometry,
-                                           uint32_t max_triangles);
+                                           uint32_t max_triangles,
+                                           const std::function<Status(uint64_t)>& admits);
 
 /// Leaves out vertices whose height is NaN, and the triangles that touch them. The other vertices
 /// keep their order. heights: one for each vertex.

@@ -21,6 +21,14 @@ Band::Band(const BandShape& band_shape, Orientation band_orientation,
   clearVisited();
 }
 
+uint64_t Band::bytesOf(const BandShape& band_shape, bool masked) {
+  const uint64_t cell = sizeof(uint32_t) + sizeof(uint8_t) + sizeof(int8_t);
+  const uint64_t word = (masked ? 3 : 2) * sizeof(uint32_t);
+  const uint64_t blocks =
+      (uint64_t{band_shape.rows} + kBlockRows - 1) / kBlockRows * band_shape.words();
+  return band_shape.cells() * cell + band_shape.wordCells() * word + blocks;
+}
+
 void Band::clearVisited() {
   if (absent.size() == 0) {
     std::fill(visited.begin(), visited.end(), 0);

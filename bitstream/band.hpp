@@ -66,6 +66,9 @@ struct Band {
   Band(const BandShape& band_shape, Orientation band_orientation,
        std::span<const uint32_t> absent_cells = {});
 
+  /// Bytes that a band of that shape allocates. masked: some of its coefficients may be absent.
+  static uint64_t bytesOf(const BandShape& band_shape, bool masked);
+
   uint32_t blockRows() const { return (shape.rows + kBlockRows - 1) / kBlockRows; }
   uint8_t& block(uint32_t y, uint32_t x) { return block_nonzero[size_t{y} * shape.words() + x]; }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/byte_planes.hpp"
 
-#include <algorithm>
-
 namespace tetrakis {
 
 std::vector<uint8_t> toBytePlanes(std::span<const uint32_t> words, int bytes) {
@@ -14,16 +12,12 @@ std::vector<uint8_t> toBytePlanes(std::span<const uint32_t> words, int bytes) {
   return planes;
 }
 
-std::vector<uint32_t> fromBytePlanes(std::span<const uint8_t> planes, size_t count, int bytes) {
-  std::vector<uint32_t> words(std::min(count, planes.size()));
-  for (size_t i = 0; i < words.size(); ++i) {
-    size_t at = i;
-    int shift = 8 * (bytes - 1);
-    for (; shift >= 0 && at < planes.size(); shift -= 8, at += count)
-      words[i] |= uint32_t{planes[at]} << shift;
-    if (shift >= 0) words[i] |= uint32_t{0x80} << shift;
-  }
-  return words;
+uint32_t BytePlanes::operator[](size_t word) const {
+  uint32_t value = 0;
+  int shift = 8 * (bytes_ - 1);
+  for (size_t at = word; shift >= 0 && at < planes_.size(); shift -= 8, at += count_)
+    value |= uint32_t{planes_[at]} << shift;
+  return shift < 0 ? value : value | uint32_t{0x80} << shift;
 }
 
 }  // namespace tetrakis

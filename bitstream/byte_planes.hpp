@@ -13,8 +13,22 @@ namespace tetrakis {
 /// words: the lower `bytes` bytes of each count. Takes words.size() * bytes.
 std::vector<uint8_t> toBytePlanes(std::span<const uint32_t> words, int bytes);
 
-/// What a prefix of the planes of `count` words says. Bytes that are missing count as 80 00 00; of
-/// words of which nothing is there, there is none.
-std::vector<uint32_t> fromBytePlanes(std::span<const uint8_t> planes, size_t count, int bytes);
+/// Reads any prefix of such planes.
+class BytePlanes {
+ public:
+  /// count: of the words; bytes: of each.
+  BytePlanes(std::span<const uint8_t> planes, size_t count, int bytes)
+      : planes_(planes), count_(count), bytes_(bytes) {}
+
+  /// Whether a byte of the word is there.
+  bool knows(size_t word) const { return word < planes_.size(); }
+  /// The word, with 80 00 00 for bytes that are missing.
+  uint32_t operator[](size_t word) const;
+
+ private:
+  std::span<const uint8_t> planes_;
+  size_t count_;
+  int bytes_;
+};
 
 }  // namespace tetrakis

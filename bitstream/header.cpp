@@ -127,6 +127,13 @@ Status checkRegions(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its regions are smaller than 16 samples."};
 }
 
+Status checkStored(const StreamHeader& header) {
+  if (!header.geometry || !header.geometry->stored()) return {};
+  const bool one_track = header.geometry->regions.side_log2 == 0;
+  if (one_track && header.layers.corrections == CorrectionKind::kNone) return {};
+  return {TKS_CORRUPT, "Corrupt stream: stored heights have regions or corrections."};
+}
+
 Status checkNumbers(const StreamHeader& header) {
   const auto finite = [](std::initializer_list<double> values) {
     return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -147,15 +154,15 @@ Status checkNumbers(const StreamHeader& header) {
   return {};
 }
 
-/// A drawn texture is one track of all its channels.
+/// A texture that is drawn or stored is one track of all its channels.
 Status checkTexture(const StreamHeader& header) {
   if (!header.texture) return {};
   const TextureHeader& t = *header.texture;
   if (t.sample != TKS_U8 && t.sample != TKS_U16) {
     return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
   }
-  if (t.drawn() && (t.regions.side_log2 > 0 || t.weights.levels > 0)) {
-    return {TKS_CORRUPT, "Corrupt stream: a drawn texture has regions or weights."};
+  if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0)) {
+    return {TKS_CORRUPT, "Corrupt stream: a drawn or stored texture has regions or weights."};
   }
   return {};
 }
@@ -167,6 +174,7 @@ Status checkMeaning(const StreamHeader& header) {
   if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (Status regions = checkRegions(header); !regions.ok()) return regions;
+  if (Status stored = checkStored(header); !stored.ok()) return stored;
   return checkTexture(header);
 }
 

@@ -49,43 +49,81 @@ std::vector<uint8_t> multiplex(std::span<const Packet> packets,
 }
 
 Codewords Demultiplexed::codewordsOf(TrackId track) const {
-  const auto& all = codewords[static_cast<size_t>(track)];
-  return {all.begin(), all.end()};
+  const auto component = static_cast<size_t>(track);
+  Codewords all(counts[component].tracks);
+  for (const auto& [number, codeword] : codewords[component]) all[number] = codeword;
+  return all;
 }
 
-Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
-                                  const TrackCounts& counts) {
-  Demultiplexed out;
-  for (size_t c = 0; c < kTracks; ++c) out.codewords[c].resize(counts[c].tracks);
+bool Demultiplexed::nothingOf(TrackId track) const {
+  const auto& known = codewords[static_cast<size_t>(track)];
+  return std::all_of(known.begin(), known.end(),
+                     [](const auto& one) { return one.second.empty(); });
+}
+
+namespace {
+
+/// Calls visit(head, payload, complete) for every packet begun.
+template <class Visit>
+Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const TrackCounts& counts,
+                     Visit&& visit) {
   size_t at = 0;
   while (at < payload.size()) {
     FieldReader reader(payload.subspan(at), origin + at);
     PacketHead head;
     head.head = reader.take();
-    const auto component = static_cast<size_t>(head.track());
+    const TrackCount& count = counts[static_cast<size_t>(head.track())];
     const uint64_t length = head.head >> 2;
-    if (counts[component].named) reader.varint("region", head.region, 0, UINT32_MAX);
+    if (count.named) reader.varint("region", head.region, 0, UINT32_MAX);
     reader.u8("quality", head.quality, 0, 255);
     if (reader.starved()) break;
     if (!reader.ok()) return reader.status();
-    if (length == 0 || head.region >= counts[component].tracks) {
+    if (length == 0 || head.region >= count.tracks) {
       return Status(TKS_CORRUPT, "Corrupt stream: the packet at byte " +
                                      std::to_string(origin + at) +
                                      " is empty or of a track that the header does not announce.");
     }
     at += reader.position();
-    out.heads.push_back(head);
     const bool complete = length <= payload.size() - at;
-    const bool whole = (head.head & 2) != 0;
     const size_t available = complete ? static_cast<size_t>(length) : payload.size() - at;
-    if (complete || !whole) {
-      std::vector<uint8_t>& codeword = out.codewords[component][head.region];
-      const auto from = payload.begin() + static_cast<ptrdiff_t>(at);
-      codeword.insert(codeword.end(), from, from + static_cast<ptrdiff_t>(available));
-    }
-    if (complete) out.quality[component] = head.quality;
+    visit(head, payload.subspan(at, available), complete);
     at += available;
   }
+  return {};
+}
+
+}  // namespace
+
+Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origin,
+                                  const TrackCounts& counts) {
+  PayloadCount count;
+  const Status status = forEachPacket(payload, origin, counts,
+                                      [&](const PacketHead&, std::span<const uint8_t> bytes, bool) {
+                                        ++count.packets;
+                                        count.bytes += bytes.size();
+                                      });
+  if (!status.ok()) return status;
+  return count;
+}
+
+Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
+                                  const TrackCounts& counts, uint64_t packets) {
+  Demultiplexed out;
+  out.counts = counts;
+  out.heads.reserve(packets);
+  const Status status =
+      forEachPacket(payload, origin, counts,
+                    [&](const PacketHead& head, std::span<const uint8_t> bytes, bool complete) {
+                      const auto component = static_cast<size_t>(head.track());
+                      const bool whole = (head.head & 2) != 0;
+                      out.heads.push_back(head);
+                      if (complete || !whole) {
+                        std::vector<uint8_t>& codeword = out.codewords[component][head.region];
+                        codeword.insert(codeword.end(), bytes.begin(), bytes.end());
+                      }
+                      if (complete) out.quality[component] = head.quality;
+                    });
+  if (!status.ok()) return status;
   return out;
 }
 

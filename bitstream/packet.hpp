@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -68,17 +69,29 @@ struct TrackCount {
 using TrackCounts = std::array<TrackCount, kTracks>;
 
 struct Demultiplexed {
-  /// What is available of each track of each component.
-  std::array<std::vector<std::vector<uint8_t>>, kTracks> codewords;
+  TrackCounts counts;
+  /// What is available of the tracks of each component, by number; of the others nothing is.
+  std::array<std::map<uint32_t, std::vector<uint8_t>>, kTracks> codewords;
   std::array<std::optional<uint8_t>, kTracks> quality;  ///< of the last complete packet of each
   std::vector<PacketHead> heads;                        ///< of every packet begun
 
+  /// Of all tracks, which may be many.
   Codewords codewordsOf(TrackId track) const;
+  /// No byte of any track of the component is available.
+  bool nothingOf(TrackId track) const;
 };
 
-/// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that
-/// no encoder writes. Allocates for as many tracks as `counts` says.
-Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
+/// What a payload holds, for an idea of what it takes to take it apart.
+struct PayloadCount {
+  uint64_t packets = 0, bytes = 0;  ///< begun; of all payloads
+};
+Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origin,
                                   const TrackCounts& counts);
+
+/// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that
+/// no encoder writes. Allocates in proportion to the payload, whatever `counts` says.
+/// packets: how many there are, if that is known.
+Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
+                                  const TrackCounts& counts, uint64_t packets = 0);
 
 }  // namespace tetrakis

@@ -17,6 +17,12 @@ struct Grid {
 
   bool single() const { return columns == 1 && rows == 1; }
 
+  /// The longest side of a region: the first one's, or the last one's with the remainder.
+  static uint32_t longest(uint32_t side, int log2) {
+    const uint64_t before = uint64_t{split(side, log2) - 1} << log2;
+    return before == 0 ? side : std::max(uint32_t{1} << log2, static_cast<uint32_t>(side - before));
+  }
+
  private:
   static uint32_t split(uint32_t side, int log2) {
     const uint64_t half = uint64_t{1} << (log2 - 1);
@@ -40,7 +46,9 @@ std::vector<Grid> gridsOf(uint32_t width, uint32_t height, int side_log2) {
 std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2) {
   const std::vector<Grid> grids = gridsOf(width, height, side_log2);
   auto level = static_cast<int>(grids.size()) * kRegionLevels;
-  std::vector<Region> regions = {{level + 1, Region::kAll, 0, 0, width, height}};
+  std::vector<Region> regions;
+  regions.reserve(regionCount(width, height, side_log2));
+  regions.push_back({level + 1, Region::kAll, 0, 0, width, height});
   for (auto grid = grids.rbegin(); grid != grids.rend(); ++grid) {
     for (uint32_t y = 0; y < grid->rows; ++y) {
       for (uint32_t x = 0; x < grid->columns; ++x) {
@@ -52,6 +60,19 @@ std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2) {
     }
     level -= kRegionLevels;
   }
+  return regions;
+}
+
+std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2) {
+  const std::vector<Grid> grids = gridsOf(width, height, side_log2);
+  std::vector<Region> regions;
+  int level = 0;
+  for (const Grid& grid : grids) {
+    regions.push_back({level + 1, level + kRegionLevels, 0, 0, Grid::longest(width, grid.side_log2),
+                       Grid::longest(height, grid.side_log2)});
+    level += kRegionLevels;
+  }
+  regions.push_back({level + 1, Region::kAll, 0, 0, width, height});
   return regions;
 }
 

@@ -33,7 +33,10 @@ struct Region {
 /// coarsest levels to the finest, row by row. side_log2 0: the base alone, with everything.
 std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2);
 
-/// How many those are.
+/// For each group of levels a region that no other of the group is larger than, in rows or columns.
+std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2);
+
+/// How many regionsOf() are.
 uint64_t regionCount(uint32_t width, uint32_t height, int side_log2);
 
 }  // namespace tetrakis

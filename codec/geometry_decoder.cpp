@@ -122,6 +122,7 @@ DecodedGeometry decodeGeometryWindow(const GeometryHeader& header, const Codewor
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
   WindowSynthesis synthesis(spec, layout.subbands(), header.width, header.height, window);
+  synthesis.allocate();
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
   DecodedGeometry out;
   out.fraction_bits = tracks.run(

@@ -6,6 +6,7 @@
 
 #include "bitstream/range_encoder.hpp"
 #include "conformance/crafted_streams.hpp"
+#include "lattice/levels.hpp"
 #include "texture_wavelet/drawn_pass.hpp"
 
 namespace tetrakis::conformance {
@@ -161,7 +162,7 @@ Bytes drawnStream(uint32_t width, uint32_t height, uint32_t fresh) {
   std::vector<ColourIndex> indices(size_t{width} * height, kNoColour);
   DrawnColours colours;
   ColourIo io(fresh);
-  DrawnPass<ColourIo>(format, indices, colours, io).run();
+  DrawnPass<ColourIo>(format, indices, colours, io).run(levelsOf(width, height));
   return streamOf(textureHeader(width, height, 1, TKS_U8, kDrawnPlanes), io.finish());
 }
 

@@ -269,6 +269,20 @@ std::vector<VectorCase> jointCases() {
   };
 }
 
+/// Noise, which takes fewer bytes stored than coded.
+std::vector<VectorCase> storedCases() {
+  VectorCase thirds = heightsCase("stored_f32_20x21", "floats that are stored, beside voids",
+                                  {Pattern::kExtreme, 20, 21, 1, TKS_F32}, lossless());
+  thirds.thirds = true;
+  return {heightsCase("stored_i16_17x19", "heights that are stored",
+                      {Pattern::kExtreme, 17, 19, 1, TKS_I16}, lossless()),
+          withVoids(thirds, samples::VoidShape::kSpeckle, NAN),
+          textureCase("stored_rgb_15x13", "a texture that is stored",
+                      {Pattern::kExtreme, 15, 13, 3, TKS_U8}, lossless()),
+          textureCase("stored_grey_alpha16_14x15", "samples of two bytes, stored",
+                      {Pattern::kExtreme, 14, 15, 2, TKS_U16}, lossless())};
+}
+
 /// Spatial regions, and several groups of them.
 std::vector<VectorCase> regionCases() {
   VectorCase joint =
@@ -370,6 +384,7 @@ std::vector<VectorCase> vectorCases() {
   std::vector<VectorCase> all = geometryCases();
   for (VectorCase& next : layerCases()) all.push_back(std::move(next));
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
+  for (VectorCase& next : storedCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));

@@ -35,13 +35,14 @@ uint32_t depthOf(uint32_t width, uint32_t height) {
   return depth;
 }
 
-std::vector<Level> levelsOf(uint32_t width, uint32_t height) {
+std::vector<Level> levelsOf(uint32_t width, uint32_t height, int mip) {
   const uint32_t depth = depthOf(width, height);
   std::vector<Level> levels = {makeLevel(LevelKind::kRoots, uint32_t{1} << depth, width, height)};
-  for (uint32_t k = depth; k-- > 0;) {
+  for (uint32_t k = depth; k-- > static_cast<uint32_t>(mip);) {
     levels.push_back(makeLevel(LevelKind::kCentres, uint32_t{1} << k, width, height));
     levels.push_back(makeLevel(LevelKind::kMidpoints, uint32_t{1} << k, width, height));
   }
+  for (Level& level : levels) level.step >>= mip;
   return levels;
 }
 

@@ -43,6 +43,8 @@ struct Level {
 uint32_t depthOf(uint32_t width, uint32_t height);
 
 /// Roots first, then centres and midpoints of every step from coarse to fine: 1 + 2 * depth levels.
-std::vector<Level> levelsOf(uint32_t width, uint32_t height);
+/// mip: only those that have vertices at multiples of 2^mip alone, in units of 2^mip: the levels of
+/// a grid of every 2^mip-th vertex, in the order of the whole grid.
+std::vector<Level> levelsOf(uint32_t width, uint32_t height, int mip = 0);
 
 }  // namespace tetrakis

@@ -265,8 +265,8 @@ TEST(Packets, DemultiplexUndoesMultiplexAtEveryCut) {
     Result<Demultiplexed> out =
         demultiplex(std::span(payload).first(cut), 0, {{{1, false}, {1, false}}});
     ASSERT_TRUE(out.ok());
-    const auto& g = out->codewords[0].front();
-    const auto& t = out->codewords[1].front();
+    const auto& g = out->codewords[0][0];
+    const auto& t = out->codewords[1][0];
     EXPECT_TRUE(std::equal(g.begin(), g.end(), geometry.begin()));
     EXPECT_TRUE(t.empty() || t == texture);  // a whole packet comes whole or not at all
   }

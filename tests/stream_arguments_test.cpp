@@ -164,7 +164,7 @@ TEST_F(Arguments, LimitsRefuseAtTheDoor) {
   EXPECT_EQ(openWith(&tks_limits::max_texels, 69), TKS_LIMIT);
   EXPECT_EQ(openWith(&tks_limits::max_texels, 70), TKS_OK);
   EXPECT_EQ(openWith(&tks_limits::max_memory, 64), TKS_LIMIT);
-  EXPECT_EQ(openWith(&tks_limits::max_memory, 16 << 20), TKS_OK);
+  EXPECT_EQ(openWith(&tks_limits::max_memory, 1 << 16), TKS_OK) << "not for decoding, yet";
 }
 
 size_t peakMemory() {

@@ -32,17 +32,19 @@ Texels formatOf(const TextureHeader& header) {
 
 }  // namespace
 
+/// Every 2^level-th texel is a grid of its own: no vertex needs one of a finer level.
 Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
+  const std::vector<Level> levels = levelsOf(header.width, header.height, level);
   Texels texels = formatOf(header);
-  const size_t count = size_t{header.width} * header.height;
+  texels.width = ((header.width - 1) >> level) + 1;
+  texels.height = ((header.height - 1) >> level) + 1;
+  const size_t count = size_t{texels.width} * texels.height;
   std::vector<ColourIndex> indices(count, kNoColour);
   DrawnColours colours;
   DecodingIo io(codeword);
-  const uint32_t step = uint32_t{1} << level;
-  DrawnPass<DecodingIo>(texels, indices, colours, io).run(step);
+  DrawnPass<DecodingIo>(texels, indices, colours, io).run(levels);
   texels.samples.resize(count * header.channels);
-  fillDrawn(indices, colours, step, texels);
-  thin(step, texels);
+  fillDrawn(levels, indices, colours, texels);
   return texels;
 }
 
@@ -52,7 +54,8 @@ DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t>
   overlay.indices.assign(size_t{header.width} * header.height, kNoColour);
   overlay.colours.add(greyOf(format));
   DecodingIo io(codeword);
-  DrawnPass<DecodingIo>(format, overlay.indices, overlay.colours, io).run();
+  DrawnPass<DecodingIo>(format, overlay.indices, overlay.colours, io)
+      .run(levelsOf(header.width, header.height));
   std::replace(overlay.indices.begin(), overlay.indices.end(), kNoColour, kSeeThrough);
   return overlay;
 }

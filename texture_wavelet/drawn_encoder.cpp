@@ -121,7 +121,7 @@ class EncodingIo {
     const Texels& texels = *measured_;
     Texels decoded{texels.width, texels.height, texels.channels, texels.bits, {}};
     decoded.samples.resize(texels.samples.size());
-    fillDrawn(indices_, colours_, 1, decoded);
+    fillDrawn(levelsOf(decoded.width, decoded.height), indices_, colours_, decoded);
     const double squares = countedSquares(texels, decoded, {});
     next_ = std::max(kLeastStep, static_cast<uint64_t>(growth() * static_cast<double>(bytes)));
     if (squares == 0) next_ = UINT64_MAX;  // nothing is left to be found
@@ -155,7 +155,7 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels) {
   std::vector<ColourIndex> indices(image->numbers.size(), kNoColour);
   DrawnColours colours;
   EncodingIo io(*image, indices, colours, &texels);
-  DrawnPass<EncodingIo>(texels, indices, colours, io).run();
+  DrawnPass<EncodingIo>(texels, indices, colours, io).run(levelsOf(texels.width, texels.height));
   EncodedTexture encoded;
   encoded.header.width = texels.width;
   encoded.header.height = texels.height;
@@ -173,7 +173,7 @@ std::vector<uint8_t> encodeOverlay(const Texels& texels, std::span<const uint8_t
   DrawnColours colours;
   colours.add(greyOf(texels));
   EncodingIo io(*image, indices, colours, nullptr);
-  DrawnPass<EncodingIo>(texels, indices, colours, io).run();
+  DrawnPass<EncodingIo>(texels, indices, colours, io).run(levelsOf(texels.width, texels.height));
   return io.finish();
 }
 

@@ -70,11 +70,10 @@ class Filling {
 };
 
 template <size_t kChannels>
-void fillLevels(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
-                Texels& texels) {
+void fillLevels(std::span<const Level> levels, std::span<const ColourIndex> indices,
+                const DrawnColours& colours, Texels& texels) {
   Filling<kChannels> filling(indices, colours, texels);
-  for (const Level& level : levelsOf(texels.width, texels.height))
-    if (level.step >= finest) filling.fill(level);
+  for (const Level& level : levels) filling.fill(level);
 }
 
 }  // namespace
@@ -84,17 +83,17 @@ DrawnColour greyOf(const Texels& format) {
   return {half, half, half, half};
 }
 
-void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
-               Texels& texels) {
+void fillDrawn(std::span<const Level> levels, std::span<const ColourIndex> indices,
+               const DrawnColours& colours, Texels& texels) {
   switch (texels.channels) {
     case 1:
-      return fillLevels<1>(indices, colours, finest, texels);
+      return fillLevels<1>(levels, indices, colours, texels);
     case 2:
-      return fillLevels<2>(indices, colours, finest, texels);
+      return fillLevels<2>(levels, indices, colours, texels);
     case 3:
-      return fillLevels<3>(indices, colours, finest, texels);
+      return fillLevels<3>(levels, indices, colours, texels);
     default:
-      return fillLevels<4>(indices, colours, finest, texels);
+      return fillLevels<4>(levels, indices, colours, texels);
   }
 }
 

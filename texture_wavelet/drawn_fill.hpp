@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "lattice/levels.hpp"
 #include "texture_wavelet/drawn_colours.hpp"
 #include "texture_wavelet/texels.hpp"
 
@@ -12,10 +13,10 @@ namespace tetrakis {
 /// The middle of the range in every channel.
 DrawnColour greyOf(const Texels& format);
 
-/// Writes the samples of all texels of levels whose step is at least `finest`; the format of texels
-/// and the size of its samples are set. indices: width * height, row by row. A texel without one is
-/// the mean of the coarser vertices next to it; a root, grey.
-void fillDrawn(std::span<const ColourIndex> indices, const DrawnColours& colours, uint32_t finest,
-               Texels& texels);
+/// Writes the samples of all texels; the format of texels and the size of its samples are set.
+/// levels: those of the grid, coarse to fine. indices: width * height, row by row. A texel without
+/// one is the mean of the coarser vertices next to it; a root, grey.
+void fillDrawn(std::span<const Level> levels, std::span<const ColourIndex> indices,
+               const DrawnColours& colours, Texels& texels);
 
 }  // namespace tetrakis

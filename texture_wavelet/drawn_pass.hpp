@@ -38,10 +38,9 @@ class DrawnPass {
   DrawnPass(const Texels& format, std::span<ColourIndex> indices, DrawnColours& colours, Io& io)
       : format_(format), indices_(indices), colours_(colours), io_(io) {}
 
-  /// The levels whose step is at least `finest`. Ends early at a decision that does not count.
-  void run(uint32_t finest = 1) {
-    for (const Level& level : levelsOf(format_.width, format_.height)) {
-      if (level.step < finest) return;
+  /// levels: of the grid, coarse to fine. Ends early at a decision that does not count.
+  void run(std::span<const Level> levels) {
+    for (const Level& level : levels) {
       const Neighbourhood neighbourhood(level, indices_, format_.width, format_.height);
       const ModelChain unanimous = models_.candidate(Candidates::unanimous(), 0, level.kind);
       for (uint32_t row = 0; row < level.rows; ++row) {

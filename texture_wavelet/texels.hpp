@@ -18,7 +18,4 @@ struct Texels {
   uint16_t most() const { return static_cast<uint16_t>((1u << bits) - 1); }
 };
 
-/// Leaves the texels at multiples of the step, in x and y.
-void thin(uint32_t step, Texels& texels);
-
 }  // namespace tetrakis

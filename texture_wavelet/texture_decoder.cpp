@@ -62,15 +62,15 @@ std::vector<BandPlan> planOf(const TexturePlan& plan, std::span<const BandPart> 
 /// The planes of a level, in the low band's arrays.
 class Planes {
  public:
-  Planes(const TextureHeader& header, const MipLevel& mip)
+  /// filled: one track will fill the planes; else some or all of their coefficients stay 0.
+  Planes(const TextureHeader& header, const MipLevel& mip, bool filled)
       : header_(header),
         mip_(mip),
         count_(size_t{mip.low().width} * mip.low().height),
         subbands_(subbandsOf(mip.low().width, mip.low().height)),
         planes_(header.components()) {
     for (auto& plane : planes_) {
-      // One track fills the plane; of several some may be missing.
-      plane.reset(header.regions.side_log2 == 0 ? new int32_t[count_] : new int32_t[count_]());
+      plane.reset(filled ? new int32_t[count_] : new int32_t[count_]());
       pointers_.push_back(plane.get());
     }
   }
@@ -148,9 +148,9 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, in
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   const TexturePlan plan(header);
   const MipLevel mip(header.width, header.height, level);
-  Planes planes(header, mip);
-  const Validity coded = opening->coded;
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
+  Planes planes(header, mip, header.regions.side_log2 == 0 && !tracks.nothingKnown(coefficients));
+  const Validity coded = opening->coded;
   const int fraction_bits = tracks.run(
       coefficients, [&](size_t i) { return planOf(plan, plan.parts(i), coded, header.width, mip); },
       [&](size_t i, const TrackState& state, int more_bits) {
@@ -180,6 +180,7 @@ Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewor
   std::vector<WindowSynthesis> synthesis(
       header.components(), WindowSynthesis(specOf(header.wavelet), plan.layout().subbands(),
                                            header.width, header.height, window));
+  for (WindowSynthesis& component : synthesis) component.allocate();
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
   const int fraction_bits = tracks.run(
       coefficients,

@@ -24,7 +24,8 @@ namespace tetrakis::tools {
 /// What the parser found out: the work to do, and the options that all verbs share.
 struct CommandLine {
   std::function<Status()> action;
-  bool quiet = false;  ///< -q: no progress bar, no notes
+  bool quiet = false;       ///< -q: no progress bar, no notes
+  uint64_t max_memory = 0;  ///< --max-memory; 0: the default (memory_limit.hpp)
 };
 
 void addEncode(CLI::App& app, CommandLine& line);
@@ -64,10 +65,10 @@ inline CLI::Validator finite() {
       "");
 }
 
-/// --bytes SIZE with the suffixes k, M, G.
+/// An option that takes a SIZE with the suffixes k, M, G.
 template <class T>
-CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
-  return app.add_option("--bytes", bytes, help)
+CLI::Option* addSize(CLI::App& app, const std::string& name, T& bytes, const std::string& help) {
+  return app.add_option(name, bytes, help)
       ->transform(CLI::Validator(
           [](std::string& text) {
             const Result<uint64_t> size = parseSize(text);
@@ -76,6 +77,12 @@ CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
           },
           ""))
       ->type_name("SIZE");
+}
+
+/// --bytes SIZE.
+template <class T>
+CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
+  return addSize(app, "--bytes", bytes, help);
 }
 
 /// --cameras FILE.json or --view NAME.

@@ -63,19 +63,32 @@ class Decoding {
   Decoding(const DecodeArguments& arguments, OpenStream& stream, bool quiet)
       : arguments_(arguments), stream_(stream), decoder_(stream.decoder), quiet_(quiet) {}
 
-  /// Begins the texture beside the heights where there are threads for both.
+  /// That each of the outputs can be had, before there is any work.
+  Status checkMemory() {
+    const tks_info& info = decoder_.info();
+    Status status;
+    if (!arguments_.height.empty() && info.has_heights)
+      status = check(TKS_PART_HEIGHTS, window(), heightCopies());
+    if (status.ok() && wantsTexture() && info.has_texture)
+      status = check(TKS_PART_TEXTURE, textureWindow(), textureCopies());
+    if (status.ok() && !arguments_.mesh.empty() && info.has_heights)
+      status = check(meshPart(), std::nullopt, meshCopies());
+    return status;
+  }
+
+  /// Begins the texture beside the heights where there are threads and memory for both.
   void start() {
-    const bool wants_texture = !arguments_.texture.empty() || !arguments_.mesh.empty();
     const bool wants_heights = !arguments_.height.empty() || !arguments_.mesh.empty();
     const tks_info& info = decoder_.info();
-    if (arguments_.threads < 2 || !wants_texture || !wants_heights || !info.has_texture) return;
+    if (arguments_.threads < 2 || !wantsTexture() || !wants_heights || !info.has_texture) return;
+    if (!fitsBesideHeights()) return;
     beside_ = std::async(std::launch::async, [this]() -> Result<ImageFile> {
       Expected<Decoder> decoder = openDecoder(octets(stream_.bytes));
       if (!decoder) return toStatus(decoder.error());
       decoder->setThreads(arguments_.threads);
       if (const Expected<void> set = decoder->setLevels(0, arguments_.level); !set)
         return toStatus(set.error());
-      return decodeImage(*decoder, textureWindow());
+      return decodeImage(*decoder, textureWindow(), textureCopies());
     });
   }
 
@@ -90,7 +103,8 @@ class Decoding {
   }
 
   Status writeHeightField() {
-    const Result<HeightFile> heights = decodeHeights(decoder_, window());
+    const Result<HeightFile> heights =
+        decodeHeights(decoder_, window(), heightCopies() + beside_bytes_);
     if (!heights.ok()) return heights.status();
     return height_->stage([&](const std::string& path) { return writeHeights(path, *heights); });
   }
@@ -135,9 +149,61 @@ class Decoding {
     return Status();
   }
 
+  bool wantsTexture() const { return !arguments_.texture.empty() || !arguments_.mesh.empty(); }
+
+  tks_part meshPart() const {
+    return arguments_.coded_mesh ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
+  }
+
+  /// Bytes beside what decoding itself takes: the stream, what comes out, and what writing makes of
+  /// that, at most.
+  uint64_t heightCopies() const {
+    return stream_.bytes.size() + 2 * heightsBytes(decoder_.info(), window());
+  }
+  uint64_t textureCopies() const {
+    const uint64_t in_mesh = arguments_.mesh.empty() ? 0 : 1;
+    return stream_.bytes.size() + (3 + in_mesh) * imageBytes(decoder_.info(), textureWindow());
+  }
+  uint64_t meshCopies() const {
+    constexpr uint64_t kTriangle = 64;  // in space with half a vertex, and in the file's order
+    constexpr uint64_t kSample = 16;    // of the surface that a camera is placed over
+    const tks_info& info = decoder_.info();
+    const uint64_t samples = uint64_t{info.width} * info.height;
+    const bool all = arguments_.coded_mesh || arguments_.triangles == 0;
+    const uint64_t triangles =
+        all ? 2 * samples : std::min<uint64_t>(arguments_.triangles, 2 * samples);
+    return stream_.bytes.size() + kTriangle * triangles +
+           (arguments_.camera.isDefault() ? 0 : kSample * samples) +
+           (info.has_texture ? 3 * imageBytes(info) : 0);
+  }
+
+  Status check(tks_part part, const std::optional<tks_window>& window, uint64_t copies) {
+    const Expected<uint64_t> fits =
+        decoder_.checkMemory(part, window ? &*window : nullptr, arguments_.triangles, copies);
+    return fits ? Status() : toStatus(fits.error());
+  }
+
+  /// Then beside_bytes_ is what the texture takes meanwhile.
+  bool fitsBesideHeights() {
+    const std::optional<tks_window> texels = textureWindow();
+    const Expected<uint64_t> texture =
+        decoder_.checkMemory(TKS_PART_TEXTURE, texels ? &*texels : nullptr);
+    if (!texture) return false;
+    // Its decoder takes the packets apart once more.
+    const uint64_t bytes = *texture + textureCopies() + 4 * stream_.bytes.size();
+    const bool fits =
+        (arguments_.height.empty() ||
+         check(TKS_PART_HEIGHTS, window(), heightCopies() + bytes).ok()) &&
+        (arguments_.mesh.empty() || check(meshPart(), std::nullopt, meshCopies() + bytes).ok());
+    if (fits) beside_bytes_ = bytes;
+    return fits;
+  }
+
   /// Decoded once, where there are threads beside the heights.
   const Result<ImageFile>& decodedImage() {
-    if (!image_) image_ = beside_.valid() ? beside_.get() : decodeImage(decoder_, textureWindow());
+    if (!image_)
+      image_ =
+          beside_.valid() ? beside_.get() : decodeImage(decoder_, textureWindow(), textureCopies());
     return *image_;
   }
 
@@ -153,6 +219,8 @@ class Decoding {
   }
 
   Result<Mesh> chosenMesh() {
+    if (Status status = check(meshPart(), std::nullopt, meshCopies() + beside_bytes_); !status.ok())
+      return status;
     const bool coded = arguments_.coded_mesh;
     if (!arguments_.camera.isDefault())
       return viewedMesh(decoder_, coded, arguments_.triangles, arguments_.camera);
@@ -168,6 +236,7 @@ class Decoding {
   std::optional<Output> height_, texture_, mesh_;
   std::optional<Result<ImageFile>> image_;
   std::future<Result<ImageFile>> beside_;
+  uint64_t beside_bytes_ = 0;
 };
 
 /// In samples of the heights, if there are any.
@@ -196,6 +265,7 @@ Status decode(const DecodeArguments& arguments, bool quiet) {
   if (!set) return toStatus(set.error());
   Decoding decoding(arguments, *stream, quiet);
   if (Status status = decoding.plan(); !status.ok()) return status;
+  if (Status status = decoding.checkMemory(); !status.ok()) return status;
   decoding.start();
   if (!arguments.height.empty())
     if (Status status = decoding.writeHeightField(); !status.ok()) return status;

@@ -11,6 +11,7 @@
 
 #include "tools/encode_arguments.hpp"
 #include "tools/file_bytes.hpp"
+#include "tools/memory_limit.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/report.hpp"
@@ -169,6 +170,19 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   return std::move(*stream);
 }
 
+/// What encoding takes at most beside the samples, of each (tests/encode_memory_test.cpp), and
+/// those.
+Status checkMemory(const Reference& inputs) {
+  constexpr uint64_t kHeight = 28, kTexelChannel = 18;
+  uint64_t bytes = 0;
+  if (inputs.heights)
+    bytes += kHeight * inputs.heights->width * inputs.heights->height + inputs.heights->data.size();
+  if (inputs.image)
+    bytes += kTexelChannel * inputs.image->width * inputs.image->height * inputs.image->channels +
+             inputs.image->data.size();
+  return checkMemoryFor("encoding so many samples", bytes);
+}
+
 /// One line about what was written.
 Result<std::string> summary(const std::string& name, std::span<const uint8_t> stream) {
   const Expected<Decoder> decoder = openDecoder(stream);
@@ -219,6 +233,7 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (!outputs.ok()) return outputs.status();
   const Result<Reference> inputs = readInputs(arguments, quiet);
   if (!inputs.ok()) return inputs.status();
+  if (Status status = checkMemory(*inputs); !status.ok()) return status;
   const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet);
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/command.hpp"
+#include "tools/memory_limit.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -37,6 +38,8 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   app.footer(kExitCodes);
   app.fallthrough();
   app.add_flag("-q,--quiet", line.quiet, "No progress bar, no notes (any verb)");
+  addSize(app, "--max-memory", line.max_memory,
+          "Most memory to take (any verb; default: 3/4 of what there is)");
   addEncode(app, line);
   addDecode(app, line);
   addTruncate(app, line);
@@ -91,6 +94,7 @@ int runCommandLine(int argc, const char* const* argv) {
       return report(Status(TKS_USAGE, "there is no command '" + first + "'; --help lists them"));
     return report(Status(TKS_USAGE, std::string(error.what()) + "; --help shows the usage"));
   }
+  setMemoryLimit(line.max_memory);
   return report(run(line));
 }
 

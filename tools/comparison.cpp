@@ -135,8 +135,11 @@ Status Comparer::look(const CameraChoice& choice) {
 
 Result<MeshFile> Comparer::measureHeights(Decoder& decoder, uint32_t triangles,
                                           Measurement& result) const {
+  // Of a sample: two surfaces of doubles, a grid of triangles, the reference.
+  constexpr uint64_t kSample = 72;
+  const uint64_t copies = kSample * decoder.info().width * decoder.info().height;
   if (triangles == 0) {
-    const Result<HeightFile> heights = decodeHeights(decoder);
+    const Result<HeightFile> heights = decodeHeights(decoder, {}, copies);
     if (!heights.ok()) return heights.status();
     const Surface surface = heightsOf(*heights);
     result.heights = heightErrors(surface_, surface);
@@ -144,6 +147,9 @@ Result<MeshFile> Comparer::measureHeights(Decoder& decoder, uint32_t triangles,
     result.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3);
     return mesh;
   }
+  const Expected<uint64_t> fits =
+      decoder.checkMemory(TKS_PART_BUDGET_MESH, nullptr, triangles, copies);
+  if (!fits) return toStatus(fits.error());
   const Expected<Mesh> mesh = decoder.budgetMesh(triangles);
   if (!mesh) return toStatus(mesh.error());
   result.triangles = mesh->triangleCount();
@@ -179,7 +185,9 @@ Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t 
   }
   std::optional<ImageFile> texture;
   if (reference_->image) {
-    Result<ImageFile> decoded = decodeImage(*decoder);
+    // Both as doubles, and the reference.
+    const uint64_t copies = imageBytes(decoder->info()) * (1 + 2 * sizeof(double));
+    Result<ImageFile> decoded = decodeImage(*decoder, {}, copies);
     if (!decoded.ok()) return decoded.status();
     texture = std::move(*decoded);
     result.texture_psnr =

@@ -13,10 +13,12 @@
 
 namespace tetrakis::tools {
 
-/// Of one file or stream: 32768 x 32768 RGBA. More is refused before anything is allocated, as a
-/// few bytes can declare any size.
+/// Of one file or stream: 32768 x 32768 RGBA.
 inline constexpr uint64_t kMaxSamples = uint64_t{1} << 32;
-Status tooLarge(const std::string& name);
+
+/// TKS_LIMIT for more, and for those that take more memory than there is to read
+/// (memory_limit.hpp): before anything is allocated, as a few bytes can declare any size.
+Status checkSize(const std::string& name, uint64_t samples, size_t sample_bytes);
 
 /// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host
 /// byte order. Height in `unit` = sample * scale + offset.

@@ -58,7 +58,10 @@ std::optional<RawName> parseRawName(const std::string& text) {
 }
 
 Result<HeightFile> readRaw(const RawName& name) {
-  if (uint64_t{name.width} * name.height > kMaxSamples) return tooLarge(quoted(name.path));
+  if (Status status = checkSize(quoted(name.path), uint64_t{name.width} * name.height,
+                                tks_sample_bytes(name.sample));
+      !status.ok())
+    return status;
   auto bytes = readBytes(name.path);
   if (!bytes.ok()) return bytes.status();
   const uint64_t wanted = uint64_t{name.width} * name.height * tks_sample_bytes(name.sample);

@@ -82,8 +82,9 @@ Result<DecodedPng> decodePng(std::span<const std::byte> bytes, const std::string
   png.stored_bits = header.bit_depth;
   png.palette = header.color_type == SPNG_COLOR_TYPE_INDEXED;
   const uint64_t samples = uint64_t{header.width} * header.height * layout.channels;
-  if (samples > kMaxSamples) return tooLarge(name);
-  png.image.data.resize(samples * tks_sample_bytes(png.image.sample));
+  const size_t sample_bytes = tks_sample_bytes(png.image.sample);
+  if (Status status = checkSize(name, samples, sample_bytes); !status.ok()) return status;
+  png.image.data.resize(samples * sample_bytes);
   error = spng_decode_image(context.get(), png.image.data.data(), png.image.data.size(),
                             layout.format, SPNG_DECODE_TRNS);
   if (error) return unreadable(name, error);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures through OpenImageIO.
 #include "tools/raster.hpp"
+#include "tools/memory_limit.hpp"
 
 #include <OpenImageIO/filesystem.h>
 
@@ -65,10 +66,9 @@ Result<Raster> openUnguarded(const std::string& path) {
   if (raster.spec.depth > 1 || raster.spec.width < 1 || raster.spec.height < 1) {
     return Status(TKS_USAGE, raster.name + " is not a flat picture");
   }
-  if (raster.spec.image_pixels() * raster.spec.nchannels > kMaxSamples) {
-    return tooLarge(raster.name);
-  }
-  const Status status = noteStoredForm(raster);
+  Status status = checkSize(raster.name, raster.spec.image_pixels() * raster.spec.nchannels,
+                            raster.spec.format.size());
+  if (status.ok()) status = noteStoredForm(raster);
   if (!status.ok()) return status;
   return raster;
 }
@@ -96,8 +96,10 @@ std::string firstLine(std::string message) {
   return message.empty() ? "it ends early or is damaged" : message;
 }
 
-Status tooLarge(const std::string& name) {
-  return {TKS_LIMIT, name + " has more than 2^32 samples"};
+Status checkSize(const std::string& name, uint64_t samples, size_t sample_bytes) {
+  constexpr uint64_t kCopies = 2;  // as read, and in the order that is wanted
+  if (samples > kMaxSamples) return {TKS_LIMIT, name + " has more than 2^32 samples"};
+  return checkMemoryFor("reading " + name, kCopies * samples * sample_bytes);
 }
 
 Result<Raster> openRaster(const std::string& path) {

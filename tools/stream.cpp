@@ -2,10 +2,10 @@
 // Streams (.tks) as the verbs read them, and what they decode to as files hold it.
 #include "tools/stream.hpp"
 
-#include <limits>
 #include <utility>
 
 #include "tools/file_bytes.hpp"
+#include "tools/memory_limit.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -30,7 +30,7 @@ std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
 Expected<Decoder> openDecoder(std::span<const uint8_t> bytes) {
   tks_limits limits = makeLimits();
   limits.max_samples = limits.max_texels = kMaxSamples;
-  limits.max_memory = std::numeric_limits<uint64_t>::max();
+  limits.max_memory = memoryLimit();
   return Decoder::open(bytes, limits);
 }
 
@@ -45,9 +45,25 @@ Result<OpenStream> openStream(const StreamSource& source) {
   return OpenStream{std::move(*bytes), std::move(*decoder)};
 }
 
-Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_window>& window) {
+uint64_t heightsBytes(const tks_info& info, const std::optional<tks_window>& window) {
+  const uint64_t samples =
+      window ? uint64_t{window->width} * window->height : uint64_t{info.width} * info.height;
+  return samples * tks_sample_bytes(info.sample);
+}
+
+uint64_t imageBytes(const tks_info& info, const std::optional<tks_window>& window) {
+  const uint64_t texels = window ? uint64_t{window->width} * window->height
+                                 : uint64_t{info.texture_width} * info.texture_height;
+  return texels * info.texture_channels * tks_sample_bytes(info.texture_sample);
+}
+
+Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_window>& window,
+                                 uint64_t copies) {
   const tks_info& info = decoder.info();
   if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
+  const Expected<uint64_t> fits = decoder.checkMemory(TKS_PART_HEIGHTS, window ? &*window : nullptr,
+                                                      0, heightsBytes(info, window) + copies);
+  if (!fits) return toStatus(fits.error());
   Expected<std::vector<std::byte>> samples = window ? decoder.heights(*window) : decoder.heights();
   if (!samples) return toStatus(samples.error());
   HeightFile file;
@@ -70,9 +86,13 @@ Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_windo
   return file;
 }
 
-Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>& window) {
+Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>& window,
+                              uint64_t copies) {
   const tks_info& info = decoder.info();
   if (!info.has_texture) return Status(TKS_USAGE, "the stream has no texture");
+  const Expected<uint64_t> fits = decoder.checkMemory(TKS_PART_TEXTURE, window ? &*window : nullptr,
+                                                      0, imageBytes(info, window) + copies);
+  if (!fits) return toStatus(fits.error());
   Expected<std::vector<std::byte>> texels = window ? decoder.texture(*window) : decoder.texture();
   if (!texels) return toStatus(texels.error());
   ImageFile file;

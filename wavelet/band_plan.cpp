@@ -35,10 +35,10 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
 PlaneLayout::PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height)
     : subbands_(subbandsOf(width, height)), norms_(spec, subbands_.front().level) {}
 
-std::vector<BandPart> PlaneLayout::parts(const Region& region) const {
+std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region) {
   std::vector<BandPart> parts;
-  for (size_t i = 0; i < subbands_.size(); ++i) {
-    const Subband& subband = subbands_[i];
+  for (size_t i = 0; i < subbands.size(); ++i) {
+    const Subband& subband = subbands[i];
     if (!(subband.orientation == Orientation::kLL ? region.isBase() : region.holds(subband.level)))
       continue;
     // Sides of regions are multiples of 2^splits, so that low and high bands are cut alike.

@@ -24,13 +24,15 @@ struct BandPart {
   BandShape shape() const { return {rows, columns}; }
 };
 
+/// What a region holds of each of the subbands, in coding order.
+std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region);
+
 /// The subbands of planes of one size under one transform.
 class PlaneLayout {
  public:
   PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height);
 
-  /// What a region holds, in coding order.
-  std::vector<BandPart> parts(const Region& region) const;
+  std::vector<BandPart> parts(const Region& region) const { return partsOf(subbands_, region); }
 
   /// One entry for each part of a region. The indices of parents and siblings count from `first`,
   /// the place that the first entry will have in the plan of the track.

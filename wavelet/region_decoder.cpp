@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wavelet/region_decoder.hpp"
 
+#include <algorithm>
+
 #include "bitstream/parallel.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -18,8 +20,31 @@ bool isWhole(const RegionHeader& regions, const Codewords& codewords) {
 
 }  // namespace
 
+uint64_t TrackNeeds::bytes() const {
+  constexpr uint64_t kOnce = 64 << 10;  // plans and models
+  const std::vector<Subband> subbands = subbandsOf(width, height);
+  uint64_t largest = 0;
+  for (const Region& region : largestRegions(width, height, side_log2)) {
+    uint64_t sum = kOnce;
+    for (const BandPart& part : partsOf(subbands, region)) {
+      if (known) sum += components * Band::bytesOf(part.shape(), masked);
+      if (masked) sum += components * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest * std::clamp<uint64_t>(threads, 1, regionCount(width, height, side_log2));
+}
+
+bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
+  return regions.side_log2 == 0 && (planes == 0 || codewords.front().empty());
+}
+
 int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take,
                        TrackMemory* memory) const {
+  if (nothingKnown(codewords)) {
+    const bool complete = !PassQueue(plan_of(0), planes).needed();
+    return outputFractionBits(wavelet, planes, complete);
+  }
   if (regions.side_log2 == 0) {
     const auto taken = [&](const TrackState& state) {
       const int bits = outputFractionBits(wavelet, planes, state.complete);
@@ -27,14 +52,13 @@ int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const 
       return bits;
     };
     // The plan is known when its masks are, which come first.
-    if (memory == nullptr || codewords.front().empty())
-      return taken(decodeTrack(plan_of(0), planes, codewords.front()));
+    if (memory == nullptr) return taken(decodeTrack(plan_of(0), planes, codewords.front()));
     if (!*memory) memory->emplace(plan_of(0), planes);
     return taken((*memory)->decode(codewords.front()));
   }
   const int bits = outputFractionBits(wavelet, planes, isWhole(regions, codewords));
   parallelFor(threads, codewords.size(), [&](size_t i) {
-    if (codewords[i].empty()) return;
+    if (codewords[i].empty() || planes == 0) return;
     const std::vector<BandPlan> plan = plan_of(i);
     if (plan.empty()) return;
     take(i, decodeTrack(plan, planes, codewords[i]), bits - wavelet.fraction_bits);

@@ -45,14 +45,36 @@ WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, std::span<const Subban
     Level level{axisOf(ll_x_, whole.width, static_cast<int>(l), splits_x),
                 axisOf(ll_y_, whole.height, static_cast<int>(l), splits_y),
                 {}};
-    level.values.resize(size_t{level.x.block.size()} * level.y.block.size());
     ll_x_ = level.x.low;
     ll_y_ = level.y.low;
     splits_x += level.x.split();
     splits_y += level.y.split();
     levels_.push_back(std::move(level));
   }
+}
+
+void WindowSynthesis::allocate() {
+  for (Level& level : levels_) level.values.resize(level.samples());
   ll_.resize(size_t{ll_x_.size()} * ll_y_.size());
+}
+
+uint64_t WindowSynthesis::samples() const {
+  uint64_t sum = uint64_t{ll_x_.size()} * ll_y_.size();
+  for (const Level& level : levels_) sum += level.samples();
+  return sum;
+}
+
+uint64_t WindowSynthesis::largestBlock() const {
+  uint64_t largest = 0;
+  for (const Level& level : levels_) largest = std::max<uint64_t>(largest, level.samples());
+  return largest;
+}
+
+uint64_t WindowSynthesis::largestPart() const {
+  uint64_t largest = uint64_t{window_.width} * window_.height;
+  for (const Level& level : levels_)
+    largest = std::max(largest, uint64_t{level.x.low.size()} * level.y.low.size());
+  return largest;
 }
 
 WindowSynthesis::Target WindowSynthesis::targetOf(const Subband& subband) {

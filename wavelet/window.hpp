@@ -37,6 +37,15 @@ class WindowSynthesis {
   WindowSynthesis(const WaveletSpec& spec, std::span<const Subband> subbands, uint32_t width,
                   uint32_t height, const Window& window);
 
+  /// Before anything is put.
+  void allocate();
+  /// Coefficients that allocate() makes room for.
+  uint64_t samples() const;
+  /// Of the largest block that a level works on, and of the largest part that run() takes out of
+  /// one for the next level, or for the window.
+  uint64_t largestBlock() const;
+  uint64_t largestPart() const;
+
   /// Whether the samples depend on any coefficient of the part.
   bool needs(const BandPart& part) const;
 
@@ -70,6 +79,8 @@ class WindowSynthesis {
   struct Level {
     Axis x, y;
     std::vector<int32_t> values;  ///< of the block: low columns before high ones, rows in place
+
+    size_t samples() const { return size_t{x.block.size()} * y.block.size(); }
   };
   /// The coefficients of a subband that are needed, and where they go.
   struct Target {

@@ -204,6 +204,50 @@ std::vector<uint8_t> bytesOf(const GeometryHeader& header, const std::vector<uin
   return bytes;
 }
 
+/// FORMAT 8.2: of the samples at the places of a level.
+std::vector<uint32_t> storedSamples(const GeometryHeader& header, std::span<const uint8_t> bytes,
+                                    const std::vector<uint8_t>& valid, int level) {
+  constexpr int kBytes[] = {1, 1, 2, 2, 4, 4, 4};
+  const int width = kBytes[header.sample], step = 1 << level;
+  const size_t count = valid.empty() ? static_cast<size_t>(header.width) * header.height
+                                     : std::count(valid.begin(), valid.end(), 1);
+  std::vector<uint32_t> samples;
+  size_t number = 0;
+  for (int y = 0; y < header.height; ++y) {
+    for (int x = 0; x < header.width; ++x) {
+      const bool exists = valid.empty() || valid[static_cast<size_t>(y) * header.width + x];
+      uint32_t order = 0;
+      bool missing = false;
+      for (int i = 0; i < width; ++i) {
+        const size_t at = i * count + number;
+        const bool there = exists && at < bytes.size();
+        order = order << 8 | (there ? bytes[at] : missing ? 0 : 0x80);
+        missing |= !there;
+      }
+      const bool known = exists && number < bytes.size();
+      if (x % step == 0 && y % step == 0)
+        samples.push_back(known ? orderOf(header, narrow(header, order))
+                                : sampleOf(header, header.base));
+      number += exists;
+    }
+  }
+  return samples;
+}
+
+std::vector<uint8_t> decodeStored(const GeometryHeader& header, const Layers& layers,
+                                  std::span<const uint8_t> bytes, const std::vector<uint8_t>& valid,
+                                  int level) {
+  std::vector<uint32_t> samples = storedSamples(header, bytes, valid, level);
+  Plane plane;
+  const size_t step = size_t{1} << level;
+  for (size_t i = 0; i < valid.size(); ++i) {
+    const size_t x = i % header.width, y = i / header.width;
+    if (x % step == 0 && y % step == 0) plane.valid.push_back(valid[i]);
+  }
+  putVoids(header, layers, plane, samples);
+  return bytesOf(header, samples);
+}
+
 }  // namespace
 
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
@@ -214,6 +258,7 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   if (layers.validityBytes > 0) {
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
+  if (header.planes == kStoredPlanes) return decodeStored(header, layers, codeword, valid, level);
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
   coefficients[0] = take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
   Surface surface = decodeSurface(header, coefficients, std::move(valid), level);

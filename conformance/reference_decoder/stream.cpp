@@ -97,12 +97,12 @@ GeometryHeader readGeometry(Reader& in) {
   g.width = static_cast<int>(in.varint(2, 1 << 20));
   g.height = static_cast<int>(in.varint(2, 1 << 20));
   g.sample = in.u8(kU8, kF32);
-  g.planes = in.u8(0, 30);
+  g.planes = in.u8(0, 31);
   in.u8(0, 1);  // exact
   g.base = in.f64();
   g.step = in.f64();
   const double maxError = in.f64();
-  g.wavelet = readWavelet(in);
+  if (g.planes != kStoredPlanes) g.wavelet = readWavelet(in);
   const bool finite = std::isfinite(g.base) && std::isfinite(g.step) && std::isfinite(maxError);
   if (!finite || g.step <= 0) in.fail(Outcome::kCorrupt);
   return g;
@@ -128,6 +128,8 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   }
   const bool meant = layers.validityBytes > 0 || layers.hasNodata || layers.corrections > 0;
   if (meant && !geometry) in.fail(Outcome::kCorrupt);
+  const bool stored = geometry && geometry->planes == kStoredPlanes;
+  if (stored && layers.corrections > 0) in.fail(Outcome::kCorrupt);
   const bool integer = geometry && geometry->sample != kF32;
   if (integer && layers.validityBytes > 0) {
     const bool held = layers.hasNodata && holds(geometry->sample, layers.nodata);
@@ -149,8 +151,9 @@ TextureHeader readTexture(Reader& in) {
   t.channels = t.components + cutout;
   t.sample = in.u8(kU8, kU16);
   if (t.sample == kI8) in.fail(Outcome::kCorrupt);
-  const int coding = in.u8(0, 62);
+  const int coding = in.u8(0, 63);
   t.planes = coding % 32;
+  t.stored = coding == 63;
   if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
   if (cutout) {
@@ -244,6 +247,9 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (parts & 4) skipMetadata(in);
   if (parts & 16) stream.layers = readLayers(in, stream.geometry);
   if (parts & 32 && stream.geometry) stream.geometry->regions = readRegions(in);
+  if (stream.geometry && stream.geometry->planes == kStoredPlanes &&
+      stream.geometry->regions.log2 > 0)
+    in.fail(Outcome::kCorrupt);
   if (parts & 32 && stream.texture) stream.texture->regions = readRegions(in);
   if (parts & 64 && stream.texture) readWeights(in, *stream.texture);
   if (stream.texture && stream.texture->planes == kDrawnPlanes &&

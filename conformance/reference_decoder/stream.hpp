@@ -45,6 +45,7 @@ struct Layers {
 
 struct TextureHeader {
   int width = 0, height = 0, channels = 0, components = 0, sample = 0, planes = 0;
+  bool stored = false;
   uint64_t alphaBytes = 0;    ///< 0: no cut-out
   uint64_t overlayBytes = 0;  ///< 0: no overlay
   bool hidden = false;
@@ -90,6 +91,6 @@ std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const ui
 std::vector<std::optional<std::array<int, 4>>> decodeOverlay(const TextureHeader& header,
                                                              std::span<const uint8_t> codeword);
 
-inline constexpr int kDrawnPlanes = 31;
+inline constexpr int kDrawnPlanes = 31, kStoredPlanes = 31;
 
 }  // namespace tetrakis::reference

@@ -84,11 +84,34 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
   return channels;
 }
 
+/// FORMAT 9.3.
+std::vector<uint8_t> decodeStored(const TextureHeader& header, std::span<const uint8_t> bytes,
+                                  int level) {
+  const size_t count = static_cast<size_t>(header.width) * header.height * header.channels;
+  const int width = header.sample == kU8 ? 1 : 2, step = 1 << level;
+  std::vector<uint8_t> out;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t texel = i / header.channels;
+    if (texel % header.width % step != 0 || texel / header.width % step != 0) continue;
+    const int high = i < bytes.size() ? bytes[i] : 0x80;
+    const int missing = i < bytes.size() ? 0x80 : 0;
+    if (width == 2) {
+      const int low = i + count < bytes.size() ? bytes[i + count] : missing;
+      out.push_back(static_cast<uint8_t>(low));
+    }
+    out.push_back(static_cast<uint8_t>(high));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
                                    int level) {
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
+  if (header.stored)
+    return decodeStored(header, coefficients[0],
+                        std::min(level, subbandsOf(header.width, header.height).front().level));
   if (header.planes == kDrawnPlanes) return decodeDrawn(header, coefficients[0], level);
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   level = std::min(level, subbands.front().level);

@@ -145,12 +145,16 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size);
 
-/* Refused before anything is allocated. 0 in a field: its default. */
+/* Beyond them is TKS_LIMIT, before anything is allocated. 0 in a field: its default. */
 typedef struct tks_limits {
   size_t size;          /* sizeof(tks_limits) */
-  uint64_t max_samples; /* heights; default 2^28 */
-  uint64_t max_texels;  /* default 2^28 */
-  uint64_t max_memory;  /* bytes a decode may allocate; default 8 GiB */
+  uint64_t max_samples; /* heights, refused by tks_open; default 2^28 */
+  uint64_t max_texels;  /* likewise; default 2^28 */
+  uint64_t max_memory;  /* bytes that a decoder and one call together may allocate, the caller's
+                           arrays not counted; default 8 GiB. Each call is judged by what it is
+                           asked for: of a stream that is too large as a whole, levels, windows
+                           and meshes of few triangles may fit. tks_check_memory says what a call
+                           takes */
 } tks_limits;
 
 typedef struct tks_decoder tks_decoder;
@@ -243,6 +247,24 @@ tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* win
                                      size_t count);
 tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
+
+/* What a call decodes. */
+typedef enum tks_part {
+  TKS_PART_HEIGHTS = 0,     /* tks_decode_heights, tks_decode_surface, and their windows */
+  TKS_PART_VALIDITY = 1,    /* tks_decode_validity */
+  TKS_PART_TEXTURE = 2,     /* tks_decode_texture, and its window */
+  TKS_PART_CODED_MESH = 3,  /* tks_decode_mesh and tks_decode_mesh_tree, TKS_MESH_CODED */
+  TKS_PART_BUDGET_MESH = 4  /* the same, TKS_MESH_BUDGET */
+} tks_part;
+
+/* Whether tks_limits.max_memory suffices for such a call, before there is an array for what it gives:
+ * TKS_LIMIT and a sentence if the decoder, the call and `beside` bytes (of that array, say) take more
+ * together. window: NULL for all of the level that is set; max_triangles: of a budget mesh. bytes,
+ * unless NULL: an upper bound of what the call itself allocates, meshes that it hands over included;
+ * more threads take more. Calls check the same with `beside` 0. TKS_USAGE: there is no such part or
+ * window. */
+tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
+                            uint32_t max_triangles, uint64_t beside, uint64_t* bytes);
 
 /* How many threads decoding may use from now on: 0 or 1 is one, and the default. What is decoded
  * never depends on it. */

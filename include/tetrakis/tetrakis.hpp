@@ -190,55 +190,51 @@ class Decoder {
     return {};
   }
 
+  /// Whether such a call stays within tks_limits.max_memory with `beside` more bytes: what the call
+  /// takes, or TKS_LIMIT (tks_check_memory). The calls below check the same with the array that
+  /// they return, before there is one.
+  Expected<uint64_t> checkMemory(tks_part part, const tks_window* window = nullptr,
+                                 uint32_t max_triangles = 0, uint64_t beside = 0) {
+    uint64_t bytes = 0;
+    const tks_status status =
+        tks_check_memory(decoder_.get(), part, window, max_triangles, beside, &bytes);
+    if (status != TKS_OK) return error(status);
+    return bytes;
+  }
+
   /// width * height samples of info().sample, host byte order, row by row.
   Expected<std::vector<std::byte>> heights() {
-    std::vector<std::byte> samples(size_t{info_.width} * info_.height *
-                                   tks_sample_bytes(info_.sample));
-    const tks_status status = tks_decode_heights(decoder_.get(), samples.data(), samples.size());
-    if (status != TKS_OK) return error(status);
-    return samples;
+    return whole<std::byte>(TKS_PART_HEIGHTS, heightCount() * tks_sample_bytes(info_.sample),
+                            tks_decode_heights);
   }
 
   /// width * height bytes, 1 where a sample is valid, 0 where it is void.
   Expected<std::vector<uint8_t>> validity() {
-    std::vector<uint8_t> valid(size_t{info_.width} * info_.height);
-    const tks_status status = tks_decode_validity(decoder_.get(), valid.data(), valid.size());
-    if (status != TKS_OK) return error(status);
-    return valid;
+    return whole<uint8_t>(TKS_PART_VALIDITY, heightCount(), tks_decode_validity);
   }
 
   /// width * height heights in info().unit, also between the steps of the sample type: for drawing.
   Expected<std::vector<float>> surface() {
-    std::vector<float> heights(size_t{info_.width} * info_.height);
-    const tks_status status = tks_decode_surface(decoder_.get(), heights.data(), heights.size());
-    if (status != TKS_OK) return error(status);
-    return heights;
+    return whole<float>(TKS_PART_HEIGHTS, heightCount(), tks_decode_surface);
   }
 
   /// texture_width * texture_height * texture_channels samples of info().texture_sample.
   Expected<std::vector<std::byte>> texture() {
-    std::vector<std::byte> texels(size_t{info_.texture_width} * info_.texture_height *
-                                  info_.texture_channels * tks_sample_bytes(info_.texture_sample));
-    const tks_status status = tks_decode_texture(decoder_.get(), texels.data(), texels.size());
-    if (status != TKS_OK) return error(status);
-    return texels;
+    return whole<std::byte>(TKS_PART_TEXTURE,
+                            size_t{info_.texture_width} * info_.texture_height * texelBytes(),
+                            tks_decode_texture);
   }
 
   /// The same in a window: tks_decode_heights_window and its siblings say what it may be.
   Expected<std::vector<std::byte>> heights(const tks_window& window) {
-    return windowBytes(tks_decode_heights_window, window, tks_sample_bytes(info_.sample));
+    return part<std::byte>(TKS_PART_HEIGHTS, window, tks_sample_bytes(info_.sample),
+                           tks_decode_heights_window);
   }
   Expected<std::vector<float>> surface(const tks_window& window) {
-    const bool possible = window.width <= info_.width && window.height <= info_.height;
-    std::vector<float> heights(possible ? size_t{window.width} * window.height : 0);
-    const tks_status status =
-        tks_decode_surface_window(decoder_.get(), &window, heights.data(), heights.size());
-    if (status != TKS_OK) return error(status);
-    return heights;
+    return part<float>(TKS_PART_HEIGHTS, window, 1, tks_decode_surface_window);
   }
   Expected<std::vector<std::byte>> texture(const tks_window& window) {
-    return windowBytes(tks_decode_texture_window, window,
-                       tks_sample_bytes(info_.texture_sample) * info_.texture_channels);
+    return part<std::byte>(TKS_PART_TEXTURE, window, texelBytes(), tks_decode_texture_window);
   }
 
   /// Threads that decoding may use; the result does not depend on them.
@@ -271,13 +267,30 @@ class Decoder {
 
   Error error(tks_status status) const { return {status, tks_message(decoder_.get())}; }
 
-  Expected<std::vector<std::byte>> windowBytes(tks_status (*decode)(tks_decoder*, const tks_window*,
-                                                                    void*, size_t),
-                                               const tks_window& window, size_t place_bytes) {
-    // A window that cannot be is refused; nothing is allocated for it.
-    const bool possible = window.width <= std::max(info_.width, info_.texture_width) &&
-                          window.height <= std::max(info_.height, info_.texture_height);
-    std::vector<std::byte> out(possible ? size_t{window.width} * window.height * place_bytes : 0);
+  size_t heightCount() const { return size_t{info_.width} * info_.height; }
+  size_t texelBytes() const {
+    return tks_sample_bytes(info_.texture_sample) * info_.texture_channels;
+  }
+
+  template <class T, class Decode>
+  Expected<std::vector<T>> whole(tks_part what, size_t count, Decode* decode) {
+    if (const auto fits = checkMemory(what, nullptr, 0, count * sizeof(T)); !fits)
+      return fits.error();
+    std::vector<T> out(count);
+    const tks_status status = decode(decoder_.get(), out.data(), out.size());
+    if (status != TKS_OK) return error(status);
+    return out;
+  }
+
+  /// items: of each place of the window.
+  template <class T, class Decode>
+  Expected<std::vector<T>> part(tks_part what, const tks_window& window, size_t items,
+                                Decode* decode) {
+    // A window that cannot be is refused before there is an array for it.
+    const uint64_t count = uint64_t{window.width} * window.height * items;
+    if (const auto fits = checkMemory(what, &window, 0, count * sizeof(T)); !fits)
+      return fits.error();
+    std::vector<T> out(count);
     const tks_status status = decode(decoder_.get(), &window, out.data(), out.size());
     if (status != TKS_OK) return error(status);
     return out;

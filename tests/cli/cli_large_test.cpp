@@ -4,6 +4,7 @@
 
 #include "bitstream/header.hpp"
 #include "tests/cli/cli_fixture.hpp"
+#include "tests/hostile_streams.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -41,6 +42,65 @@ TEST_F(CliLarge, HeightsAreOpenedUpToTheLargestFile) {
   EXPECT_EQ(cli("info a.tks").code, 0);
   enlarge([](StreamHeader& header) { header.geometry->width = (1 << 16) + 1; });
   EXPECT_EQ(cli("info a.tks").code, 6);
+}
+
+/// Streams of a few bytes that declare more than the machine holds end with a sentence, whatever is
+/// asked of them, and not at the kernel's hands.
+TEST_F(CliLarge, HugePlanesOfFewBytesAreRefused) {
+  makeInputs();
+  for (const HostileStream& hostile : hostileStreams()) {
+    if (hostile.name.ends_with("constant")) continue;  // like those unsent, which take longer
+    write("a.tks", std::string(hostile.bytes.begin(), hostile.bytes.end()));
+    const bool heights = hostile.name.starts_with("heights");
+    const std::string part = heights ? "--height part.tif" : "--texture part.png";
+    const Outcome run = shell(
+        "ulimit -v 1000000; TIMED=\"timeout 20 $TETRAKIS -q\";"
+        "$TIMED info a.tks > info.txt; echo $?; $TIMED verify a.tks; echo $?;"
+        "$TIMED decode a.tks -f " +
+        part +
+        "; echo $?;"
+        "$TIMED decode a.tks -f --window 5000,1000,16,16 " +
+        part +
+        "; echo $?;"
+        "$TIMED decode a.tks -f --level 9 " +
+        part +
+        "; echo $?;"
+        "$TIMED decode a.tks -f --mesh a.glb; echo $?;"
+        "$TIMED compare a.tks " +
+        std::string(heights ? "--height height.tif" : "--texture texture.png") + "; echo $?");
+    std::istringstream lines(run.out);
+    std::vector<int> codes;
+    for (int code = 0; lines >> code;) codes.push_back(code);
+    ASSERT_EQ(codes.size(), 7u) << run.out << run.err;
+    EXPECT_EQ(codes[0], 0) << hostile.name << run.err;
+    EXPECT_EQ(codes[1], 0) << hostile.name << run.err;
+    EXPECT_EQ(codes[2], 6) << hostile.name << run.err;
+    EXPECT_NE(run.err.find(" of memory; the limit"), std::string::npos) << run.err;
+    // A level of a drawn texture takes no more than its texels.
+    EXPECT_EQ(codes[3], hostile.sent ? 6 : 0) << hostile.name << run.err;
+    EXPECT_EQ(codes[4], hostile.sent && hostile.name != "drawn, sent" ? 6 : 0)
+        << hostile.name << run.err;
+    EXPECT_TRUE(codes[5] == 6 || (!heights && codes[5] == 1)) << hostile.name << run.err;
+    EXPECT_EQ(codes[6], 7) << hostile.name << run.err;
+  }
+}
+
+TEST_F(CliLarge, MemoryIsLimitedByOption) {
+  makeStream(257);
+  EXPECT_EQ(cli("--max-memory 1M decode a.tks --height b.tif").code, 6);
+  const Outcome run = cli("decode a.tks --max-memory 3M --texture b.png");
+  EXPECT_EQ(run.code, 6);
+  EXPECT_NE(run.err.find("Decoding 514 x 514 texels of 3 channels takes "), std::string::npos)
+      << run.err;
+  EXPECT_FALSE(names().contains("b.png"));
+  EXPECT_EQ(cli("info a.tks --max-memory 8M").code, 0);
+  EXPECT_EQ(cli("verify a.tks --max-memory 8M").code, 0);
+  EXPECT_EQ(cli("compare a.tks --texture texture.png --max-memory 3M").code, 6);
+  EXPECT_EQ(cli("encode height.tif --lossless -o b.tks --max-memory 1M").code, 6);
+  EXPECT_EQ(cli("encode height.tif --lossless -o b.tks --max-memory 100k").code, 6);
+  EXPECT_EQ(cli("encode height.tif --lossless -o b.tks --max-memory 64M").code, 0);
+  EXPECT_EQ(cli("decode a.tks --max-memory 64M --height b.tif --texture b.png").code, 0);
+  EXPECT_EQ(cli("decode a.tks --max-memory much --height c.tif").code, 1);
 }
 
 }  // namespace

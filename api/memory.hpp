@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the calls of a decoder allocate at most, known from the header before they allocate
+// anything, and whether that is within the limit.
+//
+// Bounds follow what the rooms below keep at the same time: planes of 32-bit values, masks, the
+// state of one track a thread (wavelet/region_decoder.hpp), a window's blocks. What meshes take is
+// measured (tests/decode_memory_test.cpp).
+#pragma once
+
+#include <cstdint>
+
+#include "api/decoder.hpp"
+#include "codec/lattice.hpp"
+
+namespace tetrakis {
+
+/// What a call is asked for. The decoder's levels count for the whole plane.
+struct MemoryRequest {
+  tks_part part = TKS_PART_HEIGHTS;
+  const tks_window* window = nullptr;  ///< null: the whole plane; inside it
+  uint32_t max_triangles = 0;          ///< of TKS_PART_BUDGET_MESH
+};
+
+/// Bytes that the call allocates at its peak, at most; meshes include what they hand over. The
+/// stream holds what is asked for.
+uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request);
+
+/// What a budget mesh of decoded heights with voids takes. callBytes() knows no more triangles than
+/// the budget; those in voids are beside it, and judged when they are known.
+uint64_t voidMeshBytes(const Lattice& lattice, uint64_t triangles);
+
+/// Bytes that a decoder of a payload allocates for what it keeps of that.
+uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks);
+
+/// "21.5 GiB".
+std::string describeBytes(uint64_t bytes);
+
+/// TKS_LIMIT with a sentence if the decoder and so many bytes for the request take more than the
+/// limit.
+Status checkBytes(const tks_decoder& decoder, const MemoryRequest& request, uint64_t bytes);
+
+/// TKS_LIMIT with a sentence if the decoder, the call and `beside` bytes of the caller's together
+/// take more than the limit. Heights that the decoder keeps and the call does not need give way.
+Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t beside = 0);
+
+}  // namespace tetrakis

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/written.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "api/height_steps.hpp"
+#include "api/samples.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+
+namespace tetrakis {
+
+SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry) {
+  const GeometryHeader& g = *header.geometry;
+  const double step = std::ldexp(g.step, -geometry.fraction_bits);
+  return {step * header.metadata.scale, g.base * header.metadata.scale + header.metadata.offset};
+}
+
+namespace {
+
+float surfaceAt(const DecodedGeometry& geometry, const SurfaceScale& scale, size_t sample) {
+  const bool valid = geometry.valid.empty() || geometry.valid[sample];
+  return valid ? static_cast<float>(geometry.heights[sample] * scale.scale + scale.offset)
+               : std::numeric_limits<float>::quiet_NaN();
+}
+
+/// Of the smallest plane: all samples are like the first.
+DecodedHeights unsentHeights(const StreamHeader& header) {
+  GeometryHeader smallest = *header.geometry;
+  smallest.width = smallest.height = 2;
+  return decodeLayers(Codewords(1), smallest, header.layers);
+}
+
+Texels unsentTexel(const TextureHeader& header) {
+  TextureHeader smallest = header;
+  smallest.width = smallest.height = 1;
+  return decodeTexture(smallest, Codewords(1));
+}
+
+}  // namespace
+
+void writeHeights(const tks_decoder& decoder, const DecodedHeights& decoded, void* out) {
+  fromSteps(decoded, *decoder.parsed.header.geometry, decoder.parsed.header.layers, out);
+}
+
+void writeSurface(const tks_decoder& decoder, const DecodedHeights& decoded, float* out) {
+  const SurfaceScale scale = surfaceScale(decoder.parsed.header, decoded.geometry);
+  for (size_t i = 0; i < decoded.geometry.heights.size(); ++i)
+    out[i] = surfaceAt(decoded.geometry, scale, i);
+}
+
+void writeUnsentHeights(const tks_decoder& decoder, void* out, size_t count) {
+  const DecodedHeights alike = unsentHeights(decoder.parsed.header);
+  const auto sample = static_cast<tks_sample>(decoder.parsed.header.geometry->sample);
+  withSampleType(sample, [&](auto type) {
+    std::vector<decltype(type)> samples(alike.geometry.heights.size());
+    writeHeights(decoder, alike, samples.data());
+    std::fill_n(static_cast<decltype(type)*>(out), count, samples.front());
+  });
+}
+
+void writeUnsentSurface(const tks_decoder& decoder, float* out, size_t count) {
+  const DecodedGeometry alike = unsentHeights(decoder.parsed.header).geometry;
+  const SurfaceScale scale = surfaceScale(decoder.parsed.header, alike);
+  std::fill_n(out, count, surfaceAt(alike, scale, 0));
+}
+
+void writeTexels(const Texels& texels, tks_sample sample, void* out) {
+  withSampleType(sample, [&](auto type) {
+    std::transform(texels.samples.begin(), texels.samples.end(), static_cast<decltype(type)*>(out),
+                   [](uint16_t v) { return static_cast<decltype(type)>(v); });
+  });
+}
+
+void writeUnsentTexels(const TextureHeader& header, void* out, size_t count) {
+  const Texels alike = unsentTexel(header);
+  withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
+    auto* texel = static_cast<decltype(type)*>(out);
+    for (size_t i = 0; i < count; ++i, texel += header.channels)
+      std::transform(alike.samples.begin(), alike.samples.end(), texel,
+                     [](uint16_t v) { return static_cast<decltype(type)>(v); });
+  });
+}
+
+}  // namespace tetrakis

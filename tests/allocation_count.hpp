@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts the bytes that a test executable has allocated: by operator new, and by malloc and calloc
+// in whatever is linked with tks_count_allocations() (tests/CMakeLists.txt).
+#pragma once
+
+#include <cstdint>
+
+namespace tetrakis::test {
+
+/// Begins to count anew. Not while other threads allocate.
+void startCounting();
+
+/// The most bytes that have been allocated at one time since then, beyond those of that moment.
+uint64_t countedPeak();
+
+template <class Work>
+uint64_t peakBytes(Work&& work) {
+  startCounting();
+  work();
+  return countedPeak();
+}
+
+}  // namespace tetrakis::test
