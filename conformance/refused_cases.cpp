@@ -60,7 +60,11 @@ std::vector<VectorCase> refusedHeaders() {
   refuse("scale", "a scale of NaN", [](StreamHeader& h) { h.metadata.scale = kNaN; });
   refuse("max_error", "a largest error of NaN",
          [](StreamHeader& h) { h.geometry->max_error = kNaN; });
-  refuse("planes", "31 bit-planes of heights", [](StreamHeader& h) { h.geometry->planes = 31; });
+  refuse("planes", "32 bit-planes of heights", [](StreamHeader& h) { h.geometry->planes = 32; });
+  refuse("stored_regions", "stored heights in regions", [](StreamHeader& h) {
+    h.geometry->planes = GeometryHeader::kStoredPlanes;
+    h.geometry->regions.side_log2 = 4;
+  });
   refuse("filter", "a filter that there is not",
          [](StreamHeader& h) { h.geometry->wavelet.filters[1] = 4; });
   refuse("voids", "integer heights with voids and no value for them",
