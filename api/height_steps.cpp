@@ -15,21 +15,24 @@ namespace tetrakis {
 
 namespace {
 
+/// What heights in units of 2^-fraction_bits steps stand for: sample = base + q * step.
+struct Scale {
+  double base, step;
+};
+
 template <class T>
-void restoreAll(const DecodedGeometry& geometry, const GeometryHeader& header, T* samples) {
-  const int32_t* heights = geometry.heights.data();
-  const size_t count = geometry.heights.size();
-  const int fraction_bits = geometry.fraction_bits;
+void restoreAll(std::span<const int32_t> heights, int fraction_bits, const Scale& scale,
+                T* samples) {
   if constexpr (std::is_integral_v<T> && sizeof(T) < sizeof(int32_t)) {
-    const IntegerScale<T> scale(header.base, header.step);
-    if (scale.applies()) {
-      for (size_t i = 0; i < count; ++i)
-        samples[i] = scale.restore(wholeStep(heights[i], fraction_bits));
+    const IntegerScale<T> integer(scale.base, scale.step);
+    if (integer.applies()) {
+      for (size_t i = 0; i < heights.size(); ++i)
+        samples[i] = integer.restore(wholeStep(heights[i], fraction_bits));
       return;
     }
   }
-  for (size_t i = 0; i < count; ++i)
-    samples[i] = restore<T>(header.base, header.step, wholeStep(heights[i], fraction_bits));
+  for (size_t i = 0; i < heights.size(); ++i)
+    samples[i] = restore<T>(scale.base, scale.step, wholeStep(heights[i], fraction_bits));
 }
 
 template <class T>
@@ -80,7 +83,7 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     T* samples = static_cast<T*>(out);
-    restoreAll(geometry, header, samples);
+    restoreAll(geometry.heights, geometry.fraction_bits, {header.base, header.step}, samples);
     for (size_t i = 0; i < decoded.corrections.size(); ++i) {
       const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
       samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
@@ -117,12 +120,13 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double
   return withSampleType(heights.sample, [&](auto type) {
     using T = decltype(type);
     const auto* samples = static_cast<const T*>(heights.data);
+    std::vector<T> restored(steps.steps.size());
+    restoreAll(steps.steps, 0, {steps.base, steps.step}, restored.data());
     StepErrors errors;
-    for (size_t i = 0; i < steps.steps.size(); ++i) {
+    for (size_t i = 0; i < restored.size(); ++i) {
       if (!steps.valid.empty() && !steps.valid[i]) continue;
       const double error =
-          std::abs(static_cast<double>(restore<T>(steps.base, steps.step, steps.steps[i])) -
-                   static_cast<double>(samples[i]));
+          std::abs(static_cast<double>(restored[i]) - static_cast<double>(samples[i]));
       errors.largest = std::max(errors.largest, error);
       errors.squares += std::min(error * error, most);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some hundred of the cases that `awkward` hunts through for as long as one likes.
+// Some of the cases that `awkward` hunts through for as long as one likes.
 #include <gtest/gtest.h>
 
 #include "tests/awkward/promises.hpp"
@@ -11,14 +11,14 @@ class AwkwardTerrain : public testing::TestWithParam<uint64_t> {};
 
 /// ctest ends what takes too long.
 TEST_P(AwkwardTerrain, PromisesHold) {
-  constexpr uint64_t kCases = 25;
+  constexpr uint64_t kCases = 16;
   for (uint64_t seed = kCases * GetParam(); seed < kCases * (GetParam() + 1); ++seed) {
-    const AwkwardCase c = awkwardCase(seed, 6000);
+    const AwkwardCase c = awkwardCase(seed, 4000);
     EXPECT_EQ(brokenPromise(c), "") << "seed " << seed << ": " << c.description;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, AwkwardTerrain, testing::Range<uint64_t>(0, 12));
+INSTANTIATE_TEST_SUITE_P(Seeds, AwkwardTerrain, testing::Range<uint64_t>(0, 6));
 
 }  // namespace
 }  // namespace tetrakis::test
