@@ -8,6 +8,7 @@
 #include "api/samples.hpp"
 #include "api/stored_heights.hpp"
 #include "api/voids.hpp"
+#include "texture_wavelet/stored_encoder.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 
 namespace tetrakis {
@@ -155,15 +156,24 @@ void EncodeJob::preferLossless(Needs& needs) {
   if (changed) order();
 }
 
-/// Heights that no model helps, as noise, take more bytes coded than stored.
+/// What no model helps, as noise, takes more bytes coded than stored.
 void EncodeJob::preferStored(Needs& needs) {
-  if (!geometry_ || budgeted()) return;
-  const uint64_t coded = std::min(needs[0], bytesOf(geometry_->tracks));
-  const uint64_t stored = storedBytes(*heights_, geometry_->steps.validCount());
-  if (stored == 0 || coded <= geometry_->validity.size() + stored) return;
-  storeHeights();
-  needs[0] = UINT64_MAX;
-  order();
+  if (budgeted()) return;
+  const auto pays = [](uint64_t need, const auto& component, uint64_t samples, uint64_t opening) {
+    return samples > 0 && samples + opening < std::min(need, bytesOf(component->tracks));
+  };
+  const Needs before = needs;
+  if (geometry_ &&
+      pays(needs[0], geometry_,
+           geometry_->validity.size() + storedBytes(*heights_, geometry_->steps.validCount()))) {
+    storeHeights();
+    needs[0] = UINT64_MAX;
+  }
+  if (texture_ && pays(needs[1], texture_, storedBytes(texels_))) {
+    texture_ = storeTexture(texels_);
+    needs[1] = UINT64_MAX;
+  }
+  if (needs != before) order();
 }
 
 /// The last packet of a component ends where its need does.

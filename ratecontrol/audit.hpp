@@ -34,6 +34,6 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
 
 inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
 inline constexpr uint64_t kSmallSamples = uint64_t{1} << 14;
-inline constexpr size_t kLargeMeasurements = 6;
+inline constexpr size_t kLargeMeasurements = 3;
 
 }  // namespace tetrakis
