@@ -159,22 +159,24 @@ void EncodeJob::preferLossless(Needs& needs) {
 /// What no model helps, as noise, takes more bytes coded than stored.
 void EncodeJob::preferStored(Needs& needs) {
   if (budgeted()) return;
-  const auto pays = [&](uint64_t need, const auto& component, uint64_t samples, uint64_t opening) {
+  const auto pays = [](uint64_t need, const auto& component, uint64_t samples, uint64_t opening) {
     return samples > 0 && samples + opening < std::min(need, bytesOf(component->tracks));
   };
-  const Needs before = needs;
+  bool changed = false;
   if (geometry_) {
     const uint64_t samples = storedBytes(*heights_, geometry_->steps.validCount());
     if (pays(needs[0], geometry_, samples, geometry_->validity.size())) {
       storeHeights();
       needs[0] = UINT64_MAX;
+      changed = true;
     }
   }
   if (texture_ && pays(needs[1], texture_, storedBytes(texels_), 0)) {
     texture_ = storeTexture(texels_);
     needs[1] = UINT64_MAX;
+    changed = true;
   }
-  if (needs != before) order();
+  if (changed) order();
 }
 
 /// The last packet of a component ends where its need does.
