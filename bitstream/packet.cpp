@@ -2,6 +2,7 @@
 #include "bitstream/packet.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "bitstream/fields.hpp"
@@ -38,9 +39,9 @@ std::vector<uint8_t> multiplex(std::span<const Packet> packets,
   FieldWriter writer;
   for (const Packet& packet : packets) {
     putHead(packet, writer);
-    const auto payload =
-        codewords[static_cast<size_t>(packet.track)][packet.region.value_or(0)].subspan(
-            packet.begin, packet.end - packet.begin);
+    const auto& codeword = codewords[static_cast<size_t>(packet.track)][packet.region.value_or(0)];
+    assert(packet.begin < packet.end && packet.end <= codeword.size());
+    const auto payload = codeword.subspan(packet.begin, packet.end - packet.begin);
     writer.bytes.insert(writer.bytes.end(), payload.begin(), payload.end());
     if (writer.bytes.size() >= limit) break;
   }

@@ -43,7 +43,8 @@ typedef enum tks_status {
   TKS_TRUNCATED = 4,   /* strict mode only: the stream ends early */
   TKS_UNSUPPORTED = 5, /* version, profile or feature unknown to this library */
   TKS_LIMIT = 6,       /* a limit of tks_limits would be exceeded */
-  TKS_MISMATCH = 7,    /* comparison or verification failed */
+  TKS_MISMATCH = 7,    /* comparison or verification failed; from tks_encode: a fault of the encoder,
+                          which broke a promise and so returns no stream */
   TKS_NO_MEMORY = 8
 } tks_status;
 
