@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "codec/coarse_surface.hpp"
-#include "codec/fitted_heights.hpp"
+#include "codec/mesh/coarse_surface.hpp"
+#include "codec/mesh/fitted_heights.hpp"
 
 namespace tetrakis {
 

@@ -5,8 +5,8 @@
 
 #include "api/decoder.hpp"
 #include "api/memory.hpp"
-#include "api/samples.hpp"
 #include "api/written.hpp"
+#include "base/samples.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {

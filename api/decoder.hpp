@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
-#include "api/height_layers.hpp"
 #include "api/message.hpp"
-#include "bitstream/header.hpp"
-#include "bitstream/packet.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/packet.hpp"
+#include "codec/geometry/height_layers.hpp"
 #include "wavelet/mip_level.hpp"
 
 struct tks_decoder {

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "api/encode_job.hpp"
 #include "api/message.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
+#include "encoder/encode_job.hpp"
 
 namespace tetrakis {
 

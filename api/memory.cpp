@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/budget_mesh.hpp"
-#include "texture_wavelet/drawn_colours.hpp"
+#include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
 #include "wavelet/window.hpp"

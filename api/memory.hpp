@@ -4,13 +4,14 @@
 //
 // Bounds follow what the rooms below keep at the same time: planes of 32-bit values, masks, the
 // state of one track a thread (wavelet/region_decoder.hpp), a window's blocks. What meshes take is
-// measured (tests/decode_memory_test.cpp).
+// measured (tests/api/decode_memory_test.cpp).
 #pragma once
 
 #include <cstdint>
 
 #include "api/decoder.hpp"
-#include "codec/lattice.hpp"
+#include "base/describe_bytes.hpp"
+#include "codec/mesh/lattice.hpp"
 
 namespace tetrakis {
 
@@ -31,9 +32,6 @@ uint64_t voidMeshBytes(const Lattice& lattice, uint64_t triangles);
 
 /// Bytes that a decoder of a payload allocates for what it keeps of that.
 uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks);
-
-/// "21.5 GiB".
-std::string describeBytes(uint64_t bytes);
 
 /// TKS_LIMIT with a sentence if the decoder and so many bytes for the request take more than the
 /// limit.

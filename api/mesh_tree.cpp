@@ -9,7 +9,7 @@
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
 #include "api/void_mesh.hpp"
-#include "codec/quadtree/mesh_tree.hpp"
+#include "codec/mesh/quadtree/mesh_tree.hpp"
 
 struct tks_mesh_tree {
   tetrakis::MeshTree tree;

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <new>
 
-#include "bitstream/status.hpp"
+#include "base/status.hpp"
 
 namespace tetrakis {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "api/samples.hpp"
-#include "api/voids.hpp"
+#include "base/samples.hpp"
+#include "codec/geometry/voids.hpp"
 
 namespace tetrakis {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "bitstream/status.hpp"
+#include "base/status.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "bitstream/status.hpp"
+#include "base/status.hpp"
 
 namespace tetrakis {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "codec/decimation.hpp"
-#include "codec/fitted_solver.hpp"
+#include "codec/mesh/decimation.hpp"
+#include "codec/mesh/fitted_solver.hpp"
 
 namespace tetrakis {
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/status.hpp"
-#include "codec/geometry_decoder.hpp"
-#include "codec/lattice.hpp"
-#include "codec/lattice_mesh.hpp"
+#include "base/status.hpp"
+#include "codec/geometry/geometry_decoder.hpp"
+#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/lattice_mesh.hpp"
 
 namespace tetrakis {
 

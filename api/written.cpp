@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "api/height_steps.hpp"
-#include "api/samples.hpp"
+#include "base/samples.hpp"
+#include "codec/geometry/height_steps.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis {

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "api/decoder.hpp"
-#include "texture_wavelet/texels.hpp"
+#include "base/texels.hpp"
 
 namespace tetrakis {
 

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/positive.hpp"
+#include "tools/files/positive.hpp"
 
 namespace tetrakis::bench {
 

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "bitstream/status.hpp"
+#include "base/status.hpp"
 
 namespace tetrakis::bench {
 

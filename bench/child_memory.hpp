@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "bitstream/status.hpp"
+#include "base/status.hpp"
 
 namespace tetrakis::bench {
 

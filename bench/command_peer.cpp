@@ -15,7 +15,7 @@
 #include <fstream>
 #include <span>
 
-#include "tools/files.hpp"
+#include "tools/files/files.hpp"
 
 namespace tetrakis::bench {
 namespace {

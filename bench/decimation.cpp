@@ -11,7 +11,7 @@
 #include "bench/decimation_speed.hpp"
 #include "bench/first_mesh.hpp"
 #include "bench/results.hpp"
-#include "tools/files.hpp"
+#include "tools/files/files.hpp"
 
 namespace {
 

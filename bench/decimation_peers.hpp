@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/status.hpp"
 #include "bench/decimation_mesh.hpp"
-#include "bitstream/status.hpp"
 
 namespace tetrakis::bench {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/closure.hpp"
-#include "codec/fitted_heights.hpp"
-#include "codec/gains.hpp"
+#include "codec/mesh/closure.hpp"
+#include "codec/mesh/fitted_heights.hpp"
+#include "codec/mesh/gains.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/decimation_peers.hpp"
-#include "codec/fitted_heights.hpp"
+#include "codec/mesh/fitted_heights.hpp"
 
 namespace tetrakis::bench {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/status.hpp"
 #include "bench/raster.hpp"
-#include "bitstream/status.hpp"
 
 namespace tetrakis::bench {
 

@@ -14,8 +14,8 @@
 #include "bench/arguments.hpp"
 #include "bench/results.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files.hpp"
-#include "tools/scene.hpp"
+#include "tools/files/files.hpp"
+#include "tools/report/scene.hpp"
 
 namespace tetrakis::bench {
 namespace {

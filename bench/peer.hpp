@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/status.hpp"
 #include "bench/raster.hpp"
-#include "bitstream/status.hpp"
 
 namespace tetrakis::bench {
 

@@ -16,10 +16,10 @@
 #include "bench/quadtree_peers.hpp"
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
-#include "codec/decimation.hpp"
-#include "codec/quadtree/mesh_tree.hpp"
-#include "tools/files.hpp"
-#include "tools/synth.hpp"
+#include "codec/mesh/decimation.hpp"
+#include "codec/mesh/quadtree/mesh_tree.hpp"
+#include "tools/files/files.hpp"
+#include "tools/synth/synth.hpp"
 
 namespace {
 

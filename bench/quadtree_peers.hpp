@@ -15,9 +15,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "codec/lattice.hpp"
-#include "codec/quadtree/semilinear_quadtree.hpp"
-#include "codec/quadtree/traversal.hpp"
+#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/quadtree/semilinear_quadtree.hpp"
+#include "codec/mesh/quadtree/traversal.hpp"
 
 namespace tetrakis::bench {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "bitstream/status.hpp"
-#include "tools/files.hpp"
+#include "base/status.hpp"
+#include "tools/files/files.hpp"
 
 namespace tetrakis::bench {
 

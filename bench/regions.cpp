@@ -15,8 +15,8 @@
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files.hpp"
-#include "tools/synth.hpp"
+#include "tools/files/files.hpp"
+#include "tools/synth/synth.hpp"
 
 namespace {
 

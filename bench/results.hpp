@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bitstream/status.hpp"
+#include "base/status.hpp"
 
 namespace tetrakis::bench {
 

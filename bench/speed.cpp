@@ -12,8 +12,8 @@
 #include "bench/openjpeg_peer.hpp"
 #include "bench/results.hpp"
 #include "bench/tetrakis_peer.hpp"
-#include "tools/files.hpp"
-#include "tools/synth.hpp"
+#include "tools/files/files.hpp"
+#include "tools/synth/synth.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "bench/jxl_peer.hpp"
 #include "bench/openjpeg_peer.hpp"
 #include "bench/tetrakis_peer.hpp"
-#include "tools/files.hpp"
+#include "tools/files/files.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "bench/ms_ssim.hpp"
 #include "bench/results.hpp"
 #include "bench/tetrakis_peer.hpp"
-#include "tools/files.hpp"
+#include "tools/files/files.hpp"
 
 namespace {
 

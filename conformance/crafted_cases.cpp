@@ -4,10 +4,10 @@
 #include <functional>
 #include <limits>
 
-#include "bitstream/range_encoder.hpp"
+#include "bitstream/coder/range_encoder.hpp"
 #include "conformance/crafted_streams.hpp"
 #include "lattice/levels.hpp"
-#include "texture_wavelet/drawn_pass.hpp"
+#include "texture_wavelet/drawn/drawn_pass.hpp"
 
 namespace tetrakis::conformance {
 namespace {

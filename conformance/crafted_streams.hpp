@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bitstream/header.hpp"
+#include "bitstream/stream/header.hpp"
 #include "conformance/vector_cases.hpp"
 
 namespace tetrakis::conformance {

@@ -5,7 +5,7 @@
 
 #include "conformance/crafted_cases.hpp"
 #include "conformance/crafted_streams.hpp"
-#include "tests/header_seal.hpp"
+#include "conformance/samples/header_seal.hpp"
 
 namespace tetrakis::conformance {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "bitstream/status.hpp"
+#include "base/status.hpp"
 #include "conformance/manifest.hpp"
 
 namespace tetrakis::conformance {

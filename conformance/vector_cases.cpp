@@ -6,7 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "api/samples.hpp"
+#include "base/samples.hpp"
 #include "conformance/crafted_cases.hpp"
 #include "tetrakis/tetrakis.hpp"
 

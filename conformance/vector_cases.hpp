@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "bitstream/status.hpp"
-#include "tests/terrain_samples.hpp"
-#include "tests/void_masks.hpp"
+#include "base/status.hpp"
+#include "conformance/samples/terrain_samples.hpp"
+#include "conformance/samples/void_masks.hpp"
 
 namespace tetrakis::conformance {
 

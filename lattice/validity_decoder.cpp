@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lattice/validity_decoder.hpp"
 
-#include "bitstream/range_decoder.hpp"
+#include "bitstream/coder/range_decoder.hpp"
 #include "lattice/validity_pass.hpp"
 
 namespace tetrakis {

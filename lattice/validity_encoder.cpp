@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lattice/validity_encoder.hpp"
 
-#include "bitstream/range_encoder.hpp"
+#include "bitstream/coder/range_encoder.hpp"
 #include "lattice/validity_pass.hpp"
 
 namespace tetrakis {

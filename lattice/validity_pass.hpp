@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <span>
 
-#include "bitstream/adaptive_bit.hpp"
+#include "bitstream/coder/adaptive_bit.hpp"
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "bitstream/track_encoder.hpp"
+#include "bitstream/track/track_encoder.hpp"
 
 namespace tetrakis {
 

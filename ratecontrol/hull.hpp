@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/track_encoder.hpp"
+#include "bitstream/track/track_encoder.hpp"
 
 namespace tetrakis {
 

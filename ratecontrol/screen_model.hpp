@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "texture_wavelet/texels.hpp"
+#include "base/texels.hpp"
 
 namespace tetrakis {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/packet.hpp"
-#include "bitstream/track_encoder.hpp"
+#include "bitstream/stream/packet.hpp"
+#include "bitstream/track/track_encoder.hpp"
 
 namespace tetrakis {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "bitstream/byte_planes.hpp"
-#include "texture_wavelet/cutout.hpp"
+#include "bitstream/coder/byte_planes.hpp"
+#include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/stored_texture.hpp"
 
 namespace tetrakis {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/stored_texture.hpp"
 
-#include "bitstream/byte_planes.hpp"
+#include "bitstream/coder/byte_planes.hpp"
 
 namespace tetrakis {
 

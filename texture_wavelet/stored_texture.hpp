@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "bitstream/header.hpp"
-#include "texture_wavelet/texels.hpp"
+#include "base/texels.hpp"
+#include "bitstream/stream/header.hpp"
 
 namespace tetrakis {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "texture_wavelet/cutout.hpp"
-#include "texture_wavelet/drawn_encoder.hpp"
-#include "texture_wavelet/overlay.hpp"
+#include "texture_wavelet/drawn/drawn_encoder.hpp"
+#include "texture_wavelet/mask/cutout.hpp"
+#include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/stored_encoder.hpp"
 
 namespace tetrakis {

@@ -5,9 +5,9 @@
 #include <array>
 #include <memory>
 
-#include "bitstream/parallel.hpp"
-#include "texture_wavelet/colour_levels.hpp"
-#include "texture_wavelet/drawn_decoder.hpp"
+#include "base/parallel.hpp"
+#include "texture_wavelet/colour/colour_levels.hpp"
+#include "texture_wavelet/drawn/drawn_decoder.hpp"
 #include "texture_wavelet/stored_texture.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/mip_level.hpp"

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "bitstream/header.hpp"
-#include "bitstream/packet.hpp"
-#include "texture_wavelet/texels.hpp"
+#include "base/texels.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/packet.hpp"
 #include "texture_wavelet/texture_opening.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/window.hpp"

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
-#include "bitstream/parallel.hpp"
+#include "base/parallel.hpp"
 #include "lattice/validity_encoder.hpp"
-#include "texture_wavelet/colour_fit.hpp"
-#include "texture_wavelet/colour_levels.hpp"
-#include "texture_wavelet/cutout.hpp"
-#include "texture_wavelet/drawn_encoder.hpp"
-#include "texture_wavelet/lossless_colour.hpp"
+#include "texture_wavelet/colour/colour_fit.hpp"
+#include "texture_wavelet/colour/colour_levels.hpp"
+#include "texture_wavelet/colour/lossless_colour.hpp"
+#include "texture_wavelet/drawn/drawn_encoder.hpp"
+#include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "texture_wavelet/visual_weights.hpp"
 #include "wavelet/wavelet_header.hpp"

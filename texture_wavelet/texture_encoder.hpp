@@ -6,20 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/header.hpp"
-#include "bitstream/track_encoder.hpp"
-#include "texture_wavelet/texels.hpp"
+#include "base/texels.hpp"
+#include "bitstream/stream/encoded_texture.hpp"
 #include "wavelet/filter_choice.hpp"
 
 namespace tetrakis {
-
-struct EncodedTexture {
-  TextureHeader header;
-  /// Distortion: squared error summed over the samples that count.
-  std::vector<EncodedTrack> tracks;
-  /// Where colours are hidden, 1 for each texel whose colours are not; else empty.
-  std::vector<uint8_t> seen = {};
-};
 
 /// An alpha of nothing but 0 and the largest value becomes a cut-out: a mask ahead of everything in
 /// the first track; colours that it hides are coded for Purpose::kLossless alone. photograph: from

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/header.hpp"
-#include "texture_wavelet/drawn_decoder.hpp"
-#include "texture_wavelet/texels.hpp"
+#include "base/texels.hpp"
+#include "bitstream/stream/header.hpp"
+#include "texture_wavelet/drawn/drawn_decoder.hpp"
 
 namespace tetrakis {
 

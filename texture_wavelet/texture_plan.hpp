@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/header.hpp"
-#include "texture_wavelet/colour.hpp"
+#include "bitstream/stream/header.hpp"
+#include "texture_wavelet/colour/colour.hpp"
 #include "wavelet/band_plan.hpp"
 
 namespace tetrakis {

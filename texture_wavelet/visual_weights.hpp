@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "bitstream/header.hpp"
+#include "bitstream/stream/header.hpp"
 
 namespace tetrakis {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bitstream/reconstruction.hpp"
+#include "bitstream/track/reconstruction.hpp"
 
 namespace tetrakis {
 

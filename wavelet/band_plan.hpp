@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/regions.hpp"
-#include "bitstream/track.hpp"
+#include "bitstream/track/regions.hpp"
+#include "bitstream/track/track.hpp"
 #include "wavelet/norms.hpp"
 #include "wavelet/subbands.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "bitstream/header.hpp"
+#include "bitstream/stream/header.hpp"
 #include "wavelet/masked_lifting.hpp"
 
 namespace tetrakis {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bitstream/parallel.hpp"
+#include "base/parallel.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {

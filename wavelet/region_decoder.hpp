@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "bitstream/header.hpp"
-#include "bitstream/track_decoder.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/track/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"
 
 namespace tetrakis {

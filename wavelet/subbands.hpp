@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bitstream/band.hpp"
+#include "bitstream/track/band.hpp"
 
 namespace tetrakis {
 

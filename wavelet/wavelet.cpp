@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "bitstream/parallel.hpp"
+#include "base/parallel.hpp"
 #include "wavelet/lifting.hpp"
 #include "wavelet/masked_lifting.hpp"
 

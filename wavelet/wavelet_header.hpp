@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bitstream/header.hpp"
+#include "bitstream/stream/header.hpp"
 #include "wavelet/wavelet.hpp"
 
 namespace tetrakis {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bitstream/reconstruction.hpp"
+#include "bitstream/track/reconstruction.hpp"
 
 namespace tetrakis {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "tests/terrain_samples.hpp"
+#include "conformance/samples/terrain_samples.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some of the cases that `awkward` hunts through for as long as one likes.
+// Some of the cases that `awkward_hunt` goes through for as long as one likes.
 #include <gtest/gtest.h>
 
 #include "tests/awkward/promises.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// awkward SECONDS [FIRST_SEED [MOST_SAMPLES]]: goes through awkward terrains until the time is up.
-// Exit status 1 and the seed of the case on the first broken promise; a case that takes over a
+// awkward_hunt SECONDS [FIRST_SEED [MOST_SAMPLES]]: goes through awkward terrains until the time is
+// up. Exit status 1 and the seed of the case on the first broken promise; a case that takes over a
 // minute is one.
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ constexpr unsigned kMostSeconds = 60;
 int main(int argc, char** argv) {
   using Clock = std::chrono::steady_clock;
   if (argc < 2) {
-    std::fprintf(stderr, "usage: awkward SECONDS [FIRST_SEED [MOST_SAMPLES]]\n");
+    std::fprintf(stderr, "usage: awkward_hunt SECONDS [FIRST_SEED [MOST_SAMPLES]]\n");
     return 1;
   }
   const auto end = Clock::now() + std::chrono::seconds(std::atoll(argv[1]));

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/command_line.hpp"
-#include "tools/file_bytes.hpp"
-#include "tools/files.hpp"
+#include "tools/commands/command_line.hpp"
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/files.hpp"
 
 namespace tetrakis::test {
 

@@ -2,9 +2,9 @@
 // Streams of more samples than the library takes unasked.
 #include <functional>
 
-#include "bitstream/header.hpp"
+#include "bitstream/stream/header.hpp"
 #include "tests/cli/cli_fixture.hpp"
-#include "tests/hostile_streams.hpp"
+#include "tests/support/hostile_streams.hpp"
 
 namespace tetrakis::test {
 namespace {

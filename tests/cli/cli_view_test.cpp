@@ -6,8 +6,8 @@
 #include <map>
 
 #include "tests/cli/cli_fixture.hpp"
-#include "tools/stream.hpp"
-#include "tools/viewed_mesh.hpp"
+#include "tools/files/stream.hpp"
+#include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::test {
 namespace {

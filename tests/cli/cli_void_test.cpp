@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "tests/cli/cli_fixture.hpp"
-#include "tests/tiny_tiff.hpp"
+#include "tests/support/tiny_tiff.hpp"
 
 namespace tetrakis::test {
 namespace {

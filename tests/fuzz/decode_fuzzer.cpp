@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "tests/header_seal.hpp"
+#include "conformance/samples/header_seal.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);

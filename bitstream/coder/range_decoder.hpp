@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binary range decoder, mirror of range_encoder.hpp, with the tail rule: where bytes are missing, a
+// decision counts only if reading the missing tail as all zeros and as all ones agrees on it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "bitstream/coder/adaptive_bit.hpp"
+
+namespace tetrakis {
+
+/// Safe on any input; reads at most bytes.size() bytes; stops for good at the first undecided bit.
+class RangeDecoder {
+ public:
+  explicit RangeDecoder(std::span<const uint8_t> bytes)
+      : next_(bytes.data()), end_(next_ + bytes.size()) {
+    for (int i = 0; i < 4; ++i) shiftIn();
+  }
+
+  /// Decodes one decision and updates the model. After exhausted() the result is meaningless and
+  /// nothing changes any more.
+  bool decode(AdaptiveBit& model) {
+    const bool bit = split(model.zero());
+    if (!exhausted_) model.update(bit);
+    return bit;
+  }
+
+  bool decodeUncertain(AdaptiveBit& model) { return decode(model); }
+
+  /// More bytes of the codeword have come: `bytes` is a longer view of the same memory. As if they
+  /// had been there from the start; not after exhausted().
+  void grow(std::span<const uint8_t> bytes) {
+    end_ = bytes.data() + bytes.size();
+    for (; missing_ > 0 && next_ != end_; --missing_) {
+      const uint32_t shift = 8 * (missing_ - 1);
+      if (shift < 32) code_ += uint32_t{*next_} << shift;
+      ++next_;
+    }
+    slack_ = missing_ > 3 ? 0xffffffff : (uint32_t{1} << (8 * missing_)) - 1;
+  }
+
+  bool decodeEven() { return split(1u << (AdaptiveBit::kPrecision - 1)); }
+
+  /// The available bytes do not decide the decision asked for last.
+  bool exhausted() const { return exhausted_; }
+
+  /// No byte of the next so many decisions of models is missing.
+  bool hasPlenty(size_t decisions) const {
+    return static_cast<size_t>(end_ - next_) >= kMostBytes * decisions;
+  }
+
+  class Plenty;
+
+ private:
+  bool split(uint32_t zero) {
+    const uint32_t bound =
+        static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
+    const bool bit = code_ >= bound;
+    if (slack_ != 0 && (exhausted_ || (!bit && uint64_t{code_} + slack_ >= bound))) {
+      exhausted_ = true;
+      return false;
+    }
+    if (bit) {
+      code_ -= bound;
+      range_ -= bound;
+    } else {
+      range_ = bound;
+    }
+    while (range_ < kRenormalise) {
+      range_ <<= 8;
+      shiftIn();
+    }
+    return bit;
+  }
+
+  void shiftIn() {
+    code_ <<= 8;
+    slack_ <<= 8;
+    if (next_ != end_) {
+      code_ |= *next_++;
+    } else {
+      slack_ |= 0xff;
+      ++missing_;
+    }
+  }
+
+  static constexpr uint32_t kRenormalise = 1u << 24;
+  /// A decision leaves at least 2^24 * kFloor / 2^16 > 2^12 of the range.
+  static constexpr size_t kMostBytes = 2;
+  static_assert((uint64_t{kRenormalise} * AdaptiveBit::kFloor) >> AdaptiveBit::kPrecision >=
+                kRenormalise >> (8 * kMostBytes));
+
+  const uint8_t* next_;
+  const uint8_t* end_;
+  uint32_t code_ = 0;  ///< offset inside the interval, missing bytes read as zeros
+  uint32_t range_ = 0xffffffff;
+  uint32_t slack_ = 0;    ///< what missing bytes could add to code_ if they were all ones
+  uint32_t missing_ = 0;  ///< bytes read behind the end
+  bool exhausted_ = false;
+};
+
+/// Decodes while RangeDecoder::hasPlenty() holds, without asking for missing bytes and with its
+/// state in registers; the decoder that it is made from goes on behind it once it is gone.
+class RangeDecoder::Plenty {
+ public:
+  explicit Plenty(RangeDecoder& decoder)
+      : decoder_(decoder), next_(decoder.next_), code_(decoder.code_), range_(decoder.range_) {}
+  Plenty(const Plenty&) = delete;
+  Plenty& operator=(const Plenty&) = delete;
+  ~Plenty() {
+    decoder_.next_ = next_;
+    decoder_.code_ = code_;
+    decoder_.range_ = range_;
+  }
+
+  bool decode(AdaptiveBit& model) {
+    const uint32_t bound = boundOf(model);
+    const bool bit = code_ >= bound;
+    if (bit) {
+      code_ -= bound;
+      range_ -= bound;
+    } else {
+      range_ = bound;
+    }
+    renormalise();
+    model.update(bit);
+    return bit;
+  }
+
+  /// The same without a branch on the decision: for those that nobody can predict.
+  bool decodeUncertain(AdaptiveBit& model) {
+    const uint32_t bound = boundOf(model);
+    const bool bit = code_ >= bound;
+    const uint32_t mask = 0u - uint32_t{bit};
+    code_ -= bound & mask;
+    range_ = bound + ((range_ - 2 * bound) & mask);
+    renormalise();
+    model.update(bit);
+    return bit;
+  }
+
+ private:
+  uint32_t boundOf(const AdaptiveBit& model) const {
+    return static_cast<uint32_t>((uint64_t{range_} * model.zero()) >> AdaptiveBit::kPrecision);
+  }
+  void renormalise() {
+    while (range_ < kRenormalise) {
+      range_ <<= 8;
+      code_ = code_ << 8 | *next_++;
+    }
+  }
+
+  RangeDecoder& decoder_;
+  const uint8_t* next_;
+  uint32_t code_, range_;
+};
+
+}  // namespace tetrakis

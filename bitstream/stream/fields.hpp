@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each structure of the stream lists its fields once, in visit(); writing, reading and dumping are
+// visitors. Numbers are little endian; a varint is LEB128 (7 bits a byte, low bits first), and a
+// double goes without its low zero bytes, which round numbers have many of: u8 n, n high bytes.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+
+namespace tetrakis {
+
+/// Appends fields to a byte string.
+class FieldWriter {
+ public:
+  template <class T>
+  void u8(const char*, T& value, uint64_t, uint64_t) {
+    bytes.push_back(static_cast<uint8_t>(value));
+  }
+  template <class T>
+  void varint(const char*, T& value, uint64_t, uint64_t) {
+    put(static_cast<uint64_t>(value));
+  }
+  void zigzag(const char*, int64_t& value, int64_t) {
+    put((static_cast<uint64_t>(value) << 1) ^ static_cast<uint64_t>(value >> 63));
+  }
+  void f64(const char*, double& value) {
+    const auto bits = std::bit_cast<uint64_t>(value);
+    const int zeros = std::countr_zero(bits) / 8;
+    bytes.push_back(static_cast<uint8_t>(8 - zeros));
+    for (int i = zeros; i < 8; ++i) bytes.push_back(static_cast<uint8_t>(bits >> (8 * i)));
+  }
+  void text(const char*, std::string& value) {
+    put(value.size());
+    bytes.insert(bytes.end(), value.begin(), value.end());
+  }
+  bool ok() const { return true; }
+  void put(uint64_t value) {
+    for (; value >= 0x80; value >>= 7) bytes.push_back(static_cast<uint8_t>(value | 0x80));
+    bytes.push_back(static_cast<uint8_t>(value));
+  }
+
+  std::vector<uint8_t> bytes;
+};
+
+/// Takes fields off a byte string; the first failure sticks. Every field is checked against the
+/// range that visit() states, so a structure read without failure is valid field by field.
+class FieldReader {
+ public:
+  explicit FieldReader(std::span<const uint8_t> bytes, size_t origin = 0)
+      : bytes_(bytes), origin_(origin) {}
+
+  template <class T>
+  void u8(const char* name, T& value, uint64_t low, uint64_t high) {
+    accept(name, next(), low, high, value);
+  }
+  template <class T>
+  void varint(const char* name, T& value, uint64_t low, uint64_t high) {
+    accept(name, take(), low, high, value);
+  }
+  void zigzag(const char* name, int64_t& value, int64_t largest) {
+    const uint64_t raw = take();
+    const auto signed_raw = static_cast<int64_t>((raw >> 1) ^ (~(raw & 1) + 1));
+    if (!ok()) return;
+    if (signed_raw < -largest || signed_raw > largest) {
+      fail(name, "is " + std::to_string(signed_raw) + ", at most +-" + std::to_string(largest) +
+                     " is allowed");
+    } else {
+      value = signed_raw;
+    }
+  }
+  void f64(const char* name, double& value) {
+    int size = 0;
+    accept(name, next(), 0, 8, size);
+    uint64_t bits = 0;
+    for (int i = 8 - size; i < 8; ++i) bits |= uint64_t{next()} << (8 * i);
+    if (ok()) value = std::bit_cast<double>(bits);
+  }
+  void text(const char* name, std::string& value) {
+    const uint64_t size = take();
+    if (ok() && size > bytes_.size() - at_) fail(name, "reaches past the end of its structure");
+    if (!ok()) return;
+    value.assign(bytes_.begin() + static_cast<ptrdiff_t>(at_),
+                 bytes_.begin() + static_cast<ptrdiff_t>(at_ + size));
+    at_ += size;
+  }
+  /// LEB128; fails where it ends early or exceeds 64 bits.
+  uint64_t take();
+  void fail(const std::string& name, const std::string& why);
+
+  bool ok() const { return status_.ok(); }
+  bool starved() const { return starved_; }  ///< failed because the bytes ended
+  const Status& status() const { return status_; }
+  size_t position() const { return at_; }
+
+ private:
+  uint8_t next();
+  template <class T>
+  void accept(const char* name, uint64_t raw, uint64_t low, uint64_t high, T& value) {
+    if (!ok()) return;
+    if (raw < low || raw > high) {
+      fail(name, "is " + std::to_string(raw) + ", allowed are " + std::to_string(low) + " to " +
+                     std::to_string(high));
+    } else {
+      value = static_cast<T>(raw);
+    }
+  }
+
+  std::span<const uint8_t> bytes_;
+  size_t origin_;
+  size_t at_ = 0;
+  bool starved_ = false;
+  Status status_;
+};
+
+}  // namespace tetrakis

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bitstream/stream/header.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <initializer_list>
+
+namespace tetrakis {
+
+namespace {
+
+enum Parts : uint8_t {
+  kGeometry = 1,
+  kTexture = 2,
+  kMetadata = 4,
+  kIndex = 8,
+  kLayers = 16,
+  kRegions = 32,
+  kWeights = 64,
+  kAllParts = 127
+};
+
+constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
+
+uint32_t crc32(std::span<const uint8_t> bytes) {
+  uint32_t crc = 0xffffffff;
+  for (uint8_t byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return ~crc;
+}
+
+bool hasRegions(const StreamHeader& header) {
+  return (header.geometry && !header.geometry->regions.isDefault()) ||
+         (header.texture && !header.texture->regions.isDefault());
+}
+
+bool namesRegions(const StreamHeader& header, TrackId track) {
+  if (track == TrackId::kGeometry) return header.geometry && header.geometry->regions.side_log2 > 0;
+  return header.texture && header.texture->regions.side_log2 > 0;
+}
+
+template <class V>
+void visitIndex(V& v, StreamHeader& header) {
+  uint64_t count = header.index.size();
+  v.varint("packets", count, 1, kMaxHeaderBytes / 2);
+  header.index.resize(v.ok() ? count : 0);
+  for (PacketHead& entry : header.index) {
+    v.varint("index_head", entry.head, 0, UINT64_MAX);
+    if (namesRegions(header, entry.track())) v.varint("index_region", entry.region, 0, UINT32_MAX);
+    v.u8("index_quality", entry.quality, 0, 255);
+    if (!v.ok()) break;
+  }
+}
+
+/// The body: which parts there are, then the parts.
+template <class V>
+void visitBody(V& v, StreamHeader& header) {
+  uint8_t parts = static_cast<uint8_t>(
+      (header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
+      (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex) |
+      (header.layers.isDefault() ? 0 : kLayers) | (hasRegions(header) ? kRegions : 0) |
+      (header.texture && header.texture->weights.levels > 0 ? kWeights : 0));
+  v.u8("parts", parts, 1, kAllParts);
+  v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
+  v.u8("lossless", header.lossless, 0, 1);
+  v.varint("triangles", header.triangles, 0, UINT32_MAX);
+  if (!v.ok()) return;
+  if (parts & kGeometry) {
+    if (!header.geometry) header.geometry.emplace();
+    header.geometry->visit(v);
+  }
+  if (parts & kTexture) {
+    if (!header.texture) header.texture.emplace();
+    header.texture->visit(v);
+  }
+  if (parts & kMetadata) header.metadata.visit(v);
+  if (parts & kLayers) header.layers.visit(v);
+  if (parts & kRegions) {
+    if (header.geometry) header.geometry->regions.visit(v);
+    if (header.texture) header.texture->regions.visit(v);
+  }
+  if ((parts & kWeights) && header.texture)
+    header.texture->weights.visit(v, header.texture->components());
+  if (parts & kIndex) visitIndex(v, header);
+}
+
+Status needMore(size_t bytes) {
+  return {TKS_TRUNCATED, "The stream ends inside its header: at least " + std::to_string(bytes) +
+                             " bytes are needed."};
+}
+
+/// Whether an integer sample type has that value.
+bool holds(uint8_t sample, double value) {
+  constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
+  constexpr double kMost[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
+  return kLeast[sample] <= value && value <= kMost[sample] && value == std::trunc(value);
+}
+
+Status checkLayers(const StreamHeader& header) {
+  const GeometryLayers& layers = header.layers;
+  if (layers.isDefault()) return {};
+  if (!header.geometry) {
+    return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
+  }
+  const bool integer = header.geometry->sample != TKS_F32;
+  if (integer && layers.validity_bytes > 0 &&
+      !(layers.has_nodata && holds(header.geometry->sample, layers.nodata))) {
+    return {TKS_CORRUPT, "Corrupt stream: integer heights have voids but no value for them."};
+  }
+  if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata))) {
+    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no number."};
+  }
+  return {};
+}
+
+Status checkRegions(const StreamHeader& header) {
+  const auto sound = [](const RegionHeader& r) {
+    return r.side_log2 == 0 || r.side_log2 >= kLeastRegionLog2;
+  };
+  if ((!header.geometry || sound(header.geometry->regions)) &&
+      (!header.texture || sound(header.texture->regions))) {
+    return {};
+  }
+  return {TKS_CORRUPT, "Corrupt stream: its regions are smaller than 16 samples."};
+}
+
+Status checkStored(const StreamHeader& header) {
+  if (!header.geometry || !header.geometry->stored()) return {};
+  const bool one_track = header.geometry->regions.side_log2 == 0;
+  if (one_track && header.layers.corrections == CorrectionKind::kNone) return {};
+  return {TKS_CORRUPT, "Corrupt stream: stored heights have regions or corrections."};
+}
+
+Status checkNumbers(const StreamHeader& header) {
+  const auto finite = [](std::initializer_list<double> values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (header.geometry) {
+    const GeometryHeader& g = *header.geometry;
+    if (!finite({g.base, g.step, g.max_error}) || g.step <= 0) {
+      return {TKS_CORRUPT,
+              "Corrupt stream: base, step or largest error of the heights is out of range."};
+    }
+  }
+  const Metadata& m = header.metadata;
+  if (!finite({m.scale, m.offset, m.spacing_x, m.spacing_y}) || m.scale == 0 || m.spacing_x < 0 ||
+      m.spacing_y < 0) {
+    return {TKS_CORRUPT,
+            "Corrupt stream: scale, offset or spacing of the heights is out of range."};
+  }
+  return {};
+}
+
+/// A texture that is drawn or stored is one track of all its channels.
+Status checkTexture(const StreamHeader& header) {
+  if (!header.texture) return {};
+  const TextureHeader& t = *header.texture;
+  if (t.sample != TKS_U8 && t.sample != TKS_U16) {
+    return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
+  }
+  if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0)) {
+    return {TKS_CORRUPT, "Corrupt stream: a drawn or stored texture has regions or weights."};
+  }
+  return {};
+}
+
+Status checkMeaning(const StreamHeader& header) {
+  if (!header.geometry && !header.texture) {
+    return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
+  }
+  if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
+  if (Status layers = checkLayers(header); !layers.ok()) return layers;
+  if (Status regions = checkRegions(header); !regions.ok()) return regions;
+  if (Status stored = checkStored(header); !stored.ok()) return stored;
+  return checkTexture(header);
+}
+
+}  // namespace
+
+bool Metadata::isDefault() const {
+  return scale == 1 && offset == 0 && spacing_x == 0 && spacing_y == 0 && unit.empty() &&
+         vertical_datum.empty() && crs.empty();
+}
+
+TrackCounts trackCounts(const StreamHeader& header) {
+  TrackCounts counts;
+  const auto count = [](const auto& part, TrackCount& out) {
+    if (!part) return;
+    out.named = part->regions.side_log2 > 0;
+    out.tracks = regionCount(part->width, part->height, part->regions.side_log2);
+  };
+  count(header.geometry, counts[0]);
+  count(header.texture, counts[1]);
+  return counts;
+}
+
+uint8_t levelFor(const StreamHeader& header) {
+  uint64_t samples = 0;
+  if (header.geometry) samples = uint64_t{header.geometry->width} * header.geometry->height;
+  if (header.texture) {
+    samples = std::max(samples, uint64_t{header.texture->width} * header.texture->height);
+  }
+  const int bits = samples <= 1 ? 0 : static_cast<int>(std::bit_width(samples - 1));
+  return static_cast<uint8_t>(std::max(0, (bits + 1) / 2 - 8));
+}
+
+std::vector<uint8_t> writeHeader(const StreamHeader& header) {
+  StreamHeader copy = header;
+  copy.level = levelFor(header);
+  FieldWriter body;
+  visitBody(body, copy);
+  FieldWriter out;
+  out.bytes.assign(kMagic.begin(), kMagic.end());
+  out.bytes.insert(out.bytes.end(), {copy.version, copy.profile, copy.level});
+  out.put(body.bytes.size());
+  out.bytes.insert(out.bytes.end(), body.bytes.begin(), body.bytes.end());
+  const uint32_t crc = crc32(out.bytes);
+  for (int i = 0; i < 4; ++i) out.bytes.push_back(static_cast<uint8_t>(crc >> (8 * i)));
+  return std::move(out.bytes);
+}
+
+Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
+  const size_t known = std::min(bytes.size(), kMagic.size());
+  if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<ptrdiff_t>(known), bytes.begin())) {
+    return Status(TKS_CORRUPT, "This is not a Tetrakis stream: it does not begin with TKS 1A.");
+  }
+  if (bytes.size() < kFixedBytes + 1) return needMore(kFixedBytes + 1);
+  ParsedHeader parsed;
+  StreamHeader& header = parsed.header;
+  header.version = bytes[4];
+  header.profile = bytes[5];
+  header.level = bytes[6];
+  if (header.version != kFormatVersion || header.profile != kMainProfile) {
+    return Status(TKS_UNSUPPORTED, "The stream has format version " + std::to_string(bytes[4]) +
+                                       ", profile " + std::to_string(bytes[5]) +
+                                       "; this decoder knows version 1, profile 0.");
+  }
+  FieldReader size_reader(bytes.subspan(kFixedBytes), kFixedBytes);
+  const uint64_t body_bytes = size_reader.take();
+  if (size_reader.starved()) return needMore(bytes.size() + 1);
+  if (!size_reader.ok()) return size_reader.status();
+  if (body_bytes > kMaxHeaderBytes) {
+    return Status(TKS_CORRUPT,
+                  "Corrupt stream: the header claims " + std::to_string(body_bytes) + " bytes.");
+  }
+  const size_t body_start = kFixedBytes + size_reader.position();
+  const size_t crc_start = body_start + body_bytes;
+  parsed.bytes = crc_start + 4;
+  if (bytes.size() < parsed.bytes) return needMore(parsed.bytes);
+  uint32_t crc = 0;
+  for (size_t i = 0; i < 4; ++i) crc |= uint32_t{bytes[crc_start + i]} << (8 * i);
+  if (crc != crc32(bytes.first(crc_start))) {
+    return Status(TKS_CORRUPT, "Corrupt stream: the header's checksum does not match.");
+  }
+  FieldReader body(bytes.subspan(body_start, body_bytes), body_start);
+  visitBody(body, header);
+  if (!body.ok()) return body.status();
+  if (Status meaning = checkMeaning(header); !meaning.ok()) return meaning;
+  if (header.level != levelFor(header)) {
+    return Status(TKS_CORRUPT, "Corrupt stream: the level does not fit the sizes.");
+  }
+  return parsed;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stream header (docs/FORMAT.md, section 2). A decoder can size everything from it before it
+// allocates anything.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+#include "bitstream/stream/fields.hpp"
+#include "bitstream/stream/packet.hpp"
+#include "bitstream/track/band.hpp"
+#include "bitstream/track/regions.hpp"
+
+namespace tetrakis {
+
+inline constexpr std::array<uint8_t, 4> kMagic = {'T', 'K', 'S', 0x1a};
+inline constexpr uint8_t kFormatVersion = 1;
+inline constexpr uint8_t kMainProfile = 0;
+inline constexpr uint32_t kMaxSide = 1u << 20;         ///< samples in a row or column of heights
+inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or column
+inline constexpr int kMaxFractionBits = 8;
+inline constexpr uint32_t kMaxHeaderBytes = 1u << 20;
+
+/// Which wavelet: wavelet/wavelet.hpp.
+struct WaveletHeader {
+  std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
+  uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
+  uint8_t bits = 0;                  ///< of a sample with its fraction: how wide sums must be
+
+  template <class V>
+  void visit(V& v) {
+    for (uint8_t& filter : filters) v.u8("filter", filter, 0, 3);
+    v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
+    v.u8("sample_bits", bits, 0, 32);
+  }
+};
+
+/// Spatial regions of a component: bitstream/track/regions.hpp.
+struct RegionHeader {
+  uint8_t side_log2 = 0;     ///< of the regions of the finest levels; 0: one region
+  uint64_t whole_bytes = 0;  ///< bytes of coefficients in all tracks when complete; 0: never sent
+
+  bool isDefault() const { return *this == RegionHeader{}; }
+  bool operator==(const RegionHeader&) const = default;
+
+  template <class V>
+  void visit(V& v) {
+    v.u8("region_log2", side_log2, 0, kMostRegionLog2);
+    if (side_log2 > 0) v.varint("whole_bytes", whole_bytes, 0, UINT64_MAX >> 1);
+  }
+};
+
+/// What corrections are added to.
+enum class CorrectionKind : uint8_t {
+  kNone = 0,
+  kSteps = 1,   ///< heights in steps: heights += correction_step * correction
+  kSamples = 2  ///< samples, in the order of their type: restores them bit for bit
+};
+
+/// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
+struct GeometryHeader {
+  uint32_t width = 0, height = 0;
+  uint8_t sample = 0;  ///< tks_sample of the input and of the decoded output
+  uint8_t planes = 0;
+  uint8_t exact = 0;  ///< the steps restore every input sample
+  double base = 0, step = 1;
+  double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
+  WaveletHeader wavelet;
+  RegionHeader regions;  ///< a part of the header of its own
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("geometry_width", width, 2, kMaxSide);
+    v.varint("geometry_height", height, 2, kMaxSide);
+    v.u8("geometry_sample", sample, 0, TKS_F32);
+    v.u8("geometry_planes", planes, 0, kStoredPlanes);
+    v.u8("exact", exact, 0, 1);
+    v.f64("base", base);
+    v.f64("step", step);
+    v.f64("max_error", max_error);
+    if (!stored()) wavelet.visit(v);
+  }
+  bool stored() const { return planes == kStoredPlanes; }
+
+  /// In the place of a number of bit-planes: the samples are stored
+  /// (bitstream/coder/byte_planes.hpp).
+  static constexpr uint8_t kStoredPlanes = 31;
+};
+
+/// What a geometry track holds besides coefficients, which then lie between the two:
+///
+///   validity codeword | coefficients | corrections
+struct GeometryLayers {
+  uint64_t validity_bytes = 0;  ///< 0: every sample is valid
+  uint8_t has_nodata = 0;       ///< voids have the sample value `nodata`; else NaN (f32 only)
+  double nodata = 0;
+  CorrectionKind corrections = CorrectionKind::kNone;
+  uint64_t coefficient_bytes = 0;  ///< with corrections only: what follows is theirs
+  uint32_t correction_step = 0;    ///< kSteps only: unit of the corrections, in steps
+
+  bool isDefault() const { return *this == GeometryLayers{}; }
+  bool operator==(const GeometryLayers&) const = default;
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("validity_bytes", validity_bytes, 0, UINT64_MAX >> 1);
+    v.u8("has_nodata", has_nodata, 0, 1);
+    if (has_nodata) v.f64("nodata", nodata);
+    v.u8("corrections", corrections, 0, 2);
+    if (corrections == CorrectionKind::kNone) return;
+    v.varint("coefficient_bytes", coefficient_bytes, 0, UINT64_MAX >> 1);
+    if (corrections == CorrectionKind::kSteps) {
+      v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
+    }
+  }
+  static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
+};
+
+/// In the place of a number of bit-planes: the texture is drawn
+/// (texture_wavelet/drawn/drawn_pass.hpp), or its samples are stored
+/// (bitstream/coder/byte_planes.hpp).
+inline constexpr uint8_t kDrawnPlanes = 31, kStoredTexture = 63;
+
+/// What is added to the priority of a component at its finest levels, in 1/16 of a binary order of
+/// magnitude: how visible errors of a band are. A part of the header of its own.
+struct BandWeights {
+  static constexpr uint64_t kMostLevels = 8;
+  static constexpr int64_t kMaxPriority = 128;
+
+  uint8_t levels = 0;  ///< 0: none, for no component
+  /// Of a component: HL and LH of level 1, HH of level 1, HL and LH of level 2, ...
+  std::array<std::array<int64_t, 2 * kMostLevels>, 4> priority{};
+
+  int64_t at(uint32_t component, int level, Orientation orientation) const {
+    if (orientation == Orientation::kLL || level > levels) return 0;
+    return priority[component]
+                   [static_cast<size_t>(2 * (level - 1) + (orientation == Orientation::kHH))];
+  }
+
+  template <class V>
+  void visit(V& v, uint32_t components) {
+    v.u8("weight_levels", levels, 1, kMostLevels);
+    for (uint32_t c = 0; c < components; ++c) {
+      for (size_t i = 0; i < size_t{2} * levels && v.ok(); ++i)
+        v.zigzag("band_priority", priority[c][i], kMaxPriority);
+    }
+  }
+};
+
+/// Texture: centre, order and shears as in texture_wavelet/colour/colour.hpp. Drawn and stored ones
+/// end with `planes`.
+struct TextureHeader {
+  uint32_t width = 0, height = 0;
+  uint8_t channels = 0;
+  uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
+  uint8_t planes = 0;
+  uint8_t colour_order = 0;
+  /// With 3 components or more: of samples, then those of coefficients.
+  std::vector<std::array<int64_t, 6>> colour_shears{{}};
+  std::array<uint16_t, 4> centre{};   ///< one per component
+  std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
+  WaveletHeader wavelet;
+  RegionHeader regions;  ///< a part of the header of its own
+  BandWeights weights;
+  /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
+  /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
+  uint64_t alpha_bytes = 0;
+  uint8_t hidden = 0;  ///< of a cut-out: colours where alpha is 0 are not coded
+  /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
+  uint64_t overlay_bytes = 0;
+  bool stored = false;  ///< sample by sample, without a transform
+
+  uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("texture_width", width, 1, kMaxTextureSide);
+    v.varint("texture_height", height, 1, kMaxTextureSide);
+    uint8_t kind = static_cast<uint8_t>(alpha_bytes == 0 ? channels : 4 + channels / 2);
+    v.u8("channels", kind, 1, 6);
+    channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
+    v.u8("texture_sample", sample, 0, TKS_U16);
+    const uint8_t overlaid = kDrawnPlanes + 1;
+    auto coding =
+        static_cast<uint8_t>(stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0));
+    v.u8("texture_planes", coding, 0, kStoredTexture);
+    planes = coding % overlaid;
+    stored = coding == kStoredTexture;
+    if (direct()) return;
+    wavelet.visit(v);
+    if (kind > 4) {
+      v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
+      v.u8("hidden", hidden, 0, 1);
+    }
+    if (coding >= overlaid) v.varint("overlay_bytes", overlay_bytes, 1, UINT64_MAX >> 1);
+    for (size_t c = 0; c < components() && v.ok(); ++c) {
+      v.varint("centre", centre[c], 0, 0xffff);
+      v.zigzag("priority", priority[c], kMaxPriority);
+    }
+    if (components() < 3) return;
+    auto colour = static_cast<uint8_t>(colour_order + kOrders * (colour_shears.size() - 1));
+    v.u8("colour", colour, 0, kOrders * kMostShears - 1);
+    colour_order = colour % kOrders;
+    colour_shears.resize(colour / kOrders + size_t{1});
+    for (auto& shears : colour_shears) {
+      for (int64_t& shear : shears) v.zigzag("colour_shear", shear, INT16_MAX);
+    }
+  }
+  bool drawn() const { return direct() && !stored; }
+  /// Without a transform: drawn or stored.
+  bool direct() const { return planes == kDrawnPlanes; }
+
+  static constexpr int64_t kMaxPriority = 128;
+  static constexpr uint8_t kOrders = 6;      ///< of channels
+  static constexpr uint8_t kMostShears = 8;  ///< sets of shears
+};
+
+/// What the heights mean on the ground.
+struct Metadata {
+  double scale = 1, offset = 0;  ///< height in the unit = sample * scale + offset
+  double spacing_x = 0, spacing_y = 0;
+  std::string unit, vertical_datum, crs;
+
+  bool isDefault() const;
+
+  template <class V>
+  void visit(V& v) {
+    v.f64("scale", scale);
+    v.f64("offset", offset);
+    v.f64("spacing_x", spacing_x);
+    v.f64("spacing_y", spacing_y);
+    v.text("unit", unit);
+    v.text("vertical_datum", vertical_datum);
+    v.text("crs", crs);
+  }
+};
+
+struct StreamHeader {
+  uint8_t version = kFormatVersion;
+  uint8_t profile = kMainProfile;
+  uint8_t level = 0;
+  uint64_t payload_bytes = 0;  ///< what the encoder wrote behind the header
+  uint8_t lossless = 0;        ///< the complete stream restores every sample
+  uint32_t triangles = 0;      ///< budget the stream was made for; 0: none
+  std::optional<GeometryHeader> geometry;
+  GeometryLayers layers;
+  std::optional<TextureHeader> texture;
+  Metadata metadata;
+  std::vector<PacketHead> index;  ///< the heads of all packets, ahead of time
+};
+
+/// Tracks of each component; see demultiplex().
+TrackCounts trackCounts(const StreamHeader& header);
+
+/// Smallest n such that neither component has more than 4^(n + 8) samples.
+uint8_t levelFor(const StreamHeader& header);
+
+/// Magic, version, profile, level, size of the body, body, CRC-32 of everything before it.
+std::vector<uint8_t> writeHeader(const StreamHeader& header);
+
+struct ParsedHeader {
+  StreamHeader header;
+  size_t bytes = 0;  ///< header bytes: the payload starts here
+};
+
+/// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT,
+/// TKS_UNSUPPORTED.
+Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);
+
+}  // namespace tetrakis

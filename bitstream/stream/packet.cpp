@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bitstream/stream/packet.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "bitstream/stream/fields.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+void putHead(const Packet& packet, FieldWriter& writer) {
+  writer.put(packet.head());
+  if (packet.region) writer.put(*packet.region);
+  writer.bytes.push_back(packet.quality);
+}
+
+}  // namespace
+
+uint8_t qualityOf(double rmse) {
+  if (!(rmse > 0)) return 0;
+  return static_cast<uint8_t>(std::clamp(std::ceil(8 * std::log2(rmse)) + 64, 1.0, 255.0));
+}
+
+double rmseOf(uint8_t quality) {
+  return quality == 0 ? 0.0 : std::exp2((quality - 64) / 8.0);
+}
+
+size_t overheadOf(const Packet& packet) {
+  FieldWriter writer;
+  putHead(packet, writer);
+  return writer.bytes.size();
+}
+
+std::vector<uint8_t> multiplex(std::span<const Packet> packets,
+                               const std::array<Codewords, kTracks>& codewords, uint64_t limit) {
+  FieldWriter writer;
+  for (const Packet& packet : packets) {
+    putHead(packet, writer);
+    const auto& codeword = codewords[static_cast<size_t>(packet.track)][packet.region.value_or(0)];
+    assert(packet.begin < packet.end && packet.end <= codeword.size());
+    const auto payload = codeword.subspan(packet.begin, packet.end - packet.begin);
+    writer.bytes.insert(writer.bytes.end(), payload.begin(), payload.end());
+    if (writer.bytes.size() >= limit) break;
+  }
+  if (writer.bytes.size() > limit) writer.bytes.resize(limit);
+  return std::move(writer.bytes);
+}
+
+Codewords Demultiplexed::codewordsOf(TrackId track) const {
+  const auto component = static_cast<size_t>(track);
+  Codewords all(counts[component].tracks);
+  for (const auto& [number, codeword] : codewords[component]) all[number] = codeword;
+  return all;
+}
+
+bool Demultiplexed::nothingOf(TrackId track) const {
+  const auto& known = codewords[static_cast<size_t>(track)];
+  return std::all_of(known.begin(), known.end(),
+                     [](const auto& one) { return one.second.empty(); });
+}
+
+namespace {
+
+/// Calls visit(head, payload, complete) for every packet begun.
+template <class Visit>
+Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const TrackCounts& counts,
+                     Visit&& visit) {
+  size_t at = 0;
+  while (at < payload.size()) {
+    FieldReader reader(payload.subspan(at), origin + at);
+    PacketHead head;
+    head.head = reader.take();
+    const TrackCount& count = counts[static_cast<size_t>(head.track())];
+    const uint64_t length = head.head >> 2;
+    if (count.named) reader.varint("region", head.region, 0, UINT32_MAX);
+    reader.u8("quality", head.quality, 0, 255);
+    if (reader.starved()) break;
+    if (!reader.ok()) return reader.status();
+    if (length == 0 || head.region >= count.tracks) {
+      return Status(TKS_CORRUPT, "Corrupt stream: the packet at byte " +
+                                     std::to_string(origin + at) +
+                                     " is empty or of a track that the header does not announce.");
+    }
+    at += reader.position();
+    const bool complete = length <= payload.size() - at;
+    const size_t available = complete ? static_cast<size_t>(length) : payload.size() - at;
+    visit(head, payload.subspan(at, available), complete);
+    at += available;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origin,
+                                  const TrackCounts& counts) {
+  PayloadCount count;
+  const Status status = forEachPacket(payload, origin, counts,
+                                      [&](const PacketHead&, std::span<const uint8_t> bytes, bool) {
+                                        ++count.packets;
+                                        count.bytes += bytes.size();
+                                      });
+  if (!status.ok()) return status;
+  return count;
+}
+
+Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
+                                  const TrackCounts& counts, uint64_t packets) {
+  Demultiplexed out;
+  out.counts = counts;
+  out.heads.reserve(packets);
+  const Status status =
+      forEachPacket(payload, origin, counts,
+                    [&](const PacketHead& head, std::span<const uint8_t> bytes, bool complete) {
+                      const auto component = static_cast<size_t>(head.track());
+                      const bool whole = (head.head & 2) != 0;
+                      out.heads.push_back(head);
+                      if (complete || !whole) {
+                        std::vector<uint8_t>& codeword = out.codewords[component][head.region];
+                        codeword.insert(codeword.end(), bytes.begin(), bytes.end());
+                      }
+                      if (complete) out.quality[component] = head.quality;
+                    });
+  if (!status.ok()) return status;
+  return out;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packets and the multiplexer (docs/FORMAT.md, section 3). A packet is a run of bytes of one
+// track's codeword:
+//
+//   head     varint   length << 2 | whole << 1 | component     length >= 1
+//   region   varint   number of the track, if the component is coded in regions
+//   quality  u8       error of the component after the packet: RMSE = 2^((quality - 64) / 8), 0
+//   exact payload  length bytes
+//
+// A packet that is cut keeps what its bytes decide, unless `whole` is set: then it counts only when
+// complete (the encoder sets it where a part of the packet could look worse than none).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/status.hpp"
+
+namespace tetrakis {
+
+/// The component that a track belongs to; without regions it is the component's only one.
+enum class TrackId : uint8_t { kGeometry = 0, kTexture = 1 };
+inline constexpr size_t kTracks = 2;
+
+struct Packet {
+  TrackId track = TrackId::kGeometry;
+  bool whole = false;
+  uint8_t quality = 0;
+  uint64_t begin = 0, end = 0;     ///< bytes of the track's codeword
+  std::optional<uint32_t> region;  ///< number of the track; nothing: the component has but one
+
+  uint64_t head() const {
+    return (end - begin) << 2 | static_cast<uint64_t>(whole) << 1 | static_cast<uint64_t>(track);
+  }
+};
+
+/// RMSE to its byte, rounded up, and back. In integer steps of the heights, or texel units.
+uint8_t qualityOf(double rmse);
+double rmseOf(uint8_t quality);
+
+/// Bytes before the payload.
+size_t overheadOf(const Packet& packet);
+
+/// The codewords of a component's tracks, in the order of their numbers.
+using Codewords = std::vector<std::span<const uint8_t>>;
+
+/// Writes the packets in order, stopping at `limit` bytes (inside a packet if need be).
+std::vector<uint8_t> multiplex(std::span<const Packet> packets,
+                               const std::array<Codewords, kTracks>& codewords, uint64_t limit);
+
+/// What stands before a packet's payload; the front index repeats it.
+struct PacketHead {
+  uint64_t head = 0;
+  uint32_t region = 0;
+  uint8_t quality = 0;
+  bool operator==(const PacketHead&) const = default;
+
+  TrackId track() const { return static_cast<TrackId>(head & 1); }
+};
+
+struct TrackCount {
+  uint64_t tracks = 0;  ///< 0: the header does not announce the component
+  bool named = false;   ///< packets say which track they belong to
+};
+using TrackCounts = std::array<TrackCount, kTracks>;
+
+struct Demultiplexed {
+  TrackCounts counts;
+  /// What is available of the tracks of each component, by number; of the others nothing is.
+  std::array<std::map<uint32_t, std::vector<uint8_t>>, kTracks> codewords;
+  std::array<std::optional<uint8_t>, kTracks> quality;  ///< of the last complete packet of each
+  std::vector<PacketHead> heads;                        ///< of every packet begun
+
+  /// Of all tracks, which may be many.
+  Codewords codewordsOf(TrackId track) const;
+  /// No byte of any track of the component is available.
+  bool nothingOf(TrackId track) const;
+};
+
+/// What a payload holds, for an idea of what it takes to take it apart.
+struct PayloadCount {
+  uint64_t packets = 0, bytes = 0;  ///< begun; of all payloads
+};
+Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origin,
+                                  const TrackCounts& counts);
+
+/// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that
+/// no encoder writes. Allocates in proportion to the payload, whatever `counts` says.
+/// packets: how many there are, if that is known.
+Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
+                                  const TrackCounts& counts, uint64_t packets = 0);
+
+}  // namespace tetrakis

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is known of one band of transform coefficients while its bit-planes arrive.
+//
+// Structure of arrays with a margin of zeros, so that neighbours need no bounds checks. Sets of
+// coefficients (significant, visited in this plane) are bit maps, one word for each 32 columns: a
+// pass finds its coefficients by word operations and skips the others. Coefficients that do not
+// exist, because their sample is void, count as visited from the start of every plane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "base/zeroed_array.hpp"
+
+namespace tetrakis {
+
+/// Direction of a band's detail; LL has none.
+enum class Orientation : uint8_t { kLL, kHL, kLH, kHH };
+
+struct BandShape {
+  uint32_t rows = 0, columns = 0;
+
+  bool empty() const { return rows == 0 || columns == 0; }
+  uint32_t words() const { return (columns + 31) / 32; }  ///< of a row of a bit map
+  uint32_t wordStride() const { return words() + 2; }
+  /// Bit maps have margins of one word and as many rows as significantWithin() looks away.
+  static constexpr uint32_t kMarginRows = 3;
+  size_t wordCells() const { return size_t{rows + 2 * kMarginRows} * wordStride(); }
+  size_t word(uint32_t row, uint32_t index) const {
+    return size_t{row + kMarginRows} * wordStride() + index + 1;
+  }
+  /// Rows are padded to whole words and a margin of one cell.
+  uint32_t stride() const { return 32 * words() + 2; }
+  size_t cells() const { return size_t{rows + 2} * stride(); }
+  size_t cell(uint32_t row, uint32_t column) const {
+    return size_t{row + 1} * stride() + column + 1;
+  }
+  /// The columns of a word that exist.
+  uint32_t valid(uint32_t index) const {
+    const uint32_t left = columns - 32 * index;
+    return left >= 32 ? ~uint32_t{0} : (uint32_t{1} << left) - 1;
+  }
+};
+
+/// Neighbours of a cell. near[0..1] lie along the direction in which the band is high (the rows of
+/// HL, the columns of LH), near[2..3] across it: coefficients of both bands then look alike.
+struct Neighbours {
+  std::array<ptrdiff_t, 4> near;
+  std::array<ptrdiff_t, 4> far;  ///< the diagonals
+
+  Neighbours(const BandShape& shape, Orientation orientation) {
+    const auto row = static_cast<ptrdiff_t>(shape.stride());
+    const ptrdiff_t along = orientation == Orientation::kLH ? row : 1, across = row + 1 - along;
+    near = {-along, along, -across, across};
+    far = {-row - 1, row + 1, -row + 1, row - 1};
+  }
+};
+
+struct Band {
+  static constexpr uint32_t kBlockRows = 8;  ///< blocks are one word wide
+
+  Band() = default;
+  /// absent_cells: bit map of the coefficients that do not exist; empty: all do.
+  Band(const BandShape& band_shape, Orientation band_orientation,
+       std::span<const uint32_t> absent_cells = {});
+
+  /// Bytes that a band of that shape allocates. masked: some of its coefficients may be absent.
+  static uint64_t bytesOf(const BandShape& band_shape, bool masked);
+
+  uint32_t blockRows() const { return (shape.rows + kBlockRows - 1) / kBlockRows; }
+  uint8_t& block(uint32_t y, uint32_t x) { return block_nonzero[size_t{y} * shape.words() + x]; }
+
+  /// The columns of a word that exist.
+  uint32_t existing(uint32_t row, uint32_t index) const {
+    const uint32_t valid = shape.valid(index);
+    return absent.size() == 0 ? valid : valid & ~absent[shape.word(row, index)];
+  }
+
+  /// Nothing is known of the next bit-plane yet.
+  void clearVisited();
+
+  /// The columns of a word that have a significant neighbour. Significant ones themselves may or
+  /// may not be among them.
+  uint32_t nearSignificant(size_t word) const {
+    const uint32_t stride = shape.wordStride();
+    const uint32_t* s = significant.data() + word;
+    const auto any = [&](ptrdiff_t i) { return s[i - stride] | s[i] | s[i + stride]; };
+    const uint32_t here = any(0);
+    return here | here << 1 | here >> 1 | any(-1) >> 31 | any(1) << 31;
+  }
+
+  /// The columns of a word that have a significant coefficient at most two, and at most three, rows
+  /// and columns away.
+  struct Reach {
+    uint32_t two, three;
+  };
+  Reach significantWithin(size_t word) const {
+    const auto stride = static_cast<ptrdiff_t>(shape.wordStride());
+    const uint32_t* s = significant.data() + word;
+    const auto two = [&](ptrdiff_t i) {
+      return s[i - 2 * stride] | s[i - stride] | s[i] | s[i + stride] | s[i + 2 * stride];
+    };
+    const auto three = [&](ptrdiff_t i) { return s[i - 3 * stride] | s[i + 3 * stride]; };
+    // 38 columns: those of the word from bit 3 on, and three on either side.
+    const auto joined = [](uint32_t left, uint32_t here, uint32_t right) {
+      return left >> 29 | uint64_t{here} << 3 | uint64_t{right & 7} << 35;
+    };
+    const auto spread = [](uint64_t bits) { return bits | bits << 1 | bits >> 1; };
+    const uint64_t in_two = joined(two(-1), two(0), two(1));
+    const uint64_t in_three = in_two | joined(three(-1), three(0), three(1));
+    return {static_cast<uint32_t>(spread(spread(in_two)) >> 3),
+            static_cast<uint32_t>(spread(spread(spread(in_three))) >> 3)};
+  }
+
+  BandShape shape;
+  Orientation orientation = Orientation::kLL;
+  int plane = 31;                     ///< bit-plane of the last pass; nothing is known below
+  bool nonzero = false;               ///< the band holds a significant coefficient
+  uint32_t significant_count = 0;     ///< coefficients that are significant
+  ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
+  ZeroedArray<uint8_t> scaled;        ///< magnitude >> plane, held below 2^7
+  ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1
+  ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
+  ZeroedArray<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known, or absent
+  ZeroedArray<uint32_t> absent;       ///< bit map: does not exist; without elements: all do
+  ZeroedArray<uint8_t> block_nonzero;  ///< the block holds a significant coefficient
+};
+
+}  // namespace tetrakis

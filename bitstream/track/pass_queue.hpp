@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order of a track's passes: always the one that promises the most. It follows from the norms
+// of the bands and from how many of their coefficients are known to be significant, so it costs no
+// bits, and each pass improves the surface or image by about the same factor as its neighbours.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/track/track.hpp"
+
+namespace tetrakis {
+
+struct Pass {
+  uint16_t band;
+  uint8_t plane;
+  PassKind kind;
+  int key;  ///< 16 log2 of norm * 2^plane, less a delay
+};
+
+class PassQueue {
+ public:
+  PassQueue(const std::vector<BandPlan>& plan, int planes);
+
+  bool empty() const { return pending_.empty(); }
+  /// The next pass.
+  const Pass& front() const { return pending_.front(); }
+  /// It has been coded, and this is what is known of its band now.
+  void pop(const Band& band);
+  /// Bands that are needed (BandPlan::needed) have passes left.
+  bool needed() const { return needed_ > 0; }
+
+ private:
+  struct Progress {
+    int log_norm = 0;
+    bool needed = false;
+    uint32_t coefficients = 0;  ///< that exist
+    uint8_t open = 0;           ///< passes of the plane that are not coded yet
+  };
+
+  void push(uint16_t band, int plane, PassKind kind, uint32_t significant);
+
+  std::vector<Progress> progress_;  ///< of each band
+  std::vector<Pass> pending_;       ///< a heap
+  size_t needed_ = 0;               ///< needed bands with passes left
+};
+
+}  // namespace tetrakis

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bitstream/track/reconstruction.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "bitstream/track/local_sums.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// Offset of a significant coefficient from the low end of its interval, in 1/64 of the interval,
+/// by the class of its neighbours' magnitudes. Means over terrain and aerial images.
+constexpr std::array<int, BandModels::kLocal> kCentroid = {16, 19, 20, 22, 23, 25,
+                                                           27, 28, 29, 30, 30};
+
+}  // namespace
+
+/// What the sign of each neighbour says about an insignificant coefficient, in 1/64 of the interval
+/// that it is known to lie in. Means over terrain and aerial images.
+Reconstruction::SignWeights Reconstruction::weightsOf(Orientation orientation) {
+  if (orientation == Orientation::kLL) return {0, 0, 0};
+  if (orientation == Orientation::kHH) return {-3, -3, 1};
+  return {-8, 3, -1};
+}
+
+Reconstruction::Reconstruction(const Band& band, int fraction_bits)
+    : band_(band),
+      fraction_bits_(fraction_bits),
+      neighbours_(band.shape, band.orientation),
+      weights_(weightsOf(band.orientation)) {
+  for (int above = 0; above < 2; ++above) {
+    const int plane = band.plane + above;
+    if (plane == 0) continue;  // nothing is left open
+    PlaneTables& tables = tables_[static_cast<size_t>(above)];
+    for (size_t i = 0; i < kCentroid.size(); ++i) tables.rest[i] = fraction(kCentroid[i], plane);
+    for (int hint = -kMostHint; hint <= kMostHint; ++hint)
+      tables.guess[static_cast<size_t>(hint + kMostHint)] = fraction(hint, plane);
+  }
+}
+
+void Reconstruction::row(uint32_t row, int32_t* values) const {
+  const BandShape& shape = band_.shape;
+  for (uint32_t x = 0; x < shape.words(); ++x) {
+    const uint32_t count = std::min(32u, shape.columns - 32 * x), valid = shape.valid(x);
+    const size_t word = shape.word(row, x), first = shape.cell(row, 32 * x);
+    const uint32_t here = band_.significant[word] & valid, visited = band_.visited[word];
+    const uint32_t beside = band_.nearSignificant(word) & valid & ~here;
+    int32_t* out = values + 32 * x;
+    std::fill_n(out, count, 0);
+    if ((here & visited) != 0) significant<0>(first, here & visited, out);
+    if ((here & ~visited) != 0) significant<1>(first, here & ~visited, out);
+    if (beside != 0) insignificant(first, beside, visited, out);
+  }
+}
+
+/// sixtyfourths / 64 * 2^plane in output units, rounded towards zero.
+int32_t Reconstruction::fraction(int sixtyfourths, int plane) const {
+  const auto magnitude = static_cast<uint64_t>(sixtyfourths < 0 ? -sixtyfourths : sixtyfourths);
+  const auto value =
+      static_cast<int32_t>(static_cast<uint32_t>((magnitude << (plane + fraction_bits_)) >> 6));
+  return sixtyfourths < 0 ? -value : value;
+}
+
+/// Of those of 32 columns that are known down to plane band.plane + kAbove.
+template <int kAbove>
+void Reconstruction::significant(size_t first, uint32_t columns, int32_t* out) const {
+  LocalSums sums;
+  localSums<kAbove>(band_, first, sums);
+  const std::array<int32_t, BandModels::kLocal>& rest = tables_[kAbove].rest;
+  const uint32_t* magnitude = band_.magnitude.data() + first;
+  const int8_t* sign = band_.sign.data() + first;
+  for (; columns != 0; columns &= columns - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(columns));
+    const auto open = static_cast<uint32_t>(rest[kLocalClass[sums[i]]]);
+    const uint32_t value = (magnitude[i] << fraction_bits_) + open;
+    out[i] = static_cast<int32_t>(sign[i] < 0 ? 0u - value : value);
+  }
+}
+
+void Reconstruction::insignificant(size_t first, uint32_t columns, uint32_t visited,
+                                   int32_t* out) const {
+  const int8_t* s = band_.sign.data() + first;
+  const auto &near = neighbours_.near, &far = neighbours_.far;
+  std::array<int16_t, 32> hints;
+  for (ptrdiff_t i = 0; i < 32; ++i) {
+    const int along = s[i + near[0]] + s[i + near[1]], across = s[i + near[2]] + s[i + near[3]];
+    const int diagonal = s[i + far[0]] + s[i + far[1]] + s[i + far[2]] + s[i + far[3]];
+    hints[static_cast<size_t>(i)] =
+        static_cast<int16_t>(kMostHint + weights_.along * along + weights_.across * across +
+                             weights_.diagonal * diagonal);
+  }
+  for (; columns != 0; columns &= columns - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(columns));
+    const size_t above = ~(visited >> i) & 1;
+    out[i] = tables_[above].guess[static_cast<size_t>(hints[i])];
+  }
+}
+
+}  // namespace tetrakis

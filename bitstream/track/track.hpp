@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A track: the bands of one component (geometry, or texture), coded into one codeword.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/track/band.hpp"
+#include "bitstream/track/plane_pass.hpp"
+
+namespace tetrakis {
+
+/// One band of a track, as its owner (codec/, texture_wavelet/) describes it.
+struct BandPlan {
+  static constexpr int kNone = -1;
+
+  BandShape shape;
+  Orientation orientation = Orientation::kLL;
+  int log_norm = 0;       ///< 16 * log2 of the L2 norm of the band's synthesis functions, rounded
+  uint32_t models = 0;    ///< index of the BandModels that the band uses
+  int parent = kNone;     ///< the band of the same orientation one level coarser
+  int component = kNone;  ///< the same band of another component
+  std::array<int, 2> siblings = {kNone, kNone};  ///< the other details of the level
+  /// Bit map (BandShape::word) of the coefficients that do not exist; empty: all do.
+  std::vector<uint32_t> absent = {};
+  bool needed = true;  ///< by a decoder
+
+  /// There is no coefficient to code.
+  bool vacant() const;
+};
+
+/// Bit-planes a coefficient may have: magnitudes stay below 2^30.
+inline constexpr int kMaxPlanes = 30;
+
+/// Bands and contexts: the state that encoder and decoder build in step.
+struct TrackState {
+  TrackState(const std::vector<BandPlan>& plan, int planes);
+
+  /// Runs one pass of a band of the plan that the state was made from.
+  template <class Io>
+  void run(const std::vector<BandPlan>& plan, size_t index, PassKind kind, int plane, Io& io) {
+    const BandPlan& band = plan[index];
+    const auto at = [&](int i) { return i < 0 ? nullptr : &bands[static_cast<size_t>(i)]; };
+    const HintBands hints{
+        at(band.parent), at(band.component), {at(band.siblings[0]), at(band.siblings[1])}};
+    PlanePass<Io>(bands[index], models[band.models], hints, io).run(kind, plane);
+  }
+
+  std::vector<Band> bands;
+  std::vector<BandModels> models;
+  bool complete = false;  ///< every pass asked for has been decoded: those bands are exact
+};
+
+}  // namespace tetrakis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes any prefix of a track's codeword into what it says about the coefficients.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/coder/range_decoder.hpp"
+#include "bitstream/track/pass_queue.hpp"
+#include "bitstream/track/track.hpp"
+
+namespace tetrakis {
+
+/// Runs the passes of `plan` over `codeword`, up to the last one of a band that is needed, until
+/// its bytes decide nothing more. Bands that are not needed are decoded as far as they come before
+/// that: there is one codeword. Safe on any bytes: work is bounded by planes * coefficients, memory
+/// by the plan.
+TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
+                       std::span<const uint8_t> codeword);
+
+/// The same for one prefix after the other, each longer than the one before: what that decided is
+/// not decoded again.
+class GrowingTrack {
+ public:
+  GrowingTrack(std::vector<BandPlan> plan, int planes);
+
+  /// codeword: a view of the same memory in all calls, never shorter; what an encoder wrote (of
+  /// other bytes the state may be one that no prefix has). The state is valid until the next call.
+  const TrackState& decode(std::span<const uint8_t> codeword);
+
+ private:
+  void restore();
+
+  std::vector<BandPlan> plan_;
+  PassQueue passes_;
+  TrackState state_;
+  // As they were at the beginning of the pass that is next, if it has begun.
+  std::optional<RangeDecoder> decoder_;
+  std::optional<Band> band_;
+  std::optional<BandModels> models_;
+};
+
+}  // namespace tetrakis

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encodes the coefficients of a track down to the last bit and measures what every byte buys.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "bitstream/track/track.hpp"
+
+namespace tetrakis {
+
+/// A point of a track's operational rate-distortion curve: the state a decoder reaches when it has
+/// the first `bytes` bytes of the codeword.
+struct RatePoint {
+  uint64_t bytes;
+  double distortion;  ///< weighted squared error of the coefficients
+  /// Between the point before and this one, some prefix is noticeably worse than the best so far.
+  bool dips = false;
+};
+
+struct EncodedTrack {
+  std::vector<uint8_t> codeword;
+  /// Falling distortion at rising bytes, from {0, all of it} to {codeword.size(), what is left}.
+  std::vector<RatePoint> points;
+  int planes = 0;        ///< bit-planes of the largest coefficient: the decoder must know
+  bool complete = true;  ///< down to the last bit
+};
+
+/// Coefficients of one band in the cell layout of BandShape (margins zero), |value| < 2^30.
+struct BandSource {
+  std::vector<int32_t> values;
+  double weight = 1;  ///< squared error in the output per squared error of a coefficient
+};
+
+/// What one track is made of: bands[i] belongs to plan[i].
+struct TrackSource {
+  std::vector<BandPlan> plan;
+  std::vector<BandSource> bands;
+};
+
+/// Stops after the pass in which the codeword passes `limit` bytes.
+EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
+                         uint64_t limit);
+
+/// How a component is coded.
+struct TrackOptions {
+  /// An error of which the account, a sum of floats, never falls short: all passes are coded.
+  static constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+  uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
+  int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
+  uint32_t threads = 1;         ///< nothing depends on them
+  bool visual = false;          ///< a texture: what is seen comes first, not what is off most
+  uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
+  double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
+  double enough = kNever;       ///< distortion of all tracks together below which coding ends
+};
+
+/// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks
+/// stop together, at the same key of the order of passes, after a bit-plane in which all codewords
+/// together pass the limit, or their error is small enough.
+std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
+                                       const TrackOptions& options);
+
+}  // namespace tetrakis

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/bound_choice.hpp"
+
+#include <vector>
+
+#include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/geometry_encoder.hpp"
+#include "wavelet/filter_choice.hpp"
+#include "wavelet/typical_parts.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+constexpr uint64_t kSearchedSamples = 1025 * 1025;
+constexpr uint32_t kPartSide = 448;
+
+HeightSteps cropped(const HeightSteps& whole, uint32_t width, const Part& part) {
+  HeightSteps out;
+  out.range_bits = whole.range_bits;
+  for (uint32_t y = 0; y < part.height; ++y) {
+    const auto first = static_cast<ptrdiff_t>(size_t{part.y + y} * width + part.x);
+    const auto row = whole.steps.begin() + first;
+    out.steps.insert(out.steps.end(), row, row + part.width);
+    if (whole.valid.empty()) continue;
+    const auto mask = whole.valid.begin() + first;
+    out.valid.insert(out.valid.end(), mask, mask + part.width);
+  }
+  return out;
+}
+
+/// A part of the plane, as if it were one.
+class PartTrial {
+ public:
+  PartTrial(HeightSteps steps, const Part& part, const WaveletHeader& wavelet, int32_t largest)
+      : steps_(std::move(steps)), largest_(largest) {
+    header_.width = part.width;
+    header_.height = part.height;
+    header_.wavelet = wavelet;
+    track_ = coded(steps_.steps, wavelet);
+    header_.planes = static_cast<uint8_t>(track_.planes);
+  }
+
+  uint64_t corrected(double mean_square) const {
+    const CorrectedCut cut(steps_, header_, track_, largest_);
+    return cut.total(cut.bytesFor(mean_square));
+  }
+
+  uint64_t rounded() const {
+    std::vector<int32_t> steps = steps_.steps;
+    for (int32_t& q : steps) q = nearestMultiple(q, largest_);
+    const WaveletHeader wavelet = chooseWavelet(steps, steps_.valid, header_.width, header_.height,
+                                                steps_.range_bits, Purpose::kLossless);
+    return coded(steps, wavelet).codeword.size();
+  }
+
+ private:
+  EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
+    return encodeGeometry(steps, header_.width, header_.height, wavelet, {}, steps_.valid).front();
+  }
+
+  HeightSteps steps_;
+  int32_t largest_;
+  GeometryHeader header_;
+  EncodedTrack track_;
+};
+
+/// Where the corrected parts take the fewest bytes.
+struct BestCut {
+  double mean_square;
+  uint64_t bytes;
+};
+
+/// Descent by falling ratios; every turn but the last of each has fewer bytes than the one before.
+BestCut bestCut(const std::vector<PartTrial>& trials, int32_t largest) {
+  const auto at = [&](double mean_square) {
+    BestCut cut{mean_square, 0};
+    for (const PartTrial& trial : trials) cut.bytes += trial.corrected(mean_square);
+    return cut;
+  };
+  const double usual = kUsualCut * largest;
+  BestCut best = at(usual * usual);
+  for (const double ratio : {2.0, 0.5, 1.3, 1 / 1.3}) {
+    for (;;) {
+      const BestCut next = at(best.mean_square * ratio);
+      if (next.bytes >= best.bytes) break;
+      best = next;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+BoundWays boundWays(const HeightSteps& steps, uint32_t width, uint32_t height,
+                    const WaveletHeader& wavelet, int32_t largest) {
+  if (largest == 0) return {.correct = false};
+  if (uint64_t{width} * height <= kSearchedSamples) return {};
+  std::vector<PartTrial> trials;
+  uint64_t rounded = 0;
+  for (const Part& part : typicalParts(width, height, kPartSide)) {
+    trials.emplace_back(cropped(steps, width, part), part, wavelet, largest);
+    rounded += trials.back().rounded();
+  }
+  const BestCut cut = bestCut(trials, largest);
+  const bool correct = cut.bytes < rounded;
+  return {!correct, correct, cut.mean_square};
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights cut short and corrected to a largest error: which cut takes the fewest bytes in all.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/stream/header.hpp"
+#include "bitstream/track/track_encoder.hpp"
+#include "codec/geometry/height_steps.hpp"
+
+namespace tetrakis {
+
+/// The multiple of 2 * largest + 1 nearest to q.
+int32_t nearestMultiple(int64_t q, int64_t largest);
+
+/// What corrections make of the heights that a cut leaves.
+struct Corrected {
+  std::vector<uint8_t> codeword;  ///< empty: nothing needs one
+  double before = 0, after = 0;   ///< squared errors in steps
+};
+
+/// Tries cuts of one track of coefficients, complete or not. All arguments outlive it.
+class CorrectedCut {
+ public:
+  /// header: with the planes of the track; largest: error allowed, in steps.
+  CorrectedCut(const HeightSteps& steps, const GeometryHeader& header,
+               const EncodedTrack& coefficients, int32_t largest)
+      : steps_(steps), header_(header), coefficients_(coefficients), largest_(largest) {}
+
+  Corrected correct(uint64_t bytes) const;
+
+  /// Bytes of the coefficients that leave a mean squared error, in steps.
+  uint64_t bytesFor(double mean_square) const;
+  /// Of the cut there and its corrections.
+  uint64_t total(uint64_t bytes) const { return bytes + correct(bytes).codeword.size(); }
+
+  /// The cut of fewest bytes in all.
+  uint64_t best() const;
+
+ private:
+  const HeightSteps& steps_;
+  const GeometryHeader& header_;
+  const EncodedTrack& coefficients_;
+  int32_t largest_;
+};
+
+/// The RMSE, over the largest error, that cuts usually leave where the bytes are fewest.
+inline constexpr double kUsualCut = 0.45;
+
+}  // namespace tetrakis

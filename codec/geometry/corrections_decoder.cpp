@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/corrections_decoder.hpp"
+
+#include "bitstream/coder/range_decoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+class DecodingIo {
+ public:
+  explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  bool more(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
+  bool negative(AdaptiveBit& model, size_t, bool flip) { return decoder_.decode(model) != flip; }
+  bool high(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
+  bool low(size_t, int) { return decoder_.decodeEven(); }
+  bool stopped() const { return decoder_.exhausted(); }
+
+ private:
+  RangeDecoder decoder_;
+};
+
+}  // namespace
+
+std::vector<int32_t> decodeCorrections(std::span<const uint8_t> codeword,
+                                       const CorrectionGrid& grid) {
+  std::vector<int32_t> corrections(size_t{grid.width} * grid.height, 0);
+  DecodingIo io(codeword);
+  CorrectionPass<DecodingIo>(grid, io).run(corrections);
+  return corrections;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/geometry_encoder.hpp"
+
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "wavelet/band_plan.hpp"
+#include "wavelet/wavelet_header.hpp"
+
+namespace tetrakis {
+
+std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint32_t width,
+                                         uint32_t height, const WaveletHeader& wavelet,
+                                         const TrackOptions& options,
+                                         std::span<const uint8_t> valid) {
+  std::vector<int32_t> plane(heights.begin(), heights.end());
+  for (int32_t& h : plane) {
+    h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
+  }
+  for (size_t i = 0; i < valid.size(); ++i) plane[i] *= valid[i];
+  const WaveletSpec spec = specOf(wavelet);
+  forwardWavelet(spec, plane, width, height, valid, options.threads);
+  const PlaneLayout layout(spec, width, height);
+  const double unit = std::exp2(-2 * wavelet.fraction_bits);
+  const std::vector<Region> regions = regionsOf(width, height, options.region_log2);
+  std::vector<TrackSource> tracks(regions.size());
+  parallelFor(options.threads, regions.size(), [&](size_t i) {
+    const std::vector<BandPart> parts = layout.parts(regions[i]);
+    TrackSource& track = tracks[i];
+    track.plan = layout.plan(parts, 0, 0, 0);
+    markAbsent(layout, parts, valid, width, track.plan);
+    for (const BandPart& part : parts) {
+      track.bands.push_back({gather(plane, width, layout.subbands()[part.subband], part),
+                             layout.energy(part.subband) * unit});
+    }
+  });
+  return encodeTracks(tracks, options);
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/height_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "base/samples.hpp"
+#include "codec/geometry/integer_scale.hpp"
+#include "codec/geometry/restore.hpp"
+#include "codec/geometry/sample_order.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// What heights in units of 2^-fraction_bits steps stand for: sample = base + q * step.
+struct Scale {
+  double base, step;
+};
+
+template <class T>
+void restoreAll(std::span<const int32_t> heights, int fraction_bits, const Scale& scale,
+                T* samples) {
+  if constexpr (std::is_integral_v<T> && sizeof(T) < sizeof(int32_t)) {
+    const IntegerScale<T> integer(scale.base, scale.step);
+    if (integer.applies()) {
+      for (size_t i = 0; i < heights.size(); ++i)
+        samples[i] = integer.restore(wholeStep(heights[i], fraction_bits));
+      return;
+    }
+  }
+  for (size_t i = 0; i < heights.size(); ++i)
+    samples[i] = restore<T>(scale.base, scale.step, wholeStep(heights[i], fraction_bits));
+}
+
+template <class T>
+T voidSample(const GeometryLayers& layers) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return layers.has_nodata ? static_cast<T>(layers.nodata) : std::numeric_limits<T>::quiet_NaN();
+  } else {
+    return restore<T>(layers.nodata, 0, 0);
+  }
+}
+
+/// Whether T has the value that is declared for voids. If not no sample can be taken for one.
+template <class T>
+bool holdsNodata(const GeometryLayers& layers) {
+  if (layers.has_nodata == 0) return false;
+  return std::is_floating_point_v<T> || static_cast<double>(voidSample<T>(layers)) == layers.nodata;
+}
+
+/// What a height becomes that came out as the value of voids: the next larger sample, beside the
+/// largest finite one, or infinity, the next smaller. Both zeros have the same neighbour.
+template <class T>
+T besides(T nodata) {
+  if (nodata >= std::numeric_limits<T>::max()) return fromOrder<T>(orderOf(nodata) - 1);
+  return fromOrder<T>(orderOf(nodata == 0 ? T{0} : nodata) + 1);
+}
+
+/// Voids get their value, and no height keeps it.
+template <class T>
+void markVoids(const std::vector<uint8_t>& valid, const GeometryLayers& layers,
+               std::span<T> samples) {
+  const T nodata = voidSample<T>(layers);
+  if (holdsNodata<T>(layers)) std::replace(samples.begin(), samples.end(), nodata, besides(nodata));
+  for (size_t i = 0; i < valid.size(); ++i) {
+    if (!valid[i]) samples[i] = nodata;
+  }
+}
+
+}  // namespace
+
+size_t HeightSteps::validCount() const {
+  return valid.empty() ? steps.size()
+                       : static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{1}));
+}
+
+void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
+               const GeometryLayers& layers, void* out) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
+    using T = decltype(type);
+    T* samples = static_cast<T*>(out);
+    restoreAll(geometry.heights, geometry.fraction_bits, {header.base, header.step}, samples);
+    for (size_t i = 0; i < decoded.corrections.size(); ++i) {
+      const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
+      samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
+    }
+    markVoids(geometry.valid, layers, std::span(samples, geometry.heights.size()));
+  });
+}
+
+std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header) {
+  std::vector<uint8_t> hints(steps.size());
+  withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
+    using T = decltype(type);
+    for (size_t i = 0; i < steps.size(); ++i)
+      hints[i] = openBits(restore<T>(header.base, header.step, steps[i]), header.step);
+  });
+  return hints;
+}
+
+std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps) {
+  std::vector<int32_t> corrections(steps.steps.size(), 0);
+  withSampleType(heights.sample, [&](auto type) {
+    using T = decltype(type);
+    const auto* samples = static_cast<const T*>(heights.data);
+    for (size_t i = 0; i < corrections.size(); ++i) {
+      if (!steps.valid.empty() && !steps.valid[i]) continue;
+      const T restored = restore<T>(steps.base, steps.step, steps.steps[i]);
+      corrections[i] = static_cast<int32_t>(orderOf(samples[i]) - orderOf(restored));
+    }
+  });
+  return corrections;
+}
+
+StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double most) {
+  return withSampleType(heights.sample, [&](auto type) {
+    using T = decltype(type);
+    const auto* samples = static_cast<const T*>(heights.data);
+    std::vector<T> restored(steps.steps.size());
+    restoreAll(steps.steps, 0, {steps.base, steps.step}, restored.data());
+    StepErrors errors;
+    for (size_t i = 0; i < restored.size(); ++i) {
+      if (!steps.valid.empty() && !steps.valid[i]) continue;
+      const double error =
+          std::abs(static_cast<double>(restored[i]) - static_cast<double>(samples[i]));
+      errors.largest = std::max(errors.largest, error);
+      errors.squares += std::min(error * error, most);
+    }
+    return errors;
+  });
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights of any sample type to integer steps and back: sample = base + q * step.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/status.hpp"
+#include "bitstream/stream/header.hpp"
+#include "codec/geometry/height_layers.hpp"
+
+namespace tetrakis {
+
+struct HeightSteps {
+  std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0; 0 where voids are
+  std::vector<uint8_t> valid;  ///< 1 valid, 0 void; empty: all are valid
+  double base = 0, step = 1;
+  bool exact = false;  ///< every valid sample comes back bit for bit
+  int range_bits = 0;  ///< the steps span less than 2^range_bits
+
+  size_t validCount() const;
+};
+
+/// What the target asks of steps that are chosen.
+struct StepNeeds {
+  double given = 0;       ///< > 0: the step itself, in sample units; nothing is chosen
+  bool lossless = false;  ///< corrections will restore the samples
+  double error = 0;       ///< > 0: largest error wanted, in sample units
+  /// A few samples so far from the others that no steps show both may be lost; for `lossless`
+  /// corrections restore them.
+  bool leave_outliers = false;
+};
+
+/// Chooses base and step. Integers get the greatest common divisor of their differences, doubled
+/// until 2^26 steps suffice; floats the coarsest of 1, 0.1, 0.01, 0.001 or a power of two that
+/// restores the value of every sample, or of all but one in 256 where these may be exceptions.
+/// Where no step does that within 2^26 steps: for lossless sixteen times the spacing of the largest
+/// floats (corrections do the rest); else a power of two near range / 2^20, but not above error /
+/// 64 unless that takes more than 2^26 steps. TKS_USAGE: a sample is infinite, or the given step
+/// needs more than 2^26 steps.
+Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
+
+/// Writes samples of header.sample, one for each height of `decoded`; integers saturate at their
+/// type's range. Voids become layers.nodata or NaN; a height that would be the declared nodata
+/// value becomes the next sample, whether there are voids or not.
+void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
+               const GeometryLayers& layers, void* out);
+
+/// The hints (codec/geometry/corrections_pass.hpp) of corrections to samples that these steps
+/// become.
+std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header);
+
+/// The corrections that restore the samples.
+std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps);
+
+/// Largest distance between a valid sample and what its step becomes, and the sum of the squared
+/// distances; in sample units.
+/// most: what one sample adds to the squares at most.
+struct StepErrors {
+  double largest = 0, squares = 0;
+};
+StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps,
+                    double most = std::numeric_limits<double>::infinity());
+
+}  // namespace tetrakis

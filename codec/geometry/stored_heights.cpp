@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/stored_heights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/samples.hpp"
+#include "bitstream/coder/byte_planes.hpp"
+#include "codec/geometry/restore.hpp"
+#include "codec/geometry/sample_order.hpp"
+#include "wavelet/mip_level.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// The step nearest to a sample, in the range that steps have.
+int32_t nearestStep(double sample, const GeometryHeader& header) {
+  constexpr double kMost = 1 << 25;
+  const double steps = std::round((sample - header.base) / header.step);
+  return std::isnan(steps) ? 0 : static_cast<int32_t>(std::clamp(steps, -kMost, kMost));
+}
+
+template <class T>
+class StoredSamples {
+ public:
+  StoredSamples(const GeometryHeader& header, const BytePlanes& words, DecodedHeights& out)
+      : header_(header), words_(words), out_(out) {}
+
+  /// Sample i of what comes out is the stored one with that number.
+  void put(size_t i, size_t number) {
+    if (!words_.knows(number)) return;
+    const uint32_t word = words_[number];
+    int32_t& step = out_.geometry.heights[i];
+    step = nearestStep(static_cast<double>(fromOrder<T>(word)), header_);
+    const T near = restore<T>(header_.base, header_.step, step);
+    out_.corrections[i] = static_cast<int32_t>(word - orderOf(near));
+    out_.geometry.significant[i] = 1;
+  }
+
+ private:
+  const GeometryHeader& header_;
+  const BytePlanes& words_;
+  DecodedHeights& out_;
+};
+
+DecodedHeights emptyHeights(const MipLevel& mip, bool masked) {
+  DecodedHeights out;
+  out.geometry.width = mip.size().width;
+  out.geometry.height = mip.size().height;
+  out.geometry.heights.resize(mip.samples());
+  out.geometry.significant.resize(mip.samples());
+  if (masked) out.geometry.valid.resize(mip.samples());
+  out.corrections.resize(mip.samples());
+  return out;
+}
+
+}  // namespace
+
+DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_t> bytes,
+                            std::span<const uint8_t> valid, int level) {
+  const size_t count = size_t{header.width} * header.height;
+  const auto voids = static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{0}));
+  const auto sample = static_cast<tks_sample>(header.sample);
+  const BytePlanes words(bytes, count - voids, static_cast<int>(tks_sample_bytes(sample)));
+  const MipLevel mip(header.width, header.height, level);
+  DecodedHeights decoded = emptyHeights(mip, !valid.empty());
+  const size_t between = (size_t{1} << level) - 1;
+  withSampleType(sample, [&](auto type) {
+    StoredSamples<decltype(type)> samples(header, words, decoded);
+    size_t at = 0, i = 0, number = 0;
+    for (uint32_t y = 0; y < header.height; ++y) {
+      for (uint32_t x = 0; x < header.width; ++x, ++at) {
+        const bool is_valid = valid.empty() || valid[at];
+        const bool taken = ((x | y) & between) == 0;
+        if (taken && is_valid) samples.put(i, number);
+        if (taken && !valid.empty()) decoded.geometry.valid[i] = is_valid;
+        i += taken;
+        number += is_valid;
+      }
+    }
+  });
+  return decoded;
+}
+
+uint64_t storedBytes(const tks_heights& heights, size_t valid_samples) {
+  return uint64_t{valid_samples} * tks_sample_bytes(heights.sample);
+}
+
+std::vector<uint8_t> storeSamples(const tks_heights& heights, std::span<const uint8_t> valid) {
+  std::vector<uint32_t> words;
+  withSampleType(heights.sample, [&](auto type) {
+    const auto* samples = static_cast<const decltype(type)*>(heights.data);
+    for (size_t i = 0; i < size_t{heights.width} * heights.height; ++i) {
+      if (valid.empty() || valid[i]) words.push_back(orderOf(samples[i]));
+    }
+  });
+  return toBytePlanes(words, static_cast<int>(tks_sample_bytes(heights.sample)));
+}
+
+}  // namespace tetrakis

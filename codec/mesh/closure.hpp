@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lower convex hull of all 4-8 meshes of a surface: what no order of decimation can beat.
+//
+// By the diamond form of the error (gains.hpp) the mesh of a closed set S has D + lambda R =
+// constant - sum over S of (g - lambda c): for one lambda the best mesh is a maximum closure of the
+// parent graph. Over all lambda the best sets are nested, so each vertex has one slope at which it
+// enters: x(v) >= x(child of v). These x are the isotonic regression of g / c with weights c
+// (Barlow and Brunk 1972; Picard 1976), found by halving (Spouge, Wan and Wilbur 2003): a part of
+// the graph whose maximum closure at its own mean slope is trivial has that slope, and any other
+// falls into the closure and the rest, which never look at each other again.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh/decimation.hpp"
+#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/surface_view.hpp"
+
+namespace tetrakis {
+
+/// The slope lambda, in squared height steps a triangle, at which each vertex enters the best mesh:
+/// {v : slope > lambda} is closed and minimises D + lambda R for every lambda that is no slope.
+/// Never above those of the parents; +-infinity for vertices that cost no triangles and gain or
+/// lose. vertices: a closed set, ids ascending; gains: one for each of them, e.g. of vertexGains().
+/// The gains count in units of 2^-58 of the sum of their absolute values: slopes less than a unit
+/// apart may be taken for one.
+std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
+                                  std::span<const double> gains);
+
+/// Where a vertex stands to the mesh on the hull of a number of triangles. In this order parents
+/// come before children.
+enum class HullSide : uint8_t {
+  kWithin,  ///< in the last corner of no more triangles
+  kAcross,  ///< between that corner and the next
+  kBeyond,  ///< in neither
+};
+
+/// A small part of the work of closureSlopes() tells sides alone. vertices, gains: as there.
+std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
+                                std::span<const double> gains, uint32_t triangles);
+
+/// Of all vertices.
+std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains);
+
+/// Sorts a closed set, the first vertices of an order, so that its prefixes pass through every
+/// corner of the hull of the meshes within it; between corners they keep their order. gains: of all
+/// lattice vertices.
+void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
+                        std::span<VertexId> order);
+
+/// Corners of the hull, from the roots alone to full resolution.
+class MeshHull {
+ public:
+  struct Corner {
+    uint32_t triangles = 0;
+    double squared_error = 0;
+  };
+
+  MeshHull(const Lattice& lattice, const std::vector<double>& gains,
+           const std::vector<double>& slopes);
+
+  const std::vector<Corner>& corners() const { return corners_; }
+  /// No mesh of at most `triangles` triangles has less squared error. Not below the roots'
+  /// triangles.
+  double bound(uint32_t triangles) const;
+
+ private:
+  std::vector<Corner> corners_;
+};
+
+/// Like decimate(), but through every corner of the hull; between corners in greedy order.
+Result<MeshSequence> decimateOptimally(const SurfaceView& surface);
+
+}  // namespace tetrakis

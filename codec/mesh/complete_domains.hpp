@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums over complete merging domains (thesis 3.3), by the octagons that they fill: sums over rows
+// are differences of prefix sums.
+#pragma once
+
+#include <vector>
+
+#include "codec/mesh/vertex_costs.hpp"
+#include "codec/mesh/worth.hpp"
+
+namespace tetrakis {
+
+/// u(M_v) of every vertex v, nothing being removed. gains: one for each vertex, their sums exact in
+/// any order (gains.hpp).
+std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
+                                         const VertexCosts& costs);
+
+}  // namespace tetrakis

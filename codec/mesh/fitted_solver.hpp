@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights that fit a mesh to a surface best, instead of the samples at its vertices.
+//
+// A mesh with heights h is the function sum over vertices k of h_k phi_k, phi_k the hat of vertex
+// k. Its squared error over the samples z with weights w is least where
+//
+//   A h = b,   A_jk = sum of w phi_j phi_k,   b_k = sum of w z phi_k
+//
+// (thesis 5.A fits planes to triangles; here all triangles share their corners). A is a mass
+// matrix: scaled by its diagonal its condition is at most 4 (Wathen 1987), so a few steps of
+// conjugate gradients solve it.
+#pragma once
+
+#include "codec/mesh/fitted_moments.hpp"
+
+namespace tetrakis {
+
+/// Moves the heights of a coarsened mesh to the least squares. A vertex whose own sample has no
+/// weight stays where it is as far as no other sample says more. The same bits with every compiler.
+void fitHeights(FittedMoments& mesh);
+
+}  // namespace tetrakis

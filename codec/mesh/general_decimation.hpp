@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// General decimation with global error (thesis 5.2.2): from full resolution down, each step removes
+// the merging domain M_v (v and its remaining descendants) that costs least,
+// lambda(v) = -deltaD / deltaR (5.2): squared error per triangle, or per unit of another cost.
+#pragma once
+
+#include <vector>
+
+#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/merging_domains.hpp"
+#include "codec/mesh/vertex_costs.hpp"
+
+namespace tetrakis {
+
+/// All vertices, those removed last first. gains: one for each vertex (gains.hpp). prompt_levels
+/// changes the time that it takes.
+std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,
+                                        uint32_t prompt_levels = MergingDomains::kPromptLevels);
+
+}  // namespace tetrakis

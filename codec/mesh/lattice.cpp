@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Size and numbering of the 4-8 lattice.
+#include "codec/mesh/lattice.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace tetrakis {
+
+Result<Lattice> Lattice::make(uint32_t width, uint32_t height) {
+  const std::string size = std::to_string(width) + " x " + std::to_string(height);
+  if (width < 2 || height < 2)
+    return Status(TKS_USAGE, "A surface of " + size + " samples has no mesh; use at least 2 x 2.");
+  if (uint64_t{width} * height > uint64_t{1} << 31)
+    return Status(TKS_LIMIT, "A mesh of " + size + " samples is too large; the limit is 2^31.");
+  Lattice lattice(width, height);
+  lattice.addLevels();
+  return lattice;
+}
+
+Lattice::Lattice(uint32_t width, uint32_t height)
+    : right_(width - 1),
+      bottom_(height - 1),
+      root_side_(std::bit_ceil(std::min(width, height) - 1)) {}
+
+void Lattice::addLevels() {
+  for (uint32_t step = root_side_ / 2; step > 0; step /= 2) {
+    Plan plan;
+    plan.step = step;
+    plan.shift = static_cast<uint32_t>(std::countr_zero(step));
+    plan.first = vertex_count_;
+    plan.columns = (right_ - 1) / (2 * step) + 1;
+    plan.rows = (bottom_ - 1) / (2 * step) + 1;
+    vertex_count_ += plan.columns * plan.rows;
+    addLevel(plan);
+    plan.first = vertex_count_;
+    plan.columns = (right_ - 1) / step + 2;
+    plan.rows = (bottom_ - 1) / step + 2;
+    vertex_count_ += static_cast<uint32_t>(uint64_t{plan.columns} * plan.rows / 2);
+    addLevel(plan);
+  }
+}
+
+void Lattice::addLevel(Plan plan) {
+  for (uint32_t cell = 0; cell < plan.offsets.size(); ++cell) {
+    const uint32_t offset = cell / 8 * plan.columns + cell % 8;
+    plan.offsets[cell] = isCentre(levelCount()) ? offset : offset / 2;
+  }
+  levels_.push_back(plan);
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What meshes without global error look at (thesis 2.5.2: errors at the knots alone).
+#pragma once
+
+#include <vector>
+
+#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/surface_view.hpp"
+
+namespace tetrakis {
+
+/// Of every vertex, the squared error of its own sample, times its weight, in a mesh that has the
+/// vertex's parents and not the vertex; 0 for hidden ones. The surface has the lattice's size.
+std::vector<double> localErrors(const Lattice& lattice, const SurfaceView& surface);
+
+}  // namespace tetrakis

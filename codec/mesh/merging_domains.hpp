@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// What removing each merging domain M_v (v and its remaining descendants) would cost and save, kept
+// up while vertices are removed (thesis 5.3.1). Removed vertices are taken off all their ancestors,
+// once each: that is the inclusion and exclusion over intersections of domains (thesis 3.4.4), and
+// as sums of gains are exact (gains.hpp), so are all values at all times.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh/ancestors.hpp"
+#include "codec/mesh/deferred_losses.hpp"
+#include "codec/mesh/vertex_costs.hpp"
+#include "codec/mesh/worth.hpp"
+
+namespace tetrakis {
+
+class MergingDomains {
+ public:
+  /// Levels, from the finest on, whose domains are kept up to date; the others, of one vertex in
+  /// four thousand but two fifths of all ancestors at 1025 x 1025, are summed up when somebody
+  /// asks.
+  static constexpr uint32_t kPromptLevels = 12;
+
+  /// Complete domains. gains: one for each vertex. Both arguments must outlive the domains.
+  /// prompt_levels: even.
+  MergingDomains(const std::vector<double>& gains, const VertexCosts& costs,
+                 uint32_t prompt_levels = kPromptLevels);
+
+  /// u(M_v), thesis (5.3), of a remaining vertex.
+  Worth worth(VertexId v) const;
+  double slope(VertexId v) {
+    if (v < late_.size()) refresh(v);
+    return slopeOf(domains_[v].distortion, domains_[v].cost);
+  }
+  bool removed(VertexId v) const { return removed_[v]; }
+  /// Brings u(M_v) close, if the processor can.
+  void prefetch(VertexId v) const { __builtin_prefetch(&domains_[v]); }
+  /// remove() reports v when its slope has become less than this, that of slope(v) or less.
+  void setBound(VertexId v, float bound) { domains_[v].bound = bound; }
+
+  /// Removes M_v, which has the least slope of all, and returns its vertices, parents first. (Of
+  /// any other domain the values will be right, too, but not all falls reported.) onFall(VertexId)
+  /// may set a new bound.
+  template <class OnFall>
+  std::span<const VertexId> remove(VertexId v, OnFall&& onFall);
+
+ private:
+  /// Takes parts of M_v off the domains that hold them.
+  template <class OnFall>
+  struct Lose {
+    MergingDomains& domains;
+    OnFall& onFall;
+
+    void operator()(VertexId a, const Worth& part) { domains.subtract(a, part, onFall); }
+    void pass(uint32_t level, const AncestorWindow& squares, const AncestorWindow& taken,
+              const Worth& part) {
+      if (level == domains.deferred_.level()) domains.deferPart(squares, taken, part);
+    }
+  };
+
+  const Lattice& lattice() const { return costs_->lattice(); }
+  Worth worthOf(Site site, VertexId v) const { return {(*gains_)[v], costs_->of(site, v)}; }
+  void refresh(VertexId v);
+  void collect(VertexId v);
+  void removeSingle(Site site, const Worth& worth);
+  void loseLate();
+  void deferPart(const AncestorWindow& squares, const AncestorWindow& taken, const Worth& part);
+  template <class OnFall>
+  void reportLateFalls(OnFall& onFall);
+  template <class OnFall>
+  void subtract(VertexId a, const Worth& worth, OnFall& onFall);
+  template <class OnFall>
+  void report(VertexId a, OnFall& onFall);
+
+  const std::vector<double>* gains_;
+  const VertexCosts* costs_;
+  AncestorSums<Worth> sums_;
+  /// Those of late_ may lack losses that raise their slope or leave it.
+  std::vector<DomainWorth> domains_;
+  std::vector<Worth> late_;  ///< domains of coarse vertices but for what deferred_ knows of
+  DeferredLosses deferred_;
+  std::vector<bool> removed_;
+  std::vector<VertexId> fallen_;  ///< coarse vertices that may have fallen
+  std::vector<Site> sites_;       ///< of the group that is being removed
+  std::vector<VertexId> group_;
+};
+
+/// Every ancestor of v loses all of M_v, which has the least slope: none of theirs falls, if M_v
+/// saves anything. (Nor is a domain left that saves nothing and does no harm: its slope was the
+/// same, and the coarser vertex goes first.) Where domains overlap, others lose parts of M_v and
+/// may fall (thesis 5.4.2).
+template <class OnFall>
+std::span<const VertexId> MergingDomains::remove(VertexId v, OnFall&& onFall) {
+  const Worth all = worth(v);
+  collect(v);
+  const Site site = sites_[0];
+  const bool late = v < late_.size();
+  if (late) loseLate();
+  if (!late && all.cost > 0 && group_.size() == 1) {
+    removeSingle(site, all);
+    return group_;
+  }
+  Lose<OnFall> lose{*this, onFall};
+  const auto lose_all = [&](uint32_t level, const AncestorWindow& window) {
+    const auto lose_one = [&](VertexId a) {
+      if (all.cost > 0)
+        domains_[a] -= all;
+      else
+        lose(a, all);
+    };
+    window.visit(level, lattice().plan(level), lose_one);
+  };
+  sums_.takeAncestorsOf(site, late || all.cost == 0 ? 0 : deferred_.level(), lose_all);
+  if (!late) deferred_.add(sums_.taken(deferred_.level()), all);
+  for (size_t i = group_.size(); i-- > 1;)
+    sums_.add(sites_[i], worthOf(sites_[i], group_[i]), lose);
+  sums_.flush(lose);
+  reportLateFalls(onFall);
+  return group_;
+}
+
+/// Once all losses of the group are known: not before is a sum of deferred_ of any use.
+template <class OnFall>
+void MergingDomains::reportLateFalls(OnFall& onFall) {
+  for (const VertexId a : fallen_) {
+    const auto bound = static_cast<double>(domains_[a].bound);
+    if (slope(a) < bound) onFall(a);
+  }
+  fallen_.clear();
+}
+
+template <class OnFall>
+inline void MergingDomains::subtract(VertexId a, const Worth& worth, OnFall& onFall) {
+  DomainWorth& domain = domains_[a];
+  domain -= worth;
+  // Without a division; the product is exact while costs add up to less than 2^29.
+  const double least = static_cast<double>(domain.bound) * domain.cost;
+  if (domain.distortion > least && domain.cost > 0) [[likely]]
+    return;
+  report(a, onFall);
+}
+
+/// Perhaps a fall.
+template <class OnFall>
+[[gnu::noinline]] void MergingDomains::report(VertexId a, OnFall& onFall) {
+  if (removed_[a]) return;
+  if (a < late_.size())
+    fallen_.push_back(a);
+  else if (slopeOf(domains_[a].distortion, domains_[a].cost) <
+           static_cast<double>(domains_[a].bound))
+    onFall(a);
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// An adaptive 4-8 mesh in a semi-linear quadtree, and the part of it that a view sees.
+//
+// The tree holds the closed set of vertices and their heights; triangles follow from it. A node
+// whose centre c is present is a fan of triangles around c. Each side of its square is one triangle
+// or, if its midpoint is present, two; and where a child is present (which takes both midpoints
+// beside it) its own fan stands for the two triangles in that quadrant:
+//
+//   nw---n---ne    side nw-sw: (nw, sw, c), or (nw, w, c) unless the north-western child is there
+//   | \  |  / |                and (w, sw, c) unless the south-western child is there
+//   w----c----e
+//   | /  |  \ |    n and w are the node's own, s and e those of its neighbours or of a border tree:
+//   sw---s---se    asking them is what leaves no T-junction.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "codec/mesh/lattice_mesh.hpp"
+#include "codec/mesh/quadtree/index_differences.hpp"
+#include "codec/mesh/quadtree/semilinear_quadtree.hpp"
+#include "codec/mesh/quadtree/view_raster.hpp"
+
+namespace tetrakis {
+
+/// A part of a mesh. vertices: those of its triangles, in the order of the tree (parents before
+/// children). heights: one for each vertex.
+struct ViewMesh {
+  LatticeMesh mesh;
+  std::vector<float> heights;
+};
+
+class MeshTree {
+ public:
+  /// vertices: a closed set, as for meshOf(). heights: of the vertices of meshOf(), in its order.
+  MeshTree(Lattice lattice, std::span<const VertexId> vertices, std::span<const float> heights);
+
+  const Lattice& lattice() const { return lattice_; }
+  const SemilinearQuadtree& quadtree() const { return quadtree_; }
+
+  /// The triangles that may touch the polygon (convex, in samples, within the grid): all that do,
+  /// and of others those in the same quadrants of their nodes. Time: linear in what it returns, in
+  /// the rows of the polygon, and a bit for each vertex of the tree.
+  ViewMesh view(std::span<const MapPoint> polygon) const;
+  /// All of it: the mesh of meshOf(), in another order.
+  ViewMesh whole() const;
+
+ private:
+  Lattice lattice_;
+  IndexDifferences differences_;
+  SemilinearQuadtree quadtree_;
+};
+
+/// Patches are the root squares of the lattice; level i holds its levels 2i and 2i + 1.
+QuadtreeShape quadtreeShapeOf(const Lattice& lattice);
+
+/// Where the quadtree of the lattice stores a vertex.
+QuadtreePlace placeOf(const Lattice& lattice, Site v);
+
+}  // namespace tetrakis

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Apache-2.0
+// What decoding allocates is at most what tks_check_memory says, for streams of every kind and all
+// that can be asked of them; and what it says is not much more than that.
+#include <functional>
+#include <optional>
+
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+/// What a call is asked for, and the call.
+struct Call {
+  std::string name;
+  tks_part part;
+  std::optional<tks_window> window;
+  uint32_t max_triangles = 0;
+  uint32_t level = 0;
+  std::function<tks_status(tks_decoder*)> run;
+
+  const tks_window* asked() const { return window ? &*window : nullptr; }
+};
+
+struct Measured {
+  uint64_t bound = 0, limit = 0, peak = 0;
+  tks_status status = TKS_OK;
+};
+
+/// Of a decoder that has done nothing before, with no more memory than the bound.
+Measured measure(const Bytes& bytes, const Call& call, uint32_t threads = 1) {
+  const auto set = [&](Stream& stream) {
+    EXPECT_EQ(stream.status(), TKS_OK) << stream.message();
+    EXPECT_EQ(tks_set_threads(stream.get(), threads), TKS_OK);
+    const bool texture = call.part == TKS_PART_TEXTURE;
+    EXPECT_EQ(tks_set_levels(stream.get(), texture ? 0 : call.level, texture ? call.level : 0),
+              TKS_OK);
+  };
+  Stream unlimited(bytes);
+  set(unlimited);
+  Measured measured;
+  EXPECT_EQ(tks_check_memory(unlimited.get(), call.part, call.asked(), call.max_triangles, 0,
+                             &measured.bound),
+            TKS_OK)
+      << tks_message(unlimited.get());
+  tks_limits limits = {};
+  limits.size = sizeof limits;
+  limits.max_memory = measured.limit = measured.bound + 4 * bytes.size() + (1 << 20);
+  Stream stream(bytes, &limits);
+  set(stream);
+  measured.peak = peakBytes([&] { measured.status = call.run(stream.get()); });
+  return measured;
+}
+
+size_t side(uint32_t whole, uint32_t level) {
+  return ((whole - 1) >> level) + 1;
+}
+
+Call heightsOf(const tks_info& info, uint32_t level) {
+  const size_t bytes =
+      side(info.width, level) * side(info.height, level) * tks_sample_bytes(info.sample);
+  auto out = std::make_shared<std::vector<std::byte>>(bytes);
+  return {"heights of level " + std::to_string(level),
+          TKS_PART_HEIGHTS,
+          {},
+          0,
+          level,
+          [out](tks_decoder* d) { return tks_decode_heights(d, out->data(), out->size()); }};
+}
+
+Call validityOf(const tks_info& info) {
+  auto out = std::make_shared<std::vector<uint8_t>>(size_t{info.width} * info.height);
+  return {"validity",
+          TKS_PART_VALIDITY,
+          {},
+          0,
+          0,
+          [out](tks_decoder* d) { return tks_decode_validity(d, out->data(), out->size()); }};
+}
+
+Call surfaceOf(const tks_info& info, const tks_window& window) {
+  EXPECT_LE(window.x + window.width, info.width);
+  auto out = std::make_shared<std::vector<float>>(size_t{window.width} * window.height);
+  return {"a window of the surface", TKS_PART_HEIGHTS, window, 0, 0, [out, window](tks_decoder* d) {
+            return tks_decode_surface_window(d, &window, out->data(), out->size());
+          }};
+}
+
+Call textureOf(const tks_info& info, uint32_t level) {
+  const size_t bytes = side(info.texture_width, level) * side(info.texture_height, level) *
+                       info.texture_channels * tks_sample_bytes(info.texture_sample);
+  auto out = std::make_shared<std::vector<std::byte>>(bytes);
+  return {"texture of level " + std::to_string(level),
+          TKS_PART_TEXTURE,
+          {},
+          0,
+          level,
+          [out](tks_decoder* d) { return tks_decode_texture(d, out->data(), out->size()); }};
+}
+
+Call textureOf(const tks_info& info, const tks_window& window) {
+  auto out = std::make_shared<std::vector<std::byte>>(size_t{window.width} * window.height *
+                                                      info.texture_channels *
+                                                      tks_sample_bytes(info.texture_sample));
+  return {"a window of the texture", TKS_PART_TEXTURE, window, 0, 0, [out, window](tks_decoder* d) {
+            return tks_decode_texture_window(d, &window, out->data(), out->size());
+          }};
+}
+
+Call meshOf(tks_mesh_kind kind, uint32_t triangles) {
+  const auto decode = [kind, triangles](tks_decoder* decoder) {
+    tks_mesh mesh = {};
+    const tks_status status = tks_decode_mesh(decoder, kind, triangles, &mesh);
+    tks_free_mesh(&mesh);
+    return status;
+  };
+  return {"mesh of " + std::to_string(triangles),
+          kind == TKS_MESH_CODED ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH,
+          {},
+          triangles,
+          0,
+          decode};
+}
+
+Call treeOf(tks_mesh_kind kind, uint32_t triangles) {
+  Call call = meshOf(kind, triangles);
+  call.name += " in a tree";
+  call.run = [kind, triangles](tks_decoder* decoder) {
+    tks_mesh_tree* tree = nullptr;
+    const tks_status status = tks_decode_mesh_tree(decoder, kind, triangles, &tree);
+    tks_free_mesh_tree(tree);
+    return status;
+  };
+  return call;
+}
+
+std::vector<Call> callsOn(const tks_info& info) {
+  std::vector<Call> calls;
+  if (info.has_heights) {
+    const uint32_t w = info.width, h = info.height;
+    for (const uint32_t level : {0u, 1u, 2u, info.coarsest_level})
+      calls.push_back(heightsOf(info, std::min(level, info.coarsest_level)));
+    calls.push_back(validityOf(info));
+    for (const tks_window& window :
+         {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
+      calls.push_back(surfaceOf(info, window));
+    calls.push_back(meshOf(TKS_MESH_CODED, 0));
+    calls.push_back(treeOf(TKS_MESH_CODED, 0));
+    calls.push_back(treeOf(TKS_MESH_BUDGET, 0));
+    for (const uint64_t sixtieths : {0, 1, 4, 8, 13, 25, 40, 70, 120})
+      calls.push_back(
+          meshOf(TKS_MESH_BUDGET, static_cast<uint32_t>(uint64_t{w} * h * sixtieths / 60)));
+  }
+  if (info.has_texture) {
+    const uint32_t w = info.texture_width, h = info.texture_height;
+    for (const uint32_t level : {0u, 1u, 2u, info.texture_coarsest_level})
+      calls.push_back(textureOf(info, std::min(level, info.texture_coarsest_level)));
+    for (const tks_window& window :
+         {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
+      calls.push_back(textureOf(info, window));
+  }
+  return calls;
+}
+
+/// The whole of a stream, a part of it, and next to nothing. may_refuse: budget meshes, for
+/// triangles in voids that are not known before.
+void expectWithinBounds(const Bytes& bytes, const std::string& what, bool may_refuse = false) {
+  for (const size_t size : {bytes.size(), bytes.size() / 3, size_t{0}}) {
+    const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+    const Bytes cut(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(std::max(size, header)));
+    for (const Call& call : callsOn(Stream(cut).info())) {
+      const bool mesh = call.part >= TKS_PART_CODED_MESH;
+      for (const uint32_t threads : {1u, 3u}) {
+        if (mesh && threads > 1) continue;
+        const Measured measured = measure(cut, call, threads);
+        const bool refused = may_refuse && mesh && measured.status == TKS_LIMIT;
+        EXPECT_TRUE(measured.status == TKS_OK || refused) << what << ", " << call.name;
+        EXPECT_LE(measured.peak, may_refuse ? measured.limit : measured.bound)
+            << what << " cut to " << cut.size() << ", " << call.name << ", " << threads
+            << " threads";
+      }
+    }
+  }
+}
+
+tks_encode_options inRegions(tks_encode_options options, uint32_t side_of_regions) {
+  options.regions = side_of_regions;
+  return options;
+}
+
+Bytes withVoids(const Raster& raster, const tks_encode_options& options) {
+  tks_heights heights = raster.heights();
+  heights.has_nodata = 1;
+  heights.nodata = sampleAt(raster.data, raster.sample, raster.width / 2);
+  tks_buffer buffer = {};
+  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
+  Bytes bytes(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  return bytes;
+}
+
+/// Alpha 0 or 255 in blocks.
+Raster cutOut(uint32_t width, uint32_t height) {
+  Raster raster = make({Pattern::kRidges, width, height, 4, TKS_U8});
+  for (uint32_t y = 0; y < height; ++y)
+    for (uint32_t x = 0; x < width; ++x)
+      raster.data[4 * (size_t{y} * width + x) + 3] = std::byte((x / 9 + y / 7) % 3 ? 255 : 0);
+  return raster;
+}
+
+/// A few colours in blocks; `photograph`: lines of one colour over a photograph.
+Raster drawing(uint32_t width, uint32_t height, uint32_t channels, bool photograph) {
+  Raster raster = make({Pattern::kRidges, width, height, channels, TKS_U8});
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      if (photograph && x % 40 > 1 && y % 40 > 1) continue;
+      for (uint32_t c = 0; c < channels; ++c)
+        raster.data[channels * (size_t{y} * width + x) + c] =
+            std::byte(photograph ? 255 : (x / 30 * 50 + y / 20 * 90 + c * 20) % 256);
+    }
+  }
+  return raster;
+}
+
+tks_encode_options within(double error) {
+  tks_encode_options options = {};
+  options.size = sizeof options;
+  options.max_error = error;
+  return options;
+}
+
+TEST(DecodeMemory, HeightsOfEveryKindStayBelowTheBound) {
+  const Raster heights = make({Pattern::kRidges, 201, 144, 1, TKS_U16});
+  expectWithinBounds(encode(&heights, nullptr, lossless()), "lossless");
+  expectWithinBounds(encode(&heights, nullptr, budget(8000)), "lossy");
+  expectWithinBounds(encode(&heights, nullptr, inRegions(budget(9000), 32)), "regions");
+  expectWithinBounds(encode(&heights, nullptr, inRegions(lossless(), 16)), "small regions");
+  expectWithinBounds(encode(&heights, nullptr, within(100)), "corrections of steps");
+  expectWithinBounds(withVoids(heights, lossless()), "voids");
+  expectWithinBounds(withVoids(heights, inRegions(budget(9000), 64)), "voids in regions");
+}
+
+TEST(DecodeMemory, OtherHeightsStayBelowTheBound) {
+  Raster measured = make({Pattern::kRidges, 130, 150, 1, TKS_F32});
+  for (size_t i = 0; i < 130 * 150; ++i) {
+    const auto value = static_cast<float>(sampleAt(measured.data, TKS_F32, i) / 3);
+    std::memcpy(measured.data.data() + 4 * i, &value, 4);
+  }
+  expectWithinBounds(encode(&measured, nullptr, lossless()), "corrections of samples");
+  expectWithinBounds(encode(&measured, nullptr, inRegions(lossless(), 64)), "and regions");
+  for (const Pattern pattern : {Pattern::kFlat, Pattern::kChecker, Pattern::kExtreme}) {
+    const Raster raster = make({pattern, 257, 70, 1, TKS_I32});
+    expectWithinBounds(encode(&raster, nullptr, lossless()), "pattern");
+    expectWithinBounds(withVoids(raster, lossless()), "pattern with voids", true);
+  }
+  for (const auto& [width, height] : {std::pair(2u, 3000u), {3000u, 2u}, {5u, 9u}, {2u, 2u}}) {
+    const Raster raster = make({Pattern::kRidges, width, height, 1, TKS_U8});
+    expectWithinBounds(encode(&raster, nullptr, inRegions(lossless(), 1)), "narrow");
+    expectWithinBounds(encode(&raster, nullptr, inRegions(lossless(), 16)), "narrow regions");
+  }
+}
+
+TEST(DecodeMemory, TexturesOfEveryKindStayBelowTheBound) {
+  for (const uint32_t channels : {1u, 2u, 3u, 4u}) {
+    const Raster image = make({Pattern::kRidges, 233, 180, channels, TKS_U8});
+    expectWithinBounds(encode(nullptr, &image, budget(9000)), "wavelet");
+    expectWithinBounds(encode(nullptr, &image, inRegions(lossless(), 64)), "regions");
+    const Raster drawn = drawing(220, 190, channels, false);
+    expectWithinBounds(encode(nullptr, &drawn, lossless()), "drawn");
+  }
+  const Raster deep = make({Pattern::kRidges, 150, 140, 3, TKS_U16});
+  expectWithinBounds(encode(nullptr, &deep, lossless()), "16 bits");
+  const Raster cut = cutOut(190, 201);
+  expectWithinBounds(encode(nullptr, &cut, lossless()), "cut-out");
+  expectWithinBounds(encode(nullptr, &cut, inRegions(budget(7000), 32)), "hidden cut-out");
+  const Raster lettered = drawing(256, 230, 3, true);
+  expectWithinBounds(encode(nullptr, &lettered, budget(20000)), "overlay");
+}
+
+/// What is left of the bound where there is much to allocate.
+double excess(const Bytes& bytes, const Call& call) {
+  const Measured measured = measure(bytes, call);
+  EXPECT_EQ(measured.status, TKS_OK) << call.name;
+  EXPECT_LE(measured.peak, measured.bound) << call.name;
+  return static_cast<double>(measured.bound) / static_cast<double>(measured.peak);
+}
+
+TEST(DecodeMemory, BoundsOfLargePlanesAreLessThanTwiceWhatIsTaken) {
+  const Raster heights = make({Pattern::kRidges, 1100, 900, 1, TKS_U16});
+  for (const uint32_t regions : {1u, 256u}) {
+    const Bytes bytes = encode(&heights, nullptr, inRegions(lossless(), regions));
+    const tks_info info = Stream(bytes).info();
+    for (const Call& call : {heightsOf(info, 0), heightsOf(info, 2), meshOf(TKS_MESH_CODED, 0),
+                             surfaceOf(info, {100, 200, 400, 300}), meshOf(TKS_MESH_BUDGET, 0),
+                             meshOf(TKS_MESH_BUDGET, 30000), meshOf(TKS_MESH_BUDGET, 400000)})
+      EXPECT_LE(excess(bytes, call), 2) << call.name << ", regions of " << regions;
+  }
+  const Raster image = make({Pattern::kRidges, 1000, 900, 3, TKS_U8});
+  for (const uint32_t regions : {1u, 256u}) {
+    const Bytes bytes = encode(nullptr, &image, inRegions(budget(80000), regions));
+    const tks_info info = Stream(bytes).info();
+    for (const Call& call :
+         {textureOf(info, 0), textureOf(info, 1), textureOf(info, tks_window{300, 200, 500, 400})})
+      EXPECT_LE(excess(bytes, call), 2) << call.name << ", regions of " << regions;
+  }
+}
+
+/// Levels and windows of streams in regions take memory in proportion to themselves.
+TEST(DecodeMemory, FollowsWhatIsAsked) {
+  const Raster image = make({Pattern::kRidges, 1024, 1024, 3, TKS_U8});
+  const Bytes bytes = encode(nullptr, &image, inRegions(budget(100000), 64));
+  const tks_info info = Stream(bytes).info();
+  const auto peak = [&](const Call& call) {
+    return static_cast<double>(measure(bytes, call).peak);
+  };
+  const double whole = peak(textureOf(info, 0));
+  EXPECT_LT(peak(textureOf(info, 1)), 0.3 * whole);
+  EXPECT_LT(peak(textureOf(info, 2)), 0.1 * whole);
+  EXPECT_LT(peak(textureOf(info, tks_window{400, 300, 64, 64})), 0.1 * whole);
+  const Raster map = drawing(1024, 1024, 3, false);
+  const Bytes drawn = encode(nullptr, &map, lossless());
+  const double drawn_whole = static_cast<double>(measure(drawn, textureOf(info, 0)).peak);
+  constexpr double kModels = 3 << 20;
+  EXPECT_LT(static_cast<double>(measure(drawn, textureOf(info, 2)).peak),
+            0.1 * drawn_whole + kModels);
+}
+
+/// The limit is that of the decoder and the call together, and refuses in a sentence.
+TEST(DecodeMemory, IsRefusedByEachCall) {
+  const Raster heights = make({Pattern::kRidges, 500, 400, 1, TKS_U16});
+  const Bytes bytes = encode(&heights, nullptr, inRegions(lossless(), 64));
+  tks_limits limits = {};
+  limits.size = sizeof limits;
+  limits.max_memory = bytes.size() * 4 + (700 << 10);
+  Stream stream(bytes, &limits);
+  ASSERT_EQ(stream.status(), TKS_OK) << stream.message();
+  std::vector<std::byte> out(stream.heightsBytes(), std::byte(7));
+  EXPECT_EQ(tks_decode_heights(stream.get(), out.data(), out.size()), TKS_LIMIT);
+  EXPECT_EQ(std::count(out.begin(), out.end(), std::byte(7)), std::ssize(out));
+  EXPECT_NE(std::string(tks_message(stream.get())).find("Decoding 500 x 400 heights takes "),
+            std::string::npos)
+      << tks_message(stream.get());
+  std::vector<float> part(50 * 40);
+  const tks_window window = {100, 200, 50, 40};
+  EXPECT_EQ(tks_decode_surface_window(stream.get(), &window, part.data(), part.size()), TKS_OK)
+      << tks_message(stream.get());
+  tks_mesh mesh = {};
+  EXPECT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_CODED, 0, &mesh), TKS_LIMIT);
+  ASSERT_EQ(tks_set_levels(stream.get(), 2, 0), TKS_OK);
+  std::vector<std::byte> quarter(2 * 125 * 100);
+  EXPECT_EQ(tks_decode_heights(stream.get(), quarter.data(), quarter.size()), TKS_OK)
+      << tks_message(stream.get());
+  EXPECT_EQ(tks_check_memory(stream.get(), TKS_PART_HEIGHTS, nullptr, 0, 0, nullptr), TKS_OK);
+  EXPECT_EQ(tks_check_memory(stream.get(), TKS_PART_HEIGHTS, nullptr, 0, UINT64_MAX, nullptr),
+            TKS_LIMIT);
+  EXPECT_EQ(tks_check_memory(stream.get(), TKS_PART_TEXTURE, nullptr, 0, 0, nullptr), TKS_USAGE);
+}
+
+/// Opening takes memory in proportion to the bytes that are there.
+TEST(DecodeMemory, OpeningFollowsThePayload) {
+  const Raster heights = make({Pattern::kExtreme, 400, 300, 1, TKS_U16});
+  for (const uint32_t regions : {1u, 16u}) {
+    const Bytes bytes = encode(&heights, nullptr, inRegions(lossless(), regions));
+    EXPECT_LE(peakBytes([&] { Stream stream(bytes); }), 4 * bytes.size() + (64 << 10));
+    tks_limits limits = {};
+    limits.size = sizeof limits;
+    limits.max_memory = bytes.size();
+    Stream stream(bytes, &limits);
+    EXPECT_EQ(stream.status(), TKS_LIMIT);
+    EXPECT_NE(stream.message().find("Opening the stream takes "), std::string::npos)
+        << stream.message();
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoder targets: byte budgets are obeyed and used, error bounds hold, one order serves all
+// budgets, and neither threads nor repetition change a byte.
+#include <algorithm>
+#include <cmath>
+
+#include "conformance/samples/void_masks.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+Raster terrain() {
+  return make({Pattern::kRidges, 161, 140, 1, TKS_U16});
+}
+Raster photograph() {
+  return make({Pattern::kRidges, 192, 160, 3, TKS_U8, 7});
+}
+
+/// At most the budget; at least 99 % of it as long as the lossless stream has that much to send (95
+/// % below 4 kB, where a last packet that counts only when complete may not fit).
+void expectBudgetUsed(const Raster* heights, const Raster* image) {
+  const size_t everything = encode(heights, image, lossless()).size();
+  for (const size_t bytes : {500, 1000, 2222, 4096, 10000, 32768}) {
+    if (bytes >= everything) break;
+    const size_t used = encode(heights, image, budget(bytes)).size();
+    EXPECT_LE(used, bytes);
+    EXPECT_GE(used, (bytes < 4096 ? 0.95 : 0.99) * static_cast<double>(bytes)) << "of " << bytes;
+  }
+  EXPECT_LE(encode(heights, image, budget(10 * everything)).size(), everything + everything / 100);
+}
+
+TEST(StreamRate, BudgetIsObeyedAndUsed) {
+  const Raster heights = terrain(), image = photograph();
+  expectBudgetUsed(&heights, nullptr);
+  expectBudgetUsed(nullptr, &image);
+  expectBudgetUsed(&heights, &image);
+}
+
+/// A budget beyond everything there is to send restores every sample.
+TEST(StreamRate, AmpleBudgetIsLossless) {
+  const Raster heights = make({Pattern::kRidges, 33, 20, 1, TKS_I16});
+  const Raster image = make({Pattern::kRidges, 30, 31, 3, TKS_U8});
+  for (const uint64_t ample : {uint64_t{1} << 20, (uint64_t{1} << 63) + 7, UINT64_MAX}) {
+    const Bytes bytes = encode(&heights, &image, budget(ample));
+    Stream stream(bytes);
+    EXPECT_TRUE(stream.info().lossless);
+    EXPECT_TRUE(stream.heights() == heights.data);
+    EXPECT_TRUE(stream.texture() == image.data);
+  }
+}
+
+/// The smaller stream is a prefix of the larger one, behind the header.
+TEST(StreamRate, BudgetsShareOneOrder) {
+  const Raster heights = terrain(), image = photograph();
+  const Bytes small = encode(&heights, &image, budget(6000));
+  const Bytes large = encode(&heights, &image, budget(24000));
+  const auto payload = [](const Bytes& bytes) {
+    return Prefix(bytes).subspan(static_cast<size_t>(Stream(bytes).info().header_bytes));
+  };
+  const Prefix a = payload(small), b = payload(large);
+  ASSERT_LT(a.size(), b.size());
+  const auto equal = std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin();
+  EXPECT_EQ(static_cast<size_t>(equal), a.size());
+}
+
+TEST(StreamRate, MoreBytesMeanLessError) {
+  const Raster heights = terrain(), image = photograph();
+  double last_heights = HUGE_VAL, last_texture = HUGE_VAL;
+  for (const size_t bytes : {1000, 4000, 16000, 64000}) {
+    const Bytes coded = encode(&heights, &image, budget(bytes));
+    Stream stream(coded);
+    const double h = squaredError(heights, stream.heights());
+    const double t = squaredError(image, stream.texture());
+    EXPECT_LT(h, last_heights) << bytes;
+    EXPECT_LT(t, last_texture) << bytes;
+    last_heights = h;
+    last_texture = t;
+  }
+}
+
+TEST(StreamRate, MaxErrorHolds) {
+  for (const Pattern pattern : {Pattern::kRidges, Pattern::kSteps, Pattern::kExtreme}) {
+    const Raster raster = make({pattern, 60, 45, 1, TKS_I16});
+    tks_heights heights = raster.heights();
+    heights.scale = 0.5;
+    heights.unit = "m";
+    for (const double bound : {0.5, 3.0, 40.0, 1000.0}) {
+      tks_encode_options options = lossless();
+      options.lossless = 0;
+      options.max_error = bound;
+      tks_buffer buffer = {};
+      ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
+      Stream stream({buffer.data, buffer.size});
+      const double largest = largestError(raster, stream.heights()) * heights.scale;
+      EXPECT_LE(largest, bound);
+      EXPECT_GE(stream.info().max_error, largest) << "what the header guarantees";
+      EXPECT_LE(stream.info().max_error, bound);
+      tks_free_buffer(&buffer);
+    }
+  }
+}
+
+TEST(StreamRate, PsnrIsReached) {
+  const Raster heights = terrain(), image = photograph();
+  const double range = [&] {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < heights.data.size() / 2; ++i) {
+      low = std::min(low, sampleAt(heights.data, TKS_U16, i));
+      high = std::max(high, sampleAt(heights.data, TKS_U16, i));
+    }
+    return high - low;
+  }();
+  size_t last = 0;
+  for (const double target : {30.0, 40.0, 50.0}) {
+    tks_encode_options options = budget(0);
+    options.psnr = target;
+    const Bytes bytes = encode(&heights, &image, options);
+    Stream stream(bytes);
+    const double h = squaredError(heights, stream.heights()) / (161 * 140);
+    const double t = squaredError(image, stream.texture()) / (192 * 160 * 3);
+    EXPECT_GE(10 * std::log10(range * range / h), target);
+    EXPECT_GE(10 * std::log10(255 * 255 / t), target);
+    EXPECT_GT(bytes.size(), last);
+    last = bytes.size();
+  }
+}
+
+tks_encode_options psnr(double target) {
+  tks_encode_options options = budget(0);
+  options.psnr = target;
+  return options;
+}
+
+double psnrOf(const Raster& image, Prefix bytes) {
+  const double squares = squaredError(image, Stream(bytes).texture());
+  return 10 * std::log10(255 * 255 * static_cast<double>(image.data.size()) / squares);
+}
+
+TEST(StreamRate, PsnrTakesNoMoreBytesThanItNeeds) {
+  const Raster image = photograph();
+  for (const double target : {28.0, 33.0, 41.0}) {
+    const Bytes bytes = encode(nullptr, &image, psnr(target));
+    EXPECT_GE(psnrOf(image, bytes), target);
+    EXPECT_LT(psnrOf(image, Prefix(bytes).first(bytes.size() - bytes.size() / 50)), target);
+    EXPECT_LE(Stream(bytes).info().texture_psnr, psnrOf(image, bytes) + 1e-9) << "what is stated";
+  }
+}
+
+TEST(StreamRate, NoPsnrIsDearerThanTheLastBit) {
+  const Raster image = photograph(), heights = terrain();
+  const size_t most = encode(&heights, &image, lossless()).size();
+  for (const double target : {60.0, 90.0})
+    EXPECT_LE(encode(&heights, &image, psnr(target)).size(), most) << target;
+}
+
+/// Where the lossless stream nearly fits, its header and heads included, the lossy one goes on.
+TEST(StreamRate, LargerBudgetsNextToTheLastBitAreNoWorse) {
+  const Raster image = make({Pattern::kRidges, 96, 80, 3, TKS_U8, 7});
+  const uint64_t most = encode(nullptr, &image, lossless()).size();
+  double before = 0;
+  for (uint64_t bytes = most - 60; bytes < most + 20; bytes += 2) {
+    const double now = psnrOf(image, encode(nullptr, &image, budget(bytes)));
+    EXPECT_GE(now, before - 0.03) << bytes << " of " << most;
+    before = now;
+  }
+  EXPECT_EQ(before, HUGE_VAL);
+}
+
+/// A drawing is complete for few bytes; the wavelet reaches what is asked for with fewer.
+TEST(StreamRate, PsnrOfDrawingsTakesNoMoreBytesThanWavelets) {
+  Raster ramp = make({Pattern::kRamp, 200, 180, 1, TKS_U8});
+  for (std::byte& sample : ramp.data) sample &= std::byte{0xf8};
+  for (const double target : {30.0, 35.0, 40.0}) {
+    const size_t bytes = encode(nullptr, &ramp, psnr(target)).size();
+    EXPECT_LT(psnrOf(ramp, encode(nullptr, &ramp, budget(bytes * 3 / 4))), target) << bytes;
+  }
+}
+
+/// What is drawn over a photograph may be coded by itself, but not before that pays.
+TEST(StreamRate, LargerBudgetsOfOverlaysAreNoWorse) {
+  Raster image = make({Pattern::kRidges, 200, 150, 3, TKS_U8, 4});
+  samples::drawOver(image, samples::validity(samples::VoidShape::kCoast, 200, 150));
+  double before = 0;
+  for (const uint64_t bytes : {400, 800, 1200, 1600, 2400, 3200, 6400}) {
+    const double now = psnrOf(image, encode(nullptr, &image, budget(bytes)));
+    EXPECT_GT(now, before - 0.03) << bytes;
+    before = now;
+  }
+}
+
+TEST(StreamRate, ThreadsAndRepetitionChangeNothing) {
+  const Raster heights = terrain(), image = photograph();
+  tks_encode_options options = budget(12000);
+  const Bytes once = encode(&heights, &image, options);
+  for (const uint32_t threads : {1u, 2u, 4u}) {
+    options.threads = threads;
+    EXPECT_TRUE(encode(&heights, &image, options) == once) << threads << " threads";
+  }
+}
+
+/// The screen-space weight moves bytes from one track to the other.
+TEST(StreamRate, ParallaxShiftsBytesToHeights) {
+  const Raster heights = terrain(), image = photograph();
+  const auto geometryBytes = [&](double parallax) {
+    tks_encode_options options = budget(8000);
+    options.parallax = parallax;
+    return Stream(encode(&heights, &image, options)).info().geometry_bytes;
+  };
+  EXPECT_LT(geometryBytes(0.05), geometryBytes(5));
+}
+
+TEST(StreamRate, ProgressRisesFromZeroToOne) {
+  const Raster raster = terrain();
+  const tks_heights heights = raster.heights();
+  tks_encode_options options = lossless();
+  std::vector<double> seen;
+  options.user = &seen;
+  options.progress = [](void* user, double done) {
+    static_cast<std::vector<double>*>(user)->push_back(done);
+    return 0;
+  };
+  tks_buffer buffer = {};
+  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
+  tks_free_buffer(&buffer);
+  ASSERT_FALSE(seen.empty());
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_GE(seen.front(), 0);
+  EXPECT_EQ(seen.back(), 1);
+}
+
+}  // namespace
+}  // namespace tetrakis::test

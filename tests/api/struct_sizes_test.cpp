@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structs of callers compiled against an older or newer tetrakis.h: every size works as documented,
+// and nothing is read or written beyond it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+constexpr size_t kBeyond = 64;
+constexpr std::byte kCanary{0xa5};
+
+/// A struct of `size` bytes in memory of its own (sanitizers see what is read behind it), filled
+/// with the first bytes of `full`, then with `rest`.
+template <class T>
+class Sized {
+ public:
+  Sized(const T& full, size_t size, std::byte rest = std::byte{0}) : bytes_(size, rest) {
+    std::memcpy(bytes_.data(), &full, std::min(size, sizeof(T)));
+    if (size >= sizeof(size_t)) std::memcpy(bytes_.data(), &size, sizeof size);
+  }
+  T* get() { return reinterpret_cast<T*>(bytes_.data()); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+/// What a library sees of a struct that is cut: whole granules of its alignment, then zeros.
+template <class T>
+T cut(T full, size_t size) {
+  const size_t known = std::min(size, sizeof(T)) / alignof(T) * alignof(T);
+  std::memset(reinterpret_cast<std::byte*>(&full) + known, 0, sizeof(T) - known);
+  full.size = sizeof(T);
+  return full;
+}
+
+class StructSizes : public testing::Test {
+ protected:
+  StructSizes() {
+    for (size_t i = 0; i < samples_.size(); ++i) samples_[i] = static_cast<uint8_t>(i * i / 7);
+    heights_ = {sizeof heights_, 24,  20, TKS_U8, samples_.data(), 0.5, 3, 1, 30, 31, "m",
+                "EGM",           "x", 1,  9};
+    image_ = {sizeof image_, 24, 20, 1, TKS_U8, samples_.data()};
+    options_.size = sizeof options_;
+    options_.lossless = 1;
+    options_.index = 1;
+    options_.regions = 16;
+    options_.weights = TKS_WEIGHTS_VISUAL;
+  }
+
+  struct Outcome {
+    tks_status status;
+    Bytes bytes;
+    bool operator==(const Outcome&) const = default;
+  };
+  static Outcome encode(const tks_heights* heights, const tks_image* image,
+                        const tks_encode_options* options) {
+    tks_buffer buffer = {};
+    const tks_status status = tks_encode(heights, image, options, &buffer, nullptr, 0);
+    Outcome outcome{status, Bytes(buffer.data, buffer.data + buffer.size)};
+    tks_free_buffer(&buffer);
+    return outcome;
+  }
+
+  std::vector<uint8_t> samples_ = std::vector<uint8_t>(24 * 20);
+  tks_heights heights_;
+  tks_image image_;
+  tks_encode_options options_ = {};
+};
+
+TEST_F(StructSizes, HeightsOfEverySize) {
+  for (size_t size = sizeof(size_t); size <= sizeof heights_ + kBeyond; ++size) {
+    Sized<tks_heights> sized(heights_, size);
+    const Outcome outcome = encode(sized.get(), nullptr, &options_);
+    if (size < offsetof(tks_heights, step)) {
+      EXPECT_EQ(outcome.status, TKS_USAGE) << size;
+      continue;
+    }
+    const tks_heights known = cut(heights_, size);
+    EXPECT_EQ(outcome.status, TKS_OK) << size;
+    EXPECT_EQ(outcome, encode(&known, nullptr, &options_)) << size;
+  }
+}
+
+TEST_F(StructSizes, OptionsOfEverySize) {
+  for (size_t size = sizeof(size_t); size <= sizeof options_ + kBeyond; ++size) {
+    Sized<tks_encode_options> sized(options_, size);
+    const Outcome outcome = encode(&heights_, &image_, sized.get());
+    if (size < offsetof(tks_encode_options, parallax)) {
+      EXPECT_EQ(outcome.status, TKS_USAGE) << size;
+      continue;
+    }
+    const tks_encode_options known = cut(options_, size);
+    EXPECT_EQ(outcome.status, TKS_OK) << size;
+    EXPECT_EQ(outcome, encode(&heights_, &image_, &known)) << size;
+  }
+}
+
+TEST_F(StructSizes, ImagesAreWhole) {
+  const Outcome whole = encode(nullptr, &image_, &options_);
+  for (size_t size = sizeof(size_t); size <= sizeof image_ + kBeyond; ++size) {
+    Sized<tks_image> sized(image_, size);
+    const Outcome outcome = encode(nullptr, sized.get(), &options_);
+    if (size < sizeof image_) {
+      EXPECT_EQ(outcome.status, TKS_USAGE) << size;
+    } else {
+      EXPECT_EQ(outcome, whole) << size;
+    }
+  }
+}
+
+TEST_F(StructSizes, FieldsThatAreUnknownMustBeZero) {
+  Sized<tks_heights> heights(heights_, sizeof heights_ + 8, kCanary);
+  Sized<tks_image> image(image_, sizeof image_ + 8, kCanary);
+  Sized<tks_encode_options> options(options_, sizeof options_ + 8, kCanary);
+  EXPECT_EQ(encode(heights.get(), nullptr, &options_).status, TKS_UNSUPPORTED);
+  EXPECT_EQ(encode(nullptr, image.get(), &options_).status, TKS_UNSUPPORTED);
+  EXPECT_EQ(encode(&heights_, nullptr, options.get()).status, TKS_UNSUPPORTED);
+}
+
+TEST_F(StructSizes, SizesThatNobodySetAreRefused) {
+  heights_.size = ~size_t{0} / 3;
+  EXPECT_EQ(encode(&heights_, nullptr, &options_).status, TKS_USAGE);
+}
+
+TEST_F(StructSizes, LimitsOfEverySize) {
+  const Bytes bytes = encode(&heights_, &image_, &options_).bytes;
+  const tks_limits tight = {sizeof(tks_limits), 0, 1, 0};
+  for (size_t size = 0; size <= sizeof tight + kBeyond; ++size) {
+    // Below sizeof(size_t) the size itself is what is stated, in memory that holds it.
+    Sized<tks_limits> sized(tight, std::max(size, sizeof(size_t)));
+    sized.get()->size = size;
+    tks_decoder* decoder = nullptr;
+    const tks_status status =
+        tks_open(bytes.data(), bytes.size(), sized.get(), &decoder, nullptr, 0);
+    tks_close(decoder);
+    const bool reaches = size >= offsetof(tks_limits, max_memory);
+    EXPECT_EQ(status, size < sizeof(size_t) ? TKS_USAGE : reaches ? TKS_LIMIT : TKS_OK) << size;
+  }
+}
+
+TEST_F(StructSizes, InfoOfEverySize) {
+  const Bytes bytes = encode(&heights_, &image_, &options_).bytes;
+  Stream stream(bytes);
+  tks_info whole = {};
+  whole.size = sizeof whole;
+  ASSERT_EQ(tks_get_info(stream.get(), &whole), TKS_OK);
+  for (size_t size = 0; size <= sizeof whole + kBeyond; ++size) {
+    std::vector<std::byte> memory(sizeof whole + 2 * kBeyond, kCanary);
+    std::memcpy(memory.data(), &size, sizeof size);
+    std::vector<std::byte> expected = memory;
+    if (size >= offsetof(tks_info, header_bytes)) {
+      std::fill_n(expected.begin(), size, std::byte{0});
+      std::memcpy(expected.data(), &whole, std::min(size, sizeof whole));
+      std::memcpy(expected.data(), &size, sizeof size);
+    }
+    const tks_status status =
+        tks_get_info(stream.get(), reinterpret_cast<tks_info*>(memory.data()));
+    EXPECT_EQ(status, size < offsetof(tks_info, header_bytes) ? TKS_USAGE : TKS_OK) << size;
+    EXPECT_EQ(memory, expected) << size;
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bands and their coding: adaptive models, bit maps, what every prefix tells about a coefficient,
+// and where it is reconstructed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bitstream/track/band.hpp"
+#include "bitstream/track/hints.hpp"
+#include "bitstream/track/reconstruction.hpp"
+#include "bitstream/track/track_decoder.hpp"
+#include "bitstream/track/track_encoder.hpp"
+#include "conformance/samples/terrain_samples.hpp"
+#include "tests/support/random_planes.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+TEST(ZeroedArray, HoldsZerosUntilWritten) {
+  for (const size_t size : {size_t{0}, size_t{1}, size_t{1000}, size_t{1} << 20}) {
+    ZeroedArray<uint32_t> array(size);
+    ASSERT_EQ(array.size(), size);
+    ASSERT_EQ(static_cast<size_t>(array.end() - array.begin()), size);
+    EXPECT_EQ(static_cast<size_t>(std::count(array.begin(), array.end(), 0u)), size);
+    if (size == 0) continue;
+    array[size - 1] = 7;
+    const uint32_t* data = array.data();
+    const ZeroedArray<uint32_t> moved = std::move(array);
+    EXPECT_EQ(moved.data(), data);
+    EXPECT_EQ(moved[size - 1], 7u);
+  }
+  EXPECT_EQ(ZeroedArray<int8_t>().size(), 0u);
+}
+
+TEST(AdaptiveBit, StaysInRangeAndFollowsEveryDecision) {
+  Random random(1);
+  for (int initial = -1; initial < 255; ++initial) {
+    for (const uint32_t odds : {0u, 1u, 50u, 500u, 1000u}) {
+      AdaptiveBit model = initial < 0 ? AdaptiveBit() : AdaptiveBit(static_cast<uint8_t>(initial));
+      for (int i = 0; i < 800; ++i) {
+        const bool bit = random() % 1000 < odds;
+        const uint32_t before = model.zero();
+        model.update(bit);
+        const uint32_t after = model.zero();
+        ASSERT_TRUE(bit ? after <= before : after >= before);
+        ASSERT_GE(after, AdaptiveBit::kFloor);
+        ASSERT_LE(after, 65536 - AdaptiveBit::kFloor);
+      }
+      EXPECT_NEAR(model.zero() / 65536.0, 1 - odds / 1000.0, 0.11);
+    }
+  }
+}
+
+/// Krichevsky and Trofimov: k zeros and no one are worth (k + 1/2) / (k + 1).
+TEST(AdaptiveBit, StartsLikeARunningMean) {
+  AdaptiveBit model;
+  for (int k = 0; k < 200; ++k) {
+    EXPECT_NEAR(model.zero() / 65536.0, (k + 0.5) / (k + 1), 0.002) << k;
+    model.update(false);
+  }
+}
+
+TEST(AdaptiveBit, TrustsItsInitialValue) {
+  for (const int initial : {10, 128, 250}) {
+    AdaptiveBit model(static_cast<uint8_t>(initial));
+    EXPECT_NEAR(model.zero() / 65536.0, initial / 256.0, 0.001);
+    model.update(true);
+    EXPECT_NEAR(model.zero() / 65536.0, initial / 256.0, initial / 256.0 / 15);
+  }
+}
+
+const BandShape kShapes[] = {{1, 1},  {1, 31}, {3, 32}, {9, 33},  {8, 64},
+                             {17, 5}, {2, 97}, {40, 1}, {33, 70}, {16, 128}};
+
+/// A band with random significant coefficients, and an eye that sees them.
+struct Scattered {
+  Scattered(Random& random, const BandShape& shape)
+      : band(shape, Orientation::kHL), set(shape.rows, std::vector<bool>(shape.columns, false)) {
+    for (uint32_t i = 0; i < 1 + shape.rows * shape.columns / 40; ++i) {
+      const uint32_t row = static_cast<uint32_t>(random() % shape.rows),
+                     column = static_cast<uint32_t>(random() % shape.columns);
+      set[row][column] = true;
+      band.significant[shape.word(row, column / 32)] |= uint32_t{1} << column % 32;
+    }
+  }
+  bool sees(uint32_t row, uint32_t column, uint32_t distance) const {
+    for (uint32_t y = row - std::min(row, distance); y <= row + distance && y < set.size(); ++y) {
+      for (uint32_t x = column - std::min(column, distance);
+           x <= column + distance && x < set[y].size(); ++x) {
+        if (set[y][x]) return true;
+      }
+    }
+    return false;
+  }
+  Band band;
+  std::vector<std::vector<bool>> set;
+};
+
+TEST(Band, SignificantWithinIsWhatAnEyeSees) {
+  Random random(2);
+  for (const BandShape& shape : kShapes) {
+    const Scattered scattered(random, shape);
+    for (uint32_t row = 0; row < shape.rows; ++row) {
+      for (uint32_t column = 0; column < shape.columns; ++column) {
+        const size_t word = shape.word(row, column / 32);
+        const uint32_t bit = column % 32;
+        const Band::Reach reach = scattered.band.significantWithin(word);
+        ASSERT_EQ((reach.two >> bit) & 1, scattered.sees(row, column, 2)) << row << " " << column;
+        ASSERT_EQ((reach.three >> bit) & 1, scattered.sees(row, column, 3)) << row << " " << column;
+        if (scattered.set[row][column]) continue;
+        const uint32_t near = scattered.band.nearSignificant(word);
+        ASSERT_EQ((near >> bit) & 1, scattered.sees(row, column, 1)) << row << " " << column;
+      }
+    }
+  }
+}
+
+/// A band of random magnitudes, and what they are read as: 0 outside.
+Band filled(Random& random, const BandShape& shape) {
+  Band band(shape, Orientation::kHL);
+  for (uint32_t row = 0; row < shape.rows; ++row) {
+    for (uint32_t column = 0; column < shape.columns; ++column)
+      band.magnitude[shape.cell(row, column)] = static_cast<uint32_t>(random() % 1000);
+  }
+  return band;
+}
+
+uint32_t magnitudeAt(const Band* band, uint32_t row, uint32_t column) {
+  if (band == nullptr || row >= band->shape.rows || column >= band->shape.columns) return 0;
+  return band->magnitude[band->shape.cell(row, column)];
+}
+
+/// Siblings may lack a row, a column, or both, and any of the bands may be missing.
+TEST(RowHints, AreSumsAndBitsOfWhatOtherBandsHold) {
+  Random random(5);
+  for (const BandShape& shape : kShapes) {
+    const Band parent = filled(random, {(shape.rows + 1) / 2, (shape.columns + 1) / 2});
+    const Band component = filled(random, shape);
+    const Band narrow = filled(random, {shape.rows, shape.columns - 1});
+    const Band low = filled(random, {shape.rows - 1, shape.columns});
+    for (int missing = 0; missing < 5; ++missing) {
+      const auto unless = [&](int i, const Band& band) { return i == missing ? nullptr : &band; };
+      const HintBands bands{
+          unless(0, parent), unless(1, component), {unless(2, narrow), unless(3, low)}};
+      for (uint32_t row = 0; row < shape.rows; ++row) {
+        for (uint32_t column = 0; column < shape.columns; ++column) {
+          const RowHints hints(bands, row, column / 32);
+          uint32_t sum = magnitudeAt(bands.parent, row / 2, column / 2);
+          uint32_t bits = sum | magnitudeAt(bands.parent, row / 2, column / 2 + 1);
+          for (const Band* band : {bands.component, bands.siblings[0], bands.siblings[1]}) {
+            sum += magnitudeAt(band, row, column);
+            for (uint32_t i = 0; i < 4; ++i) bits |= magnitudeAt(band, row, column + i);
+          }
+          ASSERT_EQ(hints.ofOne(column % 32), sum) << row << " " << column << " " << missing;
+          if (column % 4 != 0 || column + 4 > shape.columns) continue;
+          ASSERT_EQ(hints.ofFour(column % 32), 2 * bits) << row << " " << column << " " << missing;
+        }
+      }
+    }
+  }
+}
+
+TEST(Band, ValidColumnsAreThoseThatExist) {
+  for (const BandShape& shape : kShapes) {
+    uint32_t columns = 0;
+    for (uint32_t x = 0; x < shape.words(); ++x) {
+      columns += static_cast<uint32_t>(std::popcount(shape.valid(x)));
+      ASSERT_TRUE(shape.valid(x) & 1);
+    }
+    EXPECT_EQ(columns, shape.columns);
+  }
+}
+
+/// Bands of one track with parents and a second component, filled with values of a peaked
+/// distribution whose scale rises from fine to coarse.
+struct Material {
+  std::vector<BandPlan> plan;
+  std::vector<BandSource> sources;
+};
+
+Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
+  Random random(seed);
+  Material m;
+  for (int component = 0; component < 2; ++component) {
+    const auto first = static_cast<int>(m.plan.size());
+    for (const Orientation orientation : {Orientation::kLL, Orientation::kHL, Orientation::kLH,
+                                          Orientation::kHH, Orientation::kHL}) {
+      const auto i = static_cast<int>(m.plan.size()) - first;
+      BandPlan band;
+      band.shape = i < 4 ? coarse : BandShape{2 * coarse.rows, 2 * coarse.columns - 1};
+      band.orientation = orientation;
+      band.log_norm = i < 4 ? 20 - 8 * component : 4;
+      band.models = static_cast<uint32_t>(i / 4 + 2 * component);
+      if (i == 4) band.parent = first + 1;
+      if (i == 1) band.siblings = {first + 2, first + 3};
+      if (i == 2 || i == 3) band.siblings = {first + 1, first + 5 - i};
+      if (component > 0) band.component = i;
+      m.plan.push_back(band);
+      BandSource source;
+      source.values.assign(band.shape.cells(), 0);
+      source.weight = std::exp2(band.log_norm / 8.0);
+      for (uint32_t row = 0; row < band.shape.rows; ++row) {
+        for (uint32_t column = 0; column < band.shape.columns; ++column) {
+          const int bits = static_cast<int>(random() % static_cast<uint32_t>(scale_bits + 1));
+          const auto magnitude = static_cast<int32_t>(random() & ((uint32_t{1} << bits) - 1));
+          const bool quiet = (row / 8 + column / 32) % 3 == 1 && i != 0;
+          source.values[band.shape.cell(row, column)] = quiet               ? 0
+                                                        : random() % 2 == 0 ? magnitude
+                                                                            : -magnitude;
+        }
+      }
+      m.sources.push_back(std::move(source));
+    }
+  }
+  return m;
+}
+
+/// What the decoder believes is true: known bits, signs, and that the rest is below 2^plane.
+/// places: binary ones that estimates are also read with.
+void expectTruth(const TrackState& state, size_t index, const BandSource& source, int places) {
+  const Band& band = state.bands[index];
+  const BandShape& shape = band.shape;
+  std::vector<int32_t> whole(shape.columns), fine(shape.columns);
+  for (uint32_t row = 0; row < shape.rows; ++row) {
+    Reconstruction(band, 0).row(row, whole.data());
+    Reconstruction(band, places).row(row, fine.data());
+    for (uint32_t column = 0; column < shape.columns; ++column) {
+      const size_t cell = shape.cell(row, column), word = shape.word(row, column / 32);
+      const int32_t truth = source.values[cell];
+      const bool visited = (band.visited[word] >> column % 32) & 1;
+      const int plane = band.plane + (visited ? 0 : 1);
+      const int64_t low = band.magnitude[cell], high = low + (int64_t{1} << plane);
+      const int64_t magnitude = std::abs(int64_t{truth});
+      ASSERT_TRUE(magnitude >= low && magnitude < high) << truth << " below plane " << plane;
+      ASSERT_EQ(band.magnitude[cell] != 0, ((band.significant[word] >> column % 32) & 1) != 0);
+      ASSERT_EQ(band.sign[cell], low == 0 ? 0 : truth < 0 ? -1 : 1);
+      const int64_t estimate = std::abs(int64_t{whole[column]});
+      ASSERT_TRUE(estimate >= low && estimate < high) << "an estimate outside of what is known";
+      ASSERT_TRUE(low == 0 || (whole[column] < 0) == (truth < 0));
+      ASSERT_EQ(std::abs(int64_t{fine[column]}) >> places, estimate) << "places only refine";
+      ASSERT_TRUE(!state.complete || fine[column] == truth * (1 << places));
+      ASSERT_TRUE(!state.complete || whole[column] == truth);
+    }
+  }
+}
+
+TEST(TrackCoding, EveryPrefixTellsTheTruth) {
+  uint32_t seed = 0;
+  for (const BandShape& coarse : {BandShape{1, 1}, {5, 5}, {9, 40}, {20, 17}, {3, 70}}) {
+    for (const int scale_bits : {0, 1, 5, 29}) {
+      const Material m = material(++seed, coarse, scale_bits);
+      const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+      ASSERT_TRUE(track.complete);
+      const int places = track.planes < 27 ? 4 : 0;
+      const size_t size = track.codeword.size(), stride = 1 + size / 60;
+      for (size_t bytes = 0; bytes <= size; bytes += bytes + stride > size ? 1 : stride) {
+        const TrackState state =
+            decodeTrack(m.plan, track.planes, std::span(track.codeword).first(bytes));
+        ASSERT_TRUE(bytes < size || state.complete);
+        for (size_t i = 0; i < m.plan.size(); ++i) {
+          ASSERT_NO_FATAL_FAILURE(expectTruth(state, i, m.sources[i], places));
+        }
+      }
+    }
+  }
+}
+
+template <class T>
+bool equal(const ZeroedArray<T>& a, const ZeroedArray<T>& b) {
+  return std::equal(a.data(), a.data() + a.size(), b.data(), b.data() + b.size());
+}
+
+uint32_t signsOf(const Band& band) {
+  const auto found = [](int8_t sign) { return sign != 0; };
+  return static_cast<uint32_t>(
+      std::count_if(band.sign.data(), band.sign.data() + band.sign.size(), found));
+}
+
+/// What is known of the coefficients and where, not what the next bit-plane starts from.
+bool sameKnowledge(const TrackState& a, const TrackState& b) {
+  bool same = a.complete == b.complete && a.bands.size() == b.bands.size();
+  for (size_t i = 0; same && i < a.bands.size(); ++i) {
+    same = a.bands[i].plane == b.bands[i].plane && equal(a.bands[i].sign, b.bands[i].sign) &&
+           equal(a.bands[i].magnitude, b.bands[i].magnitude) &&
+           equal(a.bands[i].visited, b.bands[i].visited) &&
+           a.bands[i].significant_count == signsOf(a.bands[i]) &&
+           b.bands[i].significant_count == signsOf(b.bands[i]);
+  }
+  return same;
+}
+
+/// A growing track knows what the prefix alone tells, whatever was asked before.
+TEST(TrackCoding, GrowingTracksForgetNothingAndInventNothing) {
+  const Material m = material(3, {9, 40}, 5);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  for (const size_t stride : {1u, 2u, 3u, 7u, 50u}) {
+    GrowingTrack growing(m.plan, track.planes);
+    for (size_t bytes = 0; bytes <= track.codeword.size(); bytes += stride) {
+      const auto prefix = std::span(track.codeword).first(bytes);
+      ASSERT_TRUE(sameKnowledge(growing.decode(prefix), decodeTrack(m.plan, track.planes, prefix)))
+          << bytes << " of " << track.codeword.size() << " bytes, steps of " << stride;
+    }
+  }
+}
+
+/// Coefficients of 30 bits, the most there may be, all of them.
+TEST(TrackCoding, TheLargestMagnitudesComeBack) {
+  Material m = material(9, {6, 9}, 5);
+  for (size_t i = 0; i < m.plan.size(); ++i) {
+    const BandShape& shape = m.plan[i].shape;
+    for (uint32_t row = 0; row < shape.rows; ++row) {
+      for (uint32_t column = 0; column < shape.columns; ++column) {
+        int32_t& value = m.sources[i].values[shape.cell(row, column)];
+        value = value < 0 ? -((1 << 30) - 1) : (1 << 30) - 1;
+      }
+    }
+  }
+  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  ASSERT_EQ(track.planes, kMaxPlanes);
+  const TrackState state = decodeTrack(m.plan, track.planes, track.codeword);
+  ASSERT_TRUE(state.complete);
+  for (size_t i = 0; i < m.plan.size(); ++i) {
+    ASSERT_NO_FATAL_FAILURE(expectTruth(state, i, m.sources[i], 0));
+  }
+}
+
+TEST(TrackCoding, ZerosCostNothing) {
+  Material m = material(10, {20, 40}, 5);
+  for (BandSource& source : m.sources) std::fill(source.values.begin(), source.values.end(), 0);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  EXPECT_EQ(track.planes, 0);
+  EXPECT_LE(track.codeword.size(), 1u);
+  const TrackState state = decodeTrack(m.plan, 0, {});
+  EXPECT_TRUE(state.complete);
+  std::vector<int32_t> values(79, 1);
+  for (const Band& band : state.bands) {
+    Reconstruction(band, 4).row(0, values.data());
+    EXPECT_EQ(std::count(values.begin(), values.begin() + band.shape.columns, 0),
+              static_cast<ptrdiff_t>(band.shape.columns));
+  }
+}
+
+/// Takes coefficients away from the bands: single ones, whole blocks, whole bands.
+void takeAway(Random& random, Material& m) {
+  for (size_t i = 0; i < m.plan.size(); ++i) {
+    BandPlan& band = m.plan[i];
+    band.absent.assign(band.shape.wordCells(), 0);
+    const uint32_t kind = random() % 4;
+    for (uint32_t row = 0; row < band.shape.rows; ++row) {
+      for (uint32_t column = 0; column < band.shape.columns; ++column) {
+        const bool block = samples::hash(row / 8, column / 32, kind) % 2 == 0;
+        const bool gone = kind == 0   ? random() % 4 == 0
+                          : kind == 1 ? block
+                          : kind == 2 ? block || random() % 2 == 0
+                                      : true;
+        if (!gone) continue;
+        band.absent[band.shape.word(row, column / 32)] |= uint32_t{1} << column % 32;
+        m.sources[i].values[band.shape.cell(row, column)] = 0;
+      }
+    }
+  }
+}
+
+TEST(TrackCoding, EveryPrefixIsTrueWhereCoefficientsAreAbsent) {
+  Random random(13);
+  for (int trial = 0; trial < 12; ++trial) {
+    const BandShape coarse = kShapes[random() % std::size(kShapes)];
+    Material m = material(static_cast<uint32_t>(random()), coarse, 1 + trial);
+    takeAway(random, m);
+    const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+    const size_t stride = std::max<size_t>(1, track.codeword.size() / 20);
+    for (size_t n = 0; n <= track.codeword.size(); n += stride) {
+      const auto prefix = std::span(track.codeword).first(n);
+      const TrackState state = decodeTrack(m.plan, track.planes, prefix);
+      for (size_t i = 0; i < m.plan.size(); ++i)
+        ASSERT_NO_FATAL_FAILURE(expectTruth(state, i, m.sources[i], 3));
+    }
+    const TrackState whole = decodeTrack(m.plan, track.planes, track.codeword);
+    EXPECT_TRUE(whole.complete);
+  }
+}
+
+/// What any bytes say, they say nothing of a coefficient that is absent.
+TEST(TrackCoding, AbsentCoefficientsStayZero) {
+  Random random(14);
+  Material m = material(15, {20, 70}, 8);
+  takeAway(random, m);
+  std::vector<uint8_t> noise(3000);
+  for (uint8_t& byte : noise) byte = static_cast<uint8_t>(random());
+  const TrackState state = decodeTrack(m.plan, 12, noise);
+  size_t significant = 0;
+  for (size_t i = 0; i < m.plan.size(); ++i) {
+    for (size_t word = 0; word < m.plan[i].absent.size(); ++word) {
+      ASSERT_EQ(state.bands[i].significant[word] & m.plan[i].absent[word], 0u);
+      significant += static_cast<size_t>(std::popcount(state.bands[i].significant[word]));
+    }
+  }
+  EXPECT_GT(significant, 100u);
+}
+
+/// A band in which one coefficient exists takes that one's bits alone, however large it is.
+TEST(TrackCoding, AbsentCoefficientsCostNothing) {
+  for (const uint32_t side : {16u, 256u, 512u}) {
+    BandPlan band;
+    band.shape = {side, side};
+    band.absent.assign(band.shape.wordCells(), ~uint32_t{0});
+    band.absent[band.shape.word(side / 2, 0)] ^= 4;
+    BandSource source;
+    source.values.assign(band.shape.cells(), 0);
+    source.values[band.shape.cell(side / 2, 2)] = 1000;
+    const EncodedTrack track = encodeTrack({band}, {source}, UINT64_MAX);
+    ASSERT_NO_FATAL_FAILURE(
+        expectTruth(decodeTrack({band}, track.planes, track.codeword), 0, source, 4));
+    EXPECT_LE(track.codeword.size(), 4u) << side;
+  }
+}
+
+/// One coefficient in a large empty band costs its place, sign and bits: quiet blocks and groups
+/// are passed over.
+TEST(TrackCoding, LoneCoefficientsAreCheap) {
+  Random random(11);
+  size_t bytes = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    BandPlan band;
+    band.shape = {256, 256};
+    band.orientation = Orientation::kHH;
+    BandSource source;
+    source.values.assign(band.shape.cells(), 0);
+    source.values[band.shape.cell(random() % 256, random() % 256)] =
+        static_cast<int32_t>(1 + random() % 1000);
+    const EncodedTrack track = encodeTrack({band}, {source}, UINT64_MAX);
+    const TrackState state = decodeTrack({band}, track.planes, track.codeword);
+    ASSERT_NO_FATAL_FAILURE(expectTruth(state, 0, source, 4));
+    bytes += track.codeword.size();
+  }
+  EXPECT_LT(bytes, 20 * 64u);
+}
+
+/// Estimates serve: after half of the bytes they are better than the low ends of the intervals.
+TEST(Reconstruction, EstimatesReduceTheError) {
+  const Material m = material(12, {30, 40}, 9);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  for (const size_t part : {3, 4, 5}) {
+    const TrackState state = decodeTrack(
+        m.plan, track.planes, std::span(track.codeword).first(track.codeword.size() * part / 8));
+    double estimated = 0, low_ends = 0;
+    for (size_t i = 0; i < m.plan.size(); ++i) {
+      const Band& band = state.bands[i];
+      std::vector<int32_t> values(band.shape.columns);
+      for (uint32_t row = 0; row < band.shape.rows; ++row) {
+        Reconstruction(band, 0).row(row, values.data());
+        for (uint32_t column = 0; column < band.shape.columns; ++column) {
+          const size_t cell = band.shape.cell(row, column);
+          const double truth = m.sources[i].values[cell];
+          const double low = band.sign[cell] * static_cast<double>(band.magnitude[cell]);
+          estimated += std::pow(values[column] - truth, 2);
+          low_ends += std::pow(low - truth, 2);
+        }
+      }
+    }
+    EXPECT_LT(estimated, 0.7 * low_ends);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order of passes by its properties.
+#include "bitstream/track/pass_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+namespace tetrakis {
+namespace {
+
+using Random = std::mt19937;
+
+std::vector<BandPlan> randomPlan(Random& random) {
+  std::vector<BandPlan> plan(1 + random() % 8);
+  for (BandPlan& band : plan) {
+    band.shape = {static_cast<uint32_t>(random() % 40), static_cast<uint32_t>(random() % 70)};
+    band.log_norm = static_cast<int>(random() % 200) - 50;
+    band.needed = random() % 4 != 0;
+  }
+  return plan;
+}
+
+/// A band of which so many coefficients, from the first on, are significant.
+Band bandWith(const BandShape& shape, uint32_t significant) {
+  Band band(shape, Orientation::kHL);
+  band.nonzero = significant > 0;
+  band.significant_count = significant;
+  return band;
+}
+
+TEST(PassQueue, HoldsEveryPassOnceAndPlanesOfABandInTurn) {
+  Random random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::vector<BandPlan> plan = randomPlan(random);
+    const int planes = static_cast<int>(random() % 12);
+    std::vector<uint32_t> significant(plan.size(), 0);
+    std::map<uint16_t, std::set<std::tuple<int, PassKind>>> seen;
+    PassQueue queue(plan, planes);
+    size_t count = 0, wanted = 0, left = 0;
+    for (const BandPlan& band : plan) {
+      wanted += band.vacant() ? 0 : 3 * static_cast<size_t>(planes);
+      left += band.vacant() || !band.needed ? 0 : 3 * static_cast<size_t>(planes);
+    }
+    for (; !queue.empty(); ++count) {
+      EXPECT_EQ(queue.needed(), left > 0);
+      const Pass pass = queue.front();
+      auto& of_band = seen[pass.band];
+      EXPECT_TRUE(of_band.insert({pass.plane, pass.kind}).second);
+      const bool starts = pass.kind == PassKind::kLikely;
+      EXPECT_EQ(of_band.count({pass.plane, PassKind::kLikely}), 1u);
+      EXPECT_EQ(of_band.size(), 3u * static_cast<size_t>(planes - 1 - pass.plane) +
+                                    (starts                    ? 1
+                                     : of_band.size() % 3 == 0 ? 3
+                                                               : 2));
+      const BandShape& shape = plan[pass.band].shape;
+      uint32_t& known = significant[pass.band];
+      if (pass.kind != PassKind::kRefine) known += (shape.rows * shape.columns - known) / 3;
+      queue.pop(bandWith(shape, known));
+      left -= plan[pass.band].needed;
+    }
+    EXPECT_EQ(count, wanted);
+  }
+}
+
+/// Of two bands with as many significant coefficients, one whose norm is twice as large is a plane
+/// ahead.
+TEST(PassQueue, FollowsTheNorms) {
+  std::vector<BandPlan> plan(2);
+  plan[0].shape = plan[1].shape = {10, 10};
+  plan[1].log_norm = 16;
+  PassQueue queue(plan, 8);
+  for (int i = 0; !queue.empty(); ++i) {
+    const Pass pass = queue.front();
+    if (i < 3) {
+      EXPECT_EQ(pass.band, 1);
+    }
+    queue.pop(bandWith(plan[0].shape, 50));
+  }
+}
+
+/// Of two bands alike, the rest of the one with more significant coefficients comes first.
+TEST(PassQueue, LooksFirstWhereMuchIsSignificant) {
+  for (const uint16_t dense : {uint16_t{0}, uint16_t{1}}) {
+    std::vector<BandPlan> plan(2);
+    plan[0].shape = plan[1].shape = {100, 100};
+    PassQueue queue(plan, 2);
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(queue.front().kind, PassKind::kLikely);
+      queue.pop(bandWith(plan[0].shape, queue.front().band == dense ? 5000 : 5));
+    }
+    EXPECT_EQ(queue.front().kind, PassKind::kRest);
+    EXPECT_EQ(queue.front().band, dense);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis

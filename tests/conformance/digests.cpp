@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints digests of encoded streams, decoded samples and meshes, larger than the conformance
+// vectors are. Two builds (compiler, optimisation, machine) agree when their outputs are equal:
+// .ci/run.
+#include <cstdio>
+#include <span>
+
+#include "conformance/digest.hpp"
+#include "conformance/samples/terrain_samples.hpp"
+#include "conformance/vector_cases.hpp"
+#include "tetrakis/tetrakis.hpp"
+
+namespace tetrakis {
+namespace {
+
+using conformance::sampleDigest;
+
+template <class T>
+void print(const std::string& name, std::span<const T> values, tks_sample sample) {
+  std::printf("%s  %s\n", sampleDigest(std::as_bytes(values), sample).c_str(), name.c_str());
+}
+
+void printMesh(const std::string& name, const Expected<Mesh>& mesh) {
+  if (!mesh) return;
+  print(name + ".vertices", mesh->gridIndices(), TKS_U32);
+  print(name + ".heights", mesh->heights(), TKS_F32);
+  print(name + ".triangles", mesh->triangles(), TKS_U32);
+}
+
+void printPrefix(const std::string& name, std::span<const uint8_t> prefix) {
+  auto decoder = Decoder::open(prefix);
+  if (!decoder) return;
+  if (const auto heights = decoder->heights()) {
+    print(name + ".samples", std::span(*heights), decoder->info().sample);
+  }
+  if (const auto texture = decoder->texture()) {
+    print(name + ".texels", std::span(*texture), decoder->info().texture_sample);
+  }
+  printMesh(name + ".coded", decoder->codedMesh());
+  printMesh(name + ".budget", decoder->budgetMesh(1000));
+}
+
+void printStream(const std::string& name, std::span<const uint8_t> stream) {
+  print(name, stream, TKS_U8);
+  printPrefix(name + ".half", stream.first(stream.size() / 2));
+  printPrefix(name + ".whole", stream);
+}
+
+int printAll() {
+  for (const auto& vector_case : conformance::vectorCases()) {
+    const auto stream = conformance::encodeCase(vector_case);
+    if (!stream.ok()) {
+      std::fprintf(stderr, "%s\n", stream.status().message().c_str());
+      return stream.status().code();
+    }
+    printStream(vector_case.name, *stream);
+  }
+  const auto heights = samples::make({samples::Pattern::kRidges, 385, 300, 1, TKS_U16});
+  const auto image = samples::make({samples::Pattern::kRidges, 512, 400, 3, TKS_U8, 7});
+  for (const uint32_t bytes : {4000u, 64000u}) {
+    tks_encode_options options = makeEncodeOptions();
+    options.bytes = bytes;
+    options.threads = 2;
+    const tks_heights h = heights.heights();
+    const tks_image i = image.image();
+    const auto stream = encode(&h, &i, options);
+    if (!stream) return stream.error().code;
+    printStream("joint_" + std::to_string(bytes), stream->bytes());
+  }
+  return TKS_OK;
+}
+
+}  // namespace
+}  // namespace tetrakis
+
+int main() {
+  return tetrakis::printAll();
+}

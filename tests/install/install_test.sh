@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# install_test.sh BUILD: installs a build, looks at what is there, and links it like a user: from C and
+# C++, static and shared (where the build has shared libraries), by find_package and by pkg-config.
+set -euo pipefail
+
+build="$1"
+source="$(cd "$(dirname "$0")" && pwd)"
+stream="$source/../../conformance/vectors/geometry_budget_129x97.tks"
+scratch="$(mktemp -d)"
+trap 'rm -rf "$scratch"' EXIT
+prefix="$scratch/prefix"
+
+quiet() { "$@" > "$scratch/log" 2>&1 || { cat "$scratch/log"; return 1; }; }
+fail() { echo "$*"; exit 1; }
+
+# consume LANGUAGE LIBRARY ARGUMENTS...: configures, builds and runs the user's project.
+consume() {
+  local folder="$scratch/consumer-$1-$2" input=()
+  quiet cmake -S "$source" -B "$folder" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_LANGUAGE="$1" \
+    -DLIBRARY="tetrakis::$2"
+  quiet cmake --build "$folder"
+  if [[ "$1" == C ]]; then input=("$stream"); fi
+  "$folder/consumer" "${input[@]}" || fail "the $1 consumer of $2 fails"
+}
+
+# config LIBRARY OPTIONS...: what pkg-config says.
+config() { PKG_CONFIG_PATH="$(dirname "$pc")" pkg-config --cflags --libs "${@:2}" "$1"; }
+
+quiet cmake --install "$build" --prefix "$prefix"
+pc="$(find "$prefix" -name tetrakis.pc)"
+libraries="$(dirname "$(dirname "$pc")")"
+[[ "$(cd "$prefix" && find . -name '*.a' -printf '%f ')" =~ ^(libtetrakis(_decoder)?\.a ){2}$ ]] ||
+  fail "other archives than two: $(find "$prefix" -name '*.a')"
+
+kinds=("" _static)
+if [[ -e "$libraries/libtetrakis.so" ]]; then kinds+=(_shared); fi
+for kind in "${kinds[@]}"; do
+  consume C "tetrakis$kind"
+  consume C "tetrakis_decoder$kind"
+  consume CXX "tetrakis$kind"
+done
+
+# Linked by hand: what the archives need beside themselves stands in the files.
+for name in tetrakis tetrakis_decoder; do
+  read -ra flags <<< "$(config "$name" --static)"
+  flags=("${flags[@]/#-l$name/$libraries/lib$name.a}")
+  "${CC:-cc}" -std=c99 -pedantic -Werror "$source/consumer.c" -o "$scratch/from_c" "${flags[@]}"
+  "$scratch/from_c" "$stream" || fail "C with $name.pc --static fails"
+  read -ra flags <<< "$(config "$name")"
+  "${CC:-cc}" "$source/consumer.c" -o "$scratch/from_c" "${flags[@]}"
+  LD_LIBRARY_PATH="$libraries" "$scratch/from_c" "$stream" || fail "C with $name.pc fails"
+done
+printf '#include <tetrakis/tetrakis.h>\n' |
+  "${CXX:-c++}" -x c++ -std=c++98 -Wno-long-long -pedantic -Werror -fsyntax-only -I"$prefix/include" -
+
+for library in "$libraries"/libtetrakis*.so; do
+  [[ -e "$library" ]] || continue
+  readelf -d "$library" | grep -q "SONAME.*$(basename "$library")\.[0-9]*\]" ||
+    fail "$library names no major version"
+  others="$(nm -D --defined-only "$library" | awk '$3 !~ /^tks_/')"
+  [[ -z "$others" ]] || fail "$library exports $others"
+done
+if [[ -e "$libraries/libtetrakis_decoder.so" ]]; then
+  declared="$(sed -n 's/.*\b\(tks_[a-z_]*\)(.*/\1/p' "$prefix/include/tetrakis/tetrakis.h" |
+    grep -vx 'tks_encode\|tks_free_buffer' | sort -u)"
+  for function in $declared; do
+    nm -D --defined-only "$libraries/libtetrakis_decoder.so" | grep -q " $function$" ||
+      fail "libtetrakis_decoder.so lacks $function"
+  done
+fi
+
+"$prefix/bin/tetrakis" --version

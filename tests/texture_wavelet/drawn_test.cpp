@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawn textures: lossless ends, prefixes, when they are chosen, hostile codewords.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "texture_wavelet/drawn/drawn_encoder.hpp"
+#include "texture_wavelet/texture_choice.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+
+namespace tetrakis {
+namespace {
+
+struct Size {
+  uint32_t width, height;
+};
+
+constexpr Size kSizes[] = {{1, 1}, {2, 1}, {1, 9}, {2, 2}, {5, 3}, {33, 33}, {64, 17}, {3, 1000}};
+
+/// Rectangles one over the other in `colours` random colours.
+Texels drawing(Size size, uint32_t channels, int bits, uint32_t colours, uint32_t seed = 1) {
+  std::mt19937 random(seed);
+  Texels texels{size.width, size.height, channels, bits, {}};
+  texels.samples.resize(size_t{size.width} * size.height * channels);
+  std::vector<std::vector<uint16_t>> list(colours, std::vector<uint16_t>(channels));
+  for (auto& colour : list) {
+    for (uint16_t& value : colour) value = static_cast<uint16_t>(random() % (1u << bits));
+  }
+  const auto below = [&](uint32_t n) { return static_cast<uint32_t>(random()) % n; };
+  for (uint32_t i = 0; i < 4 * colours; ++i) {
+    const auto& colour = list[i % colours];
+    const bool all = i == 0;
+    const uint32_t x0 = all ? 0 : below(size.width), y0 = all ? 0 : below(size.height);
+    const uint32_t x1 = all ? size.width : std::min(size.width, x0 + 1 + below(20));
+    const uint32_t y1 = all ? size.height : std::min(size.height, y0 + 1 + below(20));
+    for (uint32_t y = y0; y < y1; ++y) {
+      for (uint32_t x = x0; x < x1; ++x) {
+        std::copy(colour.begin(), colour.end(),
+                  texels.samples.begin() +
+                      static_cast<ptrdiff_t>((size_t{y} * size.width + x) * channels));
+      }
+    }
+  }
+  return texels;
+}
+
+/// Every texel another colour than its neighbours, of 2^colour_bits.
+Texels noise(Size size, uint32_t channels, int colour_bits) {
+  std::mt19937 random(3);
+  Texels texels{size.width, size.height, channels, 8, {}};
+  for (size_t i = 0; i < size_t{size.width} * size.height * channels; ++i)
+    texels.samples.push_back(static_cast<uint16_t>((random() % (1u << colour_bits)) * 3));
+  return texels;
+}
+
+double squaredError(const Texels& a, const Texels& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.samples.size(); ++i) {
+    const double difference = double{1} * a.samples[i] - b.samples[i];
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+std::span<const uint8_t> prefixOf(const EncodedTexture& encoded, size_t bytes) {
+  return std::span(encoded.tracks.front().codeword).first(bytes);
+}
+
+TEST(Drawn, IsLosslessAtItsEnd) {
+  for (const Size& size : kSizes) {
+    for (uint32_t channels = 1; channels <= 4; ++channels) {
+      for (const int bits : {8, 16}) {
+        for (const uint32_t colours : {1u, 2u, 60u}) {
+          const Texels texels = drawing(size, channels, bits, colours);
+          const auto encoded = encodeDrawn(texels);
+          if (!encoded) continue;  // too small for texels to be alike
+          EXPECT_TRUE(encoded->header.drawn());
+          EXPECT_EQ(decodeTexture(encoded->header, {encoded->tracks.front().codeword}).samples,
+                    texels.samples)
+              << size.width << " x " << size.height << " x " << channels << ", " << bits << " bits";
+        }
+      }
+    }
+  }
+}
+
+TEST(Drawn, AThousandColoursComeBack) {
+  const Texels texels = drawing({300, 200}, 3, 8, 1500);
+  const auto encoded = encodeDrawn(texels);
+  ASSERT_TRUE(encoded);
+  EXPECT_EQ(decodeTexture(encoded->header, {encoded->tracks.front().codeword}).samples,
+            texels.samples);
+  EXPECT_LT(encoded->tracks.front().codeword.size(), texels.samples.size() / 6);
+}
+
+/// What a prefix shows is about what the stated points say: it may know a few vertices of the next
+/// level, too, and they may mislead the texels around them.
+TEST(Drawn, PointsAreTrue) {
+  const Texels texels = drawing({90, 70}, 3, 8, 12);
+  const auto encoded = encodeDrawn(texels);
+  ASSERT_TRUE(encoded);
+  const std::vector<RatePoint>& points = encoded->tracks.front().points;
+  ASSERT_GT(points.size(), 4u);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Texels decoded = decodeTexture(encoded->header, {prefixOf(*encoded, points[i].bytes)});
+    EXPECT_LE(squaredError(decoded, texels), 1.15 * points[i].distortion);
+    if (i == 0) continue;
+    EXPECT_GT(points[i].bytes, points[i - 1].bytes);
+    EXPECT_LT(points[i].distortion, points[i - 1].distortion);
+  }
+  EXPECT_EQ(points.back().distortion, 0);
+}
+
+TEST(Drawn, EveryPrefixDecodesAndTexelsStay) {
+  const Texels texels = drawing({41, 30}, 2, 16, 9);
+  const auto encoded = encodeDrawn(texels);
+  ASSERT_TRUE(encoded);
+  size_t known_before = 0;
+  for (size_t bytes = 0; bytes <= encoded->tracks.front().codeword.size(); ++bytes) {
+    const Texels decoded = decodeTexture(encoded->header, {prefixOf(*encoded, bytes)});
+    size_t right = 0;
+    for (size_t i = 0; i < texels.samples.size(); ++i)
+      right += decoded.samples[i] == texels.samples[i];
+    // Texels that were guessed rightly may be lost again, those that were decoded may not.
+    EXPECT_GE(right + texels.samples.size() / 8, known_before) << bytes;
+    known_before = std::max(known_before, right);
+  }
+  EXPECT_EQ(known_before, texels.samples.size());
+}
+
+TEST(Drawn, AnyBytesDecode) {
+  const Texels texels = drawing({50, 40}, 3, 8, 30);
+  const auto encoded = encodeDrawn(texels);
+  ASSERT_TRUE(encoded);
+  std::mt19937 random(9);
+  for (size_t at = 0; at < encoded->tracks.front().codeword.size(); ++at) {
+    std::vector<uint8_t> damaged = encoded->tracks.front().codeword;
+    damaged[at] = static_cast<uint8_t>(damaged[at] ^ (1 + random() % 255));
+    EXPECT_EQ(decodeTexture(encoded->header, {damaged}).samples.size(), texels.samples.size());
+  }
+  std::vector<uint8_t> wild(3000);
+  for (int round = 0; round < 20; ++round) {
+    for (uint8_t& byte : wild)
+      byte = static_cast<uint8_t>(round == 0 ? 0 : round == 1 ? 255 : random());
+    EXPECT_EQ(decodeTexture(encoded->header, {wild}).samples.size(), texels.samples.size());
+  }
+}
+
+TEST(Drawn, NoiseAndTooManyColoursAreNot) {
+  EXPECT_FALSE(encodeDrawn(noise({60, 60}, 1, 6)));
+  Texels many{128, 256, 3, 8, {}};
+  for (uint32_t i = 0; i < 128 * 256; ++i) {  // pairs of texels alike, more colours than indices
+    const uint32_t colour = i / 2;
+    for (const uint32_t shift : {0u, 5u, 10u})
+      many.samples.push_back(static_cast<uint16_t>((colour >> shift) % 32));
+  }
+  EXPECT_FALSE(encodeDrawn(many));
+}
+
+TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
+  const Texels map = drawing({200, 150}, 3, 8, 10);
+  Texels lake{200, 150, 1, 8, {}};
+  std::mt19937 random(4);
+  for (uint32_t i = 0; i < 200 * 150; ++i) {
+    const double wave = 120 + 60 * std::sin(0.05 * (i % 200)) * std::cos(0.07 * (i / 200));
+    const double land = wave + static_cast<double>(random() % 6);
+    lake.samples.push_back(i % 200 < 120 ? uint16_t{40} : static_cast<uint16_t>(land));
+  }
+  ASSERT_TRUE(encodeDrawn(lake)) << "alike enough to be tried";
+  for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {
+    EXPECT_TRUE(encodeTexture(map, purpose, {}).header.drawn());
+    EXPECT_FALSE(encodeTexture(lake, purpose, {}).header.drawn());
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis

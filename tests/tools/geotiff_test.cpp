@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// TIFF files of other makers: GeoTIFF tags, right, odd and broken, and sample layouts to refuse.
+#include <cmath>
+#include <limits>
+
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/tiny_tiff.hpp"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using test::ScratchFolder;
+using test::TinyTiff;
+
+constexpr uint16_t kPixelScale = 33550, kTiepoint = 33922, kTransformation = 34264;
+constexpr uint16_t kGeoKeys = 34735, kGeoDoubles = 34736, kGeoAscii = 34737, kGdalMetadata = 42112,
+                   kGdalNodata = 42113;
+
+class GeoTiff : public ScratchFolder {
+ protected:
+  TinyTiff tiff{4, 2, 1, 8, {1, 2, 3, 4, 5, 6, 7, 8}};
+
+  Notes notes;
+
+  HeightFile read() {
+    notes.clear();
+    const auto heights = readHeights(save("a.tif", tiff.bytes()), {}, &notes);
+    EXPECT_TRUE(heights.ok()) << heights.status().message();
+    return heights.ok() ? *heights : HeightFile{};
+  }
+  void degreesAt(double north) {
+    tiff.doubles(kPixelScale, {0.01, 0.02, 0});
+    tiff.doubles(kTiepoint, {0, 0, 0, 7, north, 0});
+    tiff.shorts(kGeoKeys, {1, 1, 0, 2, 1024, 0, 1, 2, 2048, 0, 1, 4326});
+  }
+};
+
+TEST_F(GeoTiff, DegreesBecomeMetresAtTheCentre) {
+  degreesAt(60.02);  // rows of 0.02 degrees on both sides of 60 degrees
+  const HeightFile heights = read();
+  // By the usual series for WGS 84 (see files_test.cpp), at exactly 60 degrees.
+  EXPECT_NEAR(heights.spacing_x, 0.01 * 55800.0, 0.01);
+  EXPECT_NEAR(heights.spacing_y, 0.02 * 111412.2, 0.01);
+  EXPECT_EQ(heights.crs, "EPSG:4326");
+}
+
+TEST_F(GeoTiff, DegreesWithoutAPlaceStayUnknown) {
+  degreesAt(0);
+  tiff.remove(kTiepoint);
+  EXPECT_EQ(read().spacing_x, 0);
+  for (const double north : {90.02, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    degreesAt(north);
+    EXPECT_EQ(read().spacing_x, 0) << north;
+    EXPECT_EQ(read().spacing_y, 0) << north;
+  }
+}
+
+TEST_F(GeoTiff, ProjectedUnitsBecomeMetres) {
+  tiff.doubles(kPixelScale, {10, 20, 0});
+  const std::pair<uint16_t, double> units[] = {
+      {9001, 1}, {9002, 0.3048}, {9003, 1200.0 / 3937}, {9036, 1000}, {9999, 0}};
+  for (const auto& [unit, metres] : units) {
+    tiff.shorts(kGeoKeys, {1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 32645, 3076, 0, 1, unit});
+    const HeightFile heights = read();
+    EXPECT_DOUBLE_EQ(heights.spacing_x, 10 * metres);
+    EXPECT_DOUBLE_EQ(heights.spacing_y, 20 * metres);
+    EXPECT_EQ(heights.crs, "EPSG:32645");
+  }
+}
+
+/// GDAL leaves the unit keys out of compound CRSs.
+TEST_F(GeoTiff, UnitsOfCompoundSystemsAreLookedUp) {
+  constexpr double kSurveyFoot = 1200.0 / 3937;
+  struct Case {
+    uint16_t horizontal, vertical;
+    double metres;
+    const char* unit;
+  };
+  const Case cases[] = {{2227, 6360, kSurveyFoot, "us-ft"}, {2227, 5703, kSurveyFoot, "m"},
+                        {2222, 8228, 0.3048, "ft"},         {26910, 5703, 1, "m"},
+                        {26910, 6360, 1, "us-ft"},          {2227, 0, kSurveyFoot, ""}};
+  tiff.doubles(kPixelScale, {100, 50, 0});
+  for (const auto& [horizontal, vertical, metres, unit] : cases) {
+    tiff.shorts(kGeoKeys,
+                {1, 1, 1, 3, 1024, 0, 1, 1, 3072, 0, 1, horizontal, 4096, 0, 1, vertical});
+    const HeightFile heights = read();
+    EXPECT_DOUBLE_EQ(heights.spacing_x, 100 * metres) << horizontal;
+    EXPECT_DOUBLE_EQ(heights.spacing_y, 50 * metres) << horizontal;
+    EXPECT_EQ(heights.unit, unit) << vertical;
+    EXPECT_TRUE(notes.empty()) << horizontal;
+  }
+}
+
+TEST_F(GeoTiff, OwnUnitsHaveASize) {
+  tiff.doubles(kPixelScale, {10, 20, 0});
+  tiff.doubles(kGeoDoubles, {7, 0.25});
+  tiff.shorts(kGeoKeys, {1, 1,     0,    4, 1024, 0,     1,    1,           3072, 0,
+                         1, 32767, 3076, 0, 1,    32767, 3077, kGeoDoubles, 1,    1});
+  EXPECT_EQ(read().spacing_x, 2.5);
+  EXPECT_EQ(read().spacing_y, 5);
+}
+
+TEST_F(GeoTiff, CitationsMayNameTheUnit) {
+  const std::pair<const char*, double> citations[] = {
+      {"NAD83 / California zone 3 (ftUS)", 1200.0 / 3937},
+      {"NAD83 / UTM zone 10N + NAVD88 height (ftUS)", 1},
+      {"our zone (ft)", 0.3048},
+      {"our zone + our height (ftUS)", 0},
+      {"PCS Name = ours\nLUnits = US_Survey_Feet\n", 1200.0 / 3937},
+      {"ESRI PE String = PROJCS[\"ours\",GEOGCS[\"GCS\",DATUM[\"D\",SPHEROID[\"WGS_1984\","
+       "6378137.0,298.257223563]],PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]],"
+       "PROJECTION[\"Mercator\"],PARAMETER[\"Central_Meridian\",0.0],"
+       "PARAMETER[\"Standard_Parallel_1\",0.0],UNIT[\"Foot\",0.3048]]",
+       0.3048},
+      {"California zone", 0}};
+  tiff.doubles(kPixelScale, {10, 10, 0});
+  for (const auto& [citation, metres] : citations) {
+    const auto length = static_cast<uint16_t>(std::string(citation).size() + 1);
+    tiff.ascii(kGeoAscii, std::string(citation) + "|");
+    tiff.shorts(kGeoKeys,
+                {1, 1, 1, 3, 1024, 0, 1, 1, 1026, kGeoAscii, length, 0, 3072, 0, 1, 32767});
+    EXPECT_DOUBLE_EQ(read().spacing_x, 10 * metres) << citation;
+    EXPECT_EQ(notes.size(), metres > 0 ? 0U : 1U) << citation;
+  }
+}
+
+/// Nothing is guessed where a metre may be a foot.
+TEST_F(GeoTiff, UnknownUnitsAreNoted) {
+  tiff.doubles(kPixelScale, {10, 10, 0});
+  tiff.shorts(kGeoKeys, {1, 1, 1, 3, 1024, 0, 1, 1, 3072, 0, 1, 9, 4096, 0, 1, 9});
+  const HeightFile heights = read();
+  EXPECT_EQ(heights.spacing_x, 0);
+  EXPECT_EQ(heights.unit, "");
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_EQ(notes[0].option, "--spacing");
+  EXPECT_EQ(notes[1].option, "--unit");
+}
+
+TEST_F(GeoTiff, RotatedGridsHaveASpacing) {
+  tiff.doubles(kTransformation, {3, 8, 0, 500, 4, -6, 0, 900, 0, 0, 0, 0, 0, 0, 0, 1});
+  tiff.shorts(kGeoKeys, {1, 1, 0, 2, 1024, 0, 1, 1, 3076, 0, 1, 9001});
+  const HeightFile heights = read();
+  EXPECT_DOUBLE_EQ(heights.spacing_x, 5);
+  EXPECT_DOUBLE_EQ(heights.spacing_y, 10);
+}
+
+TEST_F(GeoTiff, CitationsAndVerticalKeys) {
+  tiff.shorts(kGeoKeys, {1,    1,         0, 5, 1024, 0,         1, 1, 3072, 0, 1, 32767,
+                         3073, kGeoAscii, 8, 0, 4097, kGeoAscii, 5, 8, 4099, 0, 1, 9002});
+  tiff.ascii(kGeoAscii, "my grid|NAVD|");
+  const HeightFile heights = read();
+  EXPECT_EQ(heights.crs, "my grid");
+  EXPECT_EQ(heights.vertical_datum, "NAVD");
+  EXPECT_EQ(heights.unit, "ft");
+}
+
+TEST_F(GeoTiff, GdalMetadata) {
+  tiff.ascii(kGdalMetadata,
+             "<GDALMetadata><Item name=\"STATISTICS_MEAN\" sample=\"0\">5</Item>"
+             "<Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.25</Item>"
+             "<Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item>"
+             "<Item name=\"OFFSET\" sample=\"0\" role=\"offset\">-12</Item>"
+             "<Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">metre</Item></GDALMetadata>");
+  tiff.ascii(kGdalNodata, " 8");
+  const HeightFile heights = read();
+  EXPECT_EQ(heights.scale, 0.25);
+  EXPECT_EQ(heights.offset, -12);
+  EXPECT_EQ(heights.unit, "m");
+  EXPECT_EQ(heights.nodata, 8);
+}
+
+/// Tags that make no sense cost the information, not the heights.
+TEST_F(GeoTiff, BrokenTagsCountAsMissing) {
+  const TinyTiff plain = tiff;
+  const auto expectPlain = [this, &plain](const char* what) {
+    SCOPED_TRACE(what);
+    const HeightFile heights = read();
+    EXPECT_EQ(heights.data.size(), 8U);
+    EXPECT_EQ(heights.spacing_x, 0);
+    EXPECT_EQ(heights.scale, 1);
+    EXPECT_EQ(heights.offset, 0);
+    EXPECT_FALSE(heights.nodata);
+    EXPECT_EQ(heights.crs + heights.unit + heights.vertical_datum, "");
+    tiff = plain;
+  };
+  tiff.shorts(kPixelScale, {1, 1, 0});
+  tiff.shorts(kGeoKeys, {1, 1, 0, 2, 1024, 0, 1, 1, 3076, 0, 1, 9001});
+  expectPlain("pixel scale of another type");
+  tiff.doubles(kPixelScale, {1});
+  tiff.shorts(kGeoKeys, {1, 1, 0, 2, 1024, 0, 1, 1, 3076, 0, 1, 9001});
+  expectPlain("pixel scale too short");
+  for (const double bad : {0.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    tiff.doubles(kPixelScale, {bad, 1, 0});
+    tiff.shorts(kGeoKeys, {1, 1, 0, 2, 1024, 0, 1, 1, 3076, 0, 1, 9001});
+    expectPlain("pixel scale that is no length");
+  }
+  tiff.shorts(kGeoKeys, {1, 1, 0});
+  expectPlain("key directory without a header");
+  tiff.shorts(kGeoKeys, {1, 1, 0, 65535, 1024, 0, 1});
+  expectPlain("key directory that promises too much");
+  tiff.shorts(kGeoKeys, {1, 1, 0, 1, 4097, kGeoAscii, 65535, 65535});
+  tiff.ascii(kGeoAscii, "x");
+  expectPlain("text outside the text tag");
+  tiff.ascii(kGdalMetadata, "<GDALMetadata><Item sample=\"0\" role=\"scale\">0</Item><Item");
+  tiff.ascii(kGdalNodata, "none");
+  expectPlain("metadata that does not parse");
+  tiff.ascii(kGdalMetadata, "<GDALMetadata><Item role=\"offset\">inf</Item></GDALMetadata>");
+  tiff.ascii(kGdalNodata, "");
+  expectPlain("metadata that is no number");
+}
+
+TEST_F(GeoTiff, LayoutsThatAreNotReadExactlyAreRefused) {
+  const TinyTiff plain = tiff;
+  const auto expectRefused = [this, &plain](const char* what) {
+    const auto read = readHeights(save("a.tif", tiff.bytes()));
+    EXPECT_EQ(read.status().code(), TKS_USAGE) << what << ": " << read.status().message();
+    tiff = plain;
+  };
+  tiff.remove(TinyTiff::kBitsPerSample);
+  expectRefused("bits per sample unstated");
+  tiff.shorts(TinyTiff::kBitsPerSample, {4});
+  expectRefused("four bits");
+  tiff.shorts(TinyTiff::kPhotometric, {0});
+  expectRefused("white is zero");
+  tiff.shorts(TinyTiff::kPhotometric, {3});
+  tiff.shorts(TinyTiff::kColorMap, std::vector<uint16_t>(3 * 256));
+  expectRefused("palette");
+}
+
+/// A few bytes may declare any size.
+TEST_F(GeoTiff, DeclaredSizesAreChecked) {
+  tiff.longs(TinyTiff::kWidth, {1U << 30});
+  tiff.longs(TinyTiff::kHeight, {1U << 30});
+  EXPECT_NE(readHeights(save("a.tif", tiff.bytes())).status().code(), TKS_OK);
+  tiff.longs(TinyTiff::kWidth, {1U << 16});
+  tiff.longs(TinyTiff::kHeight, {1U << 16});
+  EXPECT_NE(readHeights(save("a.tif", tiff.bytes())).status().code(), TKS_OK);
+}
+
+}  // namespace
+}  // namespace tetrakis::tools

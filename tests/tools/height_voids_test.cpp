@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which samples of a height file are void: nodata as GDAL compares it, masks, and what only looks
+// like nodata. And which samples are taken at all.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/tiny_tiff.hpp"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using test::ScratchFolder;
+using test::TinyTiff;
+
+constexpr uint16_t kGdalNodata = 42113, kGdalMetadata = 42112;
+constexpr float kLowest = std::numeric_limits<float>::lowest();
+
+class HeightVoids : public ScratchFolder {
+ protected:
+  Notes notes;
+
+  /// One row of samples, three times.
+  template <class T>
+  static TinyTiff tiffOf(const std::vector<T>& row) {
+    std::vector<uint8_t> pixels(3 * row.size() * sizeof(T));
+    for (size_t y = 0; y < 3; ++y)
+      std::memcpy(pixels.data() + y * row.size() * sizeof(T), row.data(), row.size() * sizeof(T));
+    TinyTiff tiff(static_cast<uint32_t>(row.size()), 3, 1, 8 * sizeof(T), pixels);
+    const uint16_t format = std::is_floating_point_v<T> ? 3 : std::is_signed_v<T> ? 2 : 1;
+    tiff.shorts(TinyTiff::kSampleFormat, {format});
+    return tiff;
+  }
+
+  Result<HeightFile> read(const TinyTiff& tiff, std::optional<double> nodata = {}) {
+    notes.clear();
+    return readHeights(save("a.tif", tiff.bytes()), nodata, &notes);
+  }
+
+  template <class T>
+  static std::vector<T> samplesOf(const HeightFile& heights) {
+    std::vector<T> samples(heights.data.size() / sizeof(T));
+    std::memcpy(samples.data(), heights.data.data(), heights.data.size());
+    return samples;
+  }
+
+  /// A mask page, 255 for valid samples, or of single bits.
+  static TinyTiff maskOf(const std::vector<bool>& valid, uint32_t width, uint16_t bits) {
+    const auto height = static_cast<uint32_t>(valid.size()) / width;
+    const size_t row_bytes = (width * bits + 7) / 8;
+    std::vector<uint8_t> pixels(row_bytes * height);
+    for (size_t i = 0; i < valid.size(); ++i) {
+      if (!valid[i]) continue;
+      const size_t x = i % width, y = i / width;
+      if (bits == 8) pixels[y * row_bytes + x] = 255;
+      if (bits == 1) pixels[y * row_bytes + x / 8] |= static_cast<uint8_t>(128 >> x % 8);
+    }
+    TinyTiff mask(width, height, 1, bits, pixels);
+    mask.longs(TinyTiff::kSubfileType, {4});
+    mask.shorts(TinyTiff::kPhotometric, {4});
+    return mask;
+  }
+
+  /// 11 x 3 samples, of which a third is not valid.
+  static std::vector<bool> pattern() {
+    std::vector<bool> valid(33);
+    for (size_t i = 0; i < valid.size(); ++i) valid[i] = i % 3 != 1;
+    return valid;
+  }
+};
+
+TEST_F(HeightVoids, FloatsThatGdalTakesForNodataBecomeIt) {
+  TinyTiff tiff = tiffOf<float>({1, -3.40282306e+38F, kLowest, -3.4e38F, 0, -9999, -9998.9F});
+  for (const char* text : {"-3.4028234663852886e+38", "-3.40282306e+38", "-3.4028235e+38",
+                           "-3.40282347e+38", "-3.4028236e+38"}) {
+    tiff.ascii(kGdalNodata, text);
+    const auto heights = read(tiff);
+    ASSERT_TRUE(heights.ok() && heights->nodata) << text;
+    const auto samples = samplesOf<float>(*heights);
+    EXPECT_EQ(samples[1], *heights->nodata) << text;
+    EXPECT_EQ(samples[2], *heights->nodata) << text;
+    EXPECT_EQ(samples[3], -3.4e38F) << text;
+    EXPECT_TRUE(notes.empty());
+  }
+  const auto given = read(tiff, -9999.0001);
+  ASSERT_TRUE(given.ok());
+  EXPECT_EQ(samplesOf<float>(*given)[5], static_cast<float>(-9999.0001));
+  EXPECT_EQ(*given->nodata, double{static_cast<float>(-9999.0001)});
+  EXPECT_EQ(samplesOf<float>(*given)[6], -9998.9F);
+  tiff.ascii(kGdalNodata, "-1.7976931348623157e+308");
+  EXPECT_FALSE(read(tiff)->nodata);
+}
+
+TEST_F(HeightVoids, SamplesFarFromNodataKeepTheirBits) {
+  std::mt19937 random(3);
+  std::vector<float> row(3000);
+  for (float& sample : row) sample = static_cast<float>(random() % 100000) * 0.01F;
+  row[7] = -0.0F;
+  for (const char* text : {"-9999", "0", "nan", "inf", "1e30"}) {
+    TinyTiff tiff = tiffOf(row);
+    tiff.ascii(kGdalNodata, text);
+    const auto heights = read(tiff);
+    ASSERT_TRUE(heights.ok());
+    EXPECT_EQ(std::memcmp(heights->data.data(), row.data(), row.size() * sizeof(float)), 0) << text;
+  }
+}
+
+TEST_F(HeightVoids, MasksBecomeTheDeclaredNodataValue) {
+  for (const uint16_t bits : {uint16_t{1}, uint16_t{8}}) {
+    TinyTiff tiff = tiffOf<int16_t>({5, 4, 3, 2, 1, 0, -1, -2, -3, -4, -5});
+    tiff.addPage(maskOf(pattern(), 11, bits));
+    tiff.ascii(kGdalNodata, "-999");
+    for (const std::optional<double> given : {std::optional<double>(), std::optional(-77.0)}) {
+      const auto heights = read(tiff, given);
+      ASSERT_TRUE(heights.ok()) << heights.status().message();
+      const double nodata = given.value_or(-999);
+      EXPECT_EQ(heights->nodata, nodata);
+      const auto samples = samplesOf<int16_t>(*heights);
+      for (size_t i = 0; i < samples.size(); ++i)
+        EXPECT_EQ(samples[i], pattern()[i] ? 5 - int(i % 11) : nodata) << i;
+      EXPECT_TRUE(notes.empty());
+    }
+  }
+}
+
+TEST_F(HeightVoids, MasksNeedNoDeclaredValue) {
+  TinyTiff floats = tiffOf<float>({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  floats.addPage(maskOf(pattern(), 11, 8));
+  const auto heights = read(floats);
+  ASSERT_TRUE(heights.ok());
+  const auto samples = samplesOf<float>(*heights);
+  for (size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(std::isnan(samples[i]), !pattern()[i]);
+
+  TinyTiff integers = tiffOf<uint8_t>({255, 254, 253, 3, 4, 5, 6, 7, 8, 9, 10});
+  integers.addPage(maskOf(pattern(), 11, 1));
+  const auto chosen = read(integers);
+  ASSERT_TRUE(chosen.ok() && chosen->nodata);
+  EXPECT_EQ(*chosen->nodata, 252);
+  const auto bytes = samplesOf<uint8_t>(*chosen);
+  for (size_t i = 0; i < bytes.size(); ++i) EXPECT_EQ(bytes[i] == 252, !pattern()[i]) << i;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].text.find("252"), std::string::npos);
+}
+
+TEST_F(HeightVoids, MasksOfSamplesThatTakeAllValuesAreRefused) {
+  std::vector<uint8_t> row(257);
+  for (size_t i = 0; i < row.size(); ++i) row[i] = static_cast<uint8_t>(i);
+  std::vector<bool> valid(3 * row.size(), true);
+  valid[0] = false;
+  TinyTiff tiff = tiffOf(row);
+  tiff.addPage(maskOf(valid, 257, 8));
+  const auto heights = read(tiff);
+  EXPECT_EQ(heights.status().code(), TKS_USAGE);
+  EXPECT_NE(heights.status().message().find("take all"), std::string::npos)
+      << heights.status().message();
+}
+
+TEST_F(HeightVoids, MasksBesideTheFileCount) {
+  const TinyTiff tiff = tiffOf<float>({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  TinyTiff mask = maskOf(pattern(), 11, 8);
+  mask.remove(TinyTiff::kSubfileType);
+  mask.shorts(TinyTiff::kPhotometric, {1});
+  save("a.tif.msk", mask.bytes());
+  const auto heights = read(tiff);
+  ASSERT_TRUE(heights.ok()) << heights.status().message();
+  EXPECT_TRUE(std::isnan(samplesOf<float>(*heights)[1]));
+  EXPECT_EQ(samplesOf<float>(*heights)[2], 2);
+  save("a.tif.msk", maskOf({true, false}, 2, 8).bytes());
+  EXPECT_EQ(read(tiff).status().code(), TKS_USAGE);
+  save("a.tif.msk", std::vector<char>{'n', 'o'});
+  EXPECT_EQ(read(tiff).status().code(), TKS_IO);
+}
+
+TEST_F(HeightVoids, FurtherPagesAreNotedButNotMasksAndOverviews) {
+  TinyTiff tiff = tiffOf<float>({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  TinyTiff overview = tiffOf<float>({0, 1});
+  overview.longs(TinyTiff::kSubfileType, {1});
+  TinyTiff overview_mask = maskOf({true, true}, 2, 8);
+  overview_mask.longs(TinyTiff::kSubfileType, {5});
+  tiff.addPage(overview);
+  tiff.addPage(maskOf(pattern(), 11, 8));
+  tiff.addPage(overview_mask);
+  ASSERT_TRUE(read(tiff).ok());
+  EXPECT_TRUE(notes.empty());
+  tiff.addPage(tiffOf<float>({0, 1}));
+  ASSERT_TRUE(read(tiff).ok());
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].text.find("first page"), std::string::npos);
+}
+
+TEST_F(HeightVoids, IsolatedValuesAreNotedUnlessDeclared) {
+  const auto expectNote = [this](TinyTiff tiff, const std::string& value) {
+    ASSERT_TRUE(read(tiff).ok());
+    ASSERT_EQ(notes.size(), 1U) << value;
+    EXPECT_NE(notes[0].text.find("--nodata " + value), std::string::npos) << notes[0].text;
+    ASSERT_TRUE(read(tiff, 1e9).ok());
+    EXPECT_TRUE(notes.empty());
+    tiff.ascii(kGdalNodata, value);
+    ASSERT_TRUE(read(tiff).ok());
+    EXPECT_TRUE(notes.empty());
+  };
+  expectNote(tiffOf<float>({1, 2, kLowest, 3}), "-3.4028235e+38");
+  expectNote(tiffOf<float>({1, 2, 1e33F, 3}), "1e+33");
+  expectNote(tiffOf<int16_t>({-400, 8848, -32768, 3}), "-32768");
+  expectNote(tiffOf<uint16_t>({0, 9000, 65535, 3}), "65535");
+  expectNote(tiffOf<int32_t>({0, 100000, std::numeric_limits<int32_t>::min()}), "-2147483648");
+  for (const TinyTiff& usual :
+       {tiffOf<float>({1, 2, 1e9F}), tiffOf<int16_t>({-32768, -10000, 20000}),
+        tiffOf<uint16_t>({65535, 65535}), tiffOf<uint16_t>({65535, 65534, 60000, 0}),
+        tiffOf<uint16_t>({0, 40000, 40010}), tiffOf<uint8_t>({0, 1, 255})}) {
+    ASSERT_TRUE(read(usual).ok());
+    EXPECT_TRUE(notes.empty());
+  }
+}
+
+TEST_F(HeightVoids, DoublesThatAreFloatsAreTaken) {
+  using Limits = std::numeric_limits<double>;
+  TinyTiff tiff = tiffOf<double>({0.25, -0.0, double{kLowest}, 1e-40F, Limits::quiet_NaN()});
+  const auto heights = read(tiff, 7.0);
+  ASSERT_TRUE(heights.ok()) << heights.status().message();
+  EXPECT_EQ(heights->sample, TKS_F32);
+  const auto samples = samplesOf<float>(*heights);
+  EXPECT_EQ(samples[0], 0.25F);
+  EXPECT_TRUE(samples[1] == 0 && std::signbit(samples[1]));
+  EXPECT_EQ(samples[2], kLowest);
+  EXPECT_EQ(samples[3], 1e-40F);
+  EXPECT_TRUE(std::isnan(samples[4]));
+  for (const double odd : {0.1, 1e300, Limits::denorm_min(), 16777217.0}) {
+    const auto refused = read(tiffOf<double>({1, odd}));
+    EXPECT_EQ(refused.status().code(), TKS_USAGE);
+    EXPECT_NE(refused.status().message().find("gdal_translate -ot Float32"), std::string::npos);
+  }
+}
+
+TEST_F(HeightVoids, NodataOfDoublesNeedNotBeAFloat) {
+  for (const double nodata : {std::numeric_limits<double>::lowest(), -9999.1, -9999.0}) {
+    TinyTiff tiff = tiffOf<double>({1, nodata, 3});
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", nodata);
+    tiff.ascii(kGdalNodata, text);
+    const auto heights = read(tiff);
+    ASSERT_TRUE(heights.ok()) << heights.status().message();
+    const float sample = samplesOf<float>(*heights)[1];
+    EXPECT_TRUE(std::isnan(sample) || double{sample} == heights->nodata) << nodata;
+    EXPECT_EQ(samplesOf<float>(*heights)[2], 3);
+  }
+}
+
+TEST_F(HeightVoids, UnitsOfGdalGetOneName) {
+  TinyTiff tiff = tiffOf<float>({1, 2});
+  tiff.ascii(kGdalMetadata,
+             "<GDALMetadata><Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">US survey foot"
+             "</Item></GDALMetadata>");
+  EXPECT_EQ(read(tiff)->unit, "us-ft");
+}
+
+/// OpenImageIO would shift signed samples, and stretch those of 12 bits.
+TEST_F(HeightVoids, Jpeg2000IsReadExactlyOrRefused) {
+  for (const tks_sample sample : {TKS_U8, TKS_U16}) {
+    ImageFile image{40, 40, 1, sample, {}};
+    std::mt19937 random(5);
+    image.data.resize(40 * 40 * tks_sample_bytes(sample));
+    for (std::byte& byte : image.data) byte = static_cast<std::byte>(random());
+    ASSERT_TRUE(writeImage(path("a.jp2"), image).ok());
+    const auto heights = readHeights(path("a.jp2"));
+    ASSERT_TRUE(heights.ok()) << heights.status().message();
+    EXPECT_EQ(heights->sample, sample);
+    EXPECT_EQ(heights->data, image.data);
+    std::ifstream file(path("a.jp2"), std::ios::binary);
+    std::string bytes(std::istreambuf_iterator<char>(file), {});
+    const size_t depth = bytes.find("\xFF\x4F\xFF\x51") + 42;
+    for (const char odd : {char(0x80 | bytes[depth]), char(11)}) {
+      std::string changed = bytes;
+      changed[depth] = odd;
+      const auto refused = readHeights(save("b.jp2", std::vector(changed.begin(), changed.end())));
+      EXPECT_EQ(refused.status().code(), TKS_USAGE) << refused.status().message();
+    }
+  }
+}
+
+/// OpenImageIO would stretch what does not fill its type.
+TEST_F(HeightVoids, GreymapsAreReadExactlyOrRefused) {
+  for (const unsigned white : {255U, 65535U, 200U, 1000U}) {
+    std::string text = "P2\n# 9 9 9\n4 2 " + std::to_string(white) + "\n0 1 2 3 4 5 6 199\n";
+    const auto heights = readHeights(save("a.pgm", std::vector(text.begin(), text.end())));
+    const bool fits = white == 255 || white == 65535;
+    EXPECT_EQ(heights.status().code(), fits ? TKS_OK : TKS_USAGE) << heights.status().message();
+    if (!fits || !heights.ok()) continue;
+    EXPECT_EQ(heights->data[white == 255 ? 7 : 14], std::byte{199});
+    EXPECT_EQ(heights->data.size(), white == 255 ? 8U : 16U);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::tools

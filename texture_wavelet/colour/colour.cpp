@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shears of three planes, forwards and backwards (see colour.hpp).
+#include "texture_wavelet/colour/colour.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <type_traits>
+
+namespace tetrakis {
+namespace {
+
+/// What one shear does: the plane it changes and the two it reads.
+struct Step {
+  uint8_t plane, first, second;
+};
+constexpr std::array<Step, 3> kSteps = {{{1, 2, 0}, {2, 1, 0}, {0, 1, 2}}};
+
+const std::array<uint8_t, 3>& orderOf(const ColourTransform& transform) {
+  return kChannelOrders[transform.order % kChannelOrders.size()];
+}
+
+/// Sum: int32_t (wraps) or int64_t.
+template <class Sum, bool kForward>
+void shear(int32_t* __restrict target, const int32_t* __restrict first,
+           const int32_t* __restrict second, std::array<int16_t, 2> weights, size_t count) {
+  using Unsigned = std::make_unsigned_t<Sum>;
+  constexpr Unsigned kHalf = 1u << (kShearFractionBits - 1);
+  const auto weight0 = static_cast<Unsigned>(Sum{weights[0]});
+  const auto weight1 = static_cast<Unsigned>(Sum{weights[1]});
+  for (size_t i = 0; i < count; ++i) {
+    const Unsigned sum = weight0 * static_cast<Unsigned>(Sum{first[i]}) +
+                         weight1 * static_cast<Unsigned>(Sum{second[i]}) + kHalf;
+    const auto change = static_cast<uint32_t>(static_cast<Sum>(sum) >> kShearFractionBits);
+    const auto value = static_cast<uint32_t>(target[i]);
+    target[i] = static_cast<int32_t>(kForward ? value + change : value - change);
+  }
+}
+
+template <class Sum, bool kForward>
+void shearAll(const Shears& shears, std::span<int32_t* const> planes, size_t count) {
+  for (size_t i = 0; i < kSteps.size(); ++i) {
+    const size_t index = kForward ? i : kSteps.size() - 1 - i;
+    const Step& step = kSteps[index];
+    shear<Sum, kForward>(planes[step.plane], planes[step.first], planes[step.second],
+                         {shears[2 * index], shears[2 * index + 1]}, count);
+  }
+}
+
+/// Of a level; none: identity.
+const Shears* shearsAt(const ColourTransform& transform, int level) {
+  if (level < 2 || transform.level_shears.empty()) return nullptr;
+  const size_t last = transform.level_shears.size() - 1;
+  return &transform.level_shears[std::min(static_cast<size_t>(level - 2), last)];
+}
+
+/// The same steps without rounding, on one colour whose channels are in order.
+void shearExactly(const Shears& shears, bool forward, std::array<double, 3>& colour) {
+  for (size_t i = 0; i < kSteps.size(); ++i) {
+    const size_t index = forward ? i : kSteps.size() - 1 - i;
+    const Step& step = kSteps[index];
+    const double change =
+        (shears[2 * index] * colour[step.first] + shears[2 * index + 1] * colour[step.second]) /
+        (1 << kShearFractionBits);
+    colour[step.plane] += forward ? change : -change;
+  }
+}
+
+void swapPlanes(int32_t* a, int32_t* b, size_t count) {
+  if (a != b) std::swap_ranges(a, a + count, b);
+}
+
+/// Two exchanges put the channels in order; channel 0 may have moved before the second.
+uint8_t secondPartner(const std::array<uint8_t, 3>& order) {
+  return order[1] == 0 ? order[0] : order[1];
+}
+
+void addCentre(int32_t* plane, size_t count, uint32_t centre) {
+  for (size_t i = 0; i < count; ++i) {
+    plane[i] = static_cast<int32_t>(static_cast<uint32_t>(plane[i]) + centre);
+  }
+}
+
+void addFraction(int32_t* plane, size_t count, int fraction_bits) {
+  for (size_t i = 0; i < count; ++i) {
+    plane[i] = static_cast<int32_t>(static_cast<uint32_t>(plane[i]) << fraction_bits);
+  }
+}
+
+void dropFraction(int32_t* plane, size_t count, int fraction_bits) {
+  const uint32_t half = (1u << fraction_bits) >> 1;
+  for (size_t i = 0; i < count; ++i) {
+    plane[i] = static_cast<int32_t>(static_cast<uint32_t>(plane[i]) + half) >> fraction_bits;
+  }
+}
+
+}  // namespace
+
+void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
+                   int fraction_bits) {
+  assert(planes.size() >= 1 && planes.size() <= transform.centre.size());
+  for (size_t p = 0; p < planes.size(); ++p) {
+    addCentre(planes[p], count, -uint32_t{transform.centre[p]});
+    if (fraction_bits > 0) addFraction(planes[p], count, fraction_bits);
+  }
+  if (planes.size() < 3) return;
+  const auto& order = orderOf(transform);
+  swapPlanes(planes[0], planes[order[0]], count);
+  swapPlanes(planes[1], planes[secondPartner(order)], count);
+  shearAll<int32_t, true>(transform.shears, planes, count);
+}
+
+void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
+                   int fraction_bits) {
+  assert(planes.size() >= 1 && planes.size() <= transform.centre.size());
+  assert(fraction_bits >= 0 && fraction_bits <= 8);
+  if (planes.size() >= 3) {
+    const auto& order = orderOf(transform);
+    shearAll<int32_t, false>(transform.shears, planes, count);
+    swapPlanes(planes[1], planes[secondPartner(order)], count);
+    swapPlanes(planes[0], planes[order[0]], count);
+  }
+  for (size_t p = 0; p < planes.size(); ++p) {
+    if (fraction_bits > 0) dropFraction(planes[p], count, fraction_bits);
+    addCentre(planes[p], count, transform.centre[p]);
+  }
+}
+
+void forwardLevelColour(const ColourTransform& transform, int level,
+                        std::span<int32_t* const> planes, size_t count) {
+  if (const Shears* shears = shearsAt(transform, level))
+    shearAll<int64_t, true>(*shears, planes, count);
+}
+
+void inverseLevelColour(const ColourTransform& transform, int level,
+                        std::span<int32_t* const> planes, size_t count) {
+  if (const Shears* shears = shearsAt(transform, level))
+    shearAll<int64_t, false>(*shears, planes, count);
+}
+
+Matrix3 colourMatrix(const ColourTransform& transform, int level) {
+  Matrix3 matrix{};
+  const auto& order = orderOf(transform);
+  for (size_t j = 0; j < 3; ++j) {
+    std::array<double, 3> colour{};
+    colour[j] = 1;
+    shearExactly(transform.shears, true, colour);
+    if (const Shears* shears = shearsAt(transform, level)) shearExactly(*shears, true, colour);
+    for (size_t i = 0; i < 3; ++i) matrix[i][order[j]] = colour[i];
+  }
+  return matrix;
+}
+
+std::array<double, 3> componentEnergies(const ColourTransform& transform, int level) {
+  std::array<double, 3> energies{};
+  for (size_t i = 0; i < 3; ++i) {
+    std::array<double, 3> colour{};
+    colour[i] = 1;
+    if (const Shears* shears = shearsAt(transform, level)) shearExactly(*shears, false, colour);
+    shearExactly(transform.shears, false, colour);
+    for (double channel : colour) energies[i] += channel * channel;
+  }
+  return energies;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/colour/colour_details.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetrakis {
+
+namespace {
+
+constexpr size_t kBlocksPerScale = 2048;  // details are sampled: three of each block
+constexpr double kExceeding = 0.1;
+
+struct Image {
+  size_t width = 0, height = 0;
+  std::vector<Colour> colours;
+};
+
+/// Halves an image, read through colour_at(index), and samples its orthonormal Haar details. Values
+/// are `gain` times means over the pixels of the original.
+template <class ColourAt>
+Image halve(size_t width, size_t height, float gain, ColourAt colour_at, ColourDetails& details) {
+  Image half{width / 2, height / 2, {}};
+  half.colours.resize(half.width * half.height);
+  // Odd, so that the sampled blocks do not line up in columns.
+  const size_t stride = (half.colours.size() / kBlocksPerScale) | 1;
+  details.weight = static_cast<double>(stride);
+  for (size_t i = 0; i < half.colours.size(); ++i) {
+    const size_t corner = (i / half.width) * 2 * width + (i % half.width) * 2;
+    const Colour a = colour_at(corner), b = colour_at(corner + 1);
+    const Colour c = colour_at(corner + width), d = colour_at(corner + width + 1);
+    Colour rows{}, columns{}, diagonal{};
+    for (size_t k = 0; k < 3; ++k) {
+      half.colours[i][k] = (a[k] + b[k] + c[k] + d[k]) / 4;
+      rows[k] = (a[k] - b[k] + c[k] - d[k]) * gain / 2;
+      columns[k] = (a[k] + b[k] - c[k] - d[k]) * gain / 2;
+      diagonal[k] = (a[k] - b[k] - c[k] + d[k]) * gain / 2;
+    }
+    if (i % stride == 0) details.samples.insert(details.samples.end(), {rows, columns, diagonal});
+  }
+  return half;
+}
+
+}  // namespace
+
+std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, uint32_t width,
+                                         uint32_t height) {
+  std::vector<ColourDetails> details;
+  if (std::min(width, height) < 2) return details;
+  const auto pixel = [&](size_t i) {
+    return Colour{static_cast<float>(planes[0][i]), static_cast<float>(planes[1][i]),
+                  static_cast<float>(planes[2][i])};
+  };
+  Image image = halve(width, height, 1, pixel, details.emplace_back());
+  for (float gain = 2; std::min(image.width, image.height) >= 2; gain *= 2) {
+    const auto colour_at = [&](size_t i) { return image.colours[i]; };
+    image = halve(image.width, image.height, gain, colour_at, details.emplace_back());
+  }
+  return details;
+}
+
+double meanMagnitude(const ColourDetails& details) {
+  double sum = 0;
+  for (const Colour& d : details.samples) sum += std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
+  const auto count = static_cast<double>(3 * details.samples.size());
+  return count == 0 ? 0 : sum / count;
+}
+
+double typicalStep(std::span<const ColourDetails> details) {
+  struct Magnitude {
+    float value;
+    double weight;
+  };
+  std::vector<Magnitude> magnitudes;
+  double left = 0;
+  for (const ColourDetails& scale : details) {
+    for (const Colour& d : scale.samples) {
+      for (float channel : d) magnitudes.push_back({std::abs(channel), scale.weight});
+    }
+    left += kExceeding * scale.weight * static_cast<double>(3 * scale.samples.size());
+  }
+  std::sort(magnitudes.begin(), magnitudes.end(),
+            [](const Magnitude& a, const Magnitude& b) { return a.value > b.value; });
+  for (const Magnitude& m : magnitudes) {
+    left -= m.weight;
+    if (left <= 0) return std::max(1.0, static_cast<double>(m.value));
+  }
+  return 1;
+}
+
+double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step) {
+  constexpr double kLarge = 1e200;  // one logarithm for many factors
+  double bits = 0, product = 1;
+  for (const Colour& d : details.samples) {
+    product *= 1 + std::abs(axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2]) / step;
+    if (product < kLarge) continue;
+    bits += std::log2(product);
+    product = 1;
+  }
+  return details.weight * (bits + std::log2(product));
+}
+
+}  // namespace tetrakis

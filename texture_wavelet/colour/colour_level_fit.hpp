@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Choice of the shears of coefficients. Encoder only.
+#pragma once
+
+#include "texture_wavelet/colour/colour.hpp"
+#include "texture_wavelet/colour/colour_axes.hpp"
+
+namespace tetrakis {
+
+/// Turns the components of as many levels as that pays for: those of level i + 1 towards the rows
+/// of axes.levels[i]. Returns the estimated bits, the header's among them.
+double turnLevels(ColourTransform& transform, const ColourAxes& axes, double step);
+
+}  // namespace tetrakis

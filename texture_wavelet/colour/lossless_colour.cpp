@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/colour/lossless_colour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "texture_wavelet/colour/colour_axes.hpp"
+#include "texture_wavelet/colour/colour_fit.hpp"
+#include "texture_wavelet/colour/colour_level_fit.hpp"
+#include "wavelet/typical_parts.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+constexpr int16_t kOne = 1 << kShearFractionBits;
+
+/// Differences to channel kChannelOrders[order][0], and its mean with them: RCT (ISO/IEC 15444-1,
+/// G.2) where that is green.
+ColourTransform reversible(const ColourTransform& none, uint8_t order) {
+  ColourTransform transform = none;
+  transform.order = order;
+  transform.shears = {0, -kOne, 0, -kOne, kOne / 4, kOne / 4};
+  return transform;
+}
+
+struct Sample {
+  uint32_t width, height;
+  std::vector<std::vector<int32_t>> planes;
+};
+
+Sample sampleOf(const Part& part, std::span<const int32_t* const> planes, uint32_t width) {
+  Sample sample{part.width, part.height, {}};
+  for (const int32_t* plane : planes) {
+    std::vector<int32_t>& values = sample.planes.emplace_back();
+    for (uint32_t row = 0; row < part.height; ++row) {
+      const int32_t* from = plane + size_t{part.y + row} * width + part.x;
+      values.insert(values.end(), from, from + part.width);
+    }
+  }
+  return sample;
+}
+
+/// About the bits of a plane: log2(1 + |x - (west + north - northwest)|) a sample.
+double bitsOf(const std::vector<int32_t>& plane, uint32_t width, uint32_t height) {
+  double bits = 0;
+  for (uint32_t y = 1; y < height; ++y) {
+    const int32_t *row = plane.data() + size_t{y} * width, *above = row - width;
+    for (uint32_t x = 1; x < width; ++x) {
+      const auto residual = static_cast<float>(row[x] - row[x - 1] - above[x] + above[x - 1]);
+      bits += std::log2(1 + std::abs(residual));
+    }
+  }
+  return bits;
+}
+
+double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
+  double bits = 0;
+  for (Sample& sample : samples) {
+    std::vector<int32_t*> pointers;
+    for (std::vector<int32_t>& plane : sample.planes) pointers.push_back(plane.data());
+    forwardColour(transform, pointers, sample.planes.front().size(), 0);
+    for (const std::vector<int32_t>& plane : sample.planes)
+      bits += bitsOf(plane, sample.width, sample.height);
+  }
+  return bits;
+}
+
+}  // namespace
+
+ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, uint32_t width,
+                                     uint32_t height) {
+  const ColourTransform none = centred(planes, size_t{width} * height);
+  if (planes.size() < 3) return none;
+  const ColourAxes axes = fitAxes(planes, width, height, Purpose::kLossless);
+  // One order for each channel that may come first; that of the other two makes no difference.
+  std::vector<ColourTransform> candidates = {none, reversible(none, 0), reversible(none, 2),
+                                             reversible(none, 4)};
+  setRotation(candidates.emplace_back(none), axes.overall);
+  if (!axes.levels.empty()) setRotation(candidates.emplace_back(none), axes.levels.front());
+  std::vector<Sample> samples;
+  for (const Part& part : typicalParts(width, height))
+    samples.push_back(sampleOf(part, planes, width));
+  ColourTransform best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ColourTransform& candidate : candidates) {
+    const double bits = bitsOf(samples, candidate);
+    if (bits >= least) continue;
+    least = bits;
+    best = candidate;
+  }
+  constexpr double kStep = 1;  // what is left when the last bits are coded
+  turnLevels(best, axes, kStep);
+  return best;
+}
+
+}  // namespace tetrakis

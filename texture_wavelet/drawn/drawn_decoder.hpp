@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Track of a drawn texture to image. Integer only.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/texels.hpp"
+#include "bitstream/stream/header.hpp"
+#include "texture_wavelet/drawn/drawn_colours.hpp"
+
+namespace tetrakis {
+
+/// codeword: any prefix of the track of a texture with header.drawn(). Safe on any bytes. level: as
+/// for decodeTexture(); texels of finer levels are not decoded.
+Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level);
+
+/// What lies over a photograph.
+struct DrawnOverlay {
+  std::vector<ColourIndex> indices;  ///< of every texel; kSeeThrough where nothing is known
+  DrawnColours colours;
+};
+
+/// codeword: any prefix of that of a texture's overlay. Safe on any bytes.
+DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t> codeword);
+
+}  // namespace tetrakis

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colours for the texels of a drawn texture, known or not.
+#pragma once
+
+#include <span>
+
+#include "base/texels.hpp"
+#include "lattice/levels.hpp"
+#include "texture_wavelet/drawn/drawn_colours.hpp"
+
+namespace tetrakis {
+
+/// The middle of the range in every channel.
+DrawnColour greyOf(const Texels& format);
+
+/// Writes the samples of all texels; the format of texels and the size of its samples are set.
+/// levels: those of the grid, coarse to fine. indices: width * height, row by row. A texel without
+/// one is the mean of the coarser vertices next to it; a root, grey.
+void fillDrawn(std::span<const Level> levels, std::span<const ColourIndex> indices,
+               const DrawnColours& colours, Texels& texels);
+
+}  // namespace tetrakis

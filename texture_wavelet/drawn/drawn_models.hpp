@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The probabilities of a drawn texture's decisions.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/coder/adaptive_bit.hpp"
+#include "texture_wavelet/drawn/drawn_neighbours.hpp"
+
+namespace tetrakis {
+
+/// Models of one decision, from the most special to the most general. The first that has experience
+/// is asked, or the last; all learn.
+struct ModelChain {
+  std::array<AdaptiveBit*, 3> models;
+
+  AdaptiveBit& asked() const {
+    return models[0]->experienced()   ? *models[0]
+           : models[1]->experienced() ? *models[1]
+                                      : *models[2];
+  }
+};
+
+class DrawnModels {
+ public:
+  static constexpr size_t kClasses = 17;  ///< of a channel's residual: bits of its magnitude
+
+  DrawnModels()
+      : pairs_(size_t{1} << kPairBits),
+        singles_(size_t{1} << kSingleBits),
+        indices_(size_t{1} << kColourIndexBits),
+        rivals_(size_t{1} << kRivalBits),
+        patterns_(size_t{2 * Candidates::kRanked} << kPatternBits) {}
+
+  /// Whether the vertex has the colour of the candidate at `place`. Special: which of the
+  /// neighbours have it, and which of near and causal have the next one's (of the first, for other
+  /// places). General: how many.
+  ModelChain candidate(const Candidates& around, int place, LevelKind kind) {
+    const ColourCandidate& c = around[place];
+    const bool centre = kind == LevelKind::kCentres;
+    const uint32_t pattern =
+        (static_cast<uint32_t>(2 * place + centre) << kPatternBits) + c.pattern;
+    const bool rivalled = around.count() > 1;
+    const uint32_t rival = rivalled ? around[place == 0 ? 1 : 0].pattern & 0x3f : 0;
+    int more = 0;
+    if (place == 0 && rivalled) more = std::min<int>(around[1].near, 3);
+    if (place == 1) more = std::min(around.count(), 4) - 1;
+    const int count = (((place * 4 + more) * 5 + c.near) * 3 + c.causal) * 9 + c.ring;
+    return {{&rivals_[hash(pattern * 64 + rival, kRivalBits)], &patterns_[pattern],
+             &counts_[static_cast<size_t>(2 * count + centre)]}};
+  }
+
+  /// A bit of an index. node: 1 followed by its bits so far, the highest first.
+  ModelChain index(const Candidates& around, uint32_t node) {
+    const uint32_t first = around.count() > 0 ? around[0].colour : kMostColours;
+    const uint32_t second = around.count() > 1 ? around[1].colour : kMostColours;
+    return {{&pairs_[hash((first * kFactor + second) * kFactor + node, kPairBits)],
+             &singles_[hash(first * kFactor + node, kSingleBits)], &indices_[node]}};
+  }
+
+  AdaptiveBit fresh;  ///< the colour has not appeared before
+  std::array<std::array<AdaptiveBit, kClasses>, 4> residual;  ///< [channel]: its class exceeds ...
+
+ private:
+  static constexpr uint32_t kFactor = kMostColours + 3;
+  static constexpr int kPairBits = 18, kSingleBits = 16, kRivalBits = 18, kPatternBits = 14;
+
+  static uint32_t hash(uint32_t context, int bits) {
+    return (context * 2654435761u) >> (32 - bits);
+  }
+
+  std::vector<AdaptiveBit> pairs_, singles_, indices_;
+  std::vector<AdaptiveBit> rivals_, patterns_;
+  std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> counts_;
+};
+
+}  // namespace tetrakis

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/mask/cutout.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tetrakis {
+
+std::vector<uint8_t> cutoutOf(const Texels& texels) {
+  std::vector<uint8_t> seen;
+  if (texels.channels % 2 != 0) return seen;
+  const size_t count = size_t{texels.width} * texels.height;
+  size_t opaque = 0;
+  seen.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    const uint16_t alpha = texels.samples[(i + 1) * texels.channels - 1];
+    if (alpha != 0 && alpha != texels.most()) return {};
+    seen[i] = alpha != 0;
+    opaque += seen[i];
+  }
+  if (opaque == count) return {};
+  return seen;
+}
+
+void hideColours(std::span<const uint8_t> coded, std::vector<std::vector<int32_t>>& planes) {
+  const auto count = std::max(int64_t{1}, std::accumulate(coded.begin(), coded.end(), int64_t{0}));
+  for (std::vector<int32_t>& plane : planes) {
+    int64_t sum = 0;
+    for (size_t i = 0; i < coded.size(); ++i) sum += coded[i] * plane[i];
+    const auto mean = static_cast<int32_t>((sum + count / 2) / count);
+    for (size_t i = 0; i < coded.size(); ++i) {
+      if (!coded[i]) plane[i] = mean;
+    }
+  }
+}
+
+uint64_t countedSamples(const Texels& texels, std::span<const uint8_t> seen) {
+  if (seen.empty()) return texels.samples.size();
+  const auto opaque = std::accumulate(seen.begin(), seen.end(), uint64_t{0});
+  return seen.size() + opaque * (texels.channels - 1);
+}
+
+double countedSquares(const Texels& original, const Texels& decoded,
+                      std::span<const uint8_t> seen) {
+  uint64_t squares = 0;
+  const auto add = [&](size_t k) {
+    const int32_t difference = int32_t{original.samples[k]} - decoded.samples[k];
+    squares += static_cast<uint32_t>(difference) * static_cast<uint32_t>(difference);
+  };
+  const size_t channels = original.channels;
+  if (seen.empty()) {
+    for (size_t k = 0; k < original.samples.size(); ++k) add(k);
+  }
+  for (size_t i = 0; i < seen.size(); ++i) {
+    for (size_t c = seen[i] != 0 ? 0 : channels - 1; c < channels; ++c) add(i * channels + c);
+  }
+  return static_cast<double>(squares);
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texture_wavelet/mask/overlay.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+
+namespace tetrakis {
+
+namespace {
+
+constexpr size_t kLeastShare = 2000;  // a colour of fewer than 1/2000 of the texels is no overlay's
+constexpr size_t kLeastAlike = 500;   // where fewer than 1/500 of them are alike there is none
+
+/// A colour in one number; nothing for one that does not matter.
+using Colour = std::optional<uint64_t>;
+
+Colour colourAt(const Texels& texels, std::span<const uint8_t> seen, size_t texel) {
+  if (!seen.empty() && seen[texel] == 0) return {};
+  uint64_t colour = 0;
+  for (size_t c = 0; c < texels.channels; ++c)
+    colour = colour << 16 | texels.samples[texel * texels.channels + c];
+  return colour;
+}
+
+struct Use {
+  size_t texels = 0, alike = 0;
+};
+
+/// Of the colours that occur twice in a row. Photographs have next to none of them.
+std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels,
+                                                  std::span<const uint8_t> seen) {
+  std::unordered_map<uint64_t, Use> uses;
+  const size_t count = size_t{texels.width} * texels.height;
+  Colour before = colourAt(texels, seen, 0);
+  for (size_t i = 1; i < count; ++i) {
+    const Colour colour = colourAt(texels, seen, i);
+    if (colour && colour == before) ++uses[*colour].alike;
+    before = colour;
+  }
+  return uses;
+}
+
+}  // namespace
+
+std::vector<uint8_t> photographOf(const Texels& texels, std::span<const uint8_t> seen) {
+  const size_t count = size_t{texels.width} * texels.height;
+  std::unordered_map<uint64_t, Use> uses = repeatedColours(texels, seen);
+  size_t alike = 0;
+  std::erase_if(uses, [&](const auto& use) { return 2 * use.second.alike * kLeastShare < count; });
+  for (const auto& [colour, use] : uses) alike += use.alike;
+  if (alike * kLeastAlike < count) return {};
+  const auto useAt = [&](size_t texel) {
+    const Colour colour = colourAt(texels, seen, texel);
+    return colour ? uses.find(*colour) : uses.end();
+  };
+  for (size_t i = 0; i < count; ++i) {
+    const auto use = useAt(i);
+    if (use != uses.end()) ++use->second.texels;
+  }
+  std::vector<uint8_t> photograph(count);
+  size_t drawn = 0, left = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const auto use = useAt(i);
+    photograph[i] = use == uses.end() || 2 * use->second.alike < use->second.texels ||
+                    use->second.texels * kLeastShare < count;
+    drawn += photograph[i] == 0;
+    left += photograph[i] != 0 && (seen.empty() || seen[i] != 0);
+  }
+  if (drawn == 0 || left == 0) return {};
+  return photograph;
+}
+
+}  // namespace tetrakis

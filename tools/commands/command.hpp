@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs of the command line. Each adds its options to the parser and, when chosen, puts the
+// work to do into `action`. What they promise: docs/CLI.md.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "base/status.hpp"
+#include "tools/files/positive.hpp"
+#include "tools/files/stream.hpp"
+#include "tools/files/units.hpp"
+#include "tools/report/scene.hpp"
+
+namespace tetrakis::tools {
+
+/// What the parser found out: the work to do, and the options that all verbs share.
+struct CommandLine {
+  std::function<Status()> action;
+  bool quiet = false;       ///< -q: no progress bar, no notes
+  uint64_t max_memory = 0;  ///< --max-memory; 0: the default (memory_limit.hpp)
+};
+
+void addEncode(CLI::App& app, CommandLine& line);
+void addDecode(CLI::App& app, CommandLine& line);
+void addTruncate(CLI::App& app, CommandLine& line);
+void addInfo(CLI::App& app, CommandLine& line);
+void addCompare(CLI::App& app, CommandLine& line);
+void addVerify(CLI::App& app, CommandLine& line);
+void addSynth(CLI::App& app, CommandLine& line);
+
+/// A line on standard error, unless it is empty or -q is given.
+inline void tellNote(const std::string& text, bool quiet) {
+  if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
+}
+
+/// What is to be said of a mesh that has more triangles than were asked for (0: any number); "" of
+/// others.
+inline std::string coarsestNote(uint32_t triangles, uint32_t asked) {
+  if (asked == 0 || triangles <= asked) return "";
+  return "the mesh has " + std::to_string(triangles) + " triangles: the coarsest one";
+}
+
+/// Without the description that CLI11 would append to the option's type.
+inline CLI::Validator silent(CLI::Validator validator) {
+  return validator.description("");
+}
+
+/// A number that is neither infinite nor NaN.
+inline CLI::Validator finite() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && std::isfinite(value)
+                   ? std::string()
+                   : "'" + text + "' is not a finite number";
+      },
+      "");
+}
+
+/// An option that takes a SIZE with the suffixes k, M, G.
+template <class T>
+CLI::Option* addSize(CLI::App& app, const std::string& name, T& bytes, const std::string& help) {
+  return app.add_option(name, bytes, help)
+      ->transform(CLI::Validator(
+          [](std::string& text) {
+            const Result<uint64_t> size = parseSize(text);
+            if (size.ok()) text = std::to_string(*size);
+            return size.ok() ? std::string() : size.status().message();
+          },
+          ""))
+      ->type_name("SIZE");
+}
+
+/// --bytes SIZE.
+template <class T>
+CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
+  return addSize(app, "--bytes", bytes, help);
+}
+
+/// --cameras FILE.json or --view NAME.
+inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
+  CLI::Option* const file =
+      app.add_option("--cameras", choice.file, "Cameras to look with")->type_name("FILE.json");
+  app.add_option("--view", choice.view, "Preset cameras: oblique (default), low, top, all")
+      ->type_name("NAME")
+      ->excludes(file);
+}
+
+/// --triangles N.
+inline CLI::Option* addTriangles(CLI::App& app, uint32_t& triangles, const std::string& help) {
+  return app.add_option("--triangles", triangles, help)
+      ->check(silent(CLI::Range(uint32_t{1}, std::numeric_limits<uint32_t>::max())))
+      ->type_name("N");
+}
+
+/// As many threads as the machine has.
+inline uint32_t hardwareThreads() {
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+/// --threads N.
+inline void addThreads(CLI::App& app, uint32_t& threads) {
+  app.add_option("--threads", threads, "Threads (default: all); the result never depends on it")
+      ->check(silent(CLI::Range(1u, 1024u)))
+      ->type_name("N");
+}
+
+inline void addForce(CLI::App& app, bool& force) {
+  app.add_flag("-f,--force", force, "Overwrite files that exist");
+}
+
+/// The positional stream of a verb that reads one, with --bytes and --strict.
+inline void addSource(CLI::App& app, StreamSource& source) {
+  app.add_option("IN", source.path, "Stream (.tks) or any prefix of one; - is standard input")
+      ->required()
+      ->type_name("");
+  addBytes(app, source.bytes, "Use only the first bytes");
+  app.add_flag("--strict", source.strict, "Refuse a stream that ends early");
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis compare: how far a stream is from what was encoded, and whether it keeps its promise.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "tools/commands/command.hpp"
+#include "tools/commands/json.hpp"
+#include "tools/report/comparison.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+struct CompareArguments {
+  StreamSource source;
+  std::string height, texture;
+  uint32_t triangles = 0;
+  CameraChoice cameras;
+  bool json = false;
+};
+
+bool isExact(double psnr) {
+  return std::isinf(psnr) && psnr > 0;
+}
+
+/// "<name>" and "<name minus _psnr>_exact": JSON has no infinity, so exactness is a field of its
+/// own.
+void addPsnr(Json& json, const std::string& what, std::optional<double> psnr) {
+  json[what + "_psnr"] = psnr ? finiteOrNull(*psnr) : Json();
+  json[what + "_exact"] = psnr ? Json(isExact(*psnr)) : Json();
+}
+
+Json camerasJson(const std::vector<Camera>& cameras, const Measurement& measurement) {
+  Json list = Json::array();
+  for (size_t i = 0; i < measurement.camera_psnr.size(); ++i) {
+    Json camera = {{"name", cameras[i].name}};
+    addPsnr(camera, "screen", measurement.camera_psnr[i]);
+    list.push_back(std::move(camera));
+  }
+  return list;
+}
+
+Json measurementJson(const Measurement& measurement, const std::vector<Camera>& cameras) {
+  const std::optional<HeightErrors>& heights = measurement.heights;
+  Json json = {
+      {"bytes", measurement.bytes},
+      {"geometry_bytes", measurement.geometry_bytes},
+      {"texture_bytes", measurement.texture_bytes},
+      {"triangles", measurement.triangles ? Json(*measurement.triangles) : Json()},
+      {"height_rmse", heights ? finiteOrNull(heights->rmse) : Json()},
+      {"height_max_error", heights ? finiteOrNull(heights->max_error) : Json()},
+  };
+  addPsnr(json, "height", heights ? std::optional(heights->psnr) : std::nullopt);
+  addPsnr(json, "texture", measurement.texture_psnr);
+  addPsnr(json, "screen", measurement.screen_psnr);
+  json["cameras"] = camerasJson(cameras, measurement);
+  return json;
+}
+
+/// Heights with the voids of the stream.
+Result<Reference> readReference(const CompareArguments& arguments, const tks_info& info,
+                                bool quiet) {
+  if (arguments.height.empty() && arguments.texture.empty())
+    return Status(TKS_USAGE, "nothing to compare with: give --height or --texture");
+  Reference reference;
+  if (!arguments.height.empty()) {
+    Result<HeightFile> heights =
+        readHeights(arguments.height, info.has_nodata ? std::optional(info.nodata) : std::nullopt);
+    if (!heights.ok()) return heights.status();
+    reference.heights = std::move(*heights);
+  }
+  if (!arguments.texture.empty()) {
+    std::string note;
+    Result<ImageFile> image = readImage(arguments.texture, &note);
+    if (!image.ok()) return image.status();
+    tellNote(note, quiet);
+    reference.image = std::move(*image);
+  }
+  return reference;
+}
+
+/// Screen figures need a renderer. Cameras that were asked for must be drawn; the default view is
+/// left out with a note on a machine that cannot draw.
+Status look(Comparer& comparer, const CameraChoice& cameras, bool quiet) {
+  const Status status = comparer.look(cameras);
+  if (status.ok() || status.code() != TKS_UNSUPPORTED || !cameras.isDefault()) return status;
+  tellNote("no screen figures: " + status.message(), quiet);
+  return Status();
+}
+
+/// A complete stream states what it guarantees; the surface itself is held to it.
+Status checkPromise(const tks_info& info, const Measurement& measurement) {
+  if (info.available_bytes < info.stream_bytes) return Status();
+  if (info.lossless && measurement.texture_psnr && !isExact(*measurement.texture_psnr))
+    return Status(TKS_MISMATCH, "the stream says lossless, but the texture differs");
+  if (!measurement.heights) return Status();
+  const double error = measurement.heights->max_error;
+  if (info.lossless && error != 0)
+    return Status(TKS_MISMATCH,
+                  "the stream says lossless, but heights differ by up to " + std::to_string(error));
+  if (info.max_error >= 0 && !(error <= info.max_error + measurement.heights->rounding))
+    return Status(TKS_MISMATCH, "the stream promises heights within " +
+                                    std::to_string(info.max_error) + ", but they differ by up to " +
+                                    std::to_string(error));
+  return Status();
+}
+
+Status compare(const CompareArguments& arguments, bool quiet) {
+  const Result<OpenStream> stream = openStream(arguments.source);
+  if (!stream.ok()) return stream.status();
+  const tks_info& info = stream->decoder.info();
+  const Result<Reference> reference = readReference(arguments, info, quiet);
+  if (!reference.ok()) return reference.status();
+  Result<Comparer> comparer = Comparer::create(*reference, info);
+  if (!comparer.ok()) return comparer.status();
+  if (Status status = look(*comparer, arguments.cameras, quiet); !status.ok()) return status;
+  const Result<Measurement> measurement =
+      comparer->measure(octets(stream->bytes), arguments.triangles);
+  if (!measurement.ok()) return measurement.status();
+  tellNote(coarsestNote(measurement->triangles.value_or(0), arguments.triangles), quiet);
+  const Json json = measurementJson(*measurement, comparer->cameras());
+  if (Status status = print(arguments.json ? dump(json) : table(json)); !status.ok()) return status;
+  return arguments.triangles == 0 ? checkPromise(info, *measurement) : Status();
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<CompareArguments>();
+  CLI::App& verb = *app.add_subcommand("compare", "Measure a stream against what was encoded");
+  addSource(verb, arguments->source);
+  CLI::Option* const height =
+      verb.add_option("--height", arguments->height, "The original heights")->type_name("REF");
+  verb.add_option("--texture", arguments->texture, "The original texture")->type_name("REF");
+  addTriangles(verb, arguments->triangles, "Judge the mesh of at most so many triangles")
+      ->needs(height);
+  addCameraOptions(verb, arguments->cameras);
+  verb.add_flag("--json", arguments->json, "JSON instead of a table");
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return compare(*arguments, line.quiet); };
+  });
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis decode: heights, texture and mesh out of a stream or a prefix of one.
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/commands/command.hpp"
+#include "tools/commands/output.hpp"
+#include "tools/commands/output_names.hpp"
+#include "tools/report/viewed_mesh.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+struct DecodeArguments {
+  StreamSource source;
+  std::string height, texture, mesh;
+  uint32_t triangles = 0, level = 0;
+  bool coded_mesh = false;
+  CameraChoice camera;           ///< default: the whole mesh
+  std::vector<uint32_t> window;  ///< x, y, width, height; empty: everything
+  uint32_t threads = hardwareThreads();
+  bool force = false;
+};
+
+Status checkOutputs(const DecodeArguments& arguments) {
+  std::vector<std::string> names;
+  if (!arguments.height.empty()) names.push_back(arguments.height);
+  if (!arguments.texture.empty()) names.push_back(arguments.texture);
+  if (!arguments.mesh.empty())
+    for (std::string& name : meshFiles(arguments.mesh)) names.push_back(std::move(name));
+  if (names.empty())
+    return Status(TKS_USAGE, "nothing to write: give --height, --texture or --mesh");
+  return checkDistinct(names);
+}
+
+tks_window windowOf(const DecodeArguments& arguments) {
+  const std::vector<uint32_t>& w = arguments.window;
+  return {w[0], w[1], w[2], w[3]};
+}
+
+/// The texels over a window of samples: the image covers the ground from the first sample to the
+/// last. Rounded outwards.
+tks_window texelsOver(const tks_window& samples, const tks_info& info) {
+  const auto side = [](uint64_t first, uint64_t count, uint64_t all, uint64_t texels) {
+    const uint64_t begin = std::min(first * texels / (all - 1), texels - 1);
+    const uint64_t end = ((first + count - 1) * texels + all - 2) / (all - 1);
+    return std::pair(static_cast<uint32_t>(begin),
+                     static_cast<uint32_t>(std::clamp(end, begin + 1, texels) - begin));
+  };
+  const auto [x, width] = side(samples.x, samples.width, info.width, info.texture_width);
+  const auto [y, height] = side(samples.y, samples.height, info.height, info.texture_height);
+  return {x, y, width, height};
+}
+
+/// Decodes into staged outputs; the caller commits them when all have succeeded.
+class Decoding {
+ public:
+  Decoding(const DecodeArguments& arguments, OpenStream& stream, bool quiet)
+      : arguments_(arguments), stream_(stream), decoder_(stream.decoder), quiet_(quiet) {}
+
+  /// That each of the outputs can be had, before there is any work.
+  Status checkMemory() {
+    const tks_info& info = decoder_.info();
+    Status status;
+    if (!arguments_.height.empty() && info.has_heights)
+      status = check(TKS_PART_HEIGHTS, window(), heightCopies());
+    if (status.ok() && wantsTexture() && info.has_texture)
+      status = check(TKS_PART_TEXTURE, textureWindow(), textureCopies());
+    if (status.ok() && !arguments_.mesh.empty() && info.has_heights)
+      status = check(meshPart(), std::nullopt, meshCopies());
+    return status;
+  }
+
+  /// Begins the texture beside the heights where there are threads and memory for both.
+  void start() {
+    const bool wants_heights = !arguments_.height.empty() || !arguments_.mesh.empty();
+    const tks_info& info = decoder_.info();
+    if (arguments_.threads < 2 || !wantsTexture() || !wants_heights || !info.has_texture) return;
+    if (!fitsBesideHeights()) return;
+    beside_ = std::async(std::launch::async, [this]() -> Result<ImageFile> {
+      Expected<Decoder> decoder = openDecoder(octets(stream_.bytes));
+      if (!decoder) return toStatus(decoder.error());
+      decoder->setThreads(arguments_.threads);
+      if (const Expected<void> set = decoder->setLevels(0, arguments_.level); !set)
+        return toStatus(set.error());
+      return decodeImage(*decoder, textureWindow(), textureCopies());
+    });
+  }
+
+  /// What stands in the way of writing, before there is anything to write.
+  Status plan() {
+    const tks_info& info = decoder_.info();
+    if (Status status = plan(arguments_.height, ".tif", height_); !status.ok()) return status;
+    if (Status status = plan(arguments_.texture, ".png", texture_); !status.ok()) return status;
+    if (Status status = plan(arguments_.mesh, ".glb", mesh_); !status.ok()) return status;
+    if (!texture_ || !info.has_texture) return Status();
+    return checkImageFormat(texture_->name(), info.texture_channels, info.texture_sample);
+  }
+
+  Status writeHeightField() {
+    const Result<HeightFile> heights =
+        decodeHeights(decoder_, window(), heightCopies() + beside_bytes_);
+    if (!heights.ok()) return heights.status();
+    return height_->stage([&](const std::string& path) { return writeHeights(path, *heights); });
+  }
+
+  Status writeTexture() {
+    const Result<ImageFile>& image = decodedImage();
+    if (!image.ok()) return image.status();
+    return texture_->stage([&](const std::string& path) { return writeImage(path, *image); });
+  }
+
+  Status writeSurfaceMesh() {
+    const tks_info& info = decoder_.info();
+    if (!info.has_heights)
+      return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
+    const Result<Mesh> mesh = chosenMesh();
+    if (!mesh.ok()) return mesh.status();
+    tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
+    MeshFile file = placeMesh(*mesh, frameOf(info));
+    ImageFile texture;
+    if (info.has_texture) {
+      const Result<ImageFile>& image = decodedImage();
+      if (!image.ok()) return image.status();
+      texture = *image;
+      file.texture = &texture;
+    }
+    return mesh_->stage([&](const std::string& path) { return writeMesh(path, file); });
+  }
+
+  Status commit() {
+    std::vector<Output*> outputs;
+    for (std::optional<Output>* output : {&height_, &texture_, &mesh_})
+      if (*output) outputs.push_back(&**output);
+    return Output::commitAll(std::move(outputs));
+  }
+
+ private:
+  Status plan(const std::string& path, const char* extension, std::optional<Output>& output) const {
+    if (path.empty()) return Status();
+    Result<Output> planned = Output::plan(path, arguments_.force, extension);
+    if (!planned.ok()) return planned.status();
+    output.emplace(std::move(*planned));
+    return Status();
+  }
+
+  bool wantsTexture() const { return !arguments_.texture.empty() || !arguments_.mesh.empty(); }
+
+  tks_part meshPart() const {
+    return arguments_.coded_mesh ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
+  }
+
+  /// Bytes beside what decoding itself takes: the stream, what comes out, and what writing makes of
+  /// that, at most.
+  uint64_t heightCopies() const {
+    return stream_.bytes.size() + 2 * heightsBytes(decoder_.info(), window());
+  }
+  uint64_t textureCopies() const {
+    const uint64_t in_mesh = arguments_.mesh.empty() ? 0 : 1;
+    return stream_.bytes.size() + (3 + in_mesh) * imageBytes(decoder_.info(), textureWindow());
+  }
+  uint64_t meshCopies() const {
+    constexpr uint64_t kTriangle = 64;  // in space with half a vertex, and in the file's order
+    constexpr uint64_t kSample = 16;    // of the surface that a camera is placed over
+    const tks_info& info = decoder_.info();
+    const uint64_t samples = uint64_t{info.width} * info.height;
+    const bool all = arguments_.coded_mesh || arguments_.triangles == 0;
+    const uint64_t triangles =
+        all ? 2 * samples : std::min<uint64_t>(arguments_.triangles, 2 * samples);
+    return stream_.bytes.size() + kTriangle * triangles +
+           (arguments_.camera.isDefault() ? 0 : kSample * samples) +
+           (info.has_texture ? 3 * imageBytes(info) : 0);
+  }
+
+  Status check(tks_part part, const std::optional<tks_window>& window, uint64_t copies) {
+    const Expected<uint64_t> fits =
+        decoder_.checkMemory(part, window ? &*window : nullptr, arguments_.triangles, copies);
+    return fits ? Status() : toStatus(fits.error());
+  }
+
+  /// Then beside_bytes_ is what the texture takes meanwhile.
+  bool fitsBesideHeights() {
+    const std::optional<tks_window> texels = textureWindow();
+    const Expected<uint64_t> texture =
+        decoder_.checkMemory(TKS_PART_TEXTURE, texels ? &*texels : nullptr);
+    if (!texture) return false;
+    // Its decoder takes the packets apart once more.
+    const uint64_t bytes = *texture + textureCopies() + 4 * stream_.bytes.size();
+    const bool fits =
+        (arguments_.height.empty() ||
+         check(TKS_PART_HEIGHTS, window(), heightCopies() + bytes).ok()) &&
+        (arguments_.mesh.empty() || check(meshPart(), std::nullopt, meshCopies() + bytes).ok());
+    if (fits) beside_bytes_ = bytes;
+    return fits;
+  }
+
+  /// Decoded once, where there are threads beside the heights.
+  const Result<ImageFile>& decodedImage() {
+    if (!image_)
+      image_ =
+          beside_.valid() ? beside_.get() : decodeImage(decoder_, textureWindow(), textureCopies());
+    return *image_;
+  }
+
+  std::optional<tks_window> window() const {
+    if (arguments_.window.empty()) return std::nullopt;
+    return windowOf(arguments_);
+  }
+
+  std::optional<tks_window> textureWindow() const {
+    const tks_info& info = decoder_.info();
+    if (!window() || !info.has_heights || !info.has_texture) return window();
+    return texelsOver(*window(), info);
+  }
+
+  Result<Mesh> chosenMesh() {
+    if (Status status = check(meshPart(), std::nullopt, meshCopies() + beside_bytes_); !status.ok())
+      return status;
+    const bool coded = arguments_.coded_mesh;
+    if (!arguments_.camera.isDefault())
+      return viewedMesh(decoder_, coded, arguments_.triangles, arguments_.camera);
+    Expected<Mesh> mesh = coded ? decoder_.codedMesh() : decoder_.budgetMesh(arguments_.triangles);
+    if (!mesh) return toStatus(mesh.error());
+    return std::move(*mesh);
+  }
+
+  const DecodeArguments& arguments_;
+  const OpenStream& stream_;
+  Decoder& decoder_;
+  bool quiet_;
+  std::optional<Output> height_, texture_, mesh_;
+  std::optional<Result<ImageFile>> image_;
+  std::future<Result<ImageFile>> beside_;
+  uint64_t beside_bytes_ = 0;
+};
+
+/// In samples of the heights, if there are any.
+Status checkWindow(const DecodeArguments& arguments, const tks_info& info) {
+  if (arguments.window.empty()) return Status();
+  const tks_window w = windowOf(arguments);
+  const uint64_t width = info.has_heights ? info.width : info.texture_width;
+  const uint64_t height = info.has_heights ? info.height : info.texture_height;
+  if (w.width > 0 && w.height > 0 && uint64_t{w.x} + w.width <= width &&
+      uint64_t{w.y} + w.height <= height) {
+    return Status();
+  }
+  return Status(TKS_USAGE, "--window must lie inside the " + std::to_string(width) + " x " +
+                               std::to_string(height) + " samples");
+}
+
+Status decode(const DecodeArguments& arguments, bool quiet) {
+  if (Status status = checkOutputs(arguments); !status.ok()) return status;
+  Result<OpenStream> stream = openStream(arguments.source);
+  if (!stream.ok()) return stream.status();
+  stream->decoder.setThreads(arguments.threads);
+  if (Status status = checkWindow(arguments, stream->decoder.info()); !status.ok()) return status;
+  const uint32_t heights_level = arguments.height.empty() ? 0 : arguments.level,
+                 texture_level = arguments.texture.empty() ? 0 : arguments.level;
+  const Expected<void> set = stream->decoder.setLevels(heights_level, texture_level);
+  if (!set) return toStatus(set.error());
+  Decoding decoding(arguments, *stream, quiet);
+  if (Status status = decoding.plan(); !status.ok()) return status;
+  if (Status status = decoding.checkMemory(); !status.ok()) return status;
+  decoding.start();
+  if (!arguments.height.empty())
+    if (Status status = decoding.writeHeightField(); !status.ok()) return status;
+  if (!arguments.texture.empty())
+    if (Status status = decoding.writeTexture(); !status.ok()) return status;
+  if (!arguments.mesh.empty())
+    if (Status status = decoding.writeSurfaceMesh(); !status.ok()) return status;
+  return decoding.commit();
+}
+
+}  // namespace
+
+void addDecode(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<DecodeArguments>();
+  CLI::App& verb = *app.add_subcommand("decode", "Write heights, texture or mesh of a stream");
+  addSource(verb, arguments->source);
+  verb.add_option("--height", arguments->height, "Heights, same type as encoded (.tif .png .exr …)")
+      ->type_name("OUT.tif");
+  verb.add_option("--texture", arguments->texture, "Texture (.png .tif .jpg .bmp .webp .jp2 …)")
+      ->type_name("OUT.png");
+  CLI::Option* const mesh =
+      verb.add_option("--mesh", arguments->mesh, "Mesh in metres (.glb .obj .ply)")
+          ->type_name("OUT.glb");
+  CLI::Option* const level =
+      verb.add_option("--level", arguments->level,
+                      "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
+          ->type_name("K")
+          ->excludes(mesh);
+  CLI::Option* const triangles =
+      addTriangles(verb, arguments->triangles, "At most so many triangles; else every sample")
+          ->needs(mesh);
+  verb.add_flag("--coded-mesh", arguments->coded_mesh, "The mesh that the bytes themselves code")
+      ->needs(mesh)
+      ->excludes(triangles);
+  CLI::Option* const cameras =
+      verb.add_option("--cameras", arguments->camera.file, "Only what the file's one camera sees")
+          ->type_name("FILE.json")
+          ->needs(mesh);
+  verb.add_option("--view", arguments->camera.view,
+                  "Only what a preset camera sees: low, oblique, top")
+      ->type_name("NAME")
+      ->needs(mesh)
+      ->excludes(cameras);
+  verb.add_option("--window", arguments->window, "Only these samples, and the texels over them")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X,Y,W,H")
+      ->excludes(mesh)
+      ->excludes(level);
+  addThreads(verb, arguments->threads);
+  addForce(verb, arguments->force);
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return decode(*arguments, line.quiet); };
+  });
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis encode: heights, a texture or both into one embedded stream.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "tools/commands/encode_arguments.hpp"
+#include "tools/commands/output.hpp"
+#include "tools/commands/progress.hpp"
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/memory_limit.hpp"
+#include "tools/files/text.hpp"
+#include "tools/files/units.hpp"
+#include "tools/report/report.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+/// A camera straight above sees no parallax at all, but 0 would mean "the default view": use a
+/// millimetre a metre.
+constexpr double kLeastParallax = 1e-3;
+
+std::string voidNote(const HeightFile& heights) {
+  const Surface surface = heightsOf(heights);
+  const auto count = std::count_if(surface.values.begin(), surface.values.end(),
+                                   [](double height) { return std::isnan(height); });
+  return count == 0 ? ""
+                    : counted(static_cast<uint64_t>(count), "sample is", "samples are") + " void";
+}
+
+Status describe(const EncodeArguments& arguments, HeightFile& heights) {
+  heights.scale = arguments.scale.value_or(heights.scale);
+  heights.offset = arguments.offset.value_or(heights.offset);
+  if (arguments.unit) heights.unit = canonicalUnit(*arguments.unit);
+  heights.vertical_datum = arguments.vertical_datum.value_or(heights.vertical_datum);
+  heights.crs = arguments.crs.value_or(heights.crs);
+  if (arguments.spacing.empty()) return Status();
+  const Result<std::array<double, 2>> spacing = parseSpacing(arguments.spacing);
+  if (!spacing.ok()) return spacing.status();
+  heights.spacing_x = (*spacing)[0];
+  heights.spacing_y = (*spacing)[1];
+  return Status();
+}
+
+/// Notes that an option does not answer.
+void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet) {
+  for (const auto& [text, option] : notes) {
+    const bool answered = (option == "--spacing" && !arguments.spacing.empty()) ||
+                          (option == "--unit" && arguments.unit);
+    if (!answered) tellNote(quoted(arguments.height) + ": " + text, quiet);
+  }
+}
+
+Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
+  Reference inputs;
+  if (!arguments.height.empty()) {
+    Notes notes;
+    Result<HeightFile> heights = readHeights(arguments.height, arguments.nodata, &notes);
+    if (!heights.ok()) return heights.status();
+    tellNotes(notes, arguments, quiet);
+    if (Status status = describe(arguments, *heights); !status.ok()) return status;
+    tellNote(voidNote(*heights), quiet);
+    inputs.heights = std::move(*heights);
+  }
+  if (!arguments.texture.empty()) {
+    std::string remark;
+    Result<ImageFile> image = readImage(arguments.texture, &remark);
+    if (!image.ok()) return image.status();
+    tellNote(remark, quiet);
+    inputs.image = std::move(*image);
+  }
+  return inputs;
+}
+
+Result<double> parallax(const EncodeArguments& arguments, const HeightFile& heights) {
+  const Result<std::vector<Camera>> cameras =
+      chooseCameras(arguments.cameras, boundsOf(heightsOf(heights), frameOf(heights)));
+  if (!cameras.ok()) return cameras.status();
+  return std::max(parallaxOf(*cameras), kLeastParallax);
+}
+
+/// As tks_encode_options says it; the library refuses sides that it does not take.
+Result<uint32_t> parseRegions(const std::string& text) {
+  if (text == "auto") return 0;
+  if (text == "off") return 1;
+  uint32_t side = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
+  if (error == std::errc() && end == text.data() + text.size() && side > 1) return side;
+  return Status(TKS_USAGE, "--regions takes auto, off or a power of two, not '" + text + "'");
+}
+
+Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
+                                         const Reference& inputs) {
+  tks_encode_options options = makeEncodeOptions();
+  options.bytes = arguments.bytes;
+  options.psnr = arguments.psnr;
+  options.lossless = arguments.lossless;
+  options.triangles = arguments.triangles;
+  options.threads = arguments.threads;
+  options.index = arguments.index;
+  options.weights = arguments.weights == "visual" ? TKS_WEIGHTS_VISUAL : TKS_WEIGHTS_PSNR;
+  const Result<uint32_t> regions = parseRegions(arguments.regions);
+  if (!regions.ok()) return regions.status();
+  options.regions = *regions;
+  if (!arguments.max_error.empty()) {
+    const Result<double> bound = parseLength(arguments.max_error, inputs.heights->unit);
+    if (!bound.ok()) return bound.status();
+    if (*bound == 0)
+      return Status(TKS_USAGE, "--max-error must be positive; --lossless keeps everything");
+    options.max_error = *bound;
+  }
+  if (!arguments.cameras.isDefault() && inputs.heights) {
+    const Result<double> seen = parallax(arguments, *inputs.heights);
+    if (!seen.ok()) return seen.status();
+    options.parallax = *seen;
+  }
+  return options;
+}
+
+const char* textOrUnknown(const std::string& text) {
+  return text.empty() ? nullptr : text.c_str();
+}
+
+tks_heights view(const HeightFile& file, double step) {
+  tks_heights heights = makeHeights();
+  heights.width = file.width;
+  heights.height = file.height;
+  heights.sample = file.sample;
+  heights.data = file.data.data();
+  heights.scale = file.scale;
+  heights.offset = file.offset;
+  heights.step = step;
+  heights.spacing_x = file.spacing_x;
+  heights.spacing_y = file.spacing_y;
+  heights.unit = textOrUnknown(file.unit);
+  heights.vertical_datum = textOrUnknown(file.vertical_datum);
+  heights.crs = textOrUnknown(file.crs);
+  heights.has_nodata = file.nodata.has_value();
+  heights.nodata = file.nodata.value_or(0);
+  return heights;
+}
+
+tks_image view(const ImageFile& file) {
+  tks_image image = makeImage();
+  image.width = file.width;
+  image.height = file.height;
+  image.channels = file.channels;
+  image.sample = file.sample;
+  image.data = file.data.data();
+  return image;
+}
+
+Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet) {
+  Result<tks_encode_options> options = encodeOptions(arguments, inputs);
+  if (!options.ok()) return options.status();
+  Progress progress("encoding", quiet);
+  options->progress = &Progress::report;
+  options->user = &progress;
+  const tks_heights heights =
+      inputs.heights ? view(*inputs.heights, arguments.step) : tks_heights{};
+  const tks_image image = inputs.image ? view(*inputs.image) : tks_image{};
+  Expected<Buffer> stream = tetrakis::encode(inputs.heights ? &heights : nullptr,
+                                             inputs.image ? &image : nullptr, *options);
+  if (!stream) return toStatus(stream.error());
+  return std::move(*stream);
+}
+
+/// What encoding takes at most beside the samples, of each (tests/api/encode_memory_test.cpp), and
+/// those.
+Status checkMemory(const Reference& inputs) {
+  constexpr uint64_t kHeight = 28, kTexelChannel = 18;
+  uint64_t bytes = 0;
+  if (inputs.heights)
+    bytes += kHeight * inputs.heights->width * inputs.heights->height + inputs.heights->data.size();
+  if (inputs.image)
+    bytes += kTexelChannel * inputs.image->width * inputs.image->height * inputs.image->channels +
+             inputs.image->data.size();
+  return checkMemoryFor("encoding so many samples", bytes);
+}
+
+/// One line about what was written.
+Result<std::string> summary(const std::string& name, std::span<const uint8_t> stream) {
+  const Expected<Decoder> decoder = openDecoder(stream);
+  if (!decoder) return toStatus(decoder.error());
+  const tks_info& info = decoder->info();
+  return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
+         std::to_string(info.header_bytes) + ", geometry " + std::to_string(info.geometry_bytes) +
+         ", texture " + std::to_string(info.texture_bytes) + ")";
+}
+
+Status stageReport(const EncodeArguments& arguments, const Reference& inputs,
+                   std::span<const uint8_t> stream, Output& page) {
+  const std::string name = arguments.height.empty() ? arguments.texture : arguments.height;
+  const Result<Report> report =
+      makeReport(inputs, {std::filesystem::path(name).filename().string(), stream,
+                          arguments.triangles, arguments.cameras});
+  if (!report.ok()) return report.status();
+  const Result<std::string> html = renderPage(*report);
+  if (!html.ok()) return html.status();
+  return page.stage(std::as_bytes(std::span(*html)));
+}
+
+/// The outputs, planned before any work is done.
+struct EncodeOutputs {
+  Output stream;
+  std::optional<OutputFolder> report_folder;
+  std::optional<Output> report;
+};
+
+Result<EncodeOutputs> planOutputs(const EncodeArguments& arguments) {
+  Result<Output> stream = Output::plan(arguments.output, arguments.force, ".tks");
+  if (!stream.ok()) return stream.status();
+  EncodeOutputs outputs{std::move(*stream), std::nullopt, std::nullopt};
+  if (arguments.report.empty()) return outputs;
+  Result<OutputFolder> folder = OutputFolder::create(arguments.report);
+  if (!folder.ok()) return folder.status();
+  outputs.report_folder.emplace(std::move(*folder));
+  Result<Output> page =
+      Output::plan(outputs.report_folder->file("index.html"), arguments.force, ".html");
+  if (!page.ok()) return page.status();
+  outputs.report.emplace(std::move(*page));
+  return outputs;
+}
+
+Status encode(const EncodeArguments& arguments, bool quiet) {
+  if (Status status = checkArguments(arguments); !status.ok()) return status;
+  Result<EncodeOutputs> outputs = planOutputs(arguments);
+  if (!outputs.ok()) return outputs.status();
+  const Result<Reference> inputs = readInputs(arguments, quiet);
+  if (!inputs.ok()) return inputs.status();
+  if (Status status = checkMemory(*inputs); !status.ok()) return status;
+  const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet);
+  if (!stream.ok()) return stream.status();
+  const std::span<const uint8_t> bytes = stream->bytes();
+  if (Status status = outputs->stream.stage(std::as_bytes(bytes)); !status.ok()) return status;
+  if (outputs->report) {
+    if (Status status = stageReport(arguments, *inputs, bytes, *outputs->report); !status.ok())
+      return status;
+  }
+  std::vector<Output*> all{&outputs->stream};
+  if (outputs->report) all.push_back(&*outputs->report);
+  if (Status status = Output::commitAll(std::move(all)); !status.ok()) return status;
+  if (quiet) return Status();
+  const Result<std::string> line = summary(arguments.output, bytes);
+  if (line.ok()) std::fprintf(stderr, "%s\n", line->c_str());
+  return line.status();
+}
+
+}  // namespace
+
+void addEncode(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<EncodeArguments>();
+  CLI::App& verb = *app.add_subcommand("encode", "Make a stream of heights, a texture or both");
+  addArguments(verb, *arguments);
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return encode(*arguments, line.quiet); };
+  });
+}
+
+}  // namespace tetrakis::tools

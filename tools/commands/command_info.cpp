@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis info: what a stream, or a prefix of one, says about itself.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands/command.hpp"
+#include "tools/commands/json.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+struct InfoArguments {
+  StreamSource source;
+  bool json = false;
+};
+
+Json stated(double value) {
+  return value < 0 ? Json() : Json(value);
+}
+
+/// Steps of 0.75 dB say no more than two decimals of dB, or three digits of an error.
+Json rounded(double value, const char* format) {
+  if (value < 0 || !std::isfinite(value)) return Json();
+  char text[400];
+  std::snprintf(text, sizeof text, format, value);
+  return std::strtod(text, nullptr);
+}
+
+Json heightsJson(const tks_info& info) {
+  if (!info.has_heights) return {};
+  return {{"width", info.width},
+          {"height", info.height},
+          {"sample", sampleName(info.sample)},
+          {"scale", info.scale},
+          {"offset", info.offset},
+          {"unit", textOrNull(info.unit)},
+          {"vertical_datum", textOrNull(info.vertical_datum)},
+          {"crs", textOrNull(info.crs)},
+          {"spacing_x", info.spacing_x > 0 ? Json(info.spacing_x) : Json()},
+          {"spacing_y", info.spacing_y > 0 ? Json(info.spacing_y) : Json()},
+          {"step", info.step},
+          {"base", info.base},
+          {"exact_steps", info.exact_steps != 0},
+          {"coding", info.heights_stored != 0 ? "stored" : "wavelet"},
+          {"voids", info.has_voids != 0},
+          {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
+          {"regions", info.regions > 0 ? Json(info.regions) : Json()},
+          {"max_error", stated(info.max_error)},
+          {"rmse", rounded(info.heights_rmse, "%.3g")}};
+}
+
+/// What texture_drawn stands for.
+constexpr std::array<const char*, 4> kCodings = {"wavelet", "drawn", "overlay", "stored"};
+
+Json textureJson(const tks_info& info) {
+  if (!info.has_texture) return {};
+  return {{"width", info.texture_width},
+          {"height", info.texture_height},
+          {"channels", info.texture_channels},
+          {"sample", sampleName(info.texture_sample)},
+          {"coding", kCodings.at(static_cast<size_t>(info.texture_drawn))},
+          {"cutout", info.texture_cutout != 0},
+          {"regions", info.texture_regions > 0 ? Json(info.texture_regions) : Json()},
+          {"psnr", rounded(info.texture_psnr, "%.2f")},
+          {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};
+}
+
+Json infoJson(const tks_info& info) {
+  return {{"format_version", info.format_version},
+          {"profile", info.profile},
+          {"level", info.level},
+          {"stream_bytes", info.stream_bytes},
+          {"available_bytes", info.available_bytes},
+          {"complete", info.available_bytes >= info.stream_bytes},
+          {"header_bytes", info.header_bytes},
+          {"geometry_bytes", info.geometry_bytes},
+          {"texture_bytes", info.texture_bytes},
+          {"packets", info.packets},
+          {"lossless", info.lossless != 0},
+          {"triangles", info.triangles > 0 ? Json(info.triangles) : Json()},
+          {"heights", heightsJson(info)},
+          {"texture", textureJson(info)}};
+}
+
+Status info(const InfoArguments& arguments) {
+  const Result<OpenStream> stream = openStream(arguments.source);
+  if (!stream.ok()) return stream.status();
+  const Json json = infoJson(stream->decoder.info());
+  return print(arguments.json ? dump(json) : table(json));
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<InfoArguments>();
+  CLI::App& verb = *app.add_subcommand("info", "Say what a stream holds");
+  addSource(verb, arguments->source);
+  verb.add_flag("--json", arguments->json, "JSON instead of a table");
+  verb.callback([arguments, &line] { line.action = [arguments] { return info(*arguments); }; });
+}
+
+}  // namespace tetrakis::tools

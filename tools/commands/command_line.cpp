@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tetrakis command line: parses, runs one verb, and turns its Status into a sentence on
+// standard error and an exit code (docs/CLI.md).
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "tools/commands/command.hpp"
+#include "tools/files/memory_limit.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes:\n"
+    "  0  done\n"
+    "  1  usage: the command makes no sense as given\n"
+    "  2  a file cannot be read or written, or exists and -f is missing\n"
+    "  3  corrupt input\n"
+    "  4  truncated input (with --strict), or too short to hold the header\n"
+    "  5  version, feature or system not supported\n"
+    "  6  a limit would be exceeded\n"
+    "  7  comparison or verification failed\n";
+
+std::string versionText() {
+  return "tetrakis " + std::to_string(TKS_VERSION_MAJOR) + "." + std::to_string(TKS_VERSION_MINOR) +
+         "." + std::to_string(TKS_VERSION_PATCH);
+}
+
+void addVerbs(CLI::App& app, CommandLine& line) {
+  app.name("tetrakis");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", versionText());
+  app.get_formatter()->column_width(34);
+  app.footer(kExitCodes);
+  app.fallthrough();
+  app.add_flag("-q,--quiet", line.quiet, "No progress bar, no notes (any verb)");
+  addSize(app, "--max-memory", line.max_memory,
+          "Most memory to take (any verb; default: 3/4 of what there is)");
+  addEncode(app, line);
+  addDecode(app, line);
+  addTruncate(app, line);
+  addInfo(app, line);
+  addCompare(app, line);
+  addVerify(app, line);
+  addSynth(app, line);
+}
+
+bool isVerb(const CLI::App& app, const std::string& name) {
+  const std::vector<const CLI::App*> verbs =
+      app.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(verbs.begin(), verbs.end(),
+                     [&](const CLI::App* verb) { return verb->get_name() == name; });
+}
+
+/// The library's numbers are the exit codes; running out of memory is a limit of the machine.
+int exitCode(tks_status code) {
+  return code == TKS_NO_MEMORY ? TKS_LIMIT : code;
+}
+
+int report(const Status& status) {
+  if (status.ok()) return TKS_OK;
+  std::fprintf(stderr, "tetrakis: %s\n", status.message().c_str());
+  return exitCode(status.code());
+}
+
+/// Third-party libraries may throw; nothing of theirs leaves the process as a crash.
+Status run(const CommandLine& line) {
+  try {
+    return line.action();
+  } catch (const std::bad_alloc&) {
+    return Status(TKS_NO_MEMORY, "not enough memory for this input");
+  } catch (const std::exception& error) {
+    return Status(TKS_IO, std::string("unexpected failure: ") + error.what());
+  }
+}
+
+}  // namespace
+
+int runCommandLine(int argc, const char* const* argv) {
+  CLI::App app("Progressive codec for textured terrain: one stream, cut anywhere.");
+  CommandLine line;
+  addVerbs(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked_for_help) {
+    return app.exit(asked_for_help);
+  } catch (const CLI::ParseError& error) {
+    const std::string first = argc > 1 ? argv[1] : "-";
+    if (first.rfind('-', 0) != 0 && !isVerb(app, first))
+      return report(Status(TKS_USAGE, "there is no command '" + first + "'; --help lists them"));
+    return report(Status(TKS_USAGE, std::string(error.what()) + "; --help shows the usage"));
+  }
+  setMemoryLimit(line.max_memory);
+  return report(run(line));
+}
+
+}  // namespace tetrakis::tools

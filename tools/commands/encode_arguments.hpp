@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `tetrakis encode` is told.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "tools/commands/command.hpp"
+
+namespace tetrakis::tools {
+
+struct EncodeArguments {
+  std::string height, texture, output, report;
+  uint64_t bytes = 0;
+  double psnr = 0;
+  std::string max_error;
+  bool lossless = false;
+  uint32_t triangles = 0, threads = hardwareThreads();
+  std::string regions = "auto", weights = "psnr";
+  double step = 0;
+  std::optional<double> scale, offset, nodata;
+  std::string spacing;
+  std::optional<std::string> unit, vertical_datum, crs;
+  CameraChoice cameras;
+  bool index = false, force = false;
+};
+
+void addArguments(CLI::App& verb, EncodeArguments& arguments);
+
+/// TKS_USAGE if they do not go together.
+Status checkArguments(const EncodeArguments& arguments);
+
+}  // namespace tetrakis::tools

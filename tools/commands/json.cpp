@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results on standard output: JSON for programs, the same as a table for people.
+#include "tools/commands/json.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace tetrakis::tools {
+namespace {
+
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+std::string dumpValue(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string shown(const Json& value) {
+  if (value.is_null()) return "-";
+  if (!value.is_string()) return dumpValue(value, -1);
+  std::string text = value.get<std::string>();
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+void flatten(const std::string& key, const Json& value, Rows& rows) {
+  if (!value.is_structured()) {
+    rows.emplace_back(key, shown(value));
+    return;
+  }
+  for (const auto& item : value.items())
+    flatten(key.empty() ? item.key() : key + "." + item.key(), item.value(), rows);
+}
+
+}  // namespace
+
+std::string sampleName(tks_sample sample) {
+  switch (sample) {
+    case TKS_U8:
+      return "u8";
+    case TKS_I8:
+      return "i8";
+    case TKS_U16:
+      return "u16";
+    case TKS_I16:
+      return "i16";
+    case TKS_U32:
+      return "u32";
+    case TKS_I32:
+      return "i32";
+    case TKS_F32:
+      return "f32";
+  }
+  return "unknown";
+}
+
+Json textOrNull(const std::string& text) {
+  return text.empty() ? Json() : Json(text);
+}
+
+Json finiteOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+std::string dump(const Json& json) {
+  return dumpValue(json, 2) + "\n";
+}
+
+std::string table(const Json& json) {
+  Rows rows;
+  flatten("", json, rows);
+  size_t width = 0;
+  for (const auto& [key, value] : rows) width = std::max(width, key.size());
+  std::string text;
+  for (const auto& [key, value] : rows)
+    text += key + std::string(width - key.size() + 2, ' ') + value + "\n";
+  return text;
+}
+
+Status print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+    return Status();
+  return Status(TKS_IO, std::string("cannot write standard output: ") + std::strerror(errno));
+}
+
+}  // namespace tetrakis::tools

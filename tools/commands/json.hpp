@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results on standard output: JSON for programs, the same as a table for people.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/status.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::tools {
+
+/// Keeps the order of insertion.
+using Json = nlohmann::ordered_json;
+
+/// "u8" … "f32".
+std::string sampleName(tks_sample sample);
+
+/// JSON null for "": the texts of a stream use it for unknown.
+Json textOrNull(const std::string& text);
+
+/// A number, or null where JSON has none (infinity, not a number).
+Json finiteOrNull(double value);
+
+/// Indented JSON with a final newline. Bytes that are no UTF-8 are replaced.
+std::string dump(const Json& json);
+
+/// One line a value, keys aligned, members of objects as "object.member"; null is "-". Control
+/// characters of texts are replaced: a stream cannot steer the terminal.
+std::string table(const Json& json);
+
+/// Writes to standard output. TKS_IO if that fails.
+Status print(const std::string& text);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole files as bytes, and the words with which failures name a file.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tools/files/temporary.hpp"
+
+namespace tetrakis::tools {
+
+/// "'path'", or "standard input" for "-".
+std::string quoted(const std::string& path);
+
+/// The format to use for `path`: `format` if given, else the extension; lower case, without a dot.
+std::string formatOf(const std::string& path, const std::string& format);
+
+/// All bytes of the file, or of standard input for "-".
+Result<std::vector<std::byte>> readBytes(const std::string& path);
+
+/// Replaces the content of the file.
+Status writeBytes(const std::string& path, std::span<const std::byte> bytes);
+
+/// Turns items between the byte order of a file and that of this machine, in place.
+void reorderBytes(std::span<std::byte> items, size_t item_bytes, std::endian order);
+
+/// A readable file with a name of its own, for libraries that open by name: the path itself, or for
+/// "-" a temporary copy of standard input that lives as long as this object.
+class InputFile {
+ public:
+  static Result<InputFile> open(const std::string& path);
+  const std::string& path() const { return path_; }
+
+ private:
+  InputFile(std::string path, Temporary copy) : path_(std::move(path)), copy_(std::move(copy)) {}
+  std::string path_;
+  Temporary copy_;
+};
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights, images and meshes on disk. Everything the command line reads or writes passes here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::tools {
+
+/// Of one file or stream: 32768 x 32768 RGBA.
+inline constexpr uint64_t kMaxSamples = uint64_t{1} << 32;
+
+/// TKS_LIMIT for more, and for those that take more memory than there is to read
+/// (memory_limit.hpp): before anything is allocated, as a few bytes can declare any size.
+Status checkSize(const std::string& name, uint64_t samples, size_t sample_bytes);
+
+/// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host
+/// byte order. Height in `unit` = sample * scale + offset.
+struct HeightFile {
+  uint32_t width = 0, height = 0;
+  tks_sample sample = TKS_U16;
+  std::vector<std::byte> data;
+  double scale = 1, offset = 0;
+  double spacing_x = 0, spacing_y = 0;    ///< metres per sample; 0: unknown
+  std::optional<double> nodata;           ///< the file's declared nodata value
+  std::string unit, vertical_datum, crs;  ///< "" when unknown
+};
+
+/// Something about a file that is read that its user should know.
+struct Note {
+  std::string text;    ///< a sentence without the name of the file
+  std::string option;  ///< of `encode`, which answers it; "" if none does
+};
+using Notes = std::vector<Note>;
+
+/// 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA; sample is TKS_U8 or TKS_U16; interleaved, host byte order.
+struct ImageFile {
+  uint32_t width = 0, height = 0, channels = 0;
+  tks_sample sample = TKS_U8;
+  std::vector<std::byte> data;
+};
+
+/// A mesh ready to be written: positions in metres, x east, y up, z south (glTF axes), texture
+/// coordinates with (0, 0) at the image's top left corner (glTF convention).
+struct MeshFile {
+  std::vector<float> positions;        ///< 3 per vertex
+  std::vector<float> texcoords;        ///< 2 per vertex; empty without texture
+  std::vector<uint32_t> triangles;     ///< 3 per triangle, counter-clockwise seen from above
+  const ImageFile* texture = nullptr;  ///< not owned; may be null
+};
+
+/// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt,
+/// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian), and
+/// what else OpenImageIO reads as stored. "-" reads standard input. Samples come as stored, never
+/// rescaled; half floats, and doubles that are floats exactly, become floats. What GDAL takes for
+/// void is: floats that nearly meet the nodata value become that value, so do samples that a mask
+/// (a page, or "path.msk") leaves out. `nodata` replaces the value that the file declares. Spacing
+/// in degrees is turned into metres at the raster's centre. Fails with TKS_IO if the file cannot be
+/// read, TKS_USAGE if it does not hold heights (channels, sample type, size).
+Result<HeightFile> readHeights(const std::string& path, const std::optional<double>& nodata = {},
+                               Notes* notes = nullptr);
+
+/// Writes the same integer or float type, losslessly, in the format of the extension. .tif holds
+/// all types and the tags (but CRS: there is no position to go with it), .png u8 and u16, .exr u32
+/// and f32, .hgt a square of i16, .raw all types; fails with TKS_USAGE if the format cannot hold
+/// them. Writes to `path` directly: see Output for renaming and standard output. `format` overrides
+/// the extension ("tif", "png", "exr", "hgt", "raw").
+Status writeHeights(const std::string& path, const HeightFile& heights,
+                    const std::string& format = "");
+
+/// Reads what OpenImageIO reads; "-" reads standard input. Integers of other depths are scaled to 8
+/// or 16 bits, palette and CMYK files are converted to RGB, an orientation tag is applied, and
+/// `note` then says so ("" otherwise). Float or signed images and more than 4 channels are refused
+/// with TKS_USAGE. Alpha is as stored; embedded colour profiles are kept out of the samples.
+Result<ImageFile> readImage(const std::string& path, std::string* note = nullptr);
+
+/// TKS_USAGE if OpenImageIO writes no format of this name, or one that cannot hold such an image.
+Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample);
+
+/// Writes what checkImageFormat lets pass. Exact but for .jpg (quality 95, 4:4:4), .webp, .gif and
+/// .heic.
+Status writeImage(const std::string& path, const ImageFile& image, const std::string& format = "");
+
+/// JPEG by libjpeg-turbo (4:4:4), for the texture inside a GLB. 8-bit grey or RGB; quality 1 to
+/// 100.
+Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
+
+/// .glb (texture embedded: JPEG, or PNG when it has alpha or 16 bits, reduced to 8), .obj (+ .mtl
+/// and .png of the same name when textured), .ply (binary, texture coordinates but no texture); all
+/// with smooth normals. Coordinates come back bit for bit. Fails with TKS_USAGE on an empty or
+/// inconsistent mesh.
+Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "");
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Height fields on disk: which format, which sample type. The samples themselves are never
+// converted, but for half floats, which float holds exactly, and doubles that it holds exactly.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/files.hpp"
+#include "tools/files/height_mask.hpp"
+#include "tools/files/plain_heights.hpp"
+#include "tools/files/png.hpp"
+#include "tools/files/raster.hpp"
+#include "tools/files/tiff.hpp"
+#include "tools/files/void_samples.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using OIIO::TypeDesc;
+
+struct SampleType {
+  TypeDesc::BASETYPE stored;
+  tks_sample sample;
+};
+constexpr std::array<SampleType, 9> kSampleTypes{{{TypeDesc::UINT8, TKS_U8},
+                                                  {TypeDesc::INT8, TKS_I8},
+                                                  {TypeDesc::UINT16, TKS_U16},
+                                                  {TypeDesc::INT16, TKS_I16},
+                                                  {TypeDesc::UINT32, TKS_U32},
+                                                  {TypeDesc::INT32, TKS_I32},
+                                                  {TypeDesc::FLOAT, TKS_F32},
+                                                  {TypeDesc::HALF, TKS_F32},
+                                                  {TypeDesc::DOUBLE, TKS_F32}}};
+
+/// What OpenImageIO calls a sample type.
+TypeDesc typeOf(tks_sample sample) {
+  return std::find_if(kSampleTypes.begin(), kSampleTypes.end(),
+                      [sample](const SampleType& type) { return type.sample == sample; })
+      ->stored;
+}
+
+Result<tks_sample> sampleOf(const Raster& raster) {
+  const OIIO::ImageSpec& spec = raster.spec;
+  if (spec.nchannels != 1 || raster.palette) {
+    const int channels = raster.palette ? 3 : spec.nchannels;
+    return Status(TKS_USAGE, raster.name + " has " + std::to_string(channels) +
+                                 " channels: heights are one channel");
+  }
+  if (raster.white_is_zero) {
+    return Status(TKS_USAGE, raster.name + " stores white as 0: heights are no shades");
+  }
+  if (raster.stretched) {
+    return Status(TKS_USAGE, raster.name +
+                                 " has samples that reading would stretch to all of 8 or "
+                                 "16 bits: convert it to TIFF");
+  }
+  const int bits = static_cast<int>(8 * spec.format.size());
+  const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(), [&](const auto& known) {
+    return known.stored == spec.format.basetype;
+  });
+  if (type == kSampleTypes.end() || (raster.stored_bits != 0 && raster.stored_bits != bits)) {
+    return Status(TKS_USAGE,
+                  raster.name + " has samples of " +
+                      std::to_string(raster.stored_bits ? raster.stored_bits : bits) +
+                      " bits: heights are integers of 8, 16 or 32 bits, or 32-bit floats");
+  }
+  return type->sample;
+}
+
+/// Doubles as floats, those that meet the nodata value as its float or NaN. Fails if the others
+/// are not floats exactly.
+Result<std::vector<std::byte>> narrowed(const std::vector<std::byte>& doubles,
+                                        const std::optional<double>& nodata,
+                                        const std::string& name) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const auto mark = static_cast<float>(nodata ? asSample(*nodata, TKS_F32).value_or(kNaN) : kNaN);
+  std::vector<std::byte> floats(doubles.size() / sizeof(double) * sizeof(float));
+  for (size_t i = 0; i < floats.size() / sizeof(float); ++i) {
+    double value = 0;
+    std::memcpy(&value, doubles.data() + i * sizeof value, sizeof value);
+    const bool is_void = nodata && meetsNodata(value, *nodata);
+    const float sample = is_void ? mark : toFloat(value);
+    if (!is_void && !std::isnan(value) && static_cast<double>(sample) != value) {
+      return Status(TKS_USAGE, name +
+                                   " holds 64-bit floats that 32 bits do not hold; round them: "
+                                   "gdal_translate -ot Float32 IN.tif OUT.tif");
+    }
+    std::memcpy(floats.data() + i * sizeof sample, &sample, sizeof sample);
+  }
+  return floats;
+}
+
+/// Heights, and the mask that their file holds (empty: none).
+struct Reading {
+  HeightFile heights;
+  std::vector<uint8_t> mask;
+};
+
+/// The nodata value is as given, else as the file declares it.
+Result<Reading> readRasterHeights(const std::string& path, const std::optional<double>& nodata,
+                                  Notes& notes) {
+  auto raster = openRaster(path);
+  if (!raster.ok()) return raster.status();
+  const auto sample = sampleOf(*raster);
+  if (!sample.ok()) return sample.status();
+  Reading reading;
+  HeightFile& heights = reading.heights;
+  heights.width = static_cast<uint32_t>(raster->spec.width);
+  heights.height = static_cast<uint32_t>(raster->spec.height);
+  heights.sample = *sample;
+  if (raster->is_tiff()) {
+    const Status tags = readGeoTags(raster->file.path(), heights, notes);
+    if (!tags.ok()) return tags;
+  }
+  if (nodata) heights.nodata = nodata;
+  const bool wide = raster->spec.format == TypeDesc::DOUBLE;
+  auto data = readSamples(*raster, wide ? TypeDesc(TypeDesc::DOUBLE) : typeOf(*sample));
+  if (data.ok() && wide) data = narrowed(*data, heights.nodata, raster->name);
+  if (!data.ok()) return data.status();
+  heights.data = std::move(*data);
+  if (raster->further_pages) notes.push_back({"only the first page is read", ""});
+  if (!raster->mask) return reading;
+  auto mask = readMaskPage(raster->file.path(), heights.width, heights.height);
+  if (!mask.ok()) return mask.status();
+  reading.mask = std::move(*mask);
+  return reading;
+}
+
+Result<Reading> readPlain(Result<HeightFile> heights) {
+  if (!heights.ok()) return heights.status();
+  return Reading{std::move(*heights), {}};
+}
+
+Result<Reading> readAnyHeights(const std::string& path, const std::optional<double>& nodata,
+                               Notes& notes) {
+  if (const auto raw = parseRawName(path)) return readPlain(readRaw(*raw));
+  const std::string format = formatOf(path, "");
+  if (format == "hgt") return readPlain(readHgt(path));
+  if (format == "raw") {
+    return Status(TKS_USAGE, quoted(path) + " needs its shape: give " + path +
+                                 ":WIDTHxHEIGHT:TYPE with type u8, i8, u16, i16, u32, i32 or f32");
+  }
+  return readRasterHeights(path, nodata, notes);
+}
+
+/// A mask beside the file goes before the one in it, as GDAL has it.
+Status settleVoids(const std::string& path, Reading& reading, Notes& notes) {
+  HeightFile& heights = reading.heights;
+  if (heights.sample == TKS_F32 && heights.nodata)
+    heights.nodata = asSample(*heights.nodata, TKS_F32);
+  matchNodata(heights);
+  auto beside = readMaskBeside(path, heights.width, heights.height);
+  if (!beside.ok()) return beside.status();
+  const Status masked = applyMask(heights, beside->empty() ? reading.mask : *beside, notes);
+  if (!masked.ok()) return {masked.code(), quoted(path) + ": " + masked.message()};
+  if (const auto note = noteOnOutliers(heights)) notes.push_back(*note);
+  return {};
+}
+
+Status cannotHold(const std::string& format) {
+  return {TKS_USAGE, "a ." + format + " file cannot hold these samples: write a .tif instead"};
+}
+
+Status writePng(const std::string& path, const HeightFile& heights) {
+  if (heights.sample != TKS_U8 && heights.sample != TKS_U16) return cannotHold("png");
+  const auto bytes = encodePng({heights.width, heights.height, 1, heights.sample, heights.data});
+  return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
+}
+
+Status writeExr(const std::string& path, const HeightFile& heights) {
+  if (heights.sample != TKS_U32 && heights.sample != TKS_F32) return cannotHold("exr");
+  const OIIO::ImageSpec spec(static_cast<int>(heights.width), static_cast<int>(heights.height), 1,
+                             typeOf(heights.sample));
+  const auto bytes = encodeRaster("exr", spec, heights.data);
+  return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
+}
+
+Status checkShape(const HeightFile& heights) {
+  const uint64_t bytes =
+      uint64_t{heights.width} * heights.height * tks_sample_bytes(heights.sample);
+  if (bytes != 0 && bytes == heights.data.size()) return {};
+  return {TKS_USAGE, "heights of " + std::to_string(heights.width) + " x " +
+                         std::to_string(heights.height) + " samples do not fill " +
+                         std::to_string(heights.data.size()) + " bytes"};
+}
+
+}  // namespace
+
+Result<HeightFile> readHeights(const std::string& path, const std::optional<double>& nodata,
+                               Notes* notes) {
+  Notes unread;
+  Notes& told = notes ? *notes : unread;
+  auto reading = readAnyHeights(path, nodata, told);
+  if (!reading.ok()) return reading.status();
+  if (nodata) reading->heights.nodata = nodata;
+  const Status settled = settleVoids(path, *reading, told);
+  if (!settled.ok()) return settled;
+  return std::move(reading->heights);
+}
+
+Status writeHeights(const std::string& path, const HeightFile& heights, const std::string& format) {
+  const Status shape = checkShape(heights);
+  if (!shape.ok()) return shape;
+  const std::string name = formatOf(path, format);
+  if (name == "tif" || name == "tiff") return writeGeoTiff(path, heights);
+  if (name == "png") return writePng(path, heights);
+  if (name == "exr") return writeExr(path, heights);
+  if (name == "hgt") return writeHgt(path, heights);
+  if (name == "raw") return writeRaw(path, heights);
+  return {TKS_USAGE, "cannot tell the format of " + quoted(path) +
+                         ": end the name in .tif, .png, .exr, .hgt or .raw"};
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading texture images: 8 or 16 bits, 1 to 4 channels.
+#include <algorithm>
+#include <utility>
+
+#include "tools/files/alpha.hpp"
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/files.hpp"
+#include "tools/files/raster.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using OIIO::TypeDesc;
+
+TypeDesc typeOf(tks_sample sample) {
+  return sample == TKS_U8 ? TypeDesc::UINT8 : TypeDesc::UINT16;
+}
+
+/// The type to read: OpenImageIO widens fewer bits to full range itself.
+Result<tks_sample> sampleOf(const Raster& raster) {
+  const TypeDesc type = raster.spec.format;
+  if (type.is_floating_point()) {
+    return Status(TKS_USAGE, raster.name + " holds floats: a texture is 8 or 16 bits");
+  }
+  if (type.is_signed()) {
+    return Status(TKS_USAGE, raster.name + " holds signed samples: a texture is 8 or 16 bits");
+  }
+  return type == TypeDesc::UINT8 ? TKS_U8 : TKS_U16;
+}
+
+std::string noteOn(const Raster& raster) {
+  std::string note;
+  const auto add = [&note](const char* text) {
+    note += (note.empty() ? "" : ", ") + std::string(text);
+  };
+  if (raster.palette) add("palette converted to RGB");
+  if (raster.cmyk) add("CMYK converted to RGB");
+  if (raster.spec.format == TypeDesc::UINT32) add("32 bits reduced to 16");
+  if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
+  if (raster.orientation != 1) add("turned upright as its orientation tag says");
+  if (raster.profile) add("colour profile not applied and not kept");
+  if (raster.mask) add("mask not applied and not kept");
+  if (raster.further_pages) add("further pages left out");
+  return note.empty() ? note : raster.name + ": " + note;
+}
+
+/// Applies the orientation tag (TIFF 6.0: where the stored row 0 and column 0 stand in the
+/// picture). From 5 on rows and columns change places.
+ImageFile turnedUpright(const ImageFile& stored, int orientation) {
+  const bool swapped = orientation >= 5;
+  const bool flip_column = orientation == 2 || orientation == 3 || orientation >= 7;
+  const bool flip_row =
+      orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+  ImageFile upright = stored;
+  if (swapped) std::swap(upright.width, upright.height);
+  const size_t pixel_bytes = stored.channels * tks_sample_bytes(stored.sample);
+  auto pixel = upright.data.begin();
+  for (uint32_t y = 0; y < upright.height; ++y) {
+    for (uint32_t x = 0; x < upright.width; ++x) {
+      uint32_t column = swapped ? y : x, row = swapped ? x : y;
+      if (flip_column) column = stored.width - 1 - column;
+      if (flip_row) row = stored.height - 1 - row;
+      const size_t from = (size_t{row} * stored.width + column) * pixel_bytes;
+      pixel = std::copy_n(stored.data.begin() + from, pixel_bytes, pixel);
+    }
+  }
+  return upright;
+}
+
+}  // namespace
+
+Result<ImageFile> readImage(const std::string& path, std::string* note) {
+  auto raster = openRaster(path);
+  if (!raster.ok()) return raster.status();
+  const OIIO::ImageSpec& spec = raster->spec;
+  if (spec.nchannels > 4) {
+    return Status(TKS_USAGE, raster->name + " has " + std::to_string(spec.nchannels) +
+                                 " channels: a texture has 1 to 4");
+  }
+  const auto sample = sampleOf(*raster);
+  if (!sample.ok()) return sample.status();
+  auto data = readSamples(*raster, typeOf(*sample));
+  if (!data.ok()) return data.status();
+  ImageFile image{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height),
+                  static_cast<uint32_t>(spec.nchannels), *sample, std::move(*data)};
+  if (raster->alpha == Raster::Alpha::kMultiplied && !isOpaque(image)) {
+    return Status(TKS_USAGE, raster->name +
+                                 " has an alpha that reading multiplies into the colours: convert "
+                                 "it to PNG");
+  }
+  if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
+  if (note) *note = noteOn(*raster);
+  if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
+  return image;
+}
+
+}  // namespace tetrakis::tools

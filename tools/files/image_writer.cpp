@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writing texture images: which format holds which, and that it does.
+#include <algorithm>
+#include <array>
+
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/files.hpp"
+#include "tools/files/png.hpp"
+#include "tools/files/raster.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+constexpr int kQuality = 95;  // of JPEG and HEIF
+
+/// Numbers of channels as a set: bit n stands for n channels.
+constexpr unsigned kGrey = 1u << 1, kGreyAlpha = 1u << 2, kRgb = 1u << 3, kRgba = 1u << 4;
+constexpr unsigned kAll = kGrey | kGreyAlpha | kRgb | kRgba;
+
+/// A format by OpenImageIO's name, and what comes back of it. A table, because the library can be
+/// asked neither which depths nor which channels a format takes (it converts, and DPX even aborts).
+/// Left out: formats of floats alone (OpenEXR, HDR, Zfile), which no texture is read from.
+struct Format {
+  const char* name;
+  unsigned channels8, channels16;
+  bool exact = true;
+};
+constexpr std::array kFormats{
+    Format{"png", kAll, kAll},
+    Format{"tiff", kAll, kAll},
+    Format{"jpeg", kGrey | kRgb, 0, false},
+    Format{"bmp", kGrey | kRgb | kRgba, 0},
+    Format{"fits", kAll, 0},
+    Format{"gif", kRgb, 0, false},
+    Format{"heif", kRgb | kRgba, 0, false},
+    Format{"ico", kRgba, 0},
+    Format{"iff", kRgb | kRgba, kRgb | kRgba},
+    Format{"jpeg2000", kGrey | kRgb | kRgba, kGrey | kRgb | kRgba},
+    Format{"pnm", kGrey | kRgb, 0},
+    Format{"rla", kAll, kAll},
+    Format{"sgi", kAll, kAll},
+    Format{"targa", kAll, 0},
+    Format{"webp", kRgb | kRgba, 0, false},
+};
+
+/// By the extension; null if OpenImageIO writes no such format, or none that holds textures.
+const Format* formatNamed(const std::string& extension) {
+  const auto output = OIIO::ImageOutput::create("x." + extension);
+  if (!output) {
+    OIIO::geterror();  // clears it
+    return nullptr;
+  }
+  const std::string_view name = output->format_name();
+  const auto* format = std::find_if(kFormats.begin(), kFormats.end(),
+                                    [name](const Format& known) { return name == known.name; });
+  return format == kFormats.end() ? nullptr : format;
+}
+
+std::string shapeOf(uint32_t channels, tks_sample sample) {
+  return std::to_string(channels) + (channels == 1 ? " channel of " : " channels of ") +
+         std::to_string(8 * tks_sample_bytes(sample)) + " bits";
+}
+
+Status checkShape(const ImageFile& image) {
+  const uint64_t pixels = uint64_t{image.width} * image.height;
+  const bool known = image.channels >= 1 && image.channels <= 4 &&
+                     (image.sample == TKS_U8 || image.sample == TKS_U16);
+  if (known && pixels != 0 &&
+      pixels * image.channels * tks_sample_bytes(image.sample) == image.data.size()) {
+    return {};
+  }
+  return {TKS_USAGE, "an image has 1 to 4 channels of 8 or 16 bits, and all its samples"};
+}
+
+OIIO::ImageSpec specOf(const ImageFile& image) {
+  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
+                       static_cast<int>(image.channels),
+                       image.sample == TKS_U8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
+  spec["oiio:UnassociatedAlpha"] = 1;
+  return spec;
+}
+
+bool same(const ImageFile& a, const ImageFile& b) {
+  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+         a.sample == b.sample && a.data == b.data;
+}
+
+Status writeOther(const std::string& path, const ImageFile& image, const Format& format) {
+  OIIO::ImageSpec spec = specOf(image);
+  if (format.name == std::string_view("heif")) {
+    spec["compression"] = "heic:" + std::to_string(kQuality);
+  }
+  const auto output = OIIO::ImageOutput::create(format.name);
+  if (!output || !output->open(path, spec) ||
+      !output->write_image(spec.format, image.data.data()) || !output->close()) {
+    const std::string reason = output ? output->geterror() : OIIO::geterror();
+    return {TKS_IO, "cannot write " + quoted(path) + ": " + firstLine(reason)};
+  }
+  if (!format.exact) return {};
+  // OpenImageIO 2.4 writes some sizes of RLA, IFF and JPEG 2000 that nobody can read.
+  const auto written = readImage(path);
+  if (written.ok() && same(*written, image)) return {};
+  return {TKS_IO, "cannot write " + quoted(path) +
+                      ": it does not come back as it was; write a .png instead"};
+}
+
+}  // namespace
+
+Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample) {
+  const std::string name = formatOf(path, "");
+  const Format* const format = formatNamed(name);
+  if (!format) {
+    return {TKS_USAGE, "cannot tell a format of textures from " + quoted(path) +
+                           ": end the name in .png, .tif, .jpg or another of docs/CLI.md"};
+  }
+  const unsigned held = sample == TKS_U8 ? format->channels8 : format->channels16;
+  if (held >> channels & 1u) return {};
+  return {TKS_USAGE, "a ." + name + " file cannot hold " + shapeOf(channels, sample) +
+                         ": write a .png instead"};
+}
+
+Status writeImage(const std::string& path, const ImageFile& image, const std::string& format) {
+  if (Status status = checkShape(image); !status.ok()) return status;
+  const std::string name = formatOf(path, format);
+  if (Status status =
+          checkImageFormat(format.empty() ? path : "x." + name, image.channels, image.sample);
+      !status.ok())
+    return status;
+  const Format& chosen = *formatNamed(name);
+  const std::string_view kind = chosen.name;
+  if (kind != "png" && kind != "jpeg" && kind != "tiff") return writeOther(path, image, chosen);
+  OIIO::ImageSpec spec = specOf(image);
+  spec["compression"] = "zip";
+  const Result<std::vector<std::byte>> bytes = kind == "png" ? encodePng(image)
+                                               : kind == "jpeg"
+                                                   ? encodeJpeg(image, kQuality)
+                                                   : encodeRaster("tif", spec, image.data);
+  return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a JPEG is whole. Writing: files.hpp.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "base/status.hpp"
+
+namespace tetrakis::tools {
+
+/// TKS_IO if the decoder would have to make pixels up: the file ends early or is damaged, which
+/// OpenImageIO passes over. name: for the message.
+Status checkJpeg(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much memory the command line may take: what the user says, or a share of what the machine can
+// give, so that a few bytes that declare a huge plane end in a sentence and not at the kernel's
+// hands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/status.hpp"
+
+namespace tetrakis::tools {
+
+/// Three quarters of the memory that this process can have; the rest is for libraries, code, and
+/// whatever else wants memory meanwhile.
+uint64_t defaultMemoryLimit();
+
+/// Of this process from now on; 0: the default.
+void setMemoryLimit(uint64_t bytes);
+uint64_t memoryLimit();
+
+/// TKS_LIMIT if that is less than `bytes`. what: "reading 'a.tif'".
+Status checkMemoryFor(const std::string& what, uint64_t bytes);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mesh file formats, one function each. The mesh has been checked: sizes agree, indices are in
+// range.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+/// Three numbers a vertex: the mean of the normals around it by their triangles' areas, of length
+/// 1; straight up where no triangle with an area meets it.
+std::vector<float> smoothNormals(const MeshFile& mesh);
+
+/// Binary glTF 2.0 in one piece, with smooth normals.
+Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh);
+
+/// Binary little-endian PLY, with smooth normals; texture coordinates as s, t with t upwards.
+std::vector<std::byte> encodePly(const MeshFile& mesh);
+
+/// Wavefront OBJ with smooth normals, beside its material library and texture: "name.obj",
+/// "name.mtl", "name.png".
+Status writeObj(const std::string& path, const MeshFile& mesh);
+
+}  // namespace tetrakis::tools

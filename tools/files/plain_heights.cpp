@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights without a header. Raw: little-endian rows. SRTM (.hgt): a square of big-endian int16
+// metres over EGM96, north first, one degree from the first sample to the last, nodata -32768,
+// named after its south-western corner (USGS, SRTM Topography, 2015).
+#include "tools/files/plain_heights.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <regex>
+
+#include "tools/files/earth.hpp"
+#include "tools/files/file_bytes.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+constexpr double kHgtNodata = -32768;
+
+struct NamedSample {
+  const char* name;
+  tks_sample sample;
+};
+constexpr std::array<NamedSample, 7> kSampleNames{{{"u8", TKS_U8},
+                                                   {"i8", TKS_I8},
+                                                   {"u16", TKS_U16},
+                                                   {"i16", TKS_I16},
+                                                   {"u32", TKS_U32},
+                                                   {"i32", TKS_I32},
+                                                   {"f32", TKS_F32}}};
+
+/// Degrees north of the centre of a tile called like "N46W122.hgt"; nothing for other names.
+std::optional<double> hgtLatitude(const std::string& path) {
+  static const std::regex pattern("([NS])([0-9]{2})[EW][0-9]{3}.*", std::regex::icase);
+  std::smatch match;
+  const std::string name = std::filesystem::path(path).filename().string();
+  if (!std::regex_match(name, match, pattern)) return {};
+  const double south = std::stod(match[2]);
+  return (std::toupper(match.str(1)[0]) == 'S' ? -south : south) + 0.5;
+}
+
+}  // namespace
+
+std::optional<RawName> parseRawName(const std::string& text) {
+  // Seven digits: products of sizes stay far below 2^64.
+  static const std::regex pattern("(.+):([0-9]{1,7})x([0-9]{1,7}):([a-z0-9]+)");
+  std::smatch match;
+  if (!std::regex_match(text, match, pattern)) return {};
+  RawName name{match[1], static_cast<uint32_t>(std::stoul(match[2])),
+               static_cast<uint32_t>(std::stoul(match[3])), TKS_U8};
+  for (const NamedSample& known : kSampleNames) {
+    if (match[4] != known.name) continue;
+    name.sample = known.sample;
+    return name;
+  }
+  return {};
+}
+
+Result<HeightFile> readRaw(const RawName& name) {
+  if (Status status = checkSize(quoted(name.path), uint64_t{name.width} * name.height,
+                                tks_sample_bytes(name.sample));
+      !status.ok())
+    return status;
+  auto bytes = readBytes(name.path);
+  if (!bytes.ok()) return bytes.status();
+  const uint64_t wanted = uint64_t{name.width} * name.height * tks_sample_bytes(name.sample);
+  if (bytes->size() != wanted || wanted == 0) {
+    return Status(TKS_USAGE, quoted(name.path) + " holds " + std::to_string(bytes->size()) +
+                                 " bytes, " + std::to_string(name.width) + " x " +
+                                 std::to_string(name.height) + " samples of this type take " +
+                                 std::to_string(wanted));
+  }
+  HeightFile heights;
+  heights.width = name.width;
+  heights.height = name.height;
+  heights.sample = name.sample;
+  heights.data = std::move(*bytes);
+  reorderBytes(heights.data, tks_sample_bytes(name.sample), std::endian::little);
+  return heights;
+}
+
+Status writeRaw(const std::string& path, const HeightFile& heights) {
+  std::vector<std::byte> data = heights.data;
+  reorderBytes(data, tks_sample_bytes(heights.sample), std::endian::little);
+  return writeBytes(path, data);
+}
+
+Result<HeightFile> readHgt(const std::string& path) {
+  auto bytes = readBytes(path);
+  if (!bytes.ok()) return bytes.status();
+  const auto side = static_cast<uint32_t>(std::lround(std::sqrt(bytes->size() / sizeof(int16_t))));
+  if (side < 2 || uint64_t{side} * side * sizeof(int16_t) != bytes->size()) {
+    return Status(TKS_IO, quoted(path) + " holds " + std::to_string(bytes->size()) +
+                              " bytes, which is no square of 16-bit samples");
+  }
+  HeightFile heights;
+  heights.width = heights.height = side;
+  heights.sample = TKS_I16;
+  heights.data = std::move(*bytes);
+  reorderBytes(heights.data, sizeof(int16_t), std::endian::big);
+  heights.nodata = kHgtNodata;
+  heights.unit = "m";
+  heights.vertical_datum = "EGM96";
+  heights.crs = "EPSG:4326";
+  if (const auto latitude = hgtLatitude(path)) {
+    const MetresPerDegree metres = metresPerDegree(*latitude);
+    heights.spacing_x = metres.east / (side - 1);
+    heights.spacing_y = metres.north / (side - 1);
+  }
+  return heights;
+}
+
+Status writeHgt(const std::string& path, const HeightFile& heights) {
+  if (heights.sample != TKS_I16 || heights.width != heights.height) {
+    return {TKS_USAGE,
+            "an .hgt file holds a square of signed 16-bit samples: write a .tif instead"};
+  }
+  std::vector<std::byte> data = heights.data;
+  reorderBytes(data, sizeof(int16_t), std::endian::big);
+  return writeBytes(path, data);
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights without a header: SRTM tiles (.hgt) and raw samples.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/status.hpp"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+/// "file.raw:WIDTHxHEIGHT:type", taken apart.
+struct RawName {
+  std::string path;
+  uint32_t width = 0, height = 0;
+  tks_sample sample = TKS_U8;
+};
+
+/// Empty if the text does not end in ":WIDTHxHEIGHT:type".
+std::optional<RawName> parseRawName(const std::string& text);
+
+Result<HeightFile> readRaw(const RawName& name);
+Status writeRaw(const std::string& path, const HeightFile& heights);
+
+Result<HeightFile> readHgt(const std::string& path);
+Status writeHgt(const std::string& path, const HeightFile& heights);
+
+}  // namespace tetrakis::tools

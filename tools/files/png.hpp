@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG in memory by libspng. Not by OpenImageIO, whose PNG reader prints on standard error and hides
+// the stored bit depth.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+/// By the first half of the signature; decodePng checks the rest.
+bool isPng(std::span<const std::byte> bytes);
+
+struct DecodedPng {
+  ImageFile image;
+  int stored_bits = 0;   ///< 1, 2, 4, 8, 16; fewer than 8 were widened to full range
+  bool palette = false;  ///< expanded to RGB or RGBA
+  bool profile = false;  ///< an ICC profile, not applied
+  int orientation = 1;   ///< of the EXIF data, not applied
+};
+
+/// name: for the message.
+Result<DecodedPng> decodePng(std::span<const std::byte> bytes, const std::string& name);
+
+Result<std::vector<std::byte>> encodePng(const ImageFile& image);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Streams (.tks) as the verbs read them, and what they decode to as files hold it.
+#include "tools/files/stream.hpp"
+
+#include <utility>
+
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/memory_limit.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+Status checkWhole(std::span<const uint8_t> bytes) {
+  Expected<Decoder> decoder = openDecoder(bytes);
+  if (!decoder) return toStatus(decoder.error());
+  const Expected<void> verified = decoder->verify();
+  return verified ? Status() : toStatus(verified.error());
+}
+
+}  // namespace
+
+Status toStatus(const Error& error) {
+  return Status(error.code, error.message);
+}
+
+std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+}
+
+Expected<Decoder> openDecoder(std::span<const uint8_t> bytes) {
+  tks_limits limits = makeLimits();
+  limits.max_samples = limits.max_texels = kMaxSamples;
+  limits.max_memory = memoryLimit();
+  return Decoder::open(bytes, limits);
+}
+
+Result<OpenStream> openStream(const StreamSource& source) {
+  Result<std::vector<std::byte>> bytes = readBytes(source.path);
+  if (!bytes.ok()) return bytes.status();
+  if (source.strict)
+    if (Status status = checkWhole(octets(*bytes)); !status.ok()) return status;
+  if (source.bytes && *source.bytes < bytes->size()) bytes->resize(*source.bytes);
+  Expected<Decoder> decoder = openDecoder(octets(*bytes));
+  if (!decoder) return toStatus(decoder.error());
+  return OpenStream{std::move(*bytes), std::move(*decoder)};
+}
+
+uint64_t heightsBytes(const tks_info& info, const std::optional<tks_window>& window) {
+  const uint64_t samples =
+      window ? uint64_t{window->width} * window->height : uint64_t{info.width} * info.height;
+  return samples * tks_sample_bytes(info.sample);
+}
+
+uint64_t imageBytes(const tks_info& info, const std::optional<tks_window>& window) {
+  const uint64_t texels = window ? uint64_t{window->width} * window->height
+                                 : uint64_t{info.texture_width} * info.texture_height;
+  return texels * info.texture_channels * tks_sample_bytes(info.texture_sample);
+}
+
+Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_window>& window,
+                                 uint64_t copies) {
+  const tks_info& info = decoder.info();
+  if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
+  const Expected<uint64_t> fits = decoder.checkMemory(TKS_PART_HEIGHTS, window ? &*window : nullptr,
+                                                      0, heightsBytes(info, window) + copies);
+  if (!fits) return toStatus(fits.error());
+  Expected<std::vector<std::byte>> samples = window ? decoder.heights(*window) : decoder.heights();
+  if (!samples) return toStatus(samples.error());
+  HeightFile file;
+  file.width = window ? window->width : info.width;
+  file.height = window ? window->height : info.height;
+  file.sample = info.sample;
+  file.data = std::move(*samples);
+  file.scale = info.scale;
+  file.offset = info.offset;
+  file.spacing_x = info.spacing_x;
+  file.spacing_y = info.spacing_y;
+  file.unit = info.unit;
+  file.vertical_datum = info.vertical_datum;
+  file.crs = info.crs;
+  if (info.has_nodata) {
+    file.nodata = info.nodata;
+  } else if (info.has_voids) {
+    file.nodata = std::numeric_limits<double>::quiet_NaN();
+  }
+  return file;
+}
+
+Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>& window,
+                              uint64_t copies) {
+  const tks_info& info = decoder.info();
+  if (!info.has_texture) return Status(TKS_USAGE, "the stream has no texture");
+  const Expected<uint64_t> fits = decoder.checkMemory(TKS_PART_TEXTURE, window ? &*window : nullptr,
+                                                      0, imageBytes(info, window) + copies);
+  if (!fits) return toStatus(fits.error());
+  Expected<std::vector<std::byte>> texels = window ? decoder.texture(*window) : decoder.texture();
+  if (!texels) return toStatus(texels.error());
+  ImageFile file;
+  file.width = window ? window->width : info.texture_width;
+  file.height = window ? window->height : info.texture_height;
+  file.channels = info.texture_channels;
+  file.sample = info.texture_sample;
+  file.data = std::move(*texels);
+  return file;
+}
+
+}  // namespace tetrakis::tools

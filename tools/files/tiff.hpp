@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What OpenImageIO does not do with TIFF: GeoTIFF and GDAL tags (OGC GeoTIFF 1.1, 19-008r4; GDAL's
+// GTiff driver).
+#pragma once
+
+#include <tiffio.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/status.hpp"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+inline constexpr uint32_t kModelPixelScaleTag = 33550;
+inline constexpr uint32_t kModelTiepointTag = 33922;
+inline constexpr uint32_t kModelTransformationTag = 34264;
+inline constexpr uint32_t kGeoKeyDirectoryTag = 34735;
+inline constexpr uint32_t kGeoDoubleParamsTag = 34736;
+inline constexpr uint32_t kGeoAsciiParamsTag = 34737;
+inline constexpr uint32_t kGdalMetadataTag = 42112;
+inline constexpr uint32_t kGdalNodataTag = 42113;
+
+enum GeoKey : uint16_t {
+  kGtModelTypeGeoKey = 1024,
+  kGtRasterTypeGeoKey = 1025,
+  kGtCitationGeoKey = 1026,
+  kGeodeticCrsGeoKey = 2048,
+  kGeodeticCitationGeoKey = 2049,
+  kGeogAngularUnitsGeoKey = 2054,
+  kProjectedCrsGeoKey = 3072,
+  kProjectedCitationGeoKey = 3073,
+  kProjLinearUnitsGeoKey = 3076,
+  kProjLinearUnitSizeGeoKey = 3077,
+  kVerticalGeoKey = 4096,
+  kVerticalCitationGeoKey = 4097,
+  kVerticalUnitsGeoKey = 4099,
+};
+inline constexpr uint16_t kModelTypeProjected = 1, kModelTypeGeographic = 2;
+inline constexpr uint16_t kUserDefined = 32767;
+
+/// EPSG units of measure, our name for them, and their length.
+struct LengthUnit {
+  uint16_t code;
+  const char* name;
+  double metres;
+};
+inline constexpr std::array kLengthUnits{LengthUnit{9001, "m", 1.0}, LengthUnit{9002, "ft", 0.3048},
+                                         LengthUnit{9003, "us-ft", 1200.0 / 3937.0}};
+
+/// An open TIFF whose warnings are swallowed and whose last error is kept.
+class TiffFile {
+ public:
+  /// mode as TIFFOpen takes it: "r", "w", "w8" (BigTIFF).
+  static Result<TiffFile> open(const std::string& path, const char* mode);
+  TIFF* get() const { return tiff_.get(); }
+  Status failure() const;
+
+ private:
+  struct Close {
+    void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+  };
+  std::unique_ptr<std::string> error_;  // before tiff_: closing may still report
+  std::unique_ptr<TIFF, Close> tiff_;
+};
+
+/// What the first directory says of its samples.
+struct TiffForm {
+  int bits = 1;       ///< per sample, with TIFF's default where the tag is missing
+  bool whole = true;  ///< all strips or tiles lie inside the file
+  bool associated_alpha = false;
+  bool mask = false;           ///< there is a mask page for the first
+  bool further_pages = false;  ///< other than that, and smaller versions of the first (overviews)
+};
+Result<TiffForm> tiffForm(const std::string& path);
+
+/// Width and height of the current directory.
+std::pair<uint32_t, uint32_t> sizeOfPage(TIFF* tiff);
+
+/// Whether the current directory masks a page of this size.
+bool isMaskPage(TIFF* tiff, uint32_t width, uint32_t height);
+
+/// Fills scale, offset, spacing, nodata, unit, datum and CRS of heights whose size and sample type
+/// are known, as far as the tags tell; the nodata value as it is written, whatever the samples.
+/// Tags that make no sense count as missing.
+Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes);
+
+/// Deflated TIFF with the tags that readGeoTags reads. HeightFile knows no place on Earth, so a
+/// known spacing becomes a local grid in metres, without CRS.
+Status writeGeoTiff(const std::string& path, const HeightFile& heights);
+
+}  // namespace tetrakis::tools

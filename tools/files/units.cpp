@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lengths as people type them. Foot definitions: international yard and pound agreement of 1959.
+#include "tools/files/units.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace tetrakis::tools {
+namespace {
+
+struct NamedLength {
+  std::string_view name;
+  double metres;
+};
+
+constexpr NamedLength kLengths[] = {{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
+                                    {"km", 1000}, {"ft", 0.3048}, {"us-ft", 1200.0 / 3937}};
+
+struct OtherName {
+  std::string_view name, ours;
+};
+
+/// Lower case, words apart by blanks.
+constexpr OtherName kOtherNames[] = {{"metre", "m"},
+                                     {"meter", "m"},
+                                     {"metres", "m"},
+                                     {"meters", "m"},
+                                     {"centimetre", "cm"},
+                                     {"millimetre", "mm"},
+                                     {"kilometre", "km"},
+                                     {"foot", "ft"},
+                                     {"feet", "ft"},
+                                     {"international foot", "ft"},
+                                     {"international feet", "ft"},
+                                     {"us-ft", "us-ft"},
+                                     {"ftus", "us-ft"},
+                                     {"foot us", "us-ft"},
+                                     {"us survey foot", "us-ft"},
+                                     {"us survey feet", "us-ft"}};
+constexpr std::string_view kSuffixes[] = {"m", "cm", "mm", "km", "ft", "us-ft"};
+
+/// Reads a finite number and moves `text` behind it.
+std::optional<double> takeNumber(std::string_view& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  text.remove_prefix(static_cast<size_t>(end - text.data()));
+  return value;
+}
+
+bool isSuffix(std::string_view text) {
+  for (const std::string_view suffix : kSuffixes)
+    if (text == suffix) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string canonicalUnit(const std::string& unit) {
+  std::string plain = unit;
+  std::transform(plain.begin(), plain.end(), plain.begin(), [](unsigned char c) {
+    return c == '_' ? ' ' : static_cast<char>(std::tolower(c));
+  });
+  for (const OtherName& other : kOtherNames)
+    if (plain == other.name) return std::string(other.ours);
+  return unit;
+}
+
+std::optional<double> metresPerUnit(const std::string& unit) {
+  if (unit.empty()) return 1;
+  const std::string ours = canonicalUnit(unit);
+  for (const NamedLength& length : kLengths)
+    if (ours == length.name) return length.metres;
+  return std::nullopt;
+}
+
+std::string lengthName(double metres) {
+  constexpr double kRelative = 1e-9;  // feet and survey feet differ by 2e-6
+  for (const NamedLength& length : kLengths)
+    if (std::abs(metres - length.metres) <= kRelative * length.metres)
+      return std::string(length.name);
+  return "";
+}
+
+Result<double> parseLength(const std::string& text, const std::string& unit) {
+  std::string_view rest = text;
+  const std::optional<double> value = takeNumber(rest);
+  if (!value || *value < 0 || (!rest.empty() && !isSuffix(rest)))
+    return Status(TKS_USAGE, "'" + text + "' is not a length; write for example 0.5, 0.5m or 50cm");
+  if (rest.empty()) return *value;
+  const std::optional<double> metres = metresPerUnit(unit);
+  if (!metres)
+    return Status(TKS_USAGE, "'" + text + "' is a length, but the heights are in '" + unit +
+                                 "'; leave the suffix out");
+  return *value * *metresPerUnit(std::string(rest)) / *metres;
+}
+
+Result<uint64_t> parseSize(const std::string& text) {
+  const Status unknown(TKS_USAGE, "'" + text +
+                                      "' is not a number of bytes; write for example 65536, 64k, "
+                                      "1M or 2G");
+  uint64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error == std::errc::result_out_of_range)
+    return Status(TKS_USAGE, "'" + text + "' is more than 2^64 bytes");
+  if (error != std::errc()) return unknown;
+  std::string suffix(end, text.data() + text.size());
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::string_view kPowers = "kmg";
+  int bits = 0;
+  if (const size_t power = suffix.empty() ? kPowers.npos : kPowers.find(suffix[0]);
+      power != kPowers.npos) {
+    bits = 10 * static_cast<int>(power + 1);
+    suffix.erase(0, 1);
+    if (suffix == "ib") suffix.erase(0, 1);
+  }
+  if (!suffix.empty() && suffix != "b") return unknown;
+  if (count << bits >> bits != count)
+    return Status(TKS_USAGE, "'" + text + "' is more than 2^64 bytes");
+  return count << bits;
+}
+
+Result<std::array<double, 2>> parseSpacing(const std::string& text) {
+  std::string_view rest = text;
+  const std::optional<double> x = takeNumber(rest);
+  std::optional<double> y = x;
+  if (x && rest.starts_with(',')) {
+    rest.remove_prefix(1);
+    y = takeNumber(rest);
+  }
+  if (!x || !y || !rest.empty() || *x <= 0 || *y <= 0)
+    return Status(
+        TKS_USAGE,
+        "'" + text + "' is not a spacing; write metres per sample, for example 30 or 30,25");
+  return std::array<double, 2>{*x, *y};
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which samples of a height file are void: nodata values as GDAL compares them, masks, and values
+// that look like nodata although nothing says so.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+/// Whether GDAL takes a float for this nodata value: a text of few digits must meet it, so the
+/// last bits do not count (ARE_REAL_EQUAL() in gdal_priv.h). A NaN meets NaN.
+bool meetsNodata(double sample, double nodata);
+
+/// The nodata value as a sample of this type holds it; nothing if it is none of its values. What
+/// overflows a float by less than its last bits is its largest value.
+std::optional<double> asSample(double nodata, tks_sample sample);
+
+/// The nearest float; an infinity beyond the largest.
+float toFloat(double value);
+
+/// Gives floats that meet the nodata value that very value, since streams compare exactly.
+void matchNodata(HeightFile& heights);
+
+/// Where `mask` is 0 samples become void: the nodata value, or NaN, or (integers without one) a
+/// value that no other sample has, with a note. TKS_USAGE if there is none.
+Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& notes);
+
+/// A note if a few samples are so far from all others that they can only be undeclared voids.
+std::optional<Note> noteOnOutliers(const HeightFile& heights);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views of a terrain that need no file.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "tools/render/render.hpp"
+#include "tools/render/vec3.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180;
+constexpr double kOverviewAngle = 25;  // degrees: narrow, so that far ground is not much smaller
+
+struct HalfAngles {
+  double tan_x, tan_y;
+};
+
+HalfAngles halfAngles(const Camera& camera) {
+  const double tan_y = std::tan(camera.fov_y * kRadian / 2);
+  return {tan_y * camera.width / camera.height, tan_y};
+}
+
+Vec3 centreOf(const Bounds& bounds) {
+  return scale(add(bounds.low, bounds.high), 0.5);
+}
+
+std::array<Vec3, 8> cornersOf(const Bounds& bounds) {
+  std::array<Vec3, 8> corners;
+  for (size_t i = 0; i < 8; ++i)
+    for (size_t axis = 0; axis < 3; ++axis)
+      corners[i][axis] = (i >> axis & 1u) ? bounds.high[axis] : bounds.low[axis];
+  return corners;
+}
+
+/// Corners of a box as the points (u, f) = (sideways, forward) of one picture axis.
+class Extent {
+ public:
+  Extent(const std::array<Vec3, 8>& corners, const Vec3& axis, const Vec3& forward) {
+    for (size_t i = 0; i < corners.size(); ++i)
+      points_[i] = {dot(corners[i], axis), dot(corners[i], forward)};
+  }
+
+  /// A point is seen from (eu, ef) with half angle atan(t) when |u - eu| <= t (f - ef), that is
+  /// a <= eu - t ef and b <= -eu - t ef for the maxima a of u - t f and b of -u - t f. So the
+  /// foremost eye that sees all has ef = -(a + b) / 2t.
+  double foremost(double t) const {
+    double a = -HUGE_VAL, b = -HUGE_VAL;
+    for (const auto& [u, f] : points_) {
+      a = std::max(a, u - t * f);
+      b = std::max(b, -u - t * f);
+    }
+    return -(a + b) / (2 * t);
+  }
+
+  /// The eu from which, at ef, the picture leaves as much room on one side as on the other. Moving
+  /// the eye sideways moves all points the other way, so bisection finds it.
+  double centred(double ef) const {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const auto& [u, f] : points_) {
+      low = std::min(low, u);
+      high = std::max(high, u);
+    }
+    for (int i = 0; i < 60; ++i) {
+      const double eu = (low + high) / 2;
+      double above = -HUGE_VAL, below = -HUGE_VAL;
+      for (const auto& [u, f] : points_) {
+        above = std::max(above, (u - eu) / (f - ef));
+        below = std::max(below, (eu - u) / (f - ef));
+      }
+      (above > below ? low : high) = eu;
+    }
+    return (low + high) / 2;
+  }
+
+ private:
+  std::array<std::pair<double, double>, 8> points_;
+};
+
+/// Moves the camera, keeping its direction and its angle, to the nearest place that sees the whole
+/// box with a small margin, in the middle of the picture.
+void frame(Camera& camera, const Bounds& bounds) {
+  constexpr double kMargin = 0.97;  // share of the picture for the box
+  const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
+  const HalfAngles half = halfAngles(camera);
+  const Extent x(cornersOf(bounds), axes.right, axes.forward);
+  const Extent y(cornersOf(bounds), axes.up, axes.forward);
+  const double forward =
+      std::min(x.foremost(kMargin * half.tan_x), y.foremost(kMargin * half.tan_y));
+  camera.eye = add(add(scale(axes.right, x.centred(forward)), scale(axes.up, y.centred(forward))),
+                   scale(axes.forward, forward));
+  const double depth = dot(centreOf(bounds), axes.forward) - forward;
+  camera.target = add(camera.eye, scale(axes.forward, depth));
+}
+
+Camera obliqueView(const Bounds& bounds) {
+  constexpr double kElevation = 35 * kRadian;
+  Camera camera;
+  camera.name = "oblique";
+  camera.fov_y = kOverviewAngle;
+  camera.target = centreOf(bounds);
+  camera.eye = add(camera.target, Vec3{0, std::sin(kElevation), std::cos(kElevation)});
+  frame(camera, bounds);
+  return camera;
+}
+
+Camera topView(const Bounds& bounds) {
+  Camera camera;
+  camera.name = "top";
+  camera.fov_y = kOverviewAngle;
+  camera.up = {0, 0, -1};
+  camera.target = centreOf(bounds);
+  camera.eye = add(camera.target, Vec3{0, 1, 0});
+  frame(camera, bounds);
+  return camera;
+}
+
+/// Share of the ground, taken as flat at middle height, that the camera sees.
+double seenShare(const Camera& camera, const Bounds& bounds) {
+  constexpr int kSteps = 64;
+  const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
+  const HalfAngles half = halfAngles(camera);
+  const auto between = [&](size_t axis, int i) {
+    return bounds.low[axis] + (bounds.high[axis] - bounds.low[axis]) * (i + 0.5) / kSteps;
+  };
+  int seen = 0;
+  for (int j = 0; j < kSteps; ++j) {
+    for (int i = 0; i < kSteps; ++i) {
+      const Vec3 ground{between(0, i), centreOf(bounds)[1], between(2, j)};
+      const Vec3 ray = subtract(ground, camera.eye);
+      const double depth = dot(ray, axes.forward);
+      seen += std::abs(dot(ray, axes.right)) <= half.tan_x * depth &&
+              std::abs(dot(ray, axes.up)) <= half.tan_y * depth;
+    }
+  }
+  return static_cast<double>(seen) / (kSteps * kSteps);
+}
+
+/// Looks north from `distance` before the northern border, so that the border (at middle height)
+/// lies four fifths up the picture: below it ground, above it the horizon.
+Camera lowViewFrom(double distance, const Bounds& bounds) {
+  const Vec3 centre = centreOf(bounds);
+  const double extent = std::max(bounds.high[0] - bounds.low[0], bounds.high[2] - bounds.low[2]);
+  Camera camera;
+  camera.name = "low";
+  const double clearance = 0.01 * extent;
+  const double above_middle = bounds.high[1] - centre[1] + clearance;
+  const double border_angle = std::atan(above_middle / distance);
+  const double tan_half = halfAngles(camera).tan_y;
+  const double pitch = std::min(border_angle + std::atan(0.6 * tan_half), 80 * kRadian);
+  const double reach = above_middle / std::tan(pitch);
+  camera.eye = {centre[0], centre[1] + above_middle, bounds.low[2] + distance};
+  camera.target = {centre[0], centre[1], camera.eye[2] - reach};
+  return camera;
+}
+
+Camera lowView(const Bounds& bounds) {
+  constexpr double kShare = 0.1;
+  const double depth = bounds.high[2] - bounds.low[2];
+  double near = depth / 64, far = depth;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (near + far) / 2;
+    const bool enough = seenShare(lowViewFrom(middle, bounds), bounds) >= kShare;
+    (enough ? far : near) = middle;
+  }
+  return lowViewFrom(far, bounds);
+}
+
+/// A terrain without extent would leave the camera nowhere to stand.
+Bounds withExtent(Bounds bounds) {
+  for (const size_t axis : {0u, 2u}) {
+    if (bounds.high[axis] > bounds.low[axis]) continue;
+    bounds.low[axis] -= 0.5;
+    bounds.high[axis] += 0.5;
+  }
+  return bounds;
+}
+
+}  // namespace
+
+Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& given) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(given.low[axis]) || !std::isfinite(given.high[axis]))
+      return Status(TKS_USAGE, "the terrain has no finite bounds to place a camera by");
+  const Bounds bounds = withExtent(given);
+  if (view == "oblique") return std::vector{obliqueView(bounds)};
+  if (view == "low") return std::vector{lowView(bounds)};
+  if (view == "top") return std::vector{topView(bounds)};
+  if (view == "all") return std::vector{obliqueView(bounds), lowView(bounds), topView(bounds)};
+  return Status(TKS_USAGE, "no view is called '" + view + "': use oblique, low, top or all");
+}
+
+double parallaxOf(const std::vector<Camera>& cameras) {
+  constexpr double kMost = 20;
+  double sum = 0;
+  for (const Camera& camera : cameras) {
+    const Vec3 ray = subtract(camera.target, camera.eye);
+    const double along = std::sqrt(ray[0] * ray[0] + ray[2] * ray[2]), down = std::abs(ray[1]);
+    sum += along < kMost * down ? along / down : kMost;
+  }
+  return cameras.empty() ? 0 : sum / static_cast<double>(cameras.size());
+}
+
+}  // namespace tetrakis::tools

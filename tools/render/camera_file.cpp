@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras from JSON.
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tools/render/render.hpp"
+#include "tools/render/vec3.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr uint32_t kLargestSide = 8192;
+
+/// Reads fields of one camera; the first that is wrong stays in `problem`.
+class FieldReader {
+ public:
+  explicit FieldReader(const Json& object) : object_(object) {}
+
+  void vector(const char* key, Vec3& out, bool required) {
+    const Json* value = find(key, required);
+    if (!value) return;
+    if (!value->is_array() || value->size() != 3) return complain(key, "must be three numbers");
+    for (size_t i = 0; i < 3; ++i) {
+      if (!(*value)[i].is_number()) return complain(key, "must be three numbers");
+      out[i] = (*value)[i].get<double>();
+      if (!std::isfinite(out[i])) return complain(key, "must be finite");
+    }
+  }
+
+  void angle(const char* key, double& out) {
+    const Json* value = find(key, false);
+    if (!value) return;
+    if (!value->is_number()) return complain(key, "must be a number of degrees");
+    out = value->get<double>();
+    if (!(out > 0 && out < 180)) complain(key, "must lie between 0 and 180 degrees");
+  }
+
+  void side(const char* key, uint32_t& out) {
+    const Json* value = find(key, false);
+    if (!value) return;
+    const bool fits = value->is_number_unsigned() && value->get<uint64_t>() >= 1 &&
+                      value->get<uint64_t>() <= kLargestSide;
+    if (!fits) return complain(key, "must be a whole number from 1 to 8192");
+    out = value->get<uint32_t>();
+  }
+
+  void text(const char* key, std::string& out) {
+    const Json* value = find(key, false);
+    if (!value) return;
+    if (!value->is_string()) return complain(key, "must be a string");
+    out = value->get<std::string>();
+  }
+
+  void complain(const char* key, const char* what) {
+    if (problem_.empty()) problem_ = std::string("\"") + key + "\" " + what;
+  }
+  const std::string& problem() const { return problem_; }
+
+ private:
+  const Json* find(const char* key, bool required) {
+    const auto at = object_.find(key);
+    if (at != object_.end()) return &*at;
+    if (required) complain(key, "is missing");
+    return nullptr;
+  }
+
+  const Json& object_;
+  std::string problem_;
+};
+
+Result<Camera> readCamera(const Json& object, size_t index) {
+  const std::string who = "camera " + std::to_string(index + 1);
+  if (!object.is_object()) return Status(TKS_USAGE, who + " must be an object");
+  Camera camera;
+  camera.name = who;
+  FieldReader reader(object);
+  reader.text("name", camera.name);
+  reader.vector("eye", camera.eye, true);
+  reader.vector("target", camera.target, true);
+  reader.vector("up", camera.up, false);
+  reader.angle("fov_y", camera.fov_y);
+  reader.side("width", camera.width);
+  reader.side("height", camera.height);
+  const Vec3 direction = normalized(subtract(camera.target, camera.eye));
+  if (length(direction) == 0) reader.complain("target", "must differ from \"eye\"");
+  if (!(length(cross(direction, normalized(camera.up))) > 1e-9))
+    reader.complain("up", "must not be parallel to the line of sight");
+  if (!reader.problem().empty()) return Status(TKS_USAGE, who + ": " + reader.problem());
+  return camera;
+}
+
+Result<Json> readJson(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return Status(TKS_IO, "cannot read the cameras '" + path + "'");
+  try {
+    return Json::parse(file);
+  } catch (const Json::exception& error) {
+    return Status(TKS_USAGE, "'" + path + "' is not JSON: " + error.what());
+  } catch (const std::ios_base::failure&) {
+    return Status(TKS_IO, "cannot read the cameras '" + path + "'");
+  }
+}
+
+}  // namespace
+
+Result<std::vector<Camera>> readCameras(const std::string& path) {
+  const Result<Json> json = readJson(path);
+  if (!json.ok()) return json.status();
+  const bool listed =
+      json->is_object() && json->contains("cameras") && json->at("cameras").is_array();
+  if (!listed || json->at("cameras").empty())
+    return Status(TKS_USAGE, "'" + path + "' must be an object with a list \"cameras\"");
+  std::vector<Camera> cameras;
+  for (const Json& object : json->at("cameras")) {
+    Result<Camera> camera = readCamera(object, cameras.size());
+    if (!camera.ok())
+      return Status(camera.status().code(), "'" + path + "', " + camera.status().message());
+    cameras.push_back(std::move(*camera));
+  }
+  return cameras;
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The measurements behind the report: one stream, cut at halves of halves.
+#include "tools/report/report.hpp"
+
+#include <utility>
+
+namespace tetrakis::tools {
+namespace {
+
+constexpr uint32_t kLargestDivisor = 16;
+
+}  // namespace
+
+Result<Report> makeReport(const Reference& reference, const ReportRequest& request) {
+  Expected<Decoder> decoder = Decoder::open(request.stream);
+  if (!decoder) return Status(decoder.error().code, decoder.error().message);
+  const tks_info& info = decoder->info();
+  Result<Comparer> comparer = Comparer::create(reference, info);
+  if (!comparer.ok()) return comparer.status();
+  if (Status status = comparer->look(request.cameras); !status.ok()) return status;
+  Report report{request.title, comparer->cameras(), comparer->referencePictures(), {}};
+  for (uint32_t divisor = 1; divisor <= kLargestDivisor; divisor *= 2) {
+    const size_t bytes = request.stream.size() / divisor;
+    if (bytes < info.header_bytes) break;
+    Result<Measurement> measurement =
+        comparer->measure(request.stream.first(bytes), request.triangles);
+    if (!measurement.ok()) return measurement.status();
+    report.rows.push_back({divisor, std::move(*measurement)});
+  }
+  return report;
+}
+
+}  // namespace tetrakis::tools

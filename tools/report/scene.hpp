@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// From samples and 4-8 meshes to scenes: surfaces, ground frames, meshes placed in metres.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tetrakis/tetrakis.hpp"
+#include "tools/files/files.hpp"
+#include "tools/render/render.hpp"
+
+namespace tetrakis::tools {
+
+/// width * height values, row by row.
+struct Surface {
+  uint32_t width = 0, height = 0;
+  std::vector<double> values;
+};
+
+/// How the sample grid lies in space: column c, row r, height h (in the unit of the stream) stand
+/// at
+/// ((c - (width - 1) / 2) * spacing_x, h * metres_per_unit, (r - (height - 1) / 2) * spacing_y).
+struct GroundFrame {
+  uint32_t width = 0, height = 0;
+  double spacing_x = 1, spacing_y = 1;  ///< metres
+  double metres_per_unit = 1;
+};
+
+/// Metres per sample where a file does not say: that of the global one-arc-second models.
+inline constexpr double kDefaultSpacing = 30;
+
+/// The frame of a height field. Spacing 0 (unknown) becomes kDefaultSpacing, a unit that is no
+/// length counts as metres.
+GroundFrame frameOf(const HeightFile& heights);
+GroundFrame frameOf(const tks_info& info);
+
+/// The frame of a texture without heights: a flat rectangle of one metre a texel, 2 x 2 samples.
+GroundFrame frameOf(const ImageFile& image);
+
+/// `width` x `height` samples of any type as doubles, exactly.
+Surface samplesOf(uint32_t width, uint32_t height, tks_sample sample,
+                  std::span<const std::byte> data);
+
+/// Heights in `unit`: sample * scale + offset; NaN where the sample is NaN or the file's nodata.
+Surface heightsOf(const HeightFile& file);
+
+/// The mesh's linear interpolant at every sample of the grid that it covers; barycentric weights
+/// are exact integers. NaN where no triangle is: meshes cover the grid but for voids and their
+/// coasts.
+Surface rasterize(const Mesh& mesh, uint32_t width, uint32_t height);
+
+/// Every sample a vertex, every cell two triangles with the diagonals of the tetrakis tiling, but
+/// for triangles that touch a void (NaN).
+MeshFile fullGrid(const Surface& heights, const GroundFrame& frame);
+
+/// A decoded mesh in space, texture coordinates (column / (width - 1), row / (height - 1)).
+MeshFile placeMesh(const Mesh& mesh, const GroundFrame& frame);
+
+/// Bounds of the placed surface, voids left out.
+Bounds boundsOf(const Surface& heights, const GroundFrame& frame);
+
+/// The cameras of --cameras FILE or --view NAME; both empty: the oblique view.
+struct CameraChoice {
+  std::string file;
+  std::string view;
+  bool isDefault() const { return file.empty() && view.empty(); }
+};
+Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sample terrain, put together.
+#include "tools/synth/synth.hpp"
+
+#include <cassert>
+#include <cstring>
+
+#include "tools/synth/synth_kinds.hpp"
+#include "tools/synth/synth_map.hpp"
+#include "tools/synth/synth_texture.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+constexpr float kNoData = -9999;
+
+template <class T>
+void put(const T& value, std::byte*& out) {
+  std::memcpy(out, &value, sizeof value);
+  out += sizeof value;
+}
+
+HeightFile heightsOf(const synth::Relief& relief, const synth::Storage& storage, uint32_t size) {
+  const bool whole = storage.sample == TKS_U16, holes = storage.voids.size() > 0;
+  HeightFile file{.width = size,
+                  .height = size,
+                  .sample = storage.sample,
+                  .data = {},
+                  .scale = storage.step,
+                  .spacing_x = relief.spacing,
+                  .spacing_y = relief.spacing,
+                  .nodata = std::nullopt,
+                  .unit = "m",
+                  .vertical_datum = "unknown",
+                  .crs = ""};
+  if (holes) file.nodata = kNoData;
+  file.data.resize((whole ? sizeof(uint16_t) : sizeof(float)) * size * size);
+  std::byte* out = file.data.data();
+  for (uint32_t y = relief.margin; y < size + relief.margin; ++y) {
+    for (uint32_t x = relief.margin; x < size + relief.margin; ++x) {
+      const double units = relief.height.at(x, y) / storage.step;
+      if (whole) {
+        put(static_cast<uint16_t>(std::floor(units + 0.5)), out);
+      } else {
+        put(holes && storage.voids.at(x, y) ? kNoData : static_cast<float>(units), out);
+      }
+    }
+  }
+  return file;
+}
+
+}  // namespace
+
+SynthTerrain synthesize(const SynthOptions& options) {
+  assert(options.size >= 2);
+  const uint32_t size = options.size;
+  synth::Relief relief = synth::makeRelief(size, options.seed);
+  const synth::Storage storage = synth::reshape(relief, options.kind, size, options.seed);
+  const synth::Rivers rivers(relief, 2 * (size - 1));
+  return {heightsOf(relief, storage, size), synth::photograph(relief, rivers, size, options.seed),
+          synth::drawMap(relief, rivers, size)};
+}
+
+}  // namespace tetrakis::tools
