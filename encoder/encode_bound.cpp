@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights within a largest error. Two ways, and the one of fewer bytes is kept:
+// Heights within a largest error e, in steps. Two ways, and the one of fewer bytes is kept:
 //
 //   round     heights become multiples of 2 e + 1 steps (floats of twice the bound) and are coded
-//   to the last bit. Best where
-//             the error wanted is near the noise of the heights.
+//             to the last bit. Best where the error wanted is near the noise of the heights.
 //   correct   the coefficients are cut, and what then is off by more than e gets a correction in
 //             multiples of 2 e + 1. Best above: at 5 m on mountains half the bytes of rounding.
 //

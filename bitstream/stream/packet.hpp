@@ -4,8 +4,9 @@
 //
 //   head     varint   length << 2 | whole << 1 | component     length >= 1
 //   region   varint   number of the track, if the component is coded in regions
-//   quality  u8       error of the component after the packet: RMSE = 2^((quality - 64) / 8), 0
-//   exact payload  length bytes
+//   quality  u8       error of the component after the packet: RMSE = 2^((quality - 64) / 8);
+//                     0: exact
+//   payload  length bytes
 //
 // A packet that is cut keeps what its bytes decide, unless `whole` is set: then it counts only when
 // complete (the encoder sets it where a part of the packet could look worse than none).

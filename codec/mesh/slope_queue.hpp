@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertices by slope: a lazy queue whose entries are lower bounds of the slopes that vertices have
-// now.
+// Vertices by slope: a lazy queue. An entry is a lower bound of the slope that its vertex has now.
 //
 // Slopes at the front hardly ever fall, so most entries need no order yet:
-//   later   vertices alone, by the upper bits of their slope as a float: 128 buckets, of few
-//   vertices
-//           fewer, for each of the greatest 56 powers of two, each a list of chunks of one cache
-//           line;
+//   later   vertices alone, by the upper bits of their slope as a float: 128 buckets (fewer where
+//           there are few vertices) for each of the greatest 56 powers of two, each a list of
+//           chunks of one cache line;
 //   open    the candidates of the buckets up to the current one: those that were there when it was
 //           opened, sorted, and a heap of those that came since.
 // A bucket is opened by handing its vertices back to the caller, who pushes those that are still

@@ -20,9 +20,10 @@ struct Surface {
   std::vector<double> values;
 };
 
-/// How the sample grid lies in space: column c, row r, height h (in the unit of the stream) stand
-/// at
-/// ((c - (width - 1) / 2) * spacing_x, h * metres_per_unit, (r - (height - 1) / 2) * spacing_y).
+/// How the sample grid lies in space. Column c, row r and height h, in the unit of the stream, are
+/// at ((c - (width - 1) / 2) * spacing_x,
+///     h * metres_per_unit,
+///     (r - (height - 1) / 2) * spacing_y).
 struct GroundFrame {
   uint32_t width = 0, height = 0;
   double spacing_x = 1, spacing_y = 1;  ///< metres
