@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The joint order of the packets: what every byte of either track is worth to a viewer.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 
@@ -93,6 +94,7 @@ double EncodeJob::samplesOf(TrackId component) const {
 /// What the first bytes of a component's packets hold.
 Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
   Codewords all = codewordsOf(tracksOf(component));
+  assert(bytes <= bytesOf(tracksOf(component)));
   if (all.size() == 1) return {all.front().first(bytes)};
   if (bytes >= bytesOf(tracksOf(component))) return all;
   Codewords cut(all.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The finished stream: header, index and the packets that fit.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "encoder/encode_job.hpp"
@@ -101,6 +102,7 @@ Result<std::vector<uint8_t>> EncodeJob::assemble() const {
     room = options_.bytes - header_bytes;
   }
   const uint64_t payload_bytes = std::min(room, totalPayload());
+  assert(!lossless || payload_bytes == totalPayload());
   std::vector<uint8_t> stream = writeHeader(makeHeader(payload_bytes, lossless));
   const std::vector<uint8_t> payload = multiplex(packets_, codewords, payload_bytes);
   stream.insert(stream.end(), payload.begin(), payload.end());

@@ -2,6 +2,7 @@
 // Quality targets of an encoding: how many bytes of each track --psnr needs, found by decoding
 // what would be sent, and what texture goes with heights of --max-error.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "base/samples.hpp"
@@ -184,6 +185,7 @@ void EncodeJob::keepNeeded(const Needs& needs) {
   Needs left = needs;
   std::vector<Packet> kept;
   for (Packet packet : packets_) {
+    assert(packet.begin < packet.end);
     const auto component = static_cast<size_t>(packet.track);
     const uint64_t taken = std::min(left[component], packet.end - packet.begin);
     left[component] -= taken;

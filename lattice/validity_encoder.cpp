@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lattice/validity_encoder.hpp"
 
+#include <cassert>
+
 #include "bitstream/coder/range_encoder.hpp"
 #include "lattice/validity_pass.hpp"
 
@@ -12,6 +14,7 @@ class EncodingIo {
  public:
   explicit EncodingIo(std::span<const uint8_t> valid) : valid_(valid) {}
   bool bit(AdaptiveBit& model, size_t sample) {
+    assert(valid_[sample] <= 1);
     encoder_.encode(model, valid_[sample] != 0);
     return valid_[sample] != 0;
   }
@@ -27,6 +30,7 @@ class EncodingIo {
 
 std::vector<uint8_t> encodeValidity(std::span<const uint8_t> valid, uint32_t width,
                                     uint32_t height) {
+  assert(valid.size() == size_t{width} * height);
   std::vector<uint8_t> known(valid.size());
   EncodingIo io(valid);
   ValidityPass<EncodingIo>(known, width, height, io).run();

@@ -2,6 +2,7 @@
 #include "ratecontrol/allocation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace tetrakis {
@@ -24,6 +25,7 @@ std::vector<Priced> price(const TrackCurve& curve) {
       sent += next->end - next->begin;
       packets.push_back(*next);
     }
+    assert(a.bytes < b.bytes && sent == b.bytes);
     out.push_back({(a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes),
                    std::move(packets)});
   }
@@ -58,6 +60,7 @@ std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
                             joined.back().region == packet.region;
     if (same_track && !joined.back().whole && !packet.whole &&
         before[component] - packet.quality <= kQualitySteps) {
+      assert(joined.back().end == packet.begin);
       joined.back().end = packet.end;
       joined.back().quality = packet.quality;
     } else {

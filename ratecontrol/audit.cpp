@@ -2,6 +2,7 @@
 #include "ratecontrol/audit.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -57,6 +58,7 @@ std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScop
   records.add({0, measure(0)});
   for (size_t i = 1; i < track.points.size() && !records.exact(); ++i) {
     const RatePoint &a = track.points[i - 1], &b = track.points[i];
+    assert(a.bytes < b.bytes);
     const uint64_t parts = b.bytes > reach ? 1 : measurementsBetween(a, b, scope);
     for (uint64_t k = 1; k <= parts && !records.exact(); ++k) {
       const uint64_t bytes = a.bytes + (b.bytes - a.bytes) * k / parts;

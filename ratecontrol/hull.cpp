@@ -2,6 +2,7 @@
 #include "ratecontrol/hull.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tetrakis {
 
@@ -22,6 +23,7 @@ uint64_t leastPart(uint64_t begin) {
 }  // namespace
 
 std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growth) {
+  assert(!points.empty());
   std::vector<RatePoint> hull;  // monotone chain (A. M. Andrew 1979)
   for (const RatePoint& point : points) {
     while (hull.size() >= 2 && above(hull[hull.size() - 2], hull.back(), point)) hull.pop_back();
@@ -37,11 +39,13 @@ std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growt
     }
     sparse.push_back(hull[i]);
   }
+  assert(sparse.back().bytes == points.back().bytes);
   return sparse;
 }
 
 std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RatePoint& from,
                                   const RatePoint& to) {
+  assert(from.bytes < to.bytes);
   std::vector<RatePoint> ends;
   RatePoint before = from, last = from;  // the point before, the end of the packet before
   const auto end = [&](const RatePoint& point, bool dips) {
@@ -66,6 +70,7 @@ std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RateP
   const bool joined = !ends.empty() && is_short(to);
   if (joined) ends.pop_back();
   end(to, joined);
+  assert(ends.back().bytes == to.bytes);
   return ends;
 }
 

@@ -2,6 +2,7 @@
 #include "ratecontrol/track_order.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "ratecontrol/hull.hpp"
 
@@ -22,6 +23,7 @@ struct Piece {
 };
 
 Piece pieceBetween(const RatePoint& a, const RatePoint& b, TrackId component, size_t track) {
+  assert(a.bytes < b.bytes);
   const double removed = a.distortion - b.distortion;
   return {removed / static_cast<double>(b.bytes - a.bytes),
           {component, b.dips, 0, a.bytes, b.bytes, static_cast<uint32_t>(track)},

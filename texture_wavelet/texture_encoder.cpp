@@ -2,6 +2,7 @@
 #include "texture_wavelet/texture_encoder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -138,6 +139,7 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
   const TexturePlan plan(header);
   const PlaneLayout& layout = plan.layout();
   const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
+  assert(planes.size() == header.components());
   std::vector<TrackSource> sources(plan.regions().size());
   for (size_t i = 0; i < sources.size(); ++i)
     sources[i].plan = plan.bands(plan.parts(i), coded, header.width);

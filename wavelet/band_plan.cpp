@@ -2,6 +2,7 @@
 #include "wavelet/band_plan.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "bitstream/track/reconstruction.hpp"
@@ -80,6 +81,7 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
 void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Validity valid,
                 uint32_t width, std::span<BandPlan> bands) {
   if (valid.empty()) return;
+  assert(bands.size() == parts.size());
   for (size_t i = 0; i < bands.size(); ++i) {
     const BandPart& part = parts[i];
     const Subband& subband = layout.subbands()[part.subband];
@@ -99,6 +101,7 @@ void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Vali
 
 std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband,
                             const BandPart& part) {
+  assert(plane.size() % width == 0);
   const BandShape shape = part.shape();
   std::vector<int32_t> values(shape.cells(), 0);
   for (uint32_t row = 0; row < part.rows; ++row) {

@@ -2,11 +2,13 @@
 #include "wavelet/mip_level.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tetrakis {
 
 MipLevel::MipLevel(uint32_t width, uint32_t height, int level) : level_(level) {
   const std::vector<Extent> extents = lowExtents(width, height);
+  assert(level >= 0 && static_cast<size_t>(level) < extents.size());
   low_ = extents[static_cast<size_t>(level)];
   for (size_t l = 1; l <= static_cast<size_t>(level); ++l) {
     splits_x_ += extents[l].width < extents[l - 1].width;
@@ -34,6 +36,7 @@ std::vector<uint8_t> MipLevel::maskOf(Validity valid, uint32_t width) const {
   std::vector<uint8_t> mask;
   if (splits_x_ == 0 && splits_y_ == 0) return {valid.begin(), valid.end()};
   if (valid.empty()) return mask;
+  assert(valid.size() % width == 0);
   mask.reserve(size_t{low_.width} * low_.height);
   for (uint32_t y = 0; y < low_.height; ++y) {
     const uint8_t* row = valid.data() + (size_t{y} << splits_y_) * width;

@@ -2,6 +2,7 @@
 #include "wavelet/window.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "bitstream/track/reconstruction.hpp"
 
@@ -38,6 +39,8 @@ WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, std::span<const Subban
       window_(window),
       ll_x_{window.x, window.x + window.width},
       ll_y_{window.y, window.y + window.height} {
+  assert(window.width > 0 && window.height > 0);
+  assert(ll_x_.end <= width && ll_y_.end <= height);
   const std::vector<Extent> extents = lowExtents(width, height);
   int splits_x = 0, splits_y = 0;
   for (size_t l = 1; l < extents.size(); ++l) {

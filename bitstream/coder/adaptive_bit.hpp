@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -36,6 +37,7 @@ class AdaptiveBit {
   bool experienced() const { return seen_ >= 2; }
 
   void update(bool bit) {
+    assert(seen_ < kDecisionShare.size());
     const int32_t target = bit ? 0 : 0xffff;
     zero_ = static_cast<uint16_t>(zero_ + (((target - zero_) * kDecisionShare[seen_]) >> 15));
     seen_ = static_cast<uint16_t>(seen_ + (seen_ < kLimit));

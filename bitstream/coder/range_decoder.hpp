@@ -3,6 +3,7 @@
 // decision counts only if reading the missing tail as all zeros and as all ones agrees on it.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,6 +33,7 @@ class RangeDecoder {
   /// More bytes of the codeword have come: `bytes` is a longer view of the same memory. As if they
   /// had been there from the start; not after exhausted().
   void grow(std::span<const uint8_t> bytes) {
+    assert(!exhausted_ && next_ <= bytes.data() + bytes.size());
     end_ = bytes.data() + bytes.size();
     for (; missing_ > 0 && next_ != end_; --missing_) {
       const uint32_t shift = 8 * (missing_ - 1);
@@ -55,6 +57,8 @@ class RangeDecoder {
 
  private:
   bool split(uint32_t zero) {
+    assert(zero > 0 && zero < 1u << AdaptiveBit::kPrecision);
+    assert(range_ >= kRenormalise);
     const uint32_t bound =
         static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
     const bool bit = code_ >= bound;
@@ -134,6 +138,7 @@ class RangeDecoder::Plenty {
     const uint32_t bound = boundOf(model);
     const bool bit = code_ >= bound;
     const uint32_t mask = 0u - uint32_t{bit};
+    assert(bound > 0 && bound < range_);
     code_ -= bound & mask;
     range_ = bound + ((range_ - 2 * bound) & mask);
     renormalise();

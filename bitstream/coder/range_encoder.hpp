@@ -3,6 +3,7 @@
 // holds a whole track; packets are cut out of it at any byte.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,8 @@ class RangeEncoder {
 
  private:
   void split(uint32_t zero, bool bit) {
+    assert(zero > 0 && zero < 1u << AdaptiveBit::kPrecision);
+    assert(range_ >= kRenormalise);
     const uint32_t bound =
         static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
     if (bit) {
@@ -38,6 +41,7 @@ class RangeEncoder {
     } else {
       range_ = bound;
     }
+    assert(range_ > 0);
     while (range_ < kRenormalise) {
       range_ <<= 8;
       shiftLow();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
 
@@ -208,6 +209,7 @@ uint8_t levelFor(const StreamHeader& header) {
 }
 
 std::vector<uint8_t> writeHeader(const StreamHeader& header) {
+  assert(header.geometry || header.texture);
   StreamHeader copy = header;
   copy.level = levelFor(header);
   FieldWriter body;

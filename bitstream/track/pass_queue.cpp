@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 
 namespace tetrakis {
 
@@ -51,7 +52,9 @@ PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes) : progress_(
 }
 
 void PassQueue::push(uint16_t band, int plane, PassKind kind, uint32_t significant) {
+  assert(plane >= 0 && plane < 30);
   Progress& progress = progress_[band];
+  assert(significant <= progress.coefficients);
   const uint32_t rarity = progress.coefficients / std::max(significant, 1u);
   const auto density = std::min(static_cast<size_t>(std::bit_width(rarity)), kDensities - 1);
   const int key = 16 * plane + progress.log_norm - delayOf(kind, density);
@@ -61,6 +64,7 @@ void PassQueue::push(uint16_t band, int plane, PassKind kind, uint32_t significa
 }
 
 void PassQueue::pop(const Band& band) {
+  assert(!pending_.empty() && progress_[pending_.front().band].open > 0);
   std::pop_heap(pending_.begin(), pending_.end(), isLater);
   const Pass done = pending_.back();
   pending_.pop_back();
@@ -71,6 +75,7 @@ void PassQueue::pop(const Band& band) {
   } else if (done.plane > 0) {
     push(done.band, done.plane - 1, PassKind::kLikely, band.significant_count);
   } else {
+    assert(needed_ >= progress_[done.band].needed);
     needed_ -= progress_[done.band].needed;
   }
 }

@@ -2,6 +2,7 @@
 #include "bitstream/track/regions.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tetrakis {
 
@@ -35,6 +36,7 @@ std::vector<Grid> gridsOf(uint32_t width, uint32_t height, int side_log2) {
   std::vector<Grid> grids;
   if (side_log2 == 0) return grids;
   for (int log2 = side_log2;; log2 += kRegionLevels) {
+    assert(log2 <= kMostRegionLog2 + 32);  // sides are 32-bit numbers: larger grids are single
     const Grid grid(width, height, log2);
     if (grid.single()) return grids;
     grids.push_back(grid);
@@ -60,6 +62,7 @@ std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2) {
     }
     level -= kRegionLevels;
   }
+  assert(regions.size() == regionCount(width, height, side_log2));
   return regions;
 }
 

@@ -2,6 +2,7 @@
 #include "bitstream/track/track.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tetrakis {
 
@@ -17,6 +18,7 @@ bool BandPlan::vacant() const {
 
 TrackState::TrackState(const std::vector<BandPlan>& plan, int planes) {
   uint32_t classes = 0;
+  assert(planes >= 0 && planes <= 30);
   bands.reserve(plan.size());
   for (const BandPlan& band : plan) {
     bands.emplace_back(band.shape, band.orientation, band.absent).plane = planes;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdlib>
 #include <limits>
 #include <optional>
@@ -140,6 +141,7 @@ double energyOf(const TrackSource& track) {
 /// Drops what is no improvement: a later point with no more bytes or no less distortion wins or
 /// loses.
 void append(std::vector<RatePoint>& points, RatePoint point) {
+  assert(!points.empty() && point.bytes + 4 >= points.back().bytes);
   if (point.distortion >= points.back().distortion) {
     points.back().dips |= point.dips;
     return;
@@ -155,6 +157,7 @@ void append(std::vector<RatePoint>& points, RatePoint point) {
 class TrackCoder {
  public:
   explicit TrackCoder(const TrackSource& source) : source_(source) {
+    assert(source.plan.size() == source.bands.size());
     occupancy_.reserve(source.plan.size());
     for (size_t i = 0; i < source.plan.size(); ++i)
       occupancy_.emplace_back(source.plan[i].shape, source.bands[i].values);
@@ -204,6 +207,8 @@ class TrackCoder {
     while (track_.points.size() > 1 && track_.points.back().bytes >= last.bytes)
       track_.points.pop_back();
     if (last.bytes > 0) track_.points.push_back(last);
+    assert(track_.points.front().bytes == 0 &&
+           track_.points.back().bytes == track_.codeword.size());
     return std::move(track_);
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/corrections_encoder.hpp"
 
+#include <cassert>
+
 #include "bitstream/coder/range_encoder.hpp"
 
 namespace tetrakis {
@@ -47,6 +49,8 @@ class EncodingIo {
 
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
                                        const CorrectionGrid& grid) {
+  assert(corrections.size() == size_t{grid.width} * grid.height);
+  assert(grid.hints.size() == corrections.size());
   std::vector<int32_t> known(corrections.size(), 0);
   EncodingIo io(corrections);
   CorrectionPass<EncodingIo>(grid, io).run(known);

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -104,6 +105,7 @@ class CorrectionPass {
     const int classes = before.classes(), signs = before.signs();
     const auto pattern = static_cast<size_t>(std::abs(signs));
     const size_t hint = grid_.hints[sample];
+    assert(hint < CorrectionGrid::kHints && pattern < kSigns && classes < kNeighbour);
     Unary& more = more_[hint * kNeighbour + static_cast<size_t>(classes)];
     AdaptiveBit& any =
         classes < kQuiet ? any_[hint * kQuiet + static_cast<size_t>(classes)][pattern] : more[0];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <utility>
 
 #include "wavelet/band_plan.hpp"
@@ -78,6 +79,8 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   const PlaneLayout layout(spec, header.width, header.height);
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
+  assert(codewords.size() == regions.size());
+  assert(valid.empty() || valid.size() == size_t{header.width} * header.height);
   const MipLevel mip(header.width, header.height, level);
   const auto [width, height] = mip.low();
   const uint32_t low_width = width;
@@ -101,6 +104,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
         quiet[i] = quietLevels(state, subbands, parts);
       },
       memory);
+  assert(!quiet.empty());
   out.quiet_levels = *std::min_element(quiet.begin(), quiet.end());
   out.valid = level == 0 ? std::move(valid) : mip.maskOf(valid, header.width);
   inverseWavelet(mip.transform(spec), out.heights, width, height, out.valid, threads);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/geometry_encoder.hpp"
 
+#include <cassert>
 #include <cmath>
 
 #include "base/parallel.hpp"
@@ -13,6 +14,8 @@ std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint3
                                          uint32_t height, const WaveletHeader& wavelet,
                                          const TrackOptions& options,
                                          std::span<const uint8_t> valid) {
+  assert(heights.size() == size_t{width} * height);
+  assert(valid.empty() || valid.size() == heights.size());
   std::vector<int32_t> plane(heights.begin(), heights.end());
   for (int32_t& h : plane) {
     h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
@@ -23,6 +26,7 @@ std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint3
   const PlaneLayout layout(spec, width, height);
   const double unit = std::exp2(-2 * wavelet.fraction_bits);
   const std::vector<Region> regions = regionsOf(width, height, options.region_log2);
+  assert(!regions.empty());
   std::vector<TrackSource> tracks(regions.size());
   parallelFor(options.threads, regions.size(), [&](size_t i) {
     const std::vector<BandPart> parts = layout.parts(regions[i]);

@@ -2,6 +2,7 @@
 #include "codec/geometry/height_layers.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "codec/geometry/corrections_decoder.hpp"
@@ -57,6 +58,7 @@ struct Layers {
   Codewords coefficients;
 
   Layers(const Codewords& codewords, const GeometryLayers& layers) : coefficients(codewords) {
+    assert(!coefficients.empty());
     std::span<const uint8_t>& first = coefficients.front();
     validity = firstOf(first, layers.validity_bytes);
     first = first.subspan(validity.size());

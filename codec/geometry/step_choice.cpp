@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -66,10 +67,12 @@ class Stepper {
       core.low = std::min(core.low, value);
       core.high = std::max(core.high, value);
     }
+    assert(core.low >= low_ && core.high <= high_);
     setRange(core);
   }
 
   HeightSteps with(double step) const {
+    assert(step > 0);
     HeightSteps out;
     out.step = step;
     out.base = low_ + step * std::floor(range_ / step / 2);

@@ -2,6 +2,7 @@
 #include "codec/geometry/stored_heights.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -65,6 +66,7 @@ DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_
   const auto sample = static_cast<tks_sample>(header.sample);
   const BytePlanes words(bytes, count - voids, static_cast<int>(tks_sample_bytes(sample)));
   const MipLevel mip(header.width, header.height, level);
+  assert(valid.empty() || valid.size() == count);
   DecodedHeights decoded = emptyHeights(mip, !valid.empty());
   const size_t between = (size_t{1} << level) - 1;
   withSampleType(sample, [&](auto type) {
@@ -80,6 +82,7 @@ DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_
         number += is_valid;
       }
     }
+    assert(i == mip.samples() && number == count - voids);
   });
   return decoded;
 }
