@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // awkward_hunt SECONDS [FIRST_SEED [MOST_SAMPLES]]: goes through awkward terrains until the time is
 // up. Exit status 1 and the seed of the case on the first broken promise; a case that takes over a
-// minute is one.
-#include <unistd.h>
+// minute of processor time is one.
+#include <sys/time.h>
 
 #include <chrono>
 #include <cstdio>
@@ -12,7 +12,14 @@
 
 namespace {
 
-constexpr unsigned kMostSeconds = 60;
+constexpr int kMostSeconds = 60;
+
+/// A signal ends the program after so much processor time from now on; 0: none does.
+void limitTo(int seconds) {
+  itimerval timer = {};
+  timer.it_value.tv_sec = seconds;
+  setitimer(ITIMER_PROF, &timer, nullptr);
+}
 
 }  // namespace
 
@@ -30,13 +37,13 @@ int main(int argc, char** argv) {
     const tetrakis::test::AwkwardCase c = tetrakis::test::awkwardCase(seed, most);
     std::printf("%llu: %s\n", static_cast<unsigned long long>(seed), c.description.c_str());
     std::fflush(stdout);
-    alarm(kMostSeconds);  // ends the program; the last line says where
+    limitTo(kMostSeconds);  // the last line says where
     const std::string broken = tetrakis::test::brokenPromise(c);
     if (broken.empty()) continue;
     std::printf("BROKEN: %s\n", broken.c_str());
     return 1;
   }
-  alarm(0);
+  limitTo(0);
   std::printf("%llu cases, no promise broken\n", static_cast<unsigned long long>(seed - first));
   return 0;
 }
