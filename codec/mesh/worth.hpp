@@ -7,8 +7,8 @@
 
 namespace tetrakis {
 
-/// lambda, thesis 5.2.2. What saves nothing goes at once if it does no harm, and as late as it can
-/// otherwise.
+/// lambda, thesis 5.2.2. A domain that frees no triangles gets the slope -infinity (it is removed
+/// first) if its removal does not increase the error, and +infinity (removed last) if it does.
 inline double slopeOf(double distortion, uint32_t cost) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (cost == 0) return distortion > 0 ? kInfinity : -kInfinity;
