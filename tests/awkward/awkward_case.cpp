@@ -118,7 +118,6 @@ class Ground {
       : kind_(kind),
         sample_(sample),
         width_(width),
-        height_(height),
         seed_(static_cast<uint32_t>(dice.next())),
         level_(dice.below(40000)),
         period_(1 + dice.below(40)),
@@ -180,7 +179,7 @@ class Ground {
 
   Kind kind_;
   tks_sample sample_;
-  uint32_t width_, height_, seed_, level_, period_, odd_;
+  uint32_t width_, seed_, level_, period_, odd_;
   double odd_value_;
 };
 
