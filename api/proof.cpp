@@ -42,10 +42,12 @@ class HeightPromise {
  private:
   template <class T>
   bool isVoid(T sample) const {
-    if constexpr (std::is_floating_point_v<T>) {
-      if (std::isnan(sample)) return true;
-    }
-    return heights_.has_nodata && sample == static_cast<T>(heights_.nodata);
+    // As findVoids() does: a nodata value that an integer type cannot hold meets no sample.
+    const auto value = static_cast<double>(sample);
+    const double nodata = std::is_floating_point_v<T>
+                              ? static_cast<double>(static_cast<float>(heights_.nodata))
+                              : heights_.nodata;
+    return std::isnan(value) || (heights_.has_nodata && value == nodata);
   }
 
   const tks_heights& heights_;

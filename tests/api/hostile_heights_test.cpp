@@ -206,6 +206,27 @@ TEST(HostileHeights, StoredSamplesComeHighBytesFirst) {
   EXPECT_EQ(before, 0);
 }
 
+/// A nodata value that the type cannot hold voids nothing, and the proof of a bound knows that:
+/// whatever a conversion makes of it is a height.
+TEST(HostileHeights, NodataBeyondTheTypeMeetsNoSample) {
+  const Raster raster = make({Pattern::kRidges, 24, 20, 1, TKS_U8});
+  tks_encode_options options = lossless();
+  options.lossless = 0;
+  options.max_error = 2;
+  for (double nodata = 256; nodata < 512; nodata += 1) {
+    tks_heights heights = raster.heights();
+    heights.has_nodata = 1;
+    heights.nodata = nodata;
+    tks_buffer buffer = {};
+    char message[256] = "";
+    ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message), TKS_OK)
+        << nodata << ": " << message;
+    Stream stream(Prefix(buffer.data, buffer.size));
+    EXPECT_LE(largestError(raster, stream.heights()), options.max_error);
+    tks_free_buffer(&buffer);
+  }
+}
+
 tks_encode_options within(double error) {
   tks_encode_options options = {};
   options.size = sizeof options;

@@ -226,8 +226,9 @@ void punch(Dice& dice, AwkwardCase& c) {
   samples::Raster& raster = c.heights;
   if (dice.once(2)) {
     const Bounds bounds = boundsOf(raster.sample);
-    const std::array<double, 3> values = {scaled(raster.sample, dice.below(65536)), bounds.low,
-                                          raster.sample == TKS_U8 ? 0.0 : bounds.high};
+    // The last one no integer type holds: it meets no sample.
+    const std::array<double, 4> values = {scaled(raster.sample, dice.below(65536)), bounds.low,
+                                          raster.sample == TKS_U8 ? 0.0 : bounds.high, -9999.5};
     c.nodata = dice.of(values);
   }
   const bool nan = raster.sample == TKS_F32 && dice.once(2);
@@ -237,7 +238,8 @@ void punch(Dice& dice, AwkwardCase& c) {
     for (uint32_t x = 0; x < raster.width; ++x) {
       const bool hole = share < 3 ? samples::valueNoise(x, y, 3 + share, seed) < 20000 * share
                                   : samples::hash(x, y, seed) % 64 == 0;
-      if (!hole) continue;
+      const bool held = raster.sample == TKS_F32 || *c.nodata != -9999.5;
+      if (!hole || !held) continue;
       storeSample(raster, size_t{y} * raster.width + x,
                   nan ? std::numeric_limits<double>::quiet_NaN() : *c.nodata);
     }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/samples.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::test {
@@ -15,27 +16,6 @@ namespace tetrakis::test {
 namespace {
 
 using Samples = std::vector<std::byte>;
-
-template <class F>
-auto withType(tks_sample sample, F&& f) {
-  switch (sample) {
-    case TKS_U8:
-      return f(uint8_t{});
-    case TKS_I8:
-      return f(int8_t{});
-    case TKS_U16:
-      return f(uint16_t{});
-    case TKS_I16:
-      return f(int16_t{});
-    case TKS_U32:
-      return f(uint32_t{});
-    case TKS_I32:
-      return f(int32_t{});
-    case TKS_F32:
-      break;
-  }
-  return f(float{});
-}
 
 struct Decoded {
   Samples samples;
@@ -65,7 +45,7 @@ class Comparison {
   explicit Comparison(const AwkwardCase& c) : c_(c) {}
 
   std::string complaint(const Samples& decoded, bool lossless) const {
-    return withType(c_.heights.sample, [&](auto type) {
+    return withSampleType(c_.heights.sample, [&](auto type) {
       using T = decltype(type);
       std::vector<T> truth(decoded.size() / sizeof(T)), seen(truth.size());
       std::memcpy(truth.data(), c_.heights.data.data(), decoded.size());
@@ -82,8 +62,11 @@ class Comparison {
   template <class T>
   bool isVoid(T sample) const {
     const auto value = static_cast<double>(sample);
+    const bool is_float = std::is_floating_point_v<T>;
+    const double nodata = c_.nodata.value_or(0);
     return std::isnan(value) ||
-           (c_.nodata && value == static_cast<double>(static_cast<T>(*c_.nodata)));
+           (c_.nodata &&
+            value == (is_float ? static_cast<double>(static_cast<float>(nodata)) : nodata));
   }
 
   template <class T>

@@ -47,10 +47,9 @@ uint64_t groupMemory() {
   std::filesystem::path group;
   for (std::string line; std::getline(file, line);)
     if (line.starts_with("0::/")) group = line.substr(4);
-  for (;; group = group.parent_path()) {
+  for (; !group.empty() && group != group.parent_path(); group = group.parent_path())
     least = std::min(least, numberIn(root / group / "memory.max").value_or(kUnlimited));
-    if (group.empty()) return least;
-  }
+  return std::min(least, numberIn(root / "memory.max").value_or(kUnlimited));
 }
 
 /// What RLIMIT_AS leaves of the address space.
