@@ -244,6 +244,18 @@ TEST(DecodeMemory, HeightsOfEveryKindStayBelowTheBound) {
   expectWithinBounds(withVoids(heights, inRegions(budget(9000), 64)), "voids in regions");
 }
 
+TEST(DecodeMemory, StoredSamplesStayBelowTheBound) {
+  const Raster noise = make({Pattern::kExtreme, 161, 124, 1, TKS_I16});
+  const Bytes heights = encode(&noise, nullptr, lossless());
+  EXPECT_EQ(Stream(heights).info().heights_stored, 1);
+  expectWithinBounds(heights, "stored");
+  expectWithinBounds(withVoids(noise, lossless()), "stored beside voids", true);
+  const Raster image = make({Pattern::kExtreme, 150, 140, 3, TKS_U16});
+  const Bytes texels = encode(nullptr, &image, lossless());
+  EXPECT_EQ(Stream(texels).info().texture_drawn, 3);
+  expectWithinBounds(texels, "stored texture");
+}
+
 TEST(DecodeMemory, OtherHeightsStayBelowTheBound) {
   Raster measured = make({Pattern::kRidges, 130, 150, 1, TKS_F32});
   for (size_t i = 0; i < 130 * 150; ++i) {
