@@ -13,6 +13,7 @@
 #include "conformance/reference_decoder.hpp"
 #include "conformance/runner.hpp"
 #include "conformance/vector_cases.hpp"
+#include "tests/support/reference_status.hpp"
 
 namespace tetrakis::conformance {
 namespace {
@@ -51,22 +52,6 @@ TEST_F(Vectors, AllPass) {
   EXPECT_GE(summary->passed, 12);
 }
 
-tks_status statusOf(reference::Outcome outcome) {
-  switch (outcome) {
-    case reference::Outcome::kDone:
-      return TKS_OK;
-    case reference::Outcome::kTruncated:
-      return TKS_TRUNCATED;
-    case reference::Outcome::kCorrupt:
-      return TKS_CORRUPT;
-    case reference::Outcome::kUnsupported:
-      return TKS_UNSUPPORTED;
-    case reference::Outcome::kTooLarge:
-      return TKS_LIMIT;
-  }
-  return TKS_USAGE;
-}
-
 /// Samples of the reference decoder are little endian bytes already.
 std::string digestOf(const std::optional<std::vector<uint8_t>>& samples) {
   return samples ? sampleDigest(std::as_bytes(std::span(*samples)), TKS_U8) : "";
@@ -84,7 +69,7 @@ TEST_F(Vectors, ReferenceDecoderPasses) {
       const reference::Decoded decoded =
           reference::decode(std::span(*stream).first(static_cast<size_t>(cut.bytes)),
                             reference::kMaxSamples, {cut.level, cut.level});
-      EXPECT_EQ(statusOf(decoded.outcome), cut.status);
+      EXPECT_EQ(test::statusOf(decoded.outcome), cut.status);
       EXPECT_EQ(digestOf(decoded.heights), cut.heights);
       EXPECT_EQ(digestOf(decoded.texture), cut.texture);
     }

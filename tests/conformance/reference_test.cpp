@@ -8,6 +8,7 @@
 #include "conformance/reference_decoder.hpp"
 #include "conformance/samples/header_seal.hpp"
 #include "conformance/samples/void_masks.hpp"
+#include "tests/support/reference_status.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -16,22 +17,6 @@ namespace {
 using samples::make;
 using samples::Pattern;
 using samples::Raster;
-
-tks_status statusOf(reference::Outcome outcome) {
-  switch (outcome) {
-    case reference::Outcome::kDone:
-      return TKS_OK;
-    case reference::Outcome::kTruncated:
-      return TKS_TRUNCATED;
-    case reference::Outcome::kCorrupt:
-      return TKS_CORRUPT;
-    case reference::Outcome::kUnsupported:
-      return TKS_UNSUPPORTED;
-    case reference::Outcome::kTooLarge:
-      return TKS_LIMIT;
-  }
-  return TKS_USAGE;
-}
 
 /// The byte where two rasters part; their size if they do not.
 size_t firstDifference(const std::optional<Bytes>& expected, const std::vector<std::byte>& actual) {
