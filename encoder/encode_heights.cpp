@@ -6,6 +6,7 @@
 #include "codec/geometry/corrections_encoder.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "codec/geometry/stored_heights.hpp"
+#include "codec/geometry/value_table_encoder.hpp"
 #include "encoder/encode_job.hpp"
 #include "lattice/validity_encoder.hpp"
 
@@ -22,10 +23,16 @@ void EncodeJob::encodeSideLayers(bool restore_samples) {
     g.validity = encodeValidity(g.steps.valid, heights_->width, heights_->height);
     g.layers.validity_bytes = g.validity.size();
   }
+  if (!g.steps.table.empty()) {
+    g.table = encodeValueTable(g.steps.table);
+    g.layers.table_bytes = g.table.size();
+    g.layers.table_values = static_cast<uint32_t>(g.steps.table.words.size());
+  }
   if (!restore_samples) return;
   g.layers.corrections = CorrectionKind::kSamples;
   const StreamHeader header = makeHeader(0, false);
-  const std::vector<uint8_t> hints = sampleHints(g.steps.steps, *header.geometry);
+  const std::vector<uint8_t> hints =
+      sampleHints(drawnSteps(g.steps, *header.geometry), *header.geometry);
   g.corrections = encodeCorrections(sampleCorrections(*heights_, g.steps),
                                     {heights_->width, heights_->height, g.steps.valid, hints});
   g.left = std::max(g.squaresOf(*heights_, g.steps), EncodedHeights::kSomething);
@@ -56,16 +63,17 @@ void EncodeJob::joinLayers(std::vector<EncodedTrack> coefficients) {
       std::all_of(g.tracks.begin(), g.tracks.end(), [](const auto& t) { return t.complete; });
   g.regions.side_log2 = static_cast<uint8_t>(trackOptions(TrackId::kGeometry).region_log2);
   g.regions.whole_bytes = g.regions.side_log2 > 0 && complete ? bytesOf(g.tracks) : 0;
-  if (g.validity.empty() && g.corrections.empty() && g.left == 0) return;
+  if (g.validity.empty() && g.table.empty() && g.corrections.empty() && g.left == 0) return;
   EncodedTrack& track = g.tracks.front();
   g.layers.coefficient_bytes = g.corrections.empty() ? 0 : track.codeword.size();
+  track.codeword.insert(track.codeword.begin(), g.table.begin(), g.table.end());
   track.codeword.insert(track.codeword.begin(), g.validity.begin(), g.validity.end());
   track.codeword.insert(track.codeword.end(), g.corrections.begin(), g.corrections.end());
   for (RatePoint& point : track.points) {
-    point.bytes += g.validity.size();
+    point.bytes += g.layers.openingBytes();
     point.distortion += g.left;
   }
-  if (!g.validity.empty()) {
+  if (g.layers.openingBytes() > 0) {
     const auto voids = static_cast<double>(g.steps.steps.size() - g.steps.validCount());
     const double unknown = track.points.front().distortion + voids * g.validityWorth();
     track.points.insert(track.points.begin(), {0, unknown});
@@ -78,6 +86,8 @@ void EncodeJob::storeHeights() {
   EncodedHeights& g = *geometry_;
   g.wavelet = {};
   g.corrections.clear();
+  g.table.clear();
+  g.layers.table_bytes = g.layers.table_values = 0;
   g.layers.corrections = CorrectionKind::kNone;
   g.layers.coefficient_bytes = 0;
   g.regions = {};

@@ -101,7 +101,11 @@ Status EncodeJob::quantise() {
   if (heights_ == nullptr) return {};
   const double error = options_.max_error / std::abs(heights_->scale);
   bool restore = options_.lossless != 0;
-  Result<HeightSteps> steps = toSteps(*heights_, {heights_->step, restore, error, budgeted()});
+  Result<HeightSteps> steps = toSteps(*heights_, {.given = heights_->step,
+                                                   .lossless = restore,
+                                                   .table = restore,
+                                                   .error = error,
+                                                   .leave_outliers = budgeted()});
   if (steps.ok() && error > 0 && errorsOf(*heights_, *steps).largest > error) {
     if (heights_->step > 0) {
       return {TKS_USAGE,

@@ -27,6 +27,7 @@ struct EncodedHeights {
   WaveletHeader wavelet;
   GeometryLayers layers;
   std::vector<uint8_t> validity;     ///< codeword; empty: all samples are valid
+  std::vector<uint8_t> table;        ///< codeword; empty: steps are multiples
   std::vector<uint8_t> corrections;  ///< codeword
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
@@ -56,6 +57,21 @@ struct EncodedHeights {
   double squaresOf(const tks_heights& truth, const HeightSteps& of) const {
     const double unit = steps.step * steps.step;
     return errorsOf(truth, of, mostOfASample() * unit).squares / unit;
+  }
+
+  /// The same of what is decoded from a prefix, over the samples that `valid` says. With multiples
+  /// of a step corrections are left out: they are known all at once, behind everything else.
+  double squaresOf(const tks_heights& truth, const DecodedHeights& decoded,
+                   std::vector<uint8_t> valid) const {
+    const double unit = steps.step * steps.step;
+    if (!steps.table.empty())
+      return squaresOfSamples(truth, decoded, valid, steps, mostOfASample() * unit) / unit;
+    HeightSteps prefix;
+    prefix.steps = wholeSteps(decoded.geometry);
+    prefix.valid = std::move(valid);
+    prefix.base = steps.base;
+    prefix.step = steps.step;
+    return squaresOf(truth, prefix);
   }
 };
 

@@ -129,15 +129,16 @@ double EncodeJob::geometrySquares(uint64_t bytes, HeightsMemory* memory) const {
   const EncodedHeights& g = *geometry_;
   const bool corrected = g.layers.corrections == CorrectionKind::kSamples;
   if ((corrected || g.stored()) && bytes == bytesOf(g.tracks)) return 0;
-  const DecodedGeometry decoded = decodedHeights(bytes, memory).geometry;
-  HeightSteps prefix = {wholeSteps(decoded), g.steps.valid, g.steps.base, g.steps.step};
+  const DecodedHeights decoded = decodedHeights(bytes, memory);
+  const std::vector<uint8_t>& known = decoded.geometry.valid;
+  std::vector<uint8_t> valid = g.steps.valid;
   double unknown = 0;
-  for (size_t i = 0; i < decoded.valid.size(); ++i) {
-    if (decoded.valid[i] == prefix.valid[i]) continue;
+  for (size_t i = 0; i < known.size(); ++i) {
+    if (known[i] == valid[i]) continue;
     unknown += g.validityWorth();
-    prefix.valid[i] = 0;
+    valid[i] = 0;
   }
-  const double squares = g.squaresOf(*heights_, prefix);
+  const double squares = g.squaresOf(*heights_, decoded, std::move(valid));
   return unknown + std::max(squares, std::min(g.left, EncodedHeights::kSomething));
 }
 
@@ -153,7 +154,7 @@ TrackCurve EncodeJob::geometryCurve() const {
   const double floor = meshFloor();
   const auto mean_square = [&](double squares) { return squares / samples; };
   const auto useful = [&](double squares) { return std::max(mean_square(squares), floor); };
-  const uint64_t opening = geometry_->validity.size();
+  const uint64_t opening = geometry_->layers.openingBytes();
   const auto curve = [&](const auto& cost) {
     if (geometry_->tracks.size() > 1) {
       return priced(orderTracks(TrackId::kGeometry, geometry_->tracks,

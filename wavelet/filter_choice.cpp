@@ -105,25 +105,27 @@ double penaltyOf(const Filters& filters) {
   return 1 + kPerChoice * static_cast<double>(std::count(filters.begin(), filters.end(), kL));
 }
 
-}  // namespace
+/// A choice, and about how many bits the details of the samples take.
+struct Choice {
+  WaveletHeader header;
+  double bits = std::numeric_limits<double>::infinity();
+};
 
-WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
-                            uint32_t height, int bits, Purpose purpose) {
-  return chooseWavelet(std::span(&plane, 1), valid, width, height, bits, purpose);
-}
-
-WaveletHeader chooseWavelet(std::span<const std::span<const int32_t>> planes, Validity valid,
-                            uint32_t width, uint32_t height, int bits, Purpose purpose) {
-  const bool lossless = purpose == Purpose::kLossless;
-  std::span<const Filters> choices = kLosslessChoices;
-  if (!lossless) choices = std::span(kLossyChoices).first(bits > kOrthogonalBits ? 1 : 4);
+std::vector<Sample> samplesOf(std::span<const std::span<const int32_t>> planes, Validity valid,
+                              uint32_t width, uint32_t height) {
   std::vector<Sample> samples;
   for (const Part& part : typicalParts(width, height)) {
     for (const std::span<const int32_t> plane : planes)
       samples.push_back(sampleOf(part, plane, valid, width));
   }
-  WaveletHeader best;
-  double least = std::numeric_limits<double>::infinity();
+  return samples;
+}
+
+Choice chooseAmong(const std::vector<Sample>& samples, int bits, Purpose purpose) {
+  const bool lossless = purpose == Purpose::kLossless;
+  std::span<const Filters> choices = kLosslessChoices;
+  if (!lossless) choices = std::span(kLossyChoices).first(bits > kOrthogonalBits ? 1 : 4);
+  Choice best;
   float step = 0;
   for (const Filters& filters : choices) {
     WaveletHeader header{filters, 0, 0};
@@ -134,12 +136,30 @@ WaveletHeader chooseWavelet(std::span<const std::span<const int32_t>> planes, Va
     for (const Sample& sample : samples) appendDetails(sample, header, lossless, details);
     if (step == 0) step = lossless ? 1 : stepOf(details);
     const double estimate = bitsOf(details, step) * (lossless ? 1 : penaltyOf(filters));
-    if (estimate < least) {
-      least = estimate;
-      best = header;
-    }
+    if (estimate < best.bits) best = {header, estimate};
   }
   return best;
+}
+
+}  // namespace
+
+WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
+                            uint32_t height, int bits, Purpose purpose) {
+  return chooseWavelet(std::span(&plane, 1), valid, width, height, bits, purpose);
+}
+
+WaveletHeader chooseWavelet(std::span<const std::span<const int32_t>> planes, Validity valid,
+                            uint32_t width, uint32_t height, int bits, Purpose purpose) {
+  return chooseAmong(samplesOf(planes, valid, width, height), bits, purpose).header;
+}
+
+double losslessBits(std::span<const int32_t> plane, Validity valid, uint32_t width,
+                    uint32_t height, int bits) {
+  const std::vector<Sample> samples = samplesOf(std::span(&plane, 1), valid, width, height);
+  size_t seen = 0;
+  for (const Sample& sample : samples) seen += sample.values.size();
+  const double whole = static_cast<double>(width) * height / static_cast<double>(seen);
+  return chooseAmong(samples, bits, Purpose::kLossless).bits * whole;
 }
 
 }  // namespace tetrakis

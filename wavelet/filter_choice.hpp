@@ -26,4 +26,8 @@ WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint
 WaveletHeader chooseWavelet(std::span<const std::span<const int32_t>> planes, Validity valid,
                             uint32_t width, uint32_t height, int bits, Purpose purpose);
 
+/// About how many bits the coefficients of a plane take that is coded to the last bit.
+double losslessBits(std::span<const int32_t> plane, Validity valid, uint32_t width,
+                    uint32_t height, int bits);
+
 }  // namespace tetrakis

@@ -106,6 +106,10 @@ Status checkLayers(const StreamHeader& header) {
   if (!header.geometry) {
     return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
   }
+  if (static_cast<uint8_t>(layers.corrections) > 2 ||
+      (layers.table_bytes > 0 && layers.corrections == CorrectionKind::kSteps)) {
+    return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
+  }
   const bool integer = header.geometry->sample != TKS_F32;
   if (integer && layers.validity_bytes > 0 &&
       !(layers.has_nodata && holds(header.geometry->sample, layers.nodata))) {
@@ -131,8 +135,10 @@ Status checkRegions(const StreamHeader& header) {
 Status checkStored(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->stored()) return {};
   const bool one_track = header.geometry->regions.side_log2 == 0;
-  if (one_track && header.layers.corrections == CorrectionKind::kNone) return {};
-  return {TKS_CORRUPT, "Corrupt stream: stored heights have regions or corrections."};
+  const bool plain = header.layers.corrections == CorrectionKind::kNone &&
+                     header.layers.table_bytes == 0;
+  if (one_track && plain) return {};
+  return {TKS_CORRUPT, "Corrupt stream: stored heights have regions, corrections or a table."};
 }
 
 Status checkNumbers(const StreamHeader& header) {

@@ -8,6 +8,7 @@
 #include "codec/geometry/corrections_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 #include "codec/geometry/stored_heights.hpp"
+#include "codec/geometry/value_table_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
 #include "wavelet/mip_level.hpp"
 
@@ -54,7 +55,7 @@ namespace {
 
 /// The tracks taken apart.
 struct Layers {
-  std::span<const uint8_t> validity, corrections;
+  std::span<const uint8_t> validity, table, corrections;
   Codewords coefficients;
 
   Layers(const Codewords& codewords, const GeometryLayers& layers) : coefficients(codewords) {
@@ -62,6 +63,8 @@ struct Layers {
     std::span<const uint8_t>& first = coefficients.front();
     validity = firstOf(first, layers.validity_bytes);
     first = first.subspan(validity.size());
+    table = firstOf(first, layers.table_bytes);
+    first = first.subspan(table.size());
     if (layers.corrections == CorrectionKind::kNone) return;
     corrections = first.subspan(firstOf(first, layers.coefficient_bytes).size());
     first = first.first(first.size() - corrections.size());
@@ -91,6 +94,30 @@ std::vector<uint8_t> decodeValidityLayer(const Codewords& codewords, const Geome
   return valid;
 }
 
+namespace {
+
+/// What the decoded steps are where they count the values of a table.
+void applyTable(const Layers& taken, const GeometryHeader& header, const GeometryLayers& layers,
+                DecodedHeights& decoded) {
+  if (layers.table_bytes == 0) return;
+  const ValueTable table = decodeValueTable(taken.table, layers.table_values);
+  if (!table.empty()) applyTable(table, header, decoded);
+}
+
+/// Adds corrections of the samples to those that the table has made.
+void addCorrections(const std::vector<int32_t>& more, std::vector<int32_t>& corrections) {
+  if (corrections.empty()) {
+    corrections = more;
+    return;
+  }
+  for (size_t i = 0; i < more.size(); ++i) {
+    corrections[i] =
+        static_cast<int32_t>(static_cast<uint32_t>(corrections[i]) + static_cast<uint32_t>(more[i]));
+  }
+}
+
+}  // namespace
+
 DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
                             const GeometryLayers& layers, int level, uint32_t threads,
                             HeightsMemory* memory) {
@@ -103,14 +130,17 @@ DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& he
   decoded.geometry =
       decodeGeometry(header, taken.coefficients, validityOf(taken, header, layers, memory), level,
                      threads, memory == nullptr ? nullptr : &memory->track);
+  applyTable(taken, header, layers, decoded);
   if (taken.corrections.empty() || level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
     correctSteps(decoded.geometry, header, layers, taken.corrections);
     return decoded;
   }
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(decoded.geometry), header);
-  decoded.corrections = decodeCorrections(
-      taken.corrections, {header.width, header.height, decoded.geometry.valid, hints});
+  addCorrections(
+      decodeCorrections(taken.corrections,
+                        {header.width, header.height, decoded.geometry.valid, hints}),
+      decoded.corrections);
   return decoded;
 }
 
@@ -122,6 +152,7 @@ DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHead
   if (taken.corrections.empty() && !header.stored()) {
     decoded.geometry = decodeGeometryWindow(header, taken.coefficients,
                                             validityOf(taken, header, layers), window, threads);
+    applyTable(taken, header, layers, decoded);
     return decoded;
   }
   // Contexts of corrections come from the corrections and heights of the whole plane.

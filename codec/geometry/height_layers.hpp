@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A geometry track taken apart: validity, coefficients, corrections (bitstream/stream/header.hpp).
+// A geometry track taken apart: validity, table of values, coefficients, corrections
+// (bitstream/stream/header.hpp).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace tetrakis {
 
 struct DecodedHeights {
   DecodedGeometry geometry;          ///< corrections of steps applied
-  std::vector<int32_t> corrections;  ///< to the samples; empty where there are none
+  std::vector<int32_t> corrections;  ///< of the samples; empty where there are none
 };
 
 /// What one call of decodeLayers() leaves to the next, whose only track is longer by some bytes and

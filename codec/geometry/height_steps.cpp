@@ -92,6 +92,18 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
   });
 }
 
+std::vector<int32_t> drawnSteps(const HeightSteps& steps, const GeometryHeader& header) {
+  if (steps.table.empty()) return steps.steps;
+  const std::vector<DrawnValue> values = drawnValues(steps.table, header);
+  std::vector<int32_t> drawn(steps.steps.size(), 0);
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    if (!steps.valid.empty() && !steps.valid[i]) continue;
+    drawn[i] =
+        wholeStep(values[steps.table.placeOf(steps.steps[i])].height, DrawnValue::kFractionBits);
+  }
+  return drawn;
+}
+
 std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header) {
   std::vector<uint8_t> hints(steps.size());
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
@@ -109,8 +121,10 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
     const auto* samples = static_cast<const T*>(heights.data);
     for (size_t i = 0; i < corrections.size(); ++i) {
       if (!steps.valid.empty() && !steps.valid[i]) continue;
-      const T restored = restore<T>(steps.base, steps.step, steps.steps[i]);
-      corrections[i] = static_cast<int32_t>(orderOf(samples[i]) - orderOf(restored));
+      const uint32_t restored =
+          steps.table.empty() ? orderOf(restore<T>(steps.base, steps.step, steps.steps[i]))
+                              : steps.table.wordOf(steps.steps[i]);
+      corrections[i] = static_cast<int32_t>(orderOf(samples[i]) - restored);
     }
   });
   return corrections;
@@ -121,7 +135,12 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double
     using T = decltype(type);
     const auto* samples = static_cast<const T*>(heights.data);
     std::vector<T> restored(steps.steps.size());
-    restoreAll(steps.steps, 0, {steps.base, steps.step}, restored.data());
+    if (steps.table.empty()) {
+      restoreAll(steps.steps, 0, {steps.base, steps.step}, restored.data());
+    } else {
+      std::transform(steps.steps.begin(), steps.steps.end(), restored.begin(),
+                     [&](int32_t q) { return fromOrder<T>(steps.table.wordOf(q)); });
+    }
     StepErrors errors;
     for (size_t i = 0; i < restored.size(); ++i) {
       if (!steps.valid.empty() && !steps.valid[i]) continue;
@@ -131,6 +150,28 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double
       errors.squares += std::min(error * error, most);
     }
     return errors;
+  });
+}
+
+double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
+                        const std::vector<uint8_t>& valid, const HeightSteps& scale, double most) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  return withSampleType(truth.sample, [&](auto type) {
+    using T = decltype(type);
+    const auto* samples = static_cast<const T*>(truth.data);
+    double squares = 0;
+    for (size_t i = 0; i < geometry.heights.size(); ++i) {
+      if (!valid.empty() && !valid[i]) continue;
+      const int32_t q = wholeStep(geometry.heights[i], geometry.fraction_bits);
+      T restored = restore<T>(scale.base, scale.step, q);
+      if (!decoded.corrections.empty()) {
+        const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
+        restored = fromOrder<T>(orderOf(restored) + correction);
+      }
+      const double error = static_cast<double>(restored) - static_cast<double>(samples[i]);
+      squares += std::min(error * error, most);
+    }
+    return squares;
   });
 }
 

@@ -11,6 +11,7 @@
 #include "base/status.hpp"
 #include "bitstream/stream/header.hpp"
 #include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/value_table.hpp"
 
 namespace tetrakis {
 
@@ -18,6 +19,7 @@ struct HeightSteps {
   std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0; 0 where voids are
   std::vector<uint8_t> valid;  ///< 1 valid, 0 void; empty: all are valid
   double base = 0, step = 1;
+  ValueTable table;    ///< not empty: steps count its values, which `base` and `step` approximate
   bool exact = false;  ///< every valid sample comes back bit for bit
   int range_bits = 0;  ///< the steps span less than 2^range_bits
 
@@ -28,6 +30,7 @@ struct HeightSteps {
 struct StepNeeds {
   double given = 0;       ///< > 0: the step itself, in sample units; nothing is chosen
   bool lossless = false;  ///< corrections will restore the samples
+  bool table = false;     ///< for `lossless`: a table of values may take the place of multiples
   double error = 0;       ///< > 0: largest error wanted, in sample units
   /// A few samples so far from the others that no steps show both may be lost; for `lossless`
   /// corrections restore them.
@@ -50,8 +53,11 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
                const GeometryLayers& layers, void* out);
 
 /// The hints (codec/geometry/corrections_pass.hpp) of corrections to samples that these steps
-/// become.
+/// become. steps: whole, as decoders know them.
 std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header);
+
+/// The steps of a table's values as decoders know them: drawn, and whole.
+std::vector<int32_t> drawnSteps(const HeightSteps& steps, const GeometryHeader& header);
 
 /// The corrections that restore the samples.
 std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps);
@@ -64,5 +70,10 @@ struct StepErrors {
 };
 StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps,
                     double most = std::numeric_limits<double>::infinity());
+
+/// The squared distances between decoded samples, corrections included, and the true ones, over the
+/// samples that `valid` says (empty: all). scale: their base and step. most: what one adds at most.
+double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
+                        const std::vector<uint8_t>& valid, const HeightSteps& scale, double most);
 
 }  // namespace tetrakis

@@ -14,6 +14,7 @@
 #include "codec/geometry/height_steps.hpp"
 #include "codec/geometry/restore.hpp"
 #include "codec/geometry/sample_order.hpp"
+#include "codec/geometry/value_choice.hpp"
 #include "codec/geometry/voids.hpp"
 
 namespace tetrakis {
@@ -248,8 +249,10 @@ Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs) 
                                      " divides the range of the heights into more than 2^26 "
                                      "parts; give a larger one.");
       });
-  if (result.ok()) result->valid = std::move(*valid);
-  return result;
+  if (!result.ok()) return result;
+  result->valid = std::move(*valid);
+  if (!needs.lossless || !needs.table) return result;
+  return fewerBits(heights, std::move(*result));
 }
 
 }  // namespace tetrakis
