@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "api/budget_mesh.hpp"
+#include "codec/geometry/value_table.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -68,14 +69,15 @@ class HeightsBytes {
         level_(level),
         mip_(header_.width, header_.height, level),
         voids_(decoder.parsed.header.layers.validity_bytes > 0),
-        corrects_samples_(header_.stored() ||
+        table_(decoder.parsed.header.layers.table_values),
+        corrects_samples_(header_.stored() || table_ > 0 ||
                           decoder.parsed.header.layers.corrections == CorrectionKind::kSamples),
         corrected_(header_.stored() || (level == 0 && decoder.parsed.header.layers.corrections !=
                                                           CorrectionKind::kNone)) {}
 
   /// What is left when they are decoded: heights, marks, masks, corrections.
   uint64_t kept() const {
-    const uint64_t corrections = corrected_ && corrects_samples_ ? kValue : 0;
+    const uint64_t corrections = (corrected_ || table_ > 0) && corrects_samples_ ? kValue : 0;
     return area(mip_.low()) * (kValue + 1 + (voids_ ? 1 : 0) + corrections);
   }
 
@@ -85,7 +87,7 @@ class HeightsBytes {
     const uint64_t lifting = (voids_ ? low : 0) + kLifting * header_.width * threadsOf(decoder_);
     const uint64_t corrections = corrected_ ? low * (kValue + 1) + kLifting * header_.width : 0;
     return kOnce + trackBytes(header_) + low * (kValue + 1) + masks +
-           std::max({state(), lifting, corrections});
+           std::max({state(), lifting, corrections + tableBytes(low)});
   }
 
   uint64_t validity() const { return kOnce + (voids_ ? area(header_) + area(mip_.low()) : 0); }
@@ -93,17 +95,23 @@ class HeightsBytes {
   uint64_t window(const tks_window& window) const {
     if (corrected_) return whole() + area(window) * (2 * kValue + 1);
     return kOnce + (voids_ ? area(header_) + area(window) : 0) + trackBytes(header_) +
-           synthesisBytes(decoder_, header_, 1, window, voids_, state());
+           synthesisBytes(decoder_, header_, 1, window, voids_, state()) + tableBytes(area(window));
   }
 
  private:
   uint64_t state() const { return stateBytes(decoder_, header_, 1, voids_, TrackId::kGeometry); }
+  /// The table, its values as heights, and a correction for each sample.
+  uint64_t tableBytes(uint64_t samples) const {
+    constexpr uint64_t kEntry = sizeof(uint32_t) + sizeof(DrawnValue);
+    return table_ > 0 ? table_ * kEntry + samples * kValue : 0;
+  }
 
   const tks_decoder& decoder_;
   const GeometryHeader& header_;
   int level_;
   MipLevel mip_;
   bool voids_;
+  uint32_t table_;  ///< values; 0: no table
   bool corrects_samples_;
   bool corrected_;  ///< corrections, of steps or of samples, are decoded
 };

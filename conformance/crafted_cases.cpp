@@ -43,6 +43,31 @@ VectorCase sampleCorrections(const std::string& name, const std::string& purpose
   return crafted(name, purpose, streamOf(header, codeword));
 }
 
+/// Tables of noise: gaps of all sizes, words that wrap, floats that are no numbers. Corrections lie
+/// behind them.
+VectorCase noiseTable(const std::string& name, const std::string& purpose, tks_sample sample,
+                      uint32_t values, uint32_t seed) {
+  StreamHeader header = heightsHeader(28, 23, sample, 12);
+  header.geometry->step = 3;
+  header.layers.corrections = CorrectionKind::kSamples;
+  header.layers.table_bytes = 500;
+  header.layers.table_values = values;
+  header.layers.coefficient_bytes = 300;
+  Bytes codeword = noise(500, seed);
+  append(codeword, noise(300, seed + 1));
+  append(codeword, noise(900, seed + 2, 9));
+  return crafted(name, purpose, streamOf(header, codeword));
+}
+
+std::vector<VectorCase> tableCases() {
+  return {noiseTable("noise_table_i16_28x23", "noise: a table of which words leave their type",
+                     TKS_I16, 40, 71),
+          noiseTable("noise_table_f32_28x23", "noise: a table of any floats", TKS_F32, 60, 74),
+          noiseTable("noise_table_unknown_28x23",
+                     "noise: the bytes of the table do not decide all of its values", TKS_I32,
+                     1 << 20, 77)};
+}
+
 std::vector<VectorCase> correctionCases() {
   StreamHeader steps = heightsHeader(33, 21, TKS_I32, 12);
   steps.layers.corrections = CorrectionKind::kSteps;
@@ -224,8 +249,8 @@ std::vector<VectorCase> shearCases() {
 
 std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = {weightCase(3, 2), weightCase(4, 8)};
-  for (const auto& cases : {wideCases(), correctionCases(), nodataCases(), shearCases(),
-                            drawnCases(), wholeBytesCases()})
+  for (const auto& cases : {wideCases(), tableCases(), correctionCases(), nodataCases(),
+                            shearCases(), drawnCases(), wholeBytesCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

@@ -71,6 +71,21 @@ std::vector<VectorCase> refusedHeaders() {
          [](StreamHeader& h) { h.layers.validity_bytes = 9; });
   refuse("nodata", "voids of a value that the type has not",
          [](StreamHeader& h) { h.layers = {.validity_bytes = 9, .has_nodata = 1, .nodata = 0.5}; });
+  refuse("table_kinds", "a table of values beside corrections of steps", [](StreamHeader& h) {
+    h.layers.corrections = CorrectionKind::kSteps;
+    h.layers.correction_step = 1;
+    h.layers.table_bytes = 9;
+    h.layers.table_values = 2;
+  });
+  refuse("table_values", "a table of one value", [](StreamHeader& h) {
+    h.layers.table_bytes = 9;
+    h.layers.table_values = 1;
+  });
+  refuse("table_stored", "stored heights with a table of values", [](StreamHeader& h) {
+    h.geometry->planes = GeometryHeader::kStoredPlanes;
+    h.layers.table_bytes = 9;
+    h.layers.table_values = 2;
+  });
   refuse("layers", "layers of heights without heights", [](StreamHeader& h) {
     h = textureHeader(9, 9, 1, TKS_U8, 8);
     h.layers.corrections = CorrectionKind::kSamples;

@@ -269,6 +269,30 @@ std::vector<VectorCase> jointCases() {
   };
 }
 
+/// Heights that count the values of a table.
+std::vector<VectorCase> tableCases() {
+  using samples::FewValues;
+  const auto valued = [](FewValues values, VectorCase vector_case) {
+    vector_case.values = values;
+    return vector_case;
+  };
+  const Recipe small{Pattern::kRidges, 48, 40, 1, TKS_U8, 3};
+  return {
+      valued(FewValues::kFeet,
+             heightsCase("table_feet_f32_48x40", "a table of values: feet written as metres", small,
+                         lossless())),
+      valued(FewValues::kRare, heightsCase("table_rare_f32_48x40",
+                                           "corrections of samples whose values are not in the "
+                                           "table",
+                                           small, lossless())),
+      withVoids(valued(FewValues::kStretched,
+                       heightsCase("table_coast_u16_48x40",
+                                   "a table of integers behind a mask of voids, in regions", small,
+                                   inRegions(lossless(), 16))),
+                samples::VoidShape::kCoast, 7),
+  };
+}
+
 /// Noise, which takes fewer bytes stored than coded.
 std::vector<VectorCase> storedCases() {
   VectorCase thirds = heightsCase("stored_f32_20x21", "floats that are stored, beside voids",
@@ -313,11 +337,11 @@ std::vector<VectorCase> sparseCases() {
     return vector_case;
   };
   VectorCase tiny = heightsCase("tiny_float_24x40", "floats around the smallest normal one",
-                                {Pattern::kSteps, 24, 40, 1, TKS_F32}, lossless());
+                                {Pattern::kRidges, 24, 40, 1, TKS_F32}, lossless());
   tiny.exponent = -131;
   tiny.thirds = true;
   VectorCase spikes = heightsCase("spikes_300x300", "a large plain with few spikes: header level 1",
-                                  {Pattern::kFlat, 300, 300, 1, TKS_I16}, lossless());
+                                  {Pattern::kFlat, 300, 300, 1, TKS_I16}, budget(4096));
   spikes.spikes = 9001;
   return {
       declared(heightsCase("nodata_unused_u8_64x48", "a nodata value is declared, nothing is void",
@@ -356,6 +380,7 @@ std::vector<VectorCase> damagedCases() {
 
 samples::Raster surfaceOf(const VectorCase& vector_case) {
   samples::Raster surface = samples::make(*vector_case.heights);
+  if (vector_case.values) surface = samples::withFewValues(surface, *vector_case.values);
   const uint32_t width = surface.width, height = surface.height;
   const std::vector<uint8_t> valid = vector_case.voids
                                          ? samples::validity(*vector_case.voids, width, height)
@@ -384,6 +409,7 @@ std::vector<VectorCase> vectorCases() {
   std::vector<VectorCase> all = geometryCases();
   for (VectorCase& next : layerCases()) all.push_back(std::move(next));
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
+  for (VectorCase& next : tableCases()) all.push_back(std::move(next));
   for (VectorCase& next : storedCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/status.hpp"
+#include "conformance/samples/few_values.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 
@@ -21,6 +22,7 @@ struct VectorCase {
   std::optional<samples::Recipe> texture;
   tks_encode_options options = {};
   double scale = 1, offset = 0;
+  std::optional<samples::FewValues> values;  ///< u8 heights are made into samples of these
   bool thirds = false;  ///< heights are divided by 3, which leaves them without a common step
   std::optional<samples::VoidShape> voids;
   std::optional<samples::VoidShape> cutout;   ///< alpha is 0 there, else the largest value

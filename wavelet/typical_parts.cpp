@@ -9,6 +9,7 @@ namespace {
 
 constexpr uint32_t kWholeSide = 256;
 constexpr uint32_t kFields = 3;  // along each side
+constexpr uint32_t kAligned = 16;
 
 struct Interval {
   uint32_t first, length;
@@ -19,7 +20,7 @@ Interval middleOf(uint32_t field, uint32_t side, uint32_t most) {
   const auto begin = static_cast<uint32_t>(uint64_t{side} * field / kFields);
   const auto end = static_cast<uint32_t>(uint64_t{side} * (field + 1) / kFields);
   const uint32_t length = std::min(end - begin, most);
-  return {begin + (end - begin - length) / 2, length};
+  return {(begin + (end - begin - length) / 2) / kAligned * kAligned, length};
 }
 
 }  // namespace

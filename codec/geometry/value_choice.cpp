@@ -133,8 +133,7 @@ class TableChoice {
     std::iota(sorted_.begin(), sorted_.end(), 0u);
     std::sort(sorted_.begin(), sorted_.end(), [&](uint32_t a, uint32_t b) {
       const uint32_t x = values_[a].word, y = values_[b].word;
-      return heights_.sample == TKS_U32 ? x < y
-                                        : static_cast<int32_t>(x) < static_cast<int32_t>(y);
+      return heights_.sample == TKS_U32 ? x < y : static_cast<int32_t>(x) < static_cast<int32_t>(y);
     });
   }
 

@@ -27,7 +27,8 @@ struct ValueTable {
   /// The place of step q, which counts from the middle of the table. Beyond the ends: the end.
   size_t placeOf(int32_t q) const {
     const int64_t place = int64_t{q} + static_cast<int64_t>(words.size() / 2);
-    return static_cast<size_t>(std::clamp<int64_t>(place, 0, static_cast<int64_t>(words.size()) - 1));
+    return static_cast<size_t>(
+        std::clamp<int64_t>(place, 0, static_cast<int64_t>(words.size()) - 1));
   }
   uint32_t wordOf(int32_t q) const { return words[placeOf(q)]; }
 };

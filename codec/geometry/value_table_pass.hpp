@@ -25,9 +25,7 @@ namespace tetrakis {
 template <class Io>
 class ValueTablePass {
  public:
-  explicit ValueTablePass(Io& io) : io_(io) {
-    std::iota(recent_.begin(), recent_.end(), 1u);
-  }
+  explicit ValueTablePass(Io& io) : io_(io) { std::iota(recent_.begin(), recent_.end(), 1u); }
 
   /// words: of the encoder the table, of the decoder as many zeros, which it fills. Words behind
   /// the first decision that does not count mean nothing.
@@ -73,8 +71,7 @@ class ValueTablePass {
     for (int position = bits - 2; position >= 0; --position) {
       const bool answer = (gap >> position) & 1;
       const bool modelled = value < 1u << kModelledBits;
-      const bool bit =
-          modelled ? io_.decide(high_[last_bits_][value], answer) : io_.even(answer);
+      const bool bit = modelled ? io_.decide(high_[last_bits_][value], answer) : io_.even(answer);
       value = value << 1 | uint32_t{bit};
     }
     return value;

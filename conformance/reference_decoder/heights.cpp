@@ -146,10 +146,37 @@ std::vector<uint32_t> samplesOf(const GeometryHeader& header, const Surface& sur
   return samples;
 }
 
+/// FORMAT 8.1, "Table of values": the samples that whole steps count.
+std::vector<uint32_t> valuesOf(const GeometryHeader& header, const std::vector<uint32_t>& table,
+                               const Surface& surface) {
+  const auto last = static_cast<int64_t>(table.size()) - 1;
+  std::vector<uint32_t> samples;
+  for (const int32_t v : surface.plane.values) {
+    const int64_t i = int64_t{stepOf(v, surface.f)} + static_cast<int64_t>(table.size() / 2);
+    const uint32_t word = table[static_cast<size_t>(std::clamp<int64_t>(i, 0, last))];
+    samples.push_back(orderOf(header, narrow(header, word)));
+  }
+  return samples;
+}
+
+/// FORMAT 8.1, "Table of values": the sample N near a value.
+uint32_t nearValue(const GeometryHeader& header, uint32_t bits) {
+  constexpr double kMost = 1 << 25;
+  double sample = bits;
+  if (header.sample == kF32) sample = std::bit_cast<float>(bits);
+  if (header.sample == kI8 || header.sample == kI16 || header.sample == kI32)
+    sample = static_cast<int32_t>(bits);
+  const double steps = (sample - header.base) / header.step;
+  const double v16 = std::isnan(steps) ? 0 : std::round(std::clamp(steps, -kMost, kMost) * 16);
+  return sampleOf(header, header.base + stepOf(static_cast<int32_t>(v16), 4) * header.step);
+}
+
+/// near: the samples that hints come from.
 void correctSamples(const GeometryHeader& header, std::span<const uint8_t> codeword,
-                    const Plane& plane, std::vector<uint32_t>& samples) {
+                    const Plane& plane, const std::vector<uint32_t>& near,
+                    std::vector<uint32_t>& samples) {
   std::vector<int> hints;
-  for (const uint32_t bits : samples) hints.push_back(openBits(header, bits));
+  for (const uint32_t bits : near) hints.push_back(openBits(header, bits));
   const std::vector<uint32_t> corrections = decodeCorrections(codeword, plane, hints);
   for (size_t i = 0; i < corrections.size(); ++i) {
     samples[i] = narrow(header, orderOf(header, orderOf(header, samples[i]) + corrections[i]));
@@ -259,13 +286,22 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
   if (header.planes == kStoredPlanes) return decodeStored(header, layers, codeword, valid, level);
+  const std::vector<uint32_t> table =
+      layers.tableBytes == 0 ? std::vector<uint32_t>{}
+                             : decodeTable(take(codeword, layers.tableBytes), layers.tableValues);
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
   coefficients[0] = take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
   Surface surface = decodeSurface(header, coefficients, std::move(valid), level);
   if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
-  std::vector<uint32_t> samples = samplesOf(header, surface);
-  if (layers.corrections == 2 && level == 0)
-    correctSamples(header, codeword, surface.plane, samples);
+  std::vector<uint32_t> samples =
+      table.empty() ? samplesOf(header, surface) : valuesOf(header, table, surface);
+  if (layers.corrections == 2 && level == 0) {
+    std::vector<uint32_t> near = samples;
+    if (!table.empty()) {
+      for (uint32_t& bits : near) bits = nearValue(header, bits);
+    }
+    correctSamples(header, codeword, surface.plane, near, samples);
+  }
   putVoids(header, layers, surface.plane, samples);
   return bytesOf(header, samples);
 }

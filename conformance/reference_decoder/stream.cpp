@@ -121,15 +121,21 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   layers.validityBytes = in.varint(0, INT64_MAX);
   layers.hasNodata = in.u8(0, 1);
   if (layers.hasNodata) layers.nodata = in.f64();
-  layers.corrections = in.u8(0, 2);
+  const int kinds = in.u8(0, 6);
+  layers.corrections = kinds % 4;
+  if (kinds == 3 || kinds == 5) in.fail(Outcome::kCorrupt);
+  if (kinds >= 4) {
+    layers.tableBytes = in.varint(1, INT64_MAX);
+    layers.tableValues = static_cast<uint32_t>(in.varint(2, 1 << 20));
+  }
   if (layers.corrections > 0) layers.coefficientBytes = in.varint(0, INT64_MAX);
   if (layers.corrections == 1) {
     layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
   }
-  const bool meant = layers.validityBytes > 0 || layers.hasNodata || layers.corrections > 0;
+  const bool meant = layers.validityBytes > 0 || layers.hasNodata || kinds > 0;
   if (meant && !geometry) in.fail(Outcome::kCorrupt);
   const bool stored = geometry && geometry->planes == kStoredPlanes;
-  if (stored && layers.corrections > 0) in.fail(Outcome::kCorrupt);
+  if (stored && kinds > 0) in.fail(Outcome::kCorrupt);
   const bool integer = geometry && geometry->sample != kF32;
   if (integer && layers.validityBytes > 0) {
     const bool held = layers.hasNodata && holds(geometry->sample, layers.nodata);

@@ -41,6 +41,8 @@ struct Layers {
   double nodata = 0;
   int corrections = 0;  ///< 0 none, 1 of steps, 2 of samples
   uint32_t correctionStep = 0;
+  uint64_t tableBytes = 0;  ///< 0: no table of values
+  uint32_t tableValues = 0;
 };
 
 struct TextureHeader {

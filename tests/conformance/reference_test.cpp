@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "conformance/reference_decoder.hpp"
+#include "conformance/samples/few_values.hpp"
 #include "conformance/samples/header_seal.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/reference_status.hpp"
@@ -141,6 +142,18 @@ TEST(Reference, AgreesOnCorrections) {
         expectAgreementOnLayers(raster.heights(), bounded);
       }
     }
+  }
+}
+
+TEST(Reference, AgreesOnTablesOfValues) {
+  for (const samples::FewValues kind : samples::kFewValues) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    const Raster whole = make({Pattern::kRidges, 48, 40, 1, TKS_U8, 3});
+    const Raster raster = samples::withFewValues(whole, kind);
+    tks_encode_options options = lossless();
+    expectAgreementOnLayers(raster.heights(), options);
+    options.regions = 16;
+    expectAgreementOnLayers(raster.heights(), options);
   }
 }
 
