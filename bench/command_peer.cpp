@@ -2,76 +2,20 @@
 // Codecs run as programs on temporary files; see command_peer.hpp.
 #include "bench/command_peer.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <span>
 
+#include "bench/program.hpp"
 #include "tools/files/files.hpp"
 
 namespace tetrakis::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder of its own, gone with its files at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "tetrakis-bench-XXXXXX").string();
-    if (mkdtemp(name.data())) path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (made()) fs::remove_all(path_, ignored);
-  }
-  bool made() const { return !path_.empty(); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
-std::string lastLineOf(const std::string& path) {
-  std::ifstream file(path);
-  std::string last;
-  for (std::string text; std::getline(file, text);) {
-    if (!text.empty()) last = text;
-  }
-  return last;
-}
-
-// Runs a program to its end; what it prints goes to the file `log`.
-Status runProgram(std::vector<std::string> words, const std::string& log) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int error =
-      posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) return {TKS_UNSUPPORTED, words[0] + " does not start: " + std::strerror(error)};
-  int state = 0;
-  if (waitpid(child, &state, 0) != child || !WIFEXITED(state) || WEXITSTATUS(state) != 0) {
-    return {TKS_MISMATCH, words[0] + " failed: " + lastLineOf(log)};
-  }
-  return {};
-}
 
 // Samples of more than 8 bits go into 16 as they are: scaling would cost a lossless codec bits.
 tools::ImageFile imageOf(const Raster& raster) {

@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 
 #include "bench/arguments.hpp"
+#include "bench/height_files.hpp"
 #include "bench/results.hpp"
 #include "tetrakis/tetrakis.hpp"
 #include "tools/files/files.hpp"
@@ -137,29 +137,13 @@ Status measureFile(const std::string& path, const std::string& item, const Optio
   return {};
 }
 
-/// Height fields below the folder, in order of name.
-std::vector<std::filesystem::path> filesBelow(const std::string& folder,
-                                              const std::vector<std::string>& filters) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().string(), extension = entry.path().extension().string();
-    const bool wanted = filters.empty() ||
-                        std::any_of(filters.begin(), filters.end(), [&](const std::string& text) {
-                          return name.find(text) != std::string::npos;
-                        });
-    if (wanted && (extension == ".tif" || extension == ".hgt")) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 int run(const Options& options) {
   std::vector<ResultRow> rows;
   bool failed = false;
   std::printf("%-24s %8s %10s %10s %7s   %s\n", "file", "error", "tetrakis", "lerc", "ratio",
               "errors found");
   for (const std::string& folder : options.folders) {
-    for (const std::filesystem::path& path : filesBelow(folder, options.filters)) {
+    for (const std::filesystem::path& path : heightFilesBelow(folder, options.filters)) {
       std::filesystem::path item = std::filesystem::relative(path, folder);
       const Status status =
           measureFile(path.string(), item.replace_extension().string(), options, rows);
