@@ -5,7 +5,9 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,19 +39,20 @@ struct Value {
 /// addresses.
 class Values {
  public:
-  explicit Values(size_t most) : most_(most), slots_(std::bit_ceil(2 * most + 2), kEmpty) {}
+  explicit Values(size_t most) : most_(most), slots_(1024, kEmpty) {}
 
   /// Counts a word and returns the number of its value.
   uint32_t numberOf(uint32_t word) {
-    const size_t last = slots_.size() - 1;
-    size_t at = (word * 0x9e3779b1u >> 11) & last;
-    while (slots_[at] != kEmpty && values_[slots_[at]].word != word) at = (at + 1) & last;
-    if (slots_[at] == kEmpty) {
-      slots_[at] = static_cast<uint32_t>(values_.size());
-      values_.push_back({word, 0});
+    uint32_t& slot = slotOf(word);
+    const uint32_t number = slot;
+    if (number != kEmpty) {
+      ++values_[number].samples;
+      return number;
     }
-    ++values_[slots_[at]].samples;
-    return slots_[at];
+    slot = static_cast<uint32_t>(values_.size());
+    values_.push_back({word, 1});
+    if (2 * values_.size() > slots_.size()) grow();
+    return static_cast<uint32_t>(values_.size() - 1);
   }
   bool tooMany() const { return values_.size() > most_; }
   size_t size() const { return values_.size(); }
@@ -57,6 +60,19 @@ class Values {
 
  private:
   static constexpr uint32_t kEmpty = UINT32_MAX;
+
+  /// Where the word is, or may go.
+  uint32_t& slotOf(uint32_t word) {
+    const size_t last = slots_.size() - 1;
+    size_t at = (word * 0x9e3779b1u >> 11) & last;
+    while (slots_[at] != kEmpty && values_[slots_[at]].word != word) at = (at + 1) & last;
+    return slots_[at];
+  }
+  void grow() {
+    slots_.assign(2 * slots_.size(), kEmpty);
+    for (size_t i = 0; i < values_.size(); ++i) slotOf(values_[i].word) = static_cast<uint32_t>(i);
+  }
+
   size_t most_;
   std::vector<uint32_t> slots_;
   std::vector<Value> values_;
@@ -83,7 +99,7 @@ struct Exceptions {
 
 struct Candidate {
   HeightSteps steps;
-  double bits;
+  double bits = std::numeric_limits<double>::infinity();
 };
 
 class TableChoice {
@@ -112,9 +128,11 @@ class TableChoice {
     return !multiples_.exact || static_cast<double>(values_.size()) < kNearlyAll * range;
   }
 
-  Candidate best() {
+  /// The best table, if it takes fewer bits than multiples.
+  std::optional<HeightSteps> best() {
     sortValues();
-    Candidate best{multiples_, bitsOfMultiples() * kClearly};
+    Candidate best;
+    best.bits = bitsOfMultiples() * kClearly;
     for (const uint32_t least : {1u, 2u, 4u}) {
       const size_t rare = rarerThan(least);
       if (rare > samples_ / kSamplesForAnException) break;
@@ -122,7 +140,8 @@ class TableChoice {
       Candidate table = tableOf(least);
       if (table.bits < best.bits) best = std::move(table);
     }
-    return best;
+    if (best.steps.table.empty()) return {};
+    return std::move(best.steps);
   }
 
  private:
@@ -176,7 +195,7 @@ class TableChoice {
       }
       place[number] = static_cast<int32_t>(words.size()) - 1;
     }
-    if (words.size() < 2) return {multiples_, std::numeric_limits<double>::infinity()};
+    if (words.size() < 2) return {};
     describe(place, out.steps);
     out.steps.exact = exceptions.count == 0;
     const double table_bits = 8.0 * static_cast<double>(encodeValueTable(out.steps.table).size());
@@ -215,7 +234,8 @@ class TableChoice {
 HeightSteps fewerBits(const tks_heights& heights, HeightSteps multiples) {
   TableChoice choice(heights, multiples);
   if (!choice.hasFewValues()) return multiples;
-  return choice.best().steps;
+  std::optional<HeightSteps> table = choice.best();
+  return table ? std::move(*table) : std::move(multiples);
 }
 
 }  // namespace tetrakis

@@ -86,7 +86,7 @@ uint64_t digest(std::span<const std::byte> bytes, uint64_t h) {
 TEST(SynthKinds, MakeTheSameBytesEverywhere) {
   constexpr uint64_t kDigests[] = {0x4034d9316f42ecb5u, 0xe16895c828fac842u, 0x258a0ae1a04cdb93u,
                                    0xea646d0c221fbf14u, 0x45a49728f8f1c229u, 0x43987c57ef155ac7u,
-                                   0x127a105b6a2645fbu};
+                                   0x127a105b6a2645fbu, 0x2421035136751a12u};
   for (size_t kind = 0; kind < kSynthKinds.size(); ++kind) {
     const SynthTerrain t = synthesize({65, 7, static_cast<SynthKind>(kind)});
     const uint64_t all =
@@ -168,6 +168,18 @@ TEST_P(SynthKindsOf, CitiesHaveFlatRoofsAndWalls) {
   EXPECT_GT(shareOfSteps(metres, [](double step) { return step == 0; }), 0.5);
   EXPECT_GT(shareOfSteps(metres, [](double step) { return step > 2.5; }), 0.05);
   EXPECT_LT(shareOfSteps(metres, [](double step) { return step > 0.35 && step < 2.5; }), 0.02);
+}
+
+TEST_P(SynthKindsOf, RescaledHeightsHaveFewValuesAndSomeBetweenThem) {
+  const std::vector<double> metres = metresOf(SynthKind::kRescaled, GetParam());
+  std::map<double, int> samples;
+  for (const double height : metres) ++samples[height];
+  int often = 0, rare = 0;
+  for (const auto& [height, count] : samples) (count > 4 ? often : rare) += count > 4 ? 1 : count;
+  EXPECT_LE(often, 256);
+  EXPECT_GT(often, 100);
+  EXPECT_GT(rare, kSize * kSize / 1000);
+  EXPECT_LT(rare, kSize * kSize / 100);
 }
 
 }  // namespace

@@ -11,11 +11,11 @@
 namespace tetrakis::tools {
 
 /// What terrain models are like that give codecs something to do (docs/CLI.md).
-enum class SynthKind { kMountains, kCoast, kLakes, kSteps, kVoids, kPlain, kCity };
+enum class SynthKind { kMountains, kCoast, kLakes, kSteps, kVoids, kPlain, kCity, kRescaled };
 
 /// Their names, in order.
-inline constexpr std::array<const char*, 7> kSynthKinds = {"mountains", "coast", "lakes", "steps",
-                                                           "voids",     "plain", "city"};
+inline constexpr std::array<const char*, 8> kSynthKinds = {
+    "mountains", "coast", "lakes", "steps", "voids", "plain", "city", "rescaled"};
 
 struct SynthOptions {
   uint32_t size = 513;  ///< samples along a side, at least 2
@@ -24,7 +24,7 @@ struct SynthOptions {
 };
 
 /// heights: size x size samples, 30 m apart (a city's 1 m): TKS_U16 in steps of 0.1 m (a plain's of
-/// 0.01 m), steps and voids TKS_F32 in metres; the sea is 0 and each lake one level.
+/// 0.01 m), steps, voids and rescaled TKS_F32 in metres; the sea is 0 and each lake one level.
 /// texture and map: RGB8 of 2 (size - 1) texels a side over the same footprint.
 struct SynthTerrain {
   HeightFile heights;

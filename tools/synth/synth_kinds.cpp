@@ -81,6 +81,21 @@ Storage quantise(const Task& task) {
   return {.sample = TKS_F32, .step = 1, .voids = {}};
 }
 
+/// What is left of a map of 8 bits, stretched to its range and then to metres with three decimals;
+/// the samples that an editor has interpolated lie between its values.
+Storage rescale(const Task& task) {
+  constexpr double kGrey = 255, kMillimetre = 1e-3;
+  const double range = std::max(task.summit(), 1.0);
+  Grid& height = task.relief.height;
+  height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
+    const bool edited = unitHash(task.seed + 2, x, y) < 0.004;
+    const double grey = kGrey * height.at(x, y) / range;
+    const double metres = (edited ? grey : std::floor(grey + 0.5)) * range / kGrey;
+    return kMillimetre * std::floor(metres / kMillimetre + 0.5);
+  });
+  return {.sample = TKS_F32, .step = 1, .voids = {}};
+}
+
 /// A scene that a satellite took at an angle, with clouds and with shadows of the radar on slopes.
 Storage pierce(const Task& task) {
   const double extent = task.size - 1, margin = 0.03;
@@ -178,6 +193,8 @@ Storage reshape(Relief& relief, SynthKind kind, uint32_t size, uint64_t seed) {
       return flatten(task);
     case SynthKind::kCity:
       return build(task);
+    case SynthKind::kRescaled:
+      return rescale(task);
   }
   return {};
 }
