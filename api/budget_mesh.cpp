@@ -44,7 +44,7 @@ Result<KnownSurface> surfaceOf(tks_decoder& decoder, uint32_t level) {
     geometry = *whole;
   } else {
     // No higher than the coarsest: 2^level is less than a quarter of the longer side.
-    coarse = decodeLayers(decoder.payload.codewordsOf(TrackId::kGeometry), g, header.layers,
+    coarse = decodeLayers(decoder.payload.codewordsOf(Component::kGeometry), g, header.layers,
                           static_cast<int>(level), decoder.threads);
     geometry = &coarse.geometry;
   }

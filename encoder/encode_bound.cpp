@@ -71,7 +71,7 @@ bool EncodeJob::boundWithin(int32_t largest, double bound) {
     roundHeights(largest);
     consider();
   }
-  const bool one_track = trackOptions(TrackId::kGeometry).region_log2 == 0;  // is cut, not many
+  const bool one_track = trackOptions(Component::kGeometry).region_log2 == 0;  // is cut, not many
   if (ways.correct && one_track) {
     correctHeights(largest, ways.mean_square);
     consider();

@@ -44,7 +44,7 @@ WaveletHeader EncodeJob::waveletFor(Purpose purpose) const {
 
 std::vector<EncodedTrack> EncodeJob::encodeCoefficients() const {
   return tetrakis::encodeGeometry(geometry_->steps.steps, heights_->width, heights_->height,
-                                  geometry_->wavelet, trackOptions(TrackId::kGeometry),
+                                  geometry_->wavelet, trackOptions(Component::kGeometry),
                                   geometry_->steps.valid);
 }
 
@@ -54,7 +54,7 @@ void EncodeJob::joinLayers(std::vector<EncodedTrack> coefficients) {
   g.tracks = std::move(coefficients);
   const bool complete =
       std::all_of(g.tracks.begin(), g.tracks.end(), [](const auto& t) { return t.complete; });
-  g.regions.side_log2 = static_cast<uint8_t>(trackOptions(TrackId::kGeometry).region_log2);
+  g.regions.side_log2 = static_cast<uint8_t>(trackOptions(Component::kGeometry).region_log2);
   g.regions.whole_bytes = g.regions.side_log2 > 0 && complete ? bytesOf(g.tracks) : 0;
   if (g.validity.empty() && g.corrections.empty() && g.left == 0) return;
   EncodedTrack& track = g.tracks.front();

@@ -133,24 +133,24 @@ Purpose EncodeJob::geometryPurpose() const {
 
 /// Bytes worth coding: beyond the budget, because the slopes of the last packets within
 /// it depend on the points that follow, and the order must not depend on the budget.
-TrackOptions EncodeJob::trackOptions(TrackId component) const {
+TrackOptions EncodeJob::trackOptions(Component component) const {
   constexpr uint64_t kMargin = 4096;
   TrackOptions track;
   if (budgeted()) track.room = options_.bytes;
   if (track.room < UINT64_MAX / 4) track.limit = 2 * track.room + kMargin;
-  track.region_log2 = component == TrackId::kGeometry ? geometryRegions(*heights_, options_)
-                                                      : textureRegions(*image_, options_);
+  track.region_log2 = component == Component::kGeometry ? geometryRegions(*heights_, options_)
+                                                        : textureRegions(*image_, options_);
   track.threads = options_.threads;
-  if (component == TrackId::kTexture && options_.psnr > 0)
+  if (component == Component::kTexture && options_.psnr > 0)
     track.mean_square = worstMeanSquare(texels_.most(), options_.psnr);
-  track.visual = component == TrackId::kTexture && options_.weights == TKS_WEIGHTS_VISUAL;
+  track.visual = component == Component::kTexture && options_.weights == TKS_WEIGHTS_VISUAL;
   return track;
 }
 
 Status EncodeJob::encodeTracks() {
   const bool parallel = options_.threads > 1 && geometry_ && image_ != nullptr;
   const auto encode_texture = [&] {
-    return encodeTexture(texels_, texturePurpose(), trackOptions(TrackId::kTexture));
+    return encodeTexture(texels_, texturePurpose(), trackOptions(Component::kTexture));
   };
   std::future<EncodedTexture> texture;
   if (image_ != nullptr) {
@@ -171,20 +171,20 @@ Status EncodeJob::encodeTracks() {
 void EncodeJob::reachTarget() {
   const std::vector<EncodedTrack>& tracks = texture_->tracks;
   if (tracks.front().complete || textureMeetsTarget(bytesOf(tracks))) return;
-  TrackOptions to_the_end = trackOptions(TrackId::kTexture);
+  TrackOptions to_the_end = trackOptions(Component::kTexture);
   to_the_end.mean_square = 0;
   texture_ = encodeTexture(texels_, texturePurpose(), to_the_end);
 }
 
 /// The budget buys so much of every track that losslessness is in reach.
 bool EncodeJob::nearlyExact() const {
-  std::array<double, kTracks> rmse = {rmseOf(255), rmseOf(255)};
+  std::array<double, kComponents> rmse = {rmseOf(255), rmseOf(255)};
   uint64_t room = options_.bytes;
   for (const Packet& packet : packets_) {
     const uint64_t size = overheadOf(packet) + packet.end - packet.begin;
     if (size > room) break;
     room -= size;
-    rmse[static_cast<size_t>(packet.track)] = rmseOf(packet.quality);
+    rmse[static_cast<size_t>(packet.component)] = rmseOf(packet.quality);
   }
   const auto reached = [&](bool present, size_t track) {
     return !present || rmse[track] <= kNearlyExact;
@@ -204,7 +204,7 @@ void EncodeJob::encodeLosslessIfItFits() {
   if (geometry_) encodeGeometry(Purpose::kLossless);
   if (texture_ && !drawn) {
     lossy_texture.push_back(std::move(*texture_));
-    texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(TrackId::kTexture));
+    texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(Component::kTexture));
   }
   const uint64_t bytes =
       (geometry_ ? bytesOf(geometry_->tracks) : 0) + (texture_ ? bytesOf(texture_->tracks) : 0);

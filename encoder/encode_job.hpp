@@ -88,7 +88,7 @@ class EncodeJob {
 
  private:
   /// How much of each component the target wants, in payload bytes of its packets in their order.
-  using Needs = std::array<uint64_t, kTracks>;
+  using Needs = std::array<uint64_t, kComponents>;
 
   Status quantise();
   Status encodeTracks();
@@ -107,18 +107,18 @@ class EncodeJob {
   void accountForStored();
   Purpose geometryPurpose() const;
   Purpose texturePurpose() const;
-  TrackOptions trackOptions(TrackId component) const;
+  TrackOptions trackOptions(Component component) const;
   bool budgeted() const { return options_.bytes != 0; }
 
   // encode_order.cpp: the joint order of the packets.
   void order();
-  TrackCurve geometryCurve() const;
-  TrackCurve textureCurve() const;
+  ComponentCurve geometryCurve() const;
+  ComponentCurve textureCurve() const;
   double texelsPerMetre(double step) const;
   double meshFloor() const;
-  const std::vector<EncodedTrack>& tracksOf(TrackId component) const;
-  Codewords cutAt(TrackId component, uint64_t bytes) const;
-  double samplesOf(TrackId component) const;
+  const std::vector<EncodedTrack>& tracksOf(Component component) const;
+  Codewords cutAt(Component component, uint64_t bytes) const;
+  double samplesOf(Component component) const;
   AuditScope auditScope(uint64_t samples) const;
   // memory: of calls for fewer bytes of a component with one track.
   DecodedHeights decodedHeights(uint64_t bytes, HeightsMemory* memory = nullptr) const;
@@ -146,7 +146,7 @@ class EncodeJob {
   void preferLossless(Needs& needs);
   void preferStored(Needs& needs);
   void keepNeeded(const Needs& needs);
-  uint8_t qualityAfter(TrackId component, uint64_t bytes) const;
+  uint8_t qualityAfter(Component component, uint64_t bytes) const;
 
   // encode_stream.cpp: the finished stream.
   StreamHeader makeHeader(uint64_t payload_bytes, bool lossless) const;

@@ -38,19 +38,19 @@ void favour(std::vector<RatePoint>& points, uint64_t opening) {
 /// The packets of a track and its hull in the common distortion. opening: bytes that come first
 /// whatever they cost.
 template <class MeanSquare, class Cost>
-TrackCurve priced(TrackId track, std::vector<RatePoint> points, MeanSquare mean_square, Cost cost,
-                  uint64_t opening = 0) {
+ComponentCurve priced(Component component, std::vector<RatePoint> points, MeanSquare mean_square,
+                      Cost cost, uint64_t opening = 0) {
   std::map<uint64_t, uint8_t> quality;
   for (RatePoint& point : points) {
     quality[point.bytes] = qualityOf(std::sqrt(mean_square(point.distortion)));
     point.distortion = cost(point.distortion);
   }
   favour(points, opening);
-  TrackCurve curve{lowerHull(points, kPacketGrowth), {}};
+  ComponentCurve curve{lowerHull(points, kPacketGrowth), {}};
   uint64_t begin = 0;
   for (size_t i = 1; i < curve.points.size(); ++i) {
     for (const RatePoint& end : packetEnds(points, curve.points[i - 1], curve.points[i])) {
-      curve.packets.push_back({track, end.dips, quality[end.bytes], begin, end.bytes, {}});
+      curve.packets.push_back({component, end.dips, quality[end.bytes], begin, end.bytes, {}});
       begin = end.bytes;
     }
   }
@@ -59,7 +59,8 @@ TrackCurve priced(TrackId track, std::vector<RatePoint> points, MeanSquare mean_
 
 /// The same of several tracks, whose packets are in an order of their own.
 template <class MeanSquare, class Cost>
-TrackCurve priced(OrderedTracks tracks, MeanSquare mean_square, Cost cost, uint64_t opening = 0) {
+ComponentCurve priced(OrderedTracks tracks, MeanSquare mean_square, Cost cost,
+                      uint64_t opening = 0) {
   for (size_t i = 0; i < tracks.packets.size(); ++i) {
     const double squares = tracks.points[i + 1].distortion;
     tracks.packets[i].quality = qualityOf(std::sqrt(mean_square(squares)));
@@ -80,28 +81,28 @@ double metresPerUnit(const char* unit) {
 
 }  // namespace
 
-const std::vector<EncodedTrack>& EncodeJob::tracksOf(TrackId component) const {
-  return component == TrackId::kGeometry ? geometry_->tracks : texture_->tracks;
+const std::vector<EncodedTrack>& EncodeJob::tracksOf(Component component) const {
+  return component == Component::kGeometry ? geometry_->tracks : texture_->tracks;
 }
 
 /// Those that count in the error of a component.
-double EncodeJob::samplesOf(TrackId component) const {
-  if (component == TrackId::kTexture)
+double EncodeJob::samplesOf(Component component) const {
+  if (component == Component::kTexture)
     return static_cast<double>(countedSamples(texels_, texture_->seen));
   return static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1));
 }
 
 /// What the first bytes of a component's packets hold.
-Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
+Codewords EncodeJob::cutAt(Component component, uint64_t bytes) const {
   Codewords all = codewordsOf(tracksOf(component));
   assert(bytes <= bytesOf(tracksOf(component)));
   if (all.size() == 1) return {all.front().first(bytes)};
   if (bytes >= bytesOf(tracksOf(component))) return all;
   Codewords cut(all.size());
   for (const Packet& packet : packets_) {
-    if (packet.track != component) continue;
+    if (packet.component != component) continue;
     const uint64_t taken = std::min(bytes, packet.end - packet.begin);
-    cut[*packet.region] = all[*packet.region].first(packet.begin + taken);
+    cut[*packet.track] = all[*packet.track].first(packet.begin + taken);
     bytes -= taken;
     if (bytes == 0) break;
   }
@@ -110,13 +111,13 @@ Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
 
 DecodedHeights EncodeJob::decodedHeights(uint64_t bytes, HeightsMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
-  return decodeLayers(cutAt(TrackId::kGeometry, bytes), *header.geometry, header.layers, 0,
+  return decodeLayers(cutAt(Component::kGeometry, bytes), *header.geometry, header.layers, 0,
                       options_.threads, memory);
 }
 
 Texels EncodeJob::decodedTexels(uint64_t bytes, TextureMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
-  return decodeTexture(*header.texture, cutAt(TrackId::kTexture, bytes), 0, options_.threads,
+  return decodeTexture(*header.texture, cutAt(Component::kTexture, bytes), 0, options_.threads,
                        memory);
 }
 
@@ -145,9 +146,9 @@ double EncodeJob::textureSquares(uint64_t bytes, TextureMemory* memory) const {
   return countedSquares(texels_, decodedTexels(bytes, memory), texture_->seen);
 }
 
-TrackCurve EncodeJob::geometryCurve() const {
+ComponentCurve EncodeJob::geometryCurve() const {
   if (!geometry_) return {};
-  const double samples = samplesOf(TrackId::kGeometry);
+  const double samples = samplesOf(Component::kGeometry);
   const double step =
       geometry_->steps.step * std::abs(heights_->scale) * metresPerUnit(heights_->unit);
   const double floor = meshFloor();
@@ -156,12 +157,12 @@ TrackCurve EncodeJob::geometryCurve() const {
   const uint64_t opening = geometry_->validity.size();
   const auto curve = [&](const auto& cost) {
     if (geometry_->tracks.size() > 1) {
-      return priced(orderTracks(TrackId::kGeometry, geometry_->tracks,
+      return priced(orderTracks(Component::kGeometry, geometry_->tracks,
                                 {opening, geometry_->corrections.size()}),
                     mean_square, cost, opening);
     }
     HeightsMemory memory;
-    return priced(TrackId::kGeometry,
+    return priced(Component::kGeometry,
                   audit(geometry_->tracks.front(), auditScope(geometry_->steps.steps.size()),
                         [&](uint64_t bytes) { return geometrySquares(bytes, &memory); }),
                   mean_square, cost, opening);
@@ -180,7 +181,7 @@ double EncodeJob::meshFloor() const {
       decimate({heights_->width, heights_->height, geometry_->steps.steps});
   if (!sequence.ok()) return 0;
   const double squares = sequence->squaredError(sequence->bestPrefix(options_.triangles));
-  return squares / samplesOf(TrackId::kGeometry) / 16;
+  return squares / samplesOf(Component::kGeometry) / 16;
 }
 
 /// Texels that the texture moves per metre of height error. Terrain of unknown spacing is taken to
@@ -193,17 +194,17 @@ double EncodeJob::texelsPerMetre(double step) const {
   return (options_.parallax > 0 ? options_.parallax : kDefaultParallax) / texel;
 }
 
-TrackCurve EncodeJob::textureCurve() const {
+ComponentCurve EncodeJob::textureCurve() const {
   if (!texture_) return {};
-  const double samples = samplesOf(TrackId::kTexture);
+  const double samples = samplesOf(Component::kTexture);
   const auto mean_square = [&](double squares) { return squares / samples; };
   const uint64_t opening = texture_->header.alpha_bytes + texture_->header.overlay_bytes;
   if (texture_->tracks.size() > 1) {
-    return priced(orderTracks(TrackId::kTexture, texture_->tracks, {opening, 0}), mean_square,
+    return priced(orderTracks(Component::kTexture, texture_->tracks, {opening, 0}), mean_square,
                   mean_square, opening);
   }
   TextureMemory memory;
-  return priced(TrackId::kTexture,
+  return priced(Component::kTexture,
                 audit(texture_->tracks.front(), auditScope(texels_.samples.size()),
                       [&](uint64_t bytes) { return textureSquares(bytes, &memory); }),
                 mean_square, mean_square, opening);

@@ -46,7 +46,7 @@ StreamHeader EncodeJob::makeHeader(uint64_t payload_bytes, bool lossless) const 
   if (texture_) header.texture = texture_->header;
   if (options_.index != 0) {
     for (const Packet& packet : packets_)
-      header.index.push_back({packet.head(), packet.region.value_or(0), packet.quality});
+      header.index.push_back({packet.head(), packet.track.value_or(0), packet.quality});
   }
   return header;
 }
@@ -70,10 +70,10 @@ uint64_t EncodeJob::totalPayload() const {
 
 /// The last packet of either track states that nothing is left, or there was nothing to send.
 bool EncodeJob::restoresEverything() const {
-  std::array<bool, kTracks> exact = {!geometry_ || nothingLeft(geometry_->tracks),
-                                     !texture_ || nothingLeft(texture_->tracks)};
+  std::array<bool, kComponents> exact = {!geometry_ || nothingLeft(geometry_->tracks),
+                                         !texture_ || nothingLeft(texture_->tracks)};
   for (const Packet& packet : packets_)
-    exact[static_cast<size_t>(packet.track)] = packet.quality == 0;
+    exact[static_cast<size_t>(packet.component)] = packet.quality == 0;
   const bool restored = !geometry_ || geometry_->restoresSamples();
   const bool hidden = texture_ && texture_->header.hidden;
   return exact[0] && exact[1] && restored && !hidden;
@@ -87,7 +87,7 @@ bool EncodeJob::isLossless() const {
 }
 
 Result<std::vector<uint8_t>> EncodeJob::assemble() const {
-  std::array<Codewords, kTracks> codewords;
+  std::array<Codewords, kComponents> codewords;
   if (geometry_) codewords[0] = codewordsOf(geometry_->tracks);
   if (texture_) codewords[1] = codewordsOf(texture_->tracks);
   uint64_t room = UINT64_MAX >> 1;

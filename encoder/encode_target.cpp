@@ -22,11 +22,11 @@ struct PayloadRange {
   bool whole;
 };
 
-std::vector<PayloadRange> rangesOf(const std::vector<Packet>& packets, TrackId track) {
+std::vector<PayloadRange> rangesOf(const std::vector<Packet>& packets, Component component) {
   std::vector<PayloadRange> ranges;
   uint64_t sent = 0;
   for (const Packet& packet : packets) {
-    if (packet.track != track) continue;
+    if (packet.component != component) continue;
     ranges.push_back({sent, sent + packet.end - packet.begin, packet.whole});
     sent = ranges.back().end;
   }
@@ -73,7 +73,7 @@ HeightErrors EncodeJob::heightErrors(uint64_t bytes) const {
       squares += error * error;
       errors.largest = std::max(errors.largest, error);
     }
-    errors.mean_square = squares / samplesOf(TrackId::kGeometry);
+    errors.mean_square = squares / samplesOf(Component::kGeometry);
     return errors;
   });
 }
@@ -86,12 +86,12 @@ bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
 }
 
 bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
-  return textureSquares(bytes) / samplesOf(TrackId::kTexture) <=
+  return textureSquares(bytes) / samplesOf(Component::kTexture) <=
          worstMeanSquare(texels_.most(), options_.psnr);
 }
 
 Result<uint64_t> EncodeJob::geometryNeed() const {
-  const uint64_t need = leastBytes(rangesOf(packets_, TrackId::kGeometry),
+  const uint64_t need = leastBytes(rangesOf(packets_, Component::kGeometry),
                                    [&](uint64_t bytes) { return geometryMeetsTarget(bytes); });
   if (geometryMeetsTarget(need)) return need;
   return Status(TKS_USAGE,
@@ -102,13 +102,13 @@ Result<uint64_t> EncodeJob::geometryNeed() const {
 /// packet.
 uint64_t EncodeJob::textureNeed(const Needs& so_far) const {
   if (options_.psnr > 0 || !geometry_) {
-    return leastBytes(rangesOf(packets_, TrackId::kTexture),
+    return leastBytes(rangesOf(packets_, Component::kTexture),
                       [&](uint64_t bytes) { return textureMeetsTarget(bytes); });
   }
   Needs sent = {};
   for (const Packet& packet : packets_) {
-    sent[static_cast<size_t>(packet.track)] += packet.end - packet.begin;
-    if (packet.track == TrackId::kGeometry && sent[0] >= so_far[0]) break;
+    sent[static_cast<size_t>(packet.component)] += packet.end - packet.begin;
+    if (packet.component == Component::kGeometry && sent[0] >= so_far[0]) break;
   }
   return sent[1];
 }
@@ -132,7 +132,7 @@ Result<EncodeJob::Needs> EncodeJob::needs() const {
 
 /// Next to the last bit, tracks without fraction bits reach it in fewer bytes.
 void EncodeJob::preferLossless(Needs& needs) {
-  const auto nearly_exact = [&](TrackId component) {
+  const auto nearly_exact = [&](Component component) {
     return rmseOf(qualityAfter(component, needs[static_cast<size_t>(component)])) <= kNearlyExact;
   };
   bool changed = false;
@@ -144,14 +144,14 @@ void EncodeJob::preferLossless(Needs& needs) {
       lossless = std::move(lossy);
     }
   };
-  if (geometry_ && geometry_->steps.exact && nearly_exact(TrackId::kGeometry)) {
+  if (geometry_ && geometry_->steps.exact && nearly_exact(Component::kGeometry)) {
     std::optional<EncodedHeights> lossy = geometry_;
     encodeGeometry(Purpose::kLossless);
     decide(geometry_, std::move(lossy), needs[0]);
   }
-  if (texture_ && !texture_->header.direct() && nearly_exact(TrackId::kTexture)) {
+  if (texture_ && !texture_->header.direct() && nearly_exact(Component::kTexture)) {
     std::optional<EncodedTexture> lossy = std::move(texture_);
-    texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(TrackId::kTexture));
+    texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(Component::kTexture));
     decide(texture_, std::move(lossy), needs[1]);
   }
   if (changed) order();
@@ -186,22 +186,22 @@ void EncodeJob::keepNeeded(const Needs& needs) {
   std::vector<Packet> kept;
   for (Packet packet : packets_) {
     assert(packet.begin < packet.end);
-    const auto component = static_cast<size_t>(packet.track);
+    const auto component = static_cast<size_t>(packet.component);
     const uint64_t taken = std::min(left[component], packet.end - packet.begin);
     left[component] -= taken;
     if (taken == 0) continue;
     if (packet.begin + taken < packet.end) {
       packet.end = packet.begin + taken;
-      packet.quality = qualityAfter(packet.track, needs[component]);
+      packet.quality = qualityAfter(packet.component, needs[component]);
     }
     kept.push_back(packet);
   }
   packets_ = std::move(kept);
 }
 
-uint8_t EncodeJob::qualityAfter(TrackId component, uint64_t bytes) const {
+uint8_t EncodeJob::qualityAfter(Component component, uint64_t bytes) const {
   const double squares =
-      component == TrackId::kGeometry ? geometrySquares(bytes) : textureSquares(bytes);
+      component == Component::kGeometry ? geometrySquares(bytes) : textureSquares(bytes);
   return qualityOf(std::sqrt(squares / samplesOf(component)));
 }
 

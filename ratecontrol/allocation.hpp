@@ -15,13 +15,13 @@ namespace tetrakis {
 
 /// One component as the allocation sees it: its packets in their order, and the hull in a
 /// distortion common to all components, whose points lie at ends of packets.
-struct TrackCurve {
+struct ComponentCurve {
   std::vector<RatePoint> points;  ///< from {0, ...}; convex; fewer than two: no packets
   std::vector<Packet> packets;
 };
 
 /// Steepest slope first; within a component the order of its packets. Equal slopes: geometry first.
-std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves);
+std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves);
 
 /// The same bytes in fewer packets: neighbours of one track become one, as long as it takes less
 /// than two steps of stated quality (1.5 dB). Packets that count only when whole stay as they are.

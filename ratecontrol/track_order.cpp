@@ -22,7 +22,7 @@ struct Piece {
   double removed;
 };
 
-Piece pieceBetween(const RatePoint& a, const RatePoint& b, TrackId component, size_t track) {
+Piece pieceBetween(const RatePoint& a, const RatePoint& b, Component component, size_t track) {
   assert(a.bytes < b.bytes);
   const double removed = a.distortion - b.distortion;
   return {removed / static_cast<double>(b.bytes - a.bytes),
@@ -30,7 +30,7 @@ Piece pieceBetween(const RatePoint& a, const RatePoint& b, TrackId component, si
           removed};
 }
 
-void appendHull(std::span<const RatePoint> points, TrackId component, size_t track,
+void appendHull(std::span<const RatePoint> points, Component component, size_t track,
                 std::vector<Piece>& pieces) {
   const std::vector<RatePoint> hull = lowerHull(points, kRegionGrowth);
   for (size_t i = 1; i < hull.size(); ++i) {
@@ -46,7 +46,7 @@ void appendHull(std::span<const RatePoint> points, TrackId component, size_t tra
 
 }  // namespace
 
-OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> tracks,
+OrderedTracks orderTracks(Component component, std::span<const EncodedTrack> tracks,
                           const FixedBytes& fixed) {
   std::span<const RatePoint> base = tracks.front().points;
   std::vector<Piece> pieces;

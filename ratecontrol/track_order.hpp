@@ -24,7 +24,7 @@ struct OrderedTracks {
   std::vector<RatePoint> points;
 };
 
-OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> tracks,
+OrderedTracks orderTracks(Component component, std::span<const EncodedTrack> tracks,
                           const FixedBytes& fixed);
 
 }  // namespace tetrakis

@@ -255,16 +255,16 @@ TEST(Tracks, AreOrderedBySlope) {
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const auto tracks =
       encodeGeometry(heights, size.width, size.height, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
-  const OrderedTracks order = orderTracks(TrackId::kGeometry, tracks, {});
+  const OrderedTracks order = orderTracks(Component::kGeometry, tracks, {});
   std::vector<uint64_t> sent(tracks.size());
   ASSERT_EQ(order.points.size(), order.packets.size() + 1);
   double before = 1e300;
   size_t begin = 0;  // of packets of one region, which a dip may have parted
   for (size_t i = 0; i < order.packets.size(); ++i) {
     const Packet& packet = order.packets[i];
-    ASSERT_EQ(packet.begin, sent[*packet.region]);
-    sent[*packet.region] = packet.end;
-    if (i + 1 < order.packets.size() && order.packets[i + 1].region == packet.region) continue;
+    ASSERT_EQ(packet.begin, sent[*packet.track]);
+    sent[*packet.track] = packet.end;
+    if (i + 1 < order.packets.size() && order.packets[i + 1].track == packet.track) continue;
     const RatePoint &a = order.points[begin], &b = order.points[i + 1];
     begin = i + 1;
     const double slope = (a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes);
