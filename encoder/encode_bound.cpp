@@ -125,7 +125,7 @@ void EncodeJob::encodeRounded() {
 
 void EncodeJob::correctHeights(int32_t largest, std::optional<double> mean_square) {
   EncodedHeights& g = *geometry_;
-  const EncodedTrack whole = std::move(encodeCoefficients().front());
+  const EncodedTrack whole = std::move(codedCoefficients().front());
   GeometryHeader header = *makeHeader(0, false).geometry;
   header.planes = static_cast<uint8_t>(whole.planes);
   const CorrectedCut cut_of(g.steps, header, whole, largest);

@@ -33,7 +33,7 @@ void EncodeJob::encodeSideLayers(bool restore_samples) {
 
 void EncodeJob::encodeGeometry(Purpose purpose) {
   geometry_->wavelet = waveletFor(purpose);
-  joinLayers(encodeCoefficients());
+  joinLayers(codedCoefficients());
 }
 
 WaveletHeader EncodeJob::waveletFor(Purpose purpose) const {
@@ -42,10 +42,11 @@ WaveletHeader EncodeJob::waveletFor(Purpose purpose) const {
                        steps.range_bits, purpose);
 }
 
-std::vector<EncodedTrack> EncodeJob::encodeCoefficients() const {
-  return tetrakis::encodeGeometry(geometry_->steps.steps, heights_->width, heights_->height,
-                                  geometry_->wavelet, trackOptions(Component::kGeometry),
-                                  geometry_->steps.valid);
+std::vector<EncodedTrack> EncodeJob::codedCoefficients() const {
+  const TextureOptions options = trackOptions(Component::kGeometry);
+  return encodeCoefficients(
+      {geometry_->steps.steps, heights_->width, heights_->height, geometry_->steps.valid},
+      geometry_->wavelet, {options.limit, options.region_log2, options.threads});
 }
 
 /// Validity before the coefficients of the first track, corrections of the samples behind them.

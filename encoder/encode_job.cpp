@@ -58,12 +58,6 @@ Codewords codewordsOf(const std::vector<EncodedTrack>& tracks) {
   return codewords;
 }
 
-uint64_t bytesOf(const std::vector<EncodedTrack>& tracks) {
-  uint64_t bytes = 0;
-  for (const EncodedTrack& track : tracks) bytes += track.codeword.size();
-  return bytes;
-}
-
 EncodeJob::EncodeJob(const tks_heights* heights, const tks_image* image,
                      const tks_encode_options& options)
     : heights_(heights), image_(image), options_(options) {}
@@ -97,7 +91,7 @@ Status EncodeJob::report(double done) const {
 }
 
 Status EncodeJob::quantise() {
-  if (image_ != nullptr) texels_ = toTexels(*image_);
+  if (image_ != nullptr) source_ = toTexels(*image_);
   if (heights_ == nullptr) return {};
   const double error = options_.max_error / std::abs(heights_->scale);
   bool restore = options_.lossless != 0;
@@ -133,16 +127,16 @@ Purpose EncodeJob::geometryPurpose() const {
 
 /// Bytes worth coding: beyond the budget, because the slopes of the last packets within
 /// it depend on the points that follow, and the order must not depend on the budget.
-TrackOptions EncodeJob::trackOptions(Component component) const {
+TextureOptions EncodeJob::trackOptions(Component component) const {
   constexpr uint64_t kMargin = 4096;
-  TrackOptions track;
+  TextureOptions track;
   if (budgeted()) track.room = options_.bytes;
   if (track.room < UINT64_MAX / 4) track.limit = 2 * track.room + kMargin;
   track.region_log2 = component == Component::kGeometry ? geometryRegions(*heights_, options_)
                                                         : textureRegions(*image_, options_);
   track.threads = options_.threads;
   if (component == Component::kTexture && options_.psnr > 0)
-    track.mean_square = worstMeanSquare(texels_.most(), options_.psnr);
+    track.mean_square = worstMeanSquare(source_->texels.most(), options_.psnr);
   track.visual = component == Component::kTexture && options_.weights == TKS_WEIGHTS_VISUAL;
   return track;
 }
@@ -150,7 +144,7 @@ TrackOptions EncodeJob::trackOptions(Component component) const {
 Status EncodeJob::encodeTracks() {
   const bool parallel = options_.threads > 1 && geometry_ && image_ != nullptr;
   const auto encode_texture = [&] {
-    return encodeTexture(texels_, texturePurpose(), trackOptions(Component::kTexture));
+    return encodeTexture(*source_, texturePurpose(), trackOptions(Component::kTexture));
   };
   std::future<EncodedTexture> texture;
   if (image_ != nullptr) {
@@ -171,9 +165,9 @@ Status EncodeJob::encodeTracks() {
 void EncodeJob::reachTarget() {
   const std::vector<EncodedTrack>& tracks = texture_->tracks;
   if (tracks.front().complete || textureMeetsTarget(bytesOf(tracks))) return;
-  TrackOptions to_the_end = trackOptions(Component::kTexture);
+  TextureOptions to_the_end = trackOptions(Component::kTexture);
   to_the_end.mean_square = 0;
-  texture_ = encodeTexture(texels_, texturePurpose(), to_the_end);
+  texture_ = encodeTexture(*source_, texturePurpose(), to_the_end);
 }
 
 /// The budget buys so much of every track that losslessness is in reach.
@@ -204,7 +198,7 @@ void EncodeJob::encodeLosslessIfItFits() {
   if (geometry_) encodeGeometry(Purpose::kLossless);
   if (texture_ && !drawn) {
     lossy_texture.push_back(std::move(*texture_));
-    texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(Component::kTexture));
+    texture_ = encodeTexture(*source_, Purpose::kLossless, trackOptions(Component::kTexture));
   }
   const uint64_t bytes =
       (geometry_ ? bytesOf(geometry_->tracks) : 0) + (texture_ ? bytesOf(texture_->tracks) : 0);

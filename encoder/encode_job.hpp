@@ -65,7 +65,6 @@ struct HeightErrors {
 };
 
 Codewords codewordsOf(const std::vector<EncodedTrack>& tracks);
-uint64_t bytesOf(const std::vector<EncodedTrack>& tracks);
 
 /// RMSE in steps, or texel units, below which the last bit is worth a try.
 inline constexpr double kNearlyExact = 0.6;
@@ -101,13 +100,13 @@ class EncodeJob {
   void encodeSideLayers(bool restore_samples);
   void encodeGeometry(Purpose purpose);
   WaveletHeader waveletFor(Purpose purpose) const;
-  std::vector<EncodedTrack> encodeCoefficients() const;
+  std::vector<EncodedTrack> codedCoefficients() const;
   void joinLayers(std::vector<EncodedTrack> coefficients);
   void storeHeights();
   void accountForStored();
   Purpose geometryPurpose() const;
   Purpose texturePurpose() const;
-  TrackOptions trackOptions(Component component) const;
+  TextureOptions trackOptions(Component component) const;
   bool budgeted() const { return options_.bytes != 0; }
 
   // encode_order.cpp: the joint order of the packets.
@@ -160,7 +159,7 @@ class EncodeJob {
   const tks_image* image_;
   const tks_encode_options& options_;
   std::optional<EncodedHeights> geometry_;
-  Texels texels_;
+  std::optional<TextureSource> source_;
   std::optional<EncodedTexture> texture_;
   std::vector<Packet> packets_;
 };

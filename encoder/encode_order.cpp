@@ -88,7 +88,8 @@ const std::vector<EncodedTrack>& EncodeJob::tracksOf(Component component) const 
 /// Those that count in the error of a component.
 double EncodeJob::samplesOf(Component component) const {
   if (component == Component::kTexture)
-    return static_cast<double>(countedSamples(texels_, texture_->seen));
+    return static_cast<double>(
+        countedSamples(source_->texels, source_->counted(texture_->header.hidden)));
   return static_cast<double>(std::max<size_t>(geometry_->steps.validCount(), 1));
 }
 
@@ -143,7 +144,8 @@ double EncodeJob::geometrySquares(uint64_t bytes, HeightsMemory* memory) const {
 }
 
 double EncodeJob::textureSquares(uint64_t bytes, TextureMemory* memory) const {
-  return countedSquares(texels_, decodedTexels(bytes, memory), texture_->seen);
+  return countedSquares(source_->texels, decodedTexels(bytes, memory),
+                        source_->counted(texture_->header.hidden));
 }
 
 ComponentCurve EncodeJob::geometryCurve() const {
@@ -168,7 +170,7 @@ ComponentCurve EncodeJob::geometryCurve() const {
                   mean_square, cost, opening);
   };
   if (image_ == nullptr) return curve(useful);
-  const ScreenModel model(texels_, texelsPerMetre(step));
+  const ScreenModel model(source_->texels, texelsPerMetre(step));
   return curve([&](double squares) { return model.cost(useful(squares) * step * step); });
 }
 
@@ -205,7 +207,7 @@ ComponentCurve EncodeJob::textureCurve() const {
   }
   TextureMemory memory;
   return priced(Component::kTexture,
-                audit(texture_->tracks.front(), auditScope(texels_.samples.size()),
+                audit(texture_->tracks.front(), auditScope(source_->texels.samples.size()),
                       [&](uint64_t bytes) { return textureSquares(bytes, &memory); }),
                 mean_square, mean_square, opening);
 }

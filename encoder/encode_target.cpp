@@ -87,7 +87,7 @@ bool EncodeJob::geometryMeetsTarget(uint64_t bytes) const {
 
 bool EncodeJob::textureMeetsTarget(uint64_t bytes) const {
   return textureSquares(bytes) / samplesOf(Component::kTexture) <=
-         worstMeanSquare(texels_.most(), options_.psnr);
+         worstMeanSquare(source_->texels.most(), options_.psnr);
 }
 
 Result<uint64_t> EncodeJob::geometryNeed() const {
@@ -151,7 +151,7 @@ void EncodeJob::preferLossless(Needs& needs) {
   }
   if (texture_ && !texture_->header.direct() && nearly_exact(Component::kTexture)) {
     std::optional<EncodedTexture> lossy = std::move(texture_);
-    texture_ = encodeTexture(texels_, Purpose::kLossless, trackOptions(Component::kTexture));
+    texture_ = encodeTexture(*source_, Purpose::kLossless, trackOptions(Component::kTexture));
     decide(texture_, std::move(lossy), needs[1]);
   }
   if (changed) order();
@@ -172,8 +172,8 @@ void EncodeJob::preferStored(Needs& needs) {
       changed = true;
     }
   }
-  if (texture_ && pays(needs[1], texture_, storedBytes(texels_), 0)) {
-    texture_ = storeTexture(texels_);
+  if (texture_ && pays(needs[1], texture_, storedBytes(source_->texels), 0)) {
+    texture_ = storeTexture(source_->texels);
     needs[1] = UINT64_MAX;
     changed = true;
   }
