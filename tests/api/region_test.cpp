@@ -256,7 +256,7 @@ TEST(Tracks, AreOrderedBySlope) {
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const auto tracks = encodeCoefficients({heights, size.width, size.height}, {{1, 1, 1}, 0, 10},
                                          {UINT64_MAX, 5, 1});
-  const OrderedTracks order = orderTracks(Component::kGeometry, tracks, {});
+  const OrderedTracks order = orderTracks({Component::kGeometry, tracks});
   std::vector<uint64_t> sent(tracks.size());
   ASSERT_EQ(order.points.size(), order.packets.size() + 1);
   double before = 1e300;
