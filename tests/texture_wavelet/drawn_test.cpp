@@ -7,8 +7,10 @@
 #include <random>
 
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
+#include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis {
 namespace {
@@ -159,8 +161,8 @@ TEST(Drawn, NoiseAndTooManyColoursAreNot) {
   EXPECT_FALSE(encodeDrawn(many));
 }
 
-TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
-  const Texels map = drawing({200, 150}, 3, 8, 10);
+/// A photograph with water of one colour, alike enough to be tried as a drawing.
+Texels lakeInPhotograph() {
   Texels lake{200, 150, 1, 8, {}};
   std::mt19937 random(4);
   for (uint32_t i = 0; i < 200 * 150; ++i) {
@@ -168,10 +170,46 @@ TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
     const double land = wave + static_cast<double>(random() % 6);
     lake.samples.push_back(i % 200 < 120 ? uint16_t{40} : static_cast<uint16_t>(land));
   }
+  return lake;
+}
+
+TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
+  const Texels map = drawing({200, 150}, 3, 8, 10), lake = lakeInPhotograph();
   ASSERT_TRUE(encodeDrawn(lake)) << "alike enough to be tried";
   for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {
     EXPECT_TRUE(encodeTexture(map, purpose, {}).header.drawn());
     EXPECT_FALSE(encodeTexture(lake, purpose, {}).header.drawn());
+  }
+}
+
+/// What the wavelet made of an image to judge a drawing or an overlay serves instead of coding the
+/// image again only where it is the same.
+TEST(Drawn, LosesToWhatTheWaveletMakesAlone) {
+  const TextureSource lake = lakeInPhotograph();
+  ASSERT_TRUE(encodeDrawn(lake.texels));
+  const std::vector<uint8_t> photograph = photographOf(lake.texels);
+  ASSERT_FALSE(photograph.empty());
+  for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {
+    for (const int regions : {0, 5}) {
+      for (const bool visual : {false, true}) {
+        for (const uint64_t room : {UINT64_MAX, uint64_t{4000}}) {
+          TextureOptions options{.region_log2 = regions, .visual = visual, .room = room};
+          if (room < UINT64_MAX) options.limit = 2 * room;
+          const EncodedTexture chosen = encodeTexture(lake, purpose, options);
+          ASSERT_FALSE(chosen.header.direct());
+          const bool overlaid = chosen.header.overlay_bytes > 0;
+          const EncodedTexture alone = encodeByWavelet(
+              lake, purpose, options, overlaid ? photograph : std::vector<uint8_t>());
+          ASSERT_EQ(chosen.tracks.size(), alone.tracks.size());
+          for (size_t i = 0; i < chosen.tracks.size(); ++i)
+            EXPECT_EQ(chosen.tracks[i].codeword, alone.tracks[i].codeword);
+          FieldWriter chosen_fields, alone_fields;
+          TextureHeader(chosen.header).visit(chosen_fields);
+          TextureHeader(alone.header).visit(alone_fields);
+          EXPECT_EQ(chosen_fields.bytes, alone_fields.bytes);
+        }
+      }
+    }
   }
 }
 
