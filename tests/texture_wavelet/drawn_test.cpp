@@ -182,31 +182,65 @@ TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
   }
 }
 
+/// A grainy slope in pairs of texels alike. Every colour is as frequent as any other, so that none
+/// fills enough for an overlay.
+Texels slopeOfPairs() {
+  constexpr size_t kPairs = 100 * 150, kColours = 4000;
+  std::mt19937 random(5);
+  std::vector<std::pair<size_t, size_t>> heights(kPairs);  // and whose they are
+  for (size_t i = 0; i < kPairs; ++i)
+    heights[i] = {23 * (i % 100) + 11 * (i / 100) + random() % 40, i};
+  std::sort(heights.begin(), heights.end());
+  Texels slope{200, 150, 1, 16, std::vector<uint16_t>(2 * kPairs)};
+  for (size_t rank = 0; rank < kPairs; ++rank) {
+    const size_t at = 2 * heights[rank].second;
+    slope.samples[at] = slope.samples[at + 1] = static_cast<uint16_t>(rank * kColours / kPairs);
+  }
+  return slope;
+}
+
+std::vector<uint8_t> fieldsOf(TextureHeader header) {
+  FieldWriter writer;
+  header.visit(writer);
+  header.regions.visit(writer);
+  return writer.bytes;
+}
+
 /// What the wavelet made of an image to judge a drawing or an overlay serves instead of coding the
-/// image again only where it is the same.
+/// image again, but only where that gives the same.
+void expectTheWaveletsOwn(const TextureSource& source, Purpose purpose,
+                          const TextureOptions& options) {
+  const EncodedTexture chosen = encodeTexture(source, purpose, options);
+  if (chosen.header.direct()) return;
+  std::vector<uint8_t> photograph;
+  if (chosen.header.overlay_bytes > 0) photograph = photographOf(source.texels);
+  const EncodedTexture alone = encodeByWavelet(source, purpose, options, photograph);
+  EXPECT_EQ(fieldsOf(chosen.header), fieldsOf(alone.header));
+  EXPECT_EQ(chosen.header.weights.levels, alone.header.weights.levels);
+  ASSERT_EQ(chosen.tracks.size(), alone.tracks.size());
+  for (size_t i = 0; i < chosen.tracks.size(); ++i)
+    EXPECT_EQ(chosen.tracks[i].codeword, alone.tracks[i].codeword);
+}
+
 TEST(Drawn, LosesToWhatTheWaveletMakesAlone) {
-  const TextureSource lake = lakeInPhotograph();
-  ASSERT_TRUE(encodeDrawn(lake.texels));
-  const std::vector<uint8_t> photograph = photographOf(lake.texels);
-  ASSERT_FALSE(photograph.empty());
-  for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {
+  const TextureSource lake = lakeInPhotograph(), slope = slopeOfPairs();
+  ASSERT_TRUE(encodeDrawn(lake.texels) && encodeDrawn(slope.texels)) << "tried";
+  ASSERT_TRUE(!photographOf(lake.texels).empty() && photographOf(slope.texels).empty());
+  EXPECT_FALSE(encodeTexture(slope, Purpose::kLossless, {}).header.direct());
+  for (const TextureSource* source : {&lake, &slope}) {
     for (const int regions : {0, 5}) {
       for (const bool visual : {false, true}) {
-        for (const uint64_t room : {UINT64_MAX, uint64_t{4000}}) {
-          TextureOptions options{.region_log2 = regions, .visual = visual, .room = room};
-          if (room < UINT64_MAX) options.limit = 2 * room;
-          const EncodedTexture chosen = encodeTexture(lake, purpose, options);
-          ASSERT_FALSE(chosen.header.direct());
-          const bool overlaid = chosen.header.overlay_bytes > 0;
-          const EncodedTexture alone = encodeByWavelet(
-              lake, purpose, options, overlaid ? photograph : std::vector<uint8_t>());
-          ASSERT_EQ(chosen.tracks.size(), alone.tracks.size());
-          for (size_t i = 0; i < chosen.tracks.size(); ++i)
-            EXPECT_EQ(chosen.tracks[i].codeword, alone.tracks[i].codeword);
-          FieldWriter chosen_fields, alone_fields;
-          TextureHeader(chosen.header).visit(chosen_fields);
-          TextureHeader(alone.header).visit(alone_fields);
-          EXPECT_EQ(chosen_fields.bytes, alone_fields.bytes);
+        const TextureOptions all{.region_log2 = regions, .visual = visual};
+        TextureOptions budget = all;
+        budget.room = 2000;
+        budget.limit = 2 * budget.room;
+        expectTheWaveletsOwn(*source, Purpose::kLossless, all);
+        expectTheWaveletsOwn(*source, Purpose::kLossy, all);
+        expectTheWaveletsOwn(*source, Purpose::kLossy, budget);
+        for (const double error : {0.02, 0.3, 3.0}) {
+          TextureOptions target = all;
+          target.mean_square = error;
+          expectTheWaveletsOwn(*source, Purpose::kLossy, target);
         }
       }
     }
