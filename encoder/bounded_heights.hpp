@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes heights so that none of them is off by more than a largest error e, in steps. There are two
+// This file codes heights so that none of them is off by more than a largest error e, in steps. There are two
 // ways, and the one of fewer bytes is kept:
 //
 //   round     heights become multiples of 2 e + 1 steps (floats of twice the bound) and are coded

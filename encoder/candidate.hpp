@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an attempt makes of a component, and the choice among attempts. An attempt does not know of
-// others, so none has anything to take back.
+// A candidate is what an attempt to code a component has made of it. Attempts do not know of each
+// other and change nothing that they are given, so none of them has anything to take back: one
+// function chooses among the candidates.
 #pragma once
 
 #include <algorithm>

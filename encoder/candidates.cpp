@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "codec/geometry/stored_heights.hpp"
@@ -54,16 +55,23 @@ uint8_t qualityAfter(const EncodeInputs& inputs, const TextureCandidate& texture
   return statedAfter(inputs, texture, bytes);
 }
 
-std::optional<HeightsCandidate> tryLossless(const EncodeInputs& inputs,
-                                            const HeightsCandidate& heights) {
-  if (!heights.coded->of->steps.exact) return {};
-  return candidateOf(codeHeights(heights.coded->of, Purpose::kLossless, heightOptions(inputs)));
+bool hasLosslessWay(const CodedHeights& heights) {
+  return heights.of->steps.exact;
 }
 
-std::optional<TextureCandidate> tryLossless(const EncodeInputs& inputs,
-                                            const TextureCandidate& texture) {
-  if (texture.coded->header.direct()) return {};
-  return candidateOf(codeTexture(inputs, texture.coded->of, Purpose::kLossless));
+/// Drawn and stored textures are lossless as they stand.
+bool hasLosslessWay(const CodedTexture& texture) {
+  return !texture.header.direct();
+}
+
+HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights) {
+  assert(hasLosslessWay(heights));
+  return candidateOf(codeHeights(heights.of, Purpose::kLossless, heightOptions(inputs)));
+}
+
+TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& texture) {
+  assert(hasLosslessWay(texture));
+  return candidateOf(codeTexture(inputs, texture.of, Purpose::kLossless));
 }
 
 HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights) {

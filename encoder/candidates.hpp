@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates of both components on their way to a selection: their curves, their order, and the
-// attempts that come after the first one.
+// This file takes candidates of both components on their way to a selection: it makes their curves,
+// orders their packets, and makes the attempts that come after the first one.
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 
 #include "encoder/candidate.hpp"
 #include "encoder/coded_heights.hpp"
@@ -37,12 +35,13 @@ Selection orderPackets(const Candidates& candidates);
 uint8_t qualityAfter(const EncodeInputs& inputs, const HeightsCandidate& heights, uint64_t bytes);
 uint8_t qualityAfter(const EncodeInputs& inputs, const TextureCandidate& texture, uint64_t bytes);
 
-/// The component without fraction bits, which is the cheaper way to the last bit; nothing where
-/// that would not be lossless, or where the component is that already.
-std::optional<HeightsCandidate> tryLossless(const EncodeInputs& inputs,
-                                            const HeightsCandidate& heights);
-std::optional<TextureCandidate> tryLossless(const EncodeInputs& inputs,
-                                            const TextureCandidate& texture);
+/// Whether coding without fraction bits restores every sample and is not what was done already.
+bool hasLosslessWay(const CodedHeights& heights);
+bool hasLosslessWay(const CodedTexture& texture);
+
+/// The component without fraction bits, which is the cheaper way to the last bit. It has that way.
+HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights);
+TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& texture);
 
 /// The candidate itself, or the samples as they are where these take fewer bytes: what no model
 /// helps, as noise, takes more bytes coded than stored.

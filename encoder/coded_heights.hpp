@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as a component of a stream: the codewords of the mask, the coefficients and the
-// corrections, joined into tracks, with what the header says of them. A value, once made, is not
-// changed; what could be coded in another way becomes another value.
+// Coded heights are a component of a stream: the codewords of the mask, the coefficients and the
+// corrections, joined into tracks, and what the header says of them. Such a value is not changed
+// once it is made; heights that are coded in another way are another value.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A texture as a component of a stream, and the attempts to code it. A value, once made, is not
-// changed.
+// A coded texture is a component of a stream: its tracks, and what the header says of them. This
+// file makes such values by all ways there are to code a texture, and measures what a decoder shows
+// of them. None is changed once it is made.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole way from inputs to a stream: quantise, code, order the packets, meet the target, write.
-// Every stage takes a value and returns the next one.
+// This file goes the whole way from inputs to a stream: it quantises, codes, orders the packets,
+// meets the target and writes. Every stage takes a value and returns the next one.
 #pragma once
 
 #include <cstdint>

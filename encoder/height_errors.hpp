@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a decoder shows of coded heights when it has a prefix of their codewords, measured against
-// the heights that were coded.
+// This file decodes prefixes of coded heights, as a decoder would, and measures how far they are
+// from the heights that were coded.
 #pragma once
 
 #include <cstdint>

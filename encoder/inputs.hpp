@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one encoding is given, and what its options mean to the codecs of the components.
+// This file holds what one encoding is given, and translates its options for the codecs of the
+// components.
 #pragma once
 
 #include <cstdint>

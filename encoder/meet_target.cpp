@@ -36,22 +36,17 @@ bool nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
          (!selection.texture || rmse[1] <= kNearlyExact);
 }
 
-/// Everything without fraction bits, if that is lossless within the budget. Drawn and stored
-/// textures are so as they stand.
+/// Everything without fraction bits, if that is lossless within the budget.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy) {
-  const bool direct = lossy.texture.coded && lossy.texture.coded->header.direct();
-  if (direct && !lossy.heights.coded) return {};
-  if (lossy.heights.coded && !lossy.heights.coded->of->steps.exact) return {};
+  const auto& [heights, texture] = lossy;
+  if (heights.coded && !hasLosslessWay(*heights.coded)) return {};
+  const bool textures_too = texture.coded && hasLosslessWay(*texture.coded);
+  if (!heights.coded && !textures_too) return {};
   Candidates exact = lossy;
-  uint64_t bytes = 0;
-  if (lossy.heights.coded) {
-    exact.heights = *tryLossless(inputs, lossy.heights);
-    bytes += exact.heights.bytes();
-  }
-  if (lossy.texture.coded) {
-    if (!direct) exact.texture = *tryLossless(inputs, lossy.texture);
-    bytes += exact.texture.bytes();
-  }
+  if (heights.coded) exact.heights = codeLossless(inputs, *heights.coded);
+  if (textures_too) exact.texture = codeLossless(inputs, *texture.coded);
+  const uint64_t bytes =
+      (heights.coded ? exact.heights.bytes() : 0) + (texture.coded ? exact.texture.bytes() : 0);
   if (bytes >= inputs.options.bytes) return {};
   Selection selection = orderPackets(withCurves(inputs, std::move(exact)));
   Selection joined = selection;
@@ -71,7 +66,7 @@ Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
 
 /// The first bytes of the heights' packets that reach the PSNR. Where voids are belongs to what is
 /// asked for.
-std::optional<uint64_t> needOf(const EncodeInputs& inputs, const HeightsCandidate& heights) {
+std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCandidate& heights) {
   const CodedHeights& coded = *heights.coded;
   const SampleRange range = rangeOf(*inputs.heights, coded.of->steps.valid);
   const double worst = worstMeanSquare(range.high - range.low, inputs.options.psnr);
@@ -83,8 +78,8 @@ std::optional<uint64_t> needOf(const EncodeInputs& inputs, const HeightsCandidat
   });
 }
 
-/// All that the packets hold where no less reaches it.
-uint64_t needOf(const EncodeInputs& inputs, const TextureCandidate& texture) {
+/// The first bytes of the texture's packets that reach the PSNR; all of them where none do.
+uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture) {
   const CodedTexture& coded = *texture.coded;
   const auto& packets = texture.curve->packets;
   const std::optional<uint64_t> least = leastBytes(packets, [&](uint64_t bytes) {
@@ -97,17 +92,18 @@ uint64_t needOf(const EncodeInputs& inputs, const TextureCandidate& texture) {
 /// fewer bytes.
 template <class Coded>
 Candidate<Coded> preferLossless(const EncodeInputs& inputs, Candidate<Coded> lossy) {
+  if (!hasLosslessWay(*lossy.coded)) return lossy;
   if (rmseOf(qualityAfter(inputs, lossy, lossy.bytes())) > kNearlyExact) return lossy;
-  std::optional<Candidate<Coded>> lossless = tryLossless(inputs, lossy);
-  if (!lossless) return lossy;
-  return fewestBytes<Coded>({std::move(lossy), *std::move(lossless)});
+  Candidate<Coded> lossless = codeLossless(inputs, *lossy.coded);
+  return fewestBytes<Coded>({std::move(lossy), std::move(lossless)});
 }
 
 /// Each component by itself.
 Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
-  auto& [heights, texture] = candidates = withCurves(inputs, std::move(candidates));
+  candidates = withCurves(inputs, std::move(candidates));
+  auto& [heights, texture] = candidates;
   if (heights.coded) {
-    const std::optional<uint64_t> need = needOf(inputs, heights);
+    const std::optional<uint64_t> need = heightsNeed(inputs, heights);
     if (!need) {
       return Status(TKS_USAGE,
                     "This PSNR is above what the step of the heights allows; give a smaller step.");
@@ -116,7 +112,7 @@ Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
     heights = storedIfShorter(inputs, preferLossless(inputs, std::move(heights)));
   }
   if (texture.coded) {
-    texture.need = needOf(inputs, texture);
+    texture.need = textureNeed(inputs, texture);
     texture = storedIfShorter(preferLossless(inputs, std::move(texture)));
   }
   return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every byte of a coded component is worth to a viewer: this file tells rate control how to
-// measure heights and textures, and how to price their errors in one unit.
+// This file finds out what every byte of a coded component is worth to a viewer. It tells rate
+// control how to measure heights and textures, and how to price their errors in one unit.
 #pragma once
 
 #include "encoder/coded_heights.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as integer steps, with all that does not depend on how their coefficients are coded: the
-// validity mask, and the corrections that restore samples which no steps show. Every attempt to
-// code the heights starts from such a value and leaves it as it is.
+// Quantised heights are integer steps together with all that does not depend on how their
+// coefficients are coded: the validity mask, and the corrections that restore samples which no
+// steps show. Every attempt to code the heights starts from such a value and leaves it as it is.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stream will hold: the components as they are coded, and the packets of both in one order.
+// A selection says what a stream will hold: the components as they are coded, and the packets of
+// both in one order.
 #pragma once
 
 #include <memory>

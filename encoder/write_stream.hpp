@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the finished stream: the header, its index, and the packets that fit.
+// This file writes the finished stream: the header, its index, and the packets that fit.
 #pragma once
 
 #include <cstdint>

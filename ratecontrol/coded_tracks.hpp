@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coded component as rate control sees it: codewords with their accounts. What they hold, heights
-// or texels, does not matter here.
+// This is how rate control sees a coded component: as codewords with their accounts. Whether they
+// hold heights or texels does not matter here.
 #pragma once
 
 #include <cstdint>

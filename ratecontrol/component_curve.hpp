@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets of a coded component, and what their bytes are worth. The account of its tracks is
-// audited and thinned to its hull, errors are priced in the unit that all components share, and
-// every packet states the quality that it leads to.
+// This file cuts a coded component into packets and says what their bytes are worth. The account of
+// the tracks is audited and thinned to its hull, errors are priced in the unit that all components
+// share, and every packet states the quality that it leads to.
 #pragma once
 
 #include <functional>

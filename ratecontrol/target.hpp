@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many bytes of every component a target needs, and the packets that hold them. Nothing here
-// decodes: the callers say what a number of bytes is worth.
+// This file finds out how many bytes of every component a target needs, and keeps the packets that
+// hold them. It decodes nothing: the callers say what a number of bytes is worth.
 #pragma once
 
 #include <array>

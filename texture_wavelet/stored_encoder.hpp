@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the samples of an image as they are, where no coder takes fewer bytes.
+// This file writes the samples of an image as they are, where no coder takes fewer bytes.
 #pragma once
 
 #include "base/texels.hpp"

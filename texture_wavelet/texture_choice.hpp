@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes an image by the coder that suits it: what is drawn as it is, photographs by wavelet, and
-// what no coder helps sample by sample.
+// This file codes an image by the coder that suits it: drawings colour by colour, photographs by
+// wavelet, and what no coder helps sample by sample.
 #pragma once
 
 #include "texture_wavelet/texture_encoder.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes an image by wavelet: the colour transform, the filters and the tracks of its coefficients.
+// This file codes an image by wavelet. It fits a colour transform and filters to the image and
+// codes the coefficients that they leave into tracks.
 #pragma once
 
 #include <cstdint>

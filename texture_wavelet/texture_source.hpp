@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image that is to be coded, and how. An image is often coded several times before the best way
-// is known, so what does not depend on the way is found once and kept here.
+// This file holds an image that is to be coded and says how it should be. An image is often coded
+// several times before the best way is known, so what does not depend on the way is found once and
+// kept here.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A texture as its codec has coded it: what the header says of it, and its tracks.
+// This is what the codec of textures makes of one: its tracks, and what the header says of them.
 #pragma once
 
 #include <cstdint>

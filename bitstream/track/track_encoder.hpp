@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes the coefficients of a track down to the last bit and measures what every byte buys.
+// This file encodes the coefficients of a track down to the last bit, or to where that is no longer
+// worth it, and measures what every byte buys.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transforms heights in steps and codes their coefficients into the geometry's tracks.
+// This file transforms heights in steps and codes their coefficients into the geometry's tracks.
 #pragma once
 
 #include <cstdint>
