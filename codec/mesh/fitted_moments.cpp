@@ -24,12 +24,6 @@ struct WeighedSample {
   double weight, a, b, p, residual;
 };
 
-/// Of a triangle whose moments of second order are known.
-struct Residuals {
-  double energy = 0;
-  TriangleMoments::First first;
-};
-
 void add(TriangleMoments& t, const WeighedSample& s) {
   t.energy += s.weight * s.residual * s.residual;
   t.first.a += s.weight * s.residual * s.a;

@@ -37,6 +37,12 @@ struct TriangleMoments {
   Gram gram;
 };
 
+/// The moments that depend on the heights: what is left to find where the Gram matrix is known.
+struct Residuals {
+  double energy = 0;
+  TriangleMoments::First first;
+};
+
 /// Weights of the corner samples in one full-resolution triangle; split: of w in either half.
 struct CornerWeights {
   double a = 0, b = 0, apex = 0, split = 0;
