@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lower convex hull of all 4-8 meshes of a surface: what no order of decimation can beat.
+// The best 4-8 meshes of a surface, which no order of decimation can beat: the corners of the lower
+// convex hull of all of its meshes.
 //
 // By the diamond form of the error (gains.hpp) the mesh of a closed set S has D + lambda R =
 // constant - sum over S of (g - lambda c): for one lambda the best mesh is a maximum closure of the
@@ -14,7 +15,6 @@
 #include <span>
 #include <vector>
 
-#include "codec/mesh/decimation.hpp"
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/surface_view.hpp"
 
@@ -41,36 +41,10 @@ enum class HullSide : uint8_t {
 std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
                                 std::span<const double> gains, uint32_t triangles);
 
-/// Of all vertices.
-std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains);
-
 /// Sorts a closed set, the first vertices of an order, so that its prefixes pass through every
 /// corner of the hull of the meshes within it; between corners they keep their order. gains: of all
 /// lattice vertices.
 void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
                         std::span<VertexId> order);
-
-/// Corners of the hull, from the roots alone to full resolution.
-class MeshHull {
- public:
-  struct Corner {
-    uint32_t triangles = 0;
-    double squared_error = 0;
-  };
-
-  MeshHull(const Lattice& lattice, const std::vector<double>& gains,
-           const std::vector<double>& slopes);
-
-  const std::vector<Corner>& corners() const { return corners_; }
-  /// No mesh of at most `triangles` triangles has less squared error. Not below the roots'
-  /// triangles.
-  double bound(uint32_t triangles) const;
-
- private:
-  std::vector<Corner> corners_;
-};
-
-/// Like decimate(), but through every corner of the hull; between corners in greedy order.
-Result<MeshSequence> decimateOptimally(const SurfaceView& surface);
 
 }  // namespace tetrakis

@@ -39,26 +39,11 @@ class MeshSequence {
   std::vector<double> squared_errors_;
 };
 
-/// How to choose the next vertex. The last three are the thesis's comparisons.
-enum class MeshPolicy {
-  /// General decimation; where costs are triangles its coarsest meshes then go through the corners
-  /// of the hull of all meshes within one of 4096 triangles, on small surfaces one of a triangle
-  /// for each 8 samples (closure.hpp).
-  kNearHull,
-  kGeneralDecimation,     ///< whole merging domains, global error (general_decimation.hpp)
-  kRestrictedDecimation,  ///< single vertices, global error (leaf_order.hpp; thesis 5.4.2)
-  kLocalDecimation,       ///< single vertices, error at the vertex alone (thesis 2.5.2, 5.5.2)
-  kLocalRefinement,       ///< insertion from the roots, likewise (thesis 2.5.2, 5.5.2)
-};
-
-struct DecimationOptions {
-  MeshPolicy policy = MeshPolicy::kNearHull;
-  /// One for each lattice vertex, in any unit (vertex_costs.hpp); empty: triangles.
-  std::span<const uint32_t> costs;
-};
-
-/// The errors of Lattice::make; TKS_USAGE for weights or costs that are not one each, or weights
-/// negative or not finite; TKS_LIMIT for costs that add up to 2^32 or more.
-Result<MeshSequence> decimate(const SurfaceView& surface, const DecimationOptions& options = {});
+/// Orders all vertices by general decimation (general_decimation.hpp). The coarsest meshes of the
+/// order, those of up to 4096 triangles and of no more than one for each 8 samples, pass through the
+/// corners of the hull of the meshes within them (closure.hpp). Fails with the errors of
+/// Lattice::make, and with TKS_USAGE for weights that are not one for each sample, negative or not
+/// finite.
+Result<MeshSequence> decimate(const SurfaceView& surface);
 
 }  // namespace tetrakis

@@ -12,7 +12,7 @@
 #include "codec/mesh/decimation.hpp"
 #include "codec/mesh/fitted_solver.hpp"
 #include "codec/mesh/gains.hpp"
-#include "codec/mesh/leaf_order.hpp"
+#include "codec/mesh/saturated_order.hpp"
 
 namespace tetrakis {
 
