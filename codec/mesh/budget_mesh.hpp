@@ -38,8 +38,8 @@ struct BudgetMesh {
   std::vector<double> heights;     ///< of each vertex of the mesh, in height steps
 };
 
-/// The best mesh of at most max_triangles > 0 triangles of a surface without voids. lattice: that of
-/// the whole surface. known: level budgetMeshLevel() of the surface. Fails with the errors of
+/// The best mesh of at most max_triangles > 0 triangles of a surface without voids. lattice: that
+/// of the whole surface. known: level budgetMeshLevel() of the surface. Fails with the errors of
 /// FittedSequence::makeFor().
 Result<BudgetMesh> budgetMesh(const Lattice& lattice, KnownSurface known, uint32_t max_triangles);
 

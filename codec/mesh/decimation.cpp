@@ -2,6 +2,7 @@
 #include "codec/mesh/decimation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "codec/mesh/closure.hpp"
@@ -31,6 +32,7 @@ MeshSequence::MeshSequence(Lattice lattice, std::vector<VertexId> order,
       order_(std::move(order)),
       triangle_counts_(order_.size() + 1),
       squared_errors_(order_.size() + 1) {
+  assert(order_.size() == lattice_.vertexCount() && gains.size() == order_.size());
   std::vector<uint8_t> costs(order_.size());
   lattice_.forEachVertex(
       [&](Site site, VertexId v) { costs[v] = static_cast<uint8_t>(lattice_.triangleCost(site)); });
@@ -53,6 +55,7 @@ size_t MeshSequence::bestPrefix(uint32_t triangles) const {
 }
 
 LatticeMesh MeshSequence::mesh(size_t inserted) const {
+  assert(inserted <= order_.size());
   return meshOf(lattice_, std::span(order_).first(inserted));
 }
 

@@ -236,6 +236,7 @@ void FittedMoments::coarsen(std::span<const VertexId> kept) {
 
 void FittedMoments::correct(std::span<const uint32_t> samples,
                             std::span<const double> corrections) {
+  assert(!full_ && samples.size() == corrections.size());
   std::vector<double> before;
   before.reserve(3 * leaves_.size());
   for (const Leaf& leaf : leaves_)

@@ -26,8 +26,8 @@ struct DecimationOptions {
 };
 
 /// Orders all vertices of a surface by a policy. Fails with the errors of decimate(surface), with
-/// TKS_USAGE for costs that are not one for each vertex, and with TKS_LIMIT for costs that add up to
-/// 2^32 or more.
+/// TKS_USAGE for costs that are not one for each vertex, and with TKS_LIMIT for costs that add up
+/// to 2^32 or more.
 Result<MeshSequence> decimate(const SurfaceView& surface, const DecimationOptions& options);
 
 }  // namespace tetrakis

@@ -3,6 +3,7 @@
 #include "codec/mesh/study/leaf_order.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -38,6 +39,7 @@ std::vector<VertexId> greedyOrder(const Lattice& lattice, MakeCandidate&& candid
       if (--blockers[id] == 0) ready.push(candidate(blocked, id));
     });
   }
+  assert(order.size() == blockers.size());  // no vertex waits for ever
   return order;
 }
 
