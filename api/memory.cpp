@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "api/budget_mesh.hpp"
+#include "codec/mesh/budget_mesh.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
