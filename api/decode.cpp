@@ -29,7 +29,7 @@ Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
   if (!header.geometry) return noHeights();
   if (!decoder.heights) {
     decoder.heights =
-        decodeLayers(decoder.payload.codewordsOf(TrackId::kGeometry), *header.geometry,
+        decodeLayers(decoder.payload.codewordsOf(Component::kGeometry), *header.geometry,
                      header.layers, decoder.heights_level, decoder.threads);
   }
   return &*decoder.heights;
@@ -63,7 +63,7 @@ Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
   const auto sample = static_cast<tks_sample>(header ? header->sample : 0);
   Status status = admitHeights(decoder, TKS_PART_HEIGHTS, out, bytes, tks_sample_bytes(sample));
   if (!status.ok()) return status;
-  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+  if (decoder.payload.nothingOf(Component::kGeometry)) {
     writeUnsentHeights(decoder, out, heightCount(decoder));
     return {};
   }
@@ -77,7 +77,7 @@ Status decodeSurface(tks_decoder& decoder, float* out, size_t count) {
   Status status =
       admitHeights(decoder, TKS_PART_HEIGHTS, out, count * sizeof(float), sizeof(float));
   if (!status.ok()) return status;
-  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+  if (decoder.payload.nothingOf(Component::kGeometry)) {
     writeUnsentSurface(decoder, out, count);
     return {};
   }
@@ -92,9 +92,9 @@ Status decodeValidity(tks_decoder& decoder, uint8_t* out, size_t count) {
   std::vector<uint8_t> valid;
   if (decoder.heights) {
     valid = decoder.heights->geometry.valid;
-  } else if (!decoder.payload.nothingOf(TrackId::kGeometry)) {
+  } else if (!decoder.payload.nothingOf(Component::kGeometry)) {
     const StreamHeader& header = decoder.parsed.header;
-    valid = decodeValidityLayer(decoder.payload.codewordsOf(TrackId::kGeometry), *header.geometry,
+    valid = decodeValidityLayer(decoder.payload.codewordsOf(Component::kGeometry), *header.geometry,
                                 header.layers, decoder.heights_level);
   }
   if (valid.empty()) {
@@ -114,11 +114,11 @@ Status decodeTexels(tks_decoder& decoder, void* out, size_t bytes) {
   const size_t wanted = count * header->channels * tks_sample_bytes(sample);
   if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
   if (Status s = checkMemory(decoder, {TKS_PART_TEXTURE, nullptr, 0}); !s.ok()) return s;
-  if (decoder.payload.nothingOf(TrackId::kTexture)) {
+  if (decoder.payload.nothingOf(Component::kTexture)) {
     writeUnsentTexels(*header, out, count);
     return {};
   }
-  writeTexels(decodeTexture(*header, decoder.payload.codewordsOf(TrackId::kTexture), level,
+  writeTexels(decodeTexture(*header, decoder.payload.codewordsOf(Component::kTexture), level,
                             decoder.threads),
               sample, out);
   return {};

@@ -33,7 +33,7 @@ struct WindowRequest {
 
 DecodedHeights windowOf(const tks_decoder& decoder, const Window& window) {
   const StreamHeader& header = decoder.parsed.header;
-  return decodeLayersWindow(decoder.payload.codewordsOf(TrackId::kGeometry), *header.geometry,
+  return decodeLayersWindow(decoder.payload.codewordsOf(Component::kGeometry), *header.geometry,
                             header.layers, window, decoder.threads);
 }
 
@@ -42,7 +42,7 @@ Status heightsWindow(tks_decoder& decoder, const WindowRequest& request) {
   if (!header) return noHeights();
   const size_t sample_bytes = tks_sample_bytes(static_cast<tks_sample>(header->sample));
   if (Status s = request.check(decoder, TKS_PART_HEIGHTS, *header, sample_bytes); !s.ok()) return s;
-  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+  if (decoder.payload.nothingOf(Component::kGeometry)) {
     writeUnsentHeights(decoder, request.out, request.places());
   } else {
     writeHeights(decoder, windowOf(decoder, request.asked()), request.out);
@@ -56,7 +56,7 @@ Status surfaceWindow(tks_decoder& decoder, const WindowRequest& request) {
   if (Status s = request.check(decoder, TKS_PART_HEIGHTS, *header, sizeof(float)); !s.ok())
     return s;
   auto* const out = static_cast<float*>(request.out);
-  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+  if (decoder.payload.nothingOf(Component::kGeometry)) {
     writeUnsentSurface(decoder, out, request.places());
   } else {
     writeSurface(decoder, windowOf(decoder, request.asked()), out);
@@ -70,10 +70,10 @@ Status textureWindow(tks_decoder& decoder, const WindowRequest& request) {
   const auto sample = static_cast<tks_sample>(header->sample);
   const size_t texel_bytes = tks_sample_bytes(sample) * header->channels;
   if (Status s = request.check(decoder, TKS_PART_TEXTURE, *header, texel_bytes); !s.ok()) return s;
-  if (decoder.payload.nothingOf(TrackId::kTexture)) {
+  if (decoder.payload.nothingOf(Component::kTexture)) {
     writeUnsentTexels(*header, request.out, request.places());
   } else {
-    writeTexels(decodeTextureWindow(*header, decoder.payload.codewordsOf(TrackId::kTexture),
+    writeTexels(decodeTextureWindow(*header, decoder.payload.codewordsOf(Component::kTexture),
                                     request.asked(), decoder.threads),
                 sample, request.out);
   }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "api/budget_mesh.hpp"
 #include "codec/geometry/value_table.hpp"
+#include "codec/mesh/budget_mesh.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -33,9 +33,9 @@ uint64_t threadsOf(const tks_decoder& decoder) {
 
 /// The state of the tracks that are decoded at a time.
 uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t components,
-                    bool masked, TrackId track) {
+                    bool masked, Component component) {
   const bool known =
-      header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(track);
+      header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(component);
   const TrackNeeds needs{header.width, header.height, header.regions.side_log2, components,
                          masked,       known,         decoder.threads};
   return needs.bytes();
@@ -99,7 +99,7 @@ class HeightsBytes {
   }
 
  private:
-  uint64_t state() const { return stateBytes(decoder_, header_, 1, voids_, TrackId::kGeometry); }
+  uint64_t state() const { return stateBytes(decoder_, header_, 1, voids_, Component::kGeometry); }
   /// The table, its values as heights, and a correction for each sample.
   uint64_t tableBytes(uint64_t samples) const {
     constexpr uint64_t kEntry = sizeof(uint32_t) + sizeof(DrawnValue);
@@ -189,7 +189,7 @@ class TextureBytes {
     return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0));
   }
   uint64_t state() const {
-    return stateBytes(decoder_, header_, header_.components(), masked_, TrackId::kTexture);
+    return stateBytes(decoder_, header_, header_.components(), masked_, Component::kTexture);
   }
 
   const tks_decoder& decoder_;
@@ -215,13 +215,13 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
 
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
-    if (decoder.payload.nothingOf(TrackId::kTexture)) return kDrawnOnce;
+    if (decoder.payload.nothingOf(Component::kTexture)) return kDrawnOnce;
     const TextureBytes texture(decoder, decoder.texture_level);
     return request.window ? texture.window(*request.window) : texture.whole();
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
     return meshBytes(decoder, request);
-  if (decoder.payload.nothingOf(TrackId::kGeometry)) return kOnce;
+  if (decoder.payload.nothingOf(Component::kGeometry)) return kOnce;
   if (decoder.heights && !request.window) return 0;
   const HeightsBytes heights(decoder, decoder.heights_level);
   if (request.part == TKS_PART_VALIDITY) return heights.validity();

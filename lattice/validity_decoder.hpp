@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codeword to validity mask.
+// Decodes a validity mask from a codeword.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of a mask: which samples of a height field exist, which texels can be seen. Level by level
-// of the 4-8 lattice, so that any prefix of the codeword gives the whole mask at the resolution it
-// pays for. Contexts from known neighbours after JBIG (ITU-T T.82, progressive templates):
+// Coding of a mask that says which samples of a height field exist, or which texels can be seen.
+// The mask is coded level by level of the 4-8 lattice, so that any prefix of the codeword gives the
+// whole mask, at a resolution that grows with its length. Contexts are made of known neighbours,
+// after JBIG (ITU-T T.82, progressive templates):
 //
 //   near     the 4 coarser vertices next to the vertex: diagonal ones for a centre, along the
 //            axes for a midpoint; 16 patterns
@@ -14,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,14 +29,16 @@ namespace tetrakis {
 /// Runs over all vertices once. Io is the encoder's or the decoder's side of a decision:
 ///   bool bit(AdaptiveBit&, size_t sample)   the sample is valid
 ///   bool stopped()                          the last decision did not count
-/// A vertex whose decision does not count is what most of its near neighbours are (valid if they
-/// are even in number); a root then is valid.
+/// A vertex whose decision does not count is taken to be what most of its near neighbours are, and
+/// valid if as many are valid as not; a root is taken to be valid.
 template <class Io>
 class ValidityPass {
  public:
   /// valid: width * height, row by row; every element is written.
   ValidityPass(std::span<uint8_t> valid, uint32_t width, uint32_t height, Io& io)
-      : valid_(valid.data()), width_(width), height_(height), io_(io) {}
+      : valid_(valid.data()), width_(width), height_(height), io_(io) {
+    assert(valid.size() == size_t{width} * height);
+  }
 
   void run() {
     for (const Level& level : levelsOf(width_, height_)) {
@@ -105,7 +109,8 @@ class ValidityPass {
     return known;
   }
 
-  /// Neighbours outside the grid are mirrored as in lifting; those that still are count as void.
+  /// Neighbours outside the grid are mirrored as in lifting. Where the mirror image is outside as
+  /// well, the neighbour counts as void.
   Known atBorder(const Stencil& stencil, uint32_t x, uint32_t y) const {
     Known known;
     int count = 0, there = 0;
@@ -126,7 +131,7 @@ class ValidityPass {
     return known;
   }
 
-  /// Two bits; a vertex outside the grid is taken to be as most of near are.
+  /// Returns two bits. A vertex outside the grid is taken to be what most of `near` are.
   unsigned causal(const Level& level, uint32_t x, uint32_t y, bool otherwise) const {
     const uint32_t s = level.step;
     const bool centre = level.kind == LevelKind::kCentres;

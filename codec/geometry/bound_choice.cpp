@@ -56,7 +56,8 @@ class PartTrial {
 
  private:
   EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
-    return encodeGeometry(steps, header_.width, header_.height, wavelet, {}, steps_.valid).front();
+    return encodeCoefficients({steps, header_.width, header_.height, steps_.valid}, wavelet, {})
+        .front();
   }
 
   HeightSteps steps_;

@@ -10,10 +10,12 @@
 
 namespace tetrakis {
 
-std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint32_t width,
-                                         uint32_t height, const WaveletHeader& wavelet,
-                                         const TrackOptions& options,
-                                         std::span<const uint8_t> valid) {
+std::vector<EncodedTrack> encodeCoefficients(const HeightPlane& source,
+                                             const WaveletHeader& wavelet,
+                                             const CoefficientOptions& options) {
+  const std::span<const int32_t> heights = source.heights;
+  const std::span<const uint8_t> valid = source.valid;
+  const uint32_t width = source.width, height = source.height;
   assert(heights.size() == size_t{width} * height);
   assert(valid.empty() || valid.size() == heights.size());
   std::vector<int32_t> plane(heights.begin(), heights.end());
@@ -38,7 +40,7 @@ std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint3
                              layout.energy(part.subband) * unit});
     }
   });
-  return encodeTracks(tracks, options);
+  return encodeTracks(tracks, {options.limit, options.threads});
 }
 
 }  // namespace tetrakis

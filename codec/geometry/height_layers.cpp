@@ -111,8 +111,8 @@ void addCorrections(const std::vector<int32_t>& more, std::vector<int32_t>& corr
     return;
   }
   for (size_t i = 0; i < more.size(); ++i) {
-    corrections[i] =
-        static_cast<int32_t>(static_cast<uint32_t>(corrections[i]) + static_cast<uint32_t>(more[i]));
+    corrections[i] = static_cast<int32_t>(static_cast<uint32_t>(corrections[i]) +
+                                          static_cast<uint32_t>(more[i]));
   }
 }
 
@@ -137,10 +137,9 @@ DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& he
     return decoded;
   }
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(decoded.geometry), header);
-  addCorrections(
-      decodeCorrections(taken.corrections,
-                        {header.width, header.height, decoded.geometry.valid, hints}),
-      decoded.corrections);
+  addCorrections(decodeCorrections(taken.corrections,
+                                   {header.width, header.height, decoded.geometry.valid, hints}),
+                 decoded.corrections);
   return decoded;
 }
 
