@@ -202,8 +202,11 @@ bool namesTracks(const Stream& stream, uint64_t component) {
   return stream.texture && stream.texture->regions.log2 > 0;
 }
 
-/// FORMAT 2, Metadata and Index: they decode nothing, but their syntax counts.
-void skipMetadata(Reader& in) {
+using Transform = std::array<double, 6>;
+
+/// FORMAT 2, Metadata, Georeference and Index: they decode nothing, but their syntax counts.
+/// Returns the spacing as a geotransform.
+Transform skipMetadata(Reader& in) {
   const double scale = in.f64(), offset = in.f64();
   const double spacingX = in.f64(), spacingY = in.f64();
   for (const double v : {scale, offset, spacingX, spacingY}) {
@@ -211,6 +214,50 @@ void skipMetadata(Reader& in) {
   }
   if (scale == 0 || spacingX < 0 || spacingY < 0) in.fail(Outcome::kCorrupt);
   for (int i = 0; i < 3; ++i) in.take(in.varint(0, UINT64_MAX));
+  return {0, spacingX, 0, 0, 0, -spacingY};
+}
+
+/// FORMAT 2, Georeference, the table of forms; forms 1 and 5 repeat what is known.
+Transform readTransform(Reader& in, int form, const Transform& spacing, const Transform& heights) {
+  if (form == 0) return {};
+  Transform t = form == 5 ? heights : form == 1 ? spacing : Transform{};
+  if (form < 5) t[0] = in.f64();
+  if (form < 5) t[3] = in.f64();
+  if (form >= 2 && form <= 4) t[1] = in.f64();
+  if (form == 2) t[5] = -t[1];
+  if (form == 3 || form == 4) t[5] = in.f64();
+  if (form == 4) t[2] = in.f64();
+  if (form == 4) t[4] = in.f64();
+  for (const double v : t) {
+    if (!(std::abs(v) < 0x1p512)) in.fail(Outcome::kCorrupt);
+  }
+  return t;
+}
+
+/// Of a texture over the ground of the heights.
+Transform stretched(Transform t, const Stream& stream) {
+  const double columns = double(stream.geometry->width) / stream.texture->width;
+  const double rows = double(stream.geometry->height) / stream.texture->height;
+  for (const int i : {1, 4}) t[i] *= columns;
+  for (const int i : {2, 5}) t[i] *= rows;
+  return t;
+}
+
+void skipGeoreference(Reader& in, const Stream& stream, const Transform& spacing) {
+  Transform heights = {};
+  int forms = 5;
+  for (const bool texture : {false, true}) {
+    if (texture ? !stream.texture : !stream.geometry) continue;
+    const int form = in.u8(0, forms - 1);
+    heights = readTransform(in, form, spacing, heights);
+    if (!texture && stream.texture && form > 0) {
+      heights = stretched(heights, stream);
+      forms = 6;
+    }
+    in.u8(0, 2);                                                    // registration
+    for (int i = 0; i < 2; ++i) in.take(in.varint(0, UINT64_MAX));  // texts
+    if (!texture) in.u8(0, 1);                                      // nan_nodata
+  }
 }
 
 void skipIndex(Reader& in, const Stream& stream) {
@@ -237,14 +284,14 @@ int levelOf(const Stream& stream) {
 /// FORMAT 2, Body. Returns `payload_bytes`.
 uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
-  const int parts = in.u8(1, 127);
+  const int parts = in.u8(1, 255);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
   in.u8(0, 1);               // lossless
   in.varint(0, UINT32_MAX);  // triangles
   if ((parts & 3) == 0) in.fail(Outcome::kCorrupt);
   if (parts & 1) stream.geometry = readGeometry(in);
   if (parts & 2) stream.texture = readTexture(in);
-  if (parts & 4) skipMetadata(in);
+  const Transform spacing = parts & 4 ? skipMetadata(in) : Transform{0, 0, 0, 0, 0, -0.0};
   if (parts & 16) stream.layers = readLayers(in, stream.geometry);
   if (parts & 32 && stream.geometry) stream.geometry->regions = readRegions(in);
   if (stream.geometry && stream.geometry->planes == kStoredPlanes &&
@@ -255,6 +302,7 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (stream.texture && stream.texture->planes == kDrawnPlanes &&
       (stream.texture->regions.log2 > 0 || parts & 64))
     in.fail(Outcome::kCorrupt);
+  if (parts & 128) skipGeoreference(in, stream, spacing);
   if (parts & 8) skipIndex(in, stream);
   if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
   return payloadBytes;
