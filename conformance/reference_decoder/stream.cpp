@@ -2,6 +2,8 @@
 // Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 12).
 #include "conformance/reference_decoder/stream.hpp"
 
+#include "conformance/reference_decoder/metadata.hpp"
+#include "conformance/reference_decoder/reader.hpp"
 #include "conformance/reference_decoder/regions.hpp"
 
 #include <algorithm>
@@ -10,67 +12,6 @@
 
 namespace tetrakis::reference {
 namespace {
-
-/// Reads fields; after the first that is missing or out of range it returns zeros only.
-class Reader {
- public:
-  explicit Reader(std::span<const uint8_t> bytes) : bytes_(bytes) {}
-
-  Outcome outcome() const { return outcome_; }
-  std::span<const uint8_t> rest() const { return bytes_; }
-  void fail(Outcome outcome) {
-    if (outcome_ == Outcome::kDone) outcome_ = outcome;
-  }
-
-  /// `size` bytes, none if there are fewer.
-  std::span<const uint8_t> take(uint64_t size) {
-    if (size > bytes_.size()) fail(Outcome::kTruncated);
-    if (outcome_ != Outcome::kDone) return {};
-    const auto taken = bytes_.first(size);
-    bytes_ = bytes_.subspan(size);
-    return taken;
-  }
-  uint8_t byte() {
-    const auto taken = take(1);
-    return taken.empty() ? uint8_t{0} : taken[0];
-  }
-  int u8(int low, int high) { return static_cast<int>(within(byte(), low, high)); }
-  uint64_t littleEndian(int count) {
-    uint64_t value = 0;
-    for (int i = 0; i < count; ++i) value |= uint64_t{byte()} << (8 * i);
-    return value;
-  }
-  double f64() {
-    const int size = u8(0, 8);
-    const uint64_t high = littleEndian(size);
-    return std::bit_cast<double>(size == 0 ? 0 : high << (64 - 8 * size));
-  }
-
-  /// FORMAT 2: "seven bits a byte, low bits first, bit 7 set while more follow, at most 64 bits".
-  uint64_t varint(uint64_t low, uint64_t high) {
-    uint64_t value = 0;
-    for (int shift = 0; shift < 70; shift += 7) {
-      const uint64_t next = byte();
-      if (shift == 63 && next > 1) fail(Outcome::kCorrupt);
-      value |= (next & 127) << shift;
-      if (next < 128) break;
-    }
-    return within(value, low, high);
-  }
-  int zigzag(uint64_t largest) {
-    const auto coded = static_cast<int>(varint(0, 2 * largest));
-    return coded % 2 == 0 ? coded / 2 : -(coded + 1) / 2;
-  }
-
- private:
-  uint64_t within(uint64_t value, uint64_t low, uint64_t high) {
-    if (value < low || value > high) fail(Outcome::kCorrupt);
-    return outcome_ == Outcome::kDone ? value : 0;
-  }
-
-  std::span<const uint8_t> bytes_;
-  Outcome outcome_ = Outcome::kDone;
-};
 
 /// FORMAT 2: CRC-32, "polynomial EDB88320 reflected, initial and final xor FFFFFFFF".
 uint32_t crc32(std::span<const uint8_t> bytes) {
@@ -202,64 +143,7 @@ bool namesTracks(const Stream& stream, uint64_t component) {
   return stream.texture && stream.texture->regions.log2 > 0;
 }
 
-using Transform = std::array<double, 6>;
-
-/// FORMAT 2, Metadata, Georeference and Index: they decode nothing, but their syntax counts.
-/// Returns the spacing as a geotransform.
-Transform skipMetadata(Reader& in) {
-  const double scale = in.f64(), offset = in.f64();
-  const double spacingX = in.f64(), spacingY = in.f64();
-  for (const double v : {scale, offset, spacingX, spacingY}) {
-    if (!std::isfinite(v)) in.fail(Outcome::kCorrupt);
-  }
-  if (scale == 0 || spacingX < 0 || spacingY < 0) in.fail(Outcome::kCorrupt);
-  for (int i = 0; i < 3; ++i) in.take(in.varint(0, UINT64_MAX));
-  return {0, spacingX, 0, 0, 0, -spacingY};
-}
-
-/// FORMAT 2, Georeference, the table of forms; forms 1 and 5 repeat what is known.
-Transform readTransform(Reader& in, int form, const Transform& spacing, const Transform& heights) {
-  if (form == 0) return {};
-  Transform t = form == 5 ? heights : form == 1 ? spacing : Transform{};
-  if (form < 5) t[0] = in.f64();
-  if (form < 5) t[3] = in.f64();
-  if (form >= 2 && form <= 4) t[1] = in.f64();
-  if (form == 2) t[5] = -t[1];
-  if (form == 3 || form == 4) t[5] = in.f64();
-  if (form == 4) t[2] = in.f64();
-  if (form == 4) t[4] = in.f64();
-  for (const double v : t) {
-    if (!(std::abs(v) < 0x1p512)) in.fail(Outcome::kCorrupt);
-  }
-  return t;
-}
-
-/// Of a texture over the ground of the heights.
-Transform stretched(Transform t, const Stream& stream) {
-  const double columns = double(stream.geometry->width) / stream.texture->width;
-  const double rows = double(stream.geometry->height) / stream.texture->height;
-  for (const int i : {1, 4}) t[i] *= columns;
-  for (const int i : {2, 5}) t[i] *= rows;
-  return t;
-}
-
-void skipGeoreference(Reader& in, const Stream& stream, const Transform& spacing) {
-  Transform heights = {};
-  int forms = 5;
-  for (const bool texture : {false, true}) {
-    if (texture ? !stream.texture : !stream.geometry) continue;
-    const int form = in.u8(0, forms - 1);
-    heights = readTransform(in, form, spacing, heights);
-    if (!texture && stream.texture && form > 0) {
-      heights = stretched(heights, stream);
-      forms = 6;
-    }
-    in.u8(0, 2);                                                    // registration
-    for (int i = 0; i < 2; ++i) in.take(in.varint(0, UINT64_MAX));  // texts
-    if (!texture) in.u8(0, 1);                                      // nan_nodata
-  }
-}
-
+/// FORMAT 2, Index: it decodes nothing, but its syntax counts.
 void skipIndex(Reader& in, const Stream& stream) {
   for (uint64_t left = in.varint(1, 1 << 19); left > 0; --left) {
     const uint64_t head = in.varint(0, UINT64_MAX);
