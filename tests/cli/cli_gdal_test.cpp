@@ -206,6 +206,17 @@ TEST_F(CliGdal, TexturesKeepAPlaceOfTheirOwn) {
   }
 }
 
+/// What is given of the heights leaves the rest of a CRS without a code alone.
+TEST_F(CliGdal, AVerticalDatumThatIsGivenJoinsTheSystemOfTheFile) {
+  run(kKinds[10].command + std::string("a.tif"));
+  ASSERT_EQ(cli("-q encode a.tif --vertical-datum EPSG:5703 --lossless -o s.tks").code, 0);
+  ASSERT_EQ(cli("decode s.tks --height o.tif").code, 0);
+  const std::string wkt = kept("o.tif")["crs"]["wkt"];
+  EXPECT_TRUE(wkt.starts_with("COMPOUNDCRS")) << wkt;
+  EXPECT_NE(wkt.find("Albers Equal Area"), std::string::npos) << wkt;
+  EXPECT_NE(wkt.find("NAVD88 height"), std::string::npos) << wkt;
+}
+
 /// --crs replaces what a file says; text is written where GDAL finds it.
 TEST_F(CliGdal, SystemsThatAreGivenReachTheFile) {
   const auto nameOf = [this](const std::string& crs) {

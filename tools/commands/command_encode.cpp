@@ -13,7 +13,7 @@
 #include "tools/commands/output.hpp"
 #include "tools/commands/progress.hpp"
 #include "tools/files/file_bytes.hpp"
-#include "tools/files/ground_spacing.hpp"
+#include "tools/files/given_crs.hpp"
 #include "tools/files/memory_limit.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
@@ -38,10 +38,8 @@ Status describe(const EncodeArguments& arguments, HeightFile& heights) {
   heights.scale = arguments.scale.value_or(heights.scale);
   heights.offset = arguments.offset.value_or(heights.offset);
   if (arguments.unit) heights.unit = canonicalUnit(*arguments.unit);
-  heights.vertical_datum = arguments.vertical_datum.value_or(heights.vertical_datum);
-  heights.crs = arguments.crs.value_or(heights.crs);
-  if (arguments.crs || arguments.vertical_datum) heights.geo_keys.clear();
-  if (arguments.crs) setGroundSpacing(heights);
+  if (arguments.crs) giveCrs(heights, *arguments.crs);
+  if (arguments.vertical_datum) giveVerticalDatum(heights, *arguments.vertical_datum);
   if (arguments.spacing.empty()) return Status();
   const Result<std::array<double, 2>> spacing = parseSpacing(arguments.spacing);
   if (!spacing.ok()) return spacing.status();

@@ -169,6 +169,11 @@ GeoKeys keysOf(const HeightFile& heights) {
     keys = crsKeys(adrift ? "" : heights.crs, heights.vertical_datum, heights.unit);
     if (adrift || (spaced && heights.crs.empty())) setLocalGrid(heights, keys);
   }
+  if (keys.code(kVerticalGeoKey) == 0 && !heights.vertical_datum.empty()) {
+    const GeoKeys vertical = crsKeys("", heights.vertical_datum, heights.unit);
+    keys.codes.insert(vertical.codes.begin(), vertical.codes.end());
+    keys.texts.insert(vertical.texts.begin(), vertical.texts.end());
+  }
   setRegistration(heights.registration, keys);
   return keys;
 }

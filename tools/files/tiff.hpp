@@ -39,6 +39,7 @@ enum GeoKey : uint16_t {
   kProjLinearUnitSizeGeoKey = 3077,
   kVerticalGeoKey = 4096,
   kVerticalCitationGeoKey = 4097,
+  kVerticalDatumGeoKey = 4098,
   kVerticalUnitsGeoKey = 4099,
 };
 inline constexpr uint16_t kModelTypeProjected = 1, kModelTypeGeographic = 2;
