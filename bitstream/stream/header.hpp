@@ -12,6 +12,7 @@
 
 #include "base/status.hpp"
 #include "bitstream/stream/fields.hpp"
+#include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/regions.hpp"
@@ -264,6 +265,7 @@ struct StreamHeader {
   GeometryLayers layers;
   std::optional<TextureHeader> texture;
   Metadata metadata;
+  Georeference georeference;
   std::vector<PacketHead> index;  ///< the heads of all packets, ahead of time
 };
 
