@@ -44,8 +44,7 @@ Result<KnownSurface> surfaceOf(tks_decoder& decoder, uint32_t level) {
     geometry = *whole;
   } else {
     // No higher than the coarsest: 2^level is less than a quarter of the longer side.
-    coarse = decodeLayers(decoder.payload.codewordsOf(TrackId::kGeometry), g, header.layers,
-                          static_cast<int>(level), decoder.threads);
+    coarse = decodeHeights(decoder, {static_cast<int>(level), {}});
     geometry = &coarse.geometry;
   }
   return KnownSurface{ofMipLevel(geometry->heights, g.width, g.height, level), level,

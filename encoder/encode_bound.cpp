@@ -58,7 +58,7 @@ void EncodeJob::boundHeights() {
 /// units.
 bool EncodeJob::boundWithin(int32_t largest, double bound) {
   const BoundWays ways =
-      boundWays(geometry_->steps, heights_->width, heights_->height, geometry_->wavelet, largest);
+      boundWays(geometry_->steps, {heights_->width, heights_->height}, geometry_->wavelet, largest);
   const EncodedHeights exact = *geometry_;
   std::optional<EncodedHeights> best;
   const auto consider = [&] {

@@ -19,7 +19,7 @@ void EncodeJob::encodeSideLayers(bool restore_samples) {
       heights_->has_nodata != 0 && !std::isnan(heights_->nodata) && !infinite_integer;
   if (g.layers.has_nodata) g.layers.nodata = heights_->nodata + 0.0;  // -0 equals 0: one of them
   if (!g.steps.valid.empty()) {
-    g.validity = encodeValidity(g.steps.valid, heights_->width, heights_->height);
+    g.validity = encodeValidity({g.steps.valid, {heights_->width, heights_->height}});
     g.layers.validity_bytes = g.validity.size();
   }
   if (!restore_samples) return;
@@ -27,7 +27,7 @@ void EncodeJob::encodeSideLayers(bool restore_samples) {
   const StreamHeader header = makeHeader(0, false);
   const std::vector<uint8_t> hints = sampleHints(g.steps.steps, *header.geometry);
   g.corrections = encodeCorrections(sampleCorrections(*heights_, g.steps),
-                                    {heights_->width, heights_->height, g.steps.valid, hints});
+                                    {hints, header.geometry->extent(), g.steps.valid});
   g.left = std::max(g.squaresOf(*heights_, g.steps), EncodedHeights::kSomething);
 }
 
@@ -38,14 +38,14 @@ void EncodeJob::encodeGeometry(Purpose purpose) {
 
 WaveletHeader EncodeJob::waveletFor(Purpose purpose) const {
   const HeightSteps& steps = geometry_->steps;
-  return chooseWavelet(steps.steps, steps.valid, heights_->width, heights_->height,
+  return chooseWavelet({steps.steps, {heights_->width, heights_->height}, steps.valid},
                        steps.range_bits, purpose);
 }
 
 std::vector<EncodedTrack> EncodeJob::encodeCoefficients() const {
-  return tetrakis::encodeGeometry(geometry_->steps.steps, heights_->width, heights_->height,
-                                  geometry_->wavelet, trackOptions(TrackId::kGeometry),
-                                  geometry_->steps.valid);
+  const HeightSteps& steps = geometry_->steps;
+  return tetrakis::encodeGeometry({steps.steps, {heights_->width, heights_->height}, steps.valid},
+                                  geometry_->wavelet, trackOptions(TrackId::kGeometry));
 }
 
 /// Validity before the coefficients of the first track, corrections of the samples behind them.

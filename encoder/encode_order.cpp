@@ -110,14 +110,14 @@ Codewords EncodeJob::cutAt(TrackId component, uint64_t bytes) const {
 
 DecodedHeights EncodeJob::decodedHeights(uint64_t bytes, HeightsMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
-  return decodeLayers(cutAt(TrackId::kGeometry, bytes), *header.geometry, header.layers, 0,
-                      options_.threads, memory);
+  return decodeHeights(*header.geometry, header.layers, cutAt(TrackId::kGeometry, bytes), {},
+                       {options_.threads, memory});
 }
 
 Texels EncodeJob::decodedTexels(uint64_t bytes, TextureMemory* memory) const {
   const StreamHeader header = makeHeader(0, false);
-  return decodeTexture(*header.texture, cutAt(TrackId::kTexture, bytes), 0, options_.threads,
-                       memory);
+  return decodeTexture(*header.texture, cutAt(TrackId::kTexture, bytes), {},
+                       {options_.threads, memory});
 }
 
 AuditScope EncodeJob::auditScope(uint64_t samples) const {

@@ -16,8 +16,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "base/plane.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
@@ -32,9 +32,9 @@ namespace tetrakis {
 template <class Io>
 class ValidityPass {
  public:
-  /// valid: width * height, row by row; every element is written.
-  ValidityPass(std::span<uint8_t> valid, uint32_t width, uint32_t height, Io& io)
-      : valid_(valid.data()), width_(width), height_(height), io_(io) {}
+  /// valid: 1 where a sample is valid, 0 where it is void; every element is written.
+  ValidityPass(const PlaneView<uint8_t>& valid, Io& io)
+      : valid_(valid.data), width_(valid.width), height_(valid.height), io_(io) {}
 
   void run() {
     for (const Level& level : levelsOf(width_, height_)) {

@@ -97,7 +97,7 @@ EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
                  overlaid = encodeByWavelet(texels, purpose, oneTrack(options), photograph);
   const bool pays = showsBetter(overlaid, plain, options, countedSamples(texels, seen));
   if (options.region_log2 == 0) return pays ? std::move(overlaid) : std::move(plain);
-  return encodeByWavelet(texels, purpose, options, pays ? photograph : std::vector<uint8_t>());
+  return encodeByWavelet(texels, purpose, options, pays ? Mask(photograph) : Mask());
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to texture tracks, by wavelet.
+// Codes an image as texture tracks, by wavelet.
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
 #include "base/texels.hpp"
 #include "bitstream/stream/encoded_texture.hpp"
@@ -12,11 +10,12 @@
 
 namespace tetrakis {
 
-/// An alpha of nothing but 0 and the largest value becomes a cut-out: a mask ahead of everything in
-/// the first track; colours that it hides are coded for Purpose::kLossless alone. photograph: from
-/// photographOf(); texels that are 0 there are the overlay, which comes next; empty: no overlay.
-/// Complete tracks without fraction bits that hide nothing are lossless.
+/// An alpha that has nothing but 0 and the largest value becomes a cut-out: a mask ahead of everything
+/// in the first track. Colours that it hides are coded for Purpose::kLossless alone. photograph:
+/// from photographOf(). It marks the texels of the photograph; the others are the overlay, which
+/// comes next. If it marks every texel there is no overlay. Complete tracks without fraction bits
+/// that hide nothing are lossless.
 EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
-                               std::span<const uint8_t> photograph = {});
+                               Mask photograph = {});
 
 }  // namespace tetrakis

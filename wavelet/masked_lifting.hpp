@@ -12,15 +12,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "wavelet/lifting_steps.hpp"
 
 namespace tetrakis {
-
-/// Samples of a plane, width * height: 1 valid, 0 void; empty: all are valid.
-using Validity = std::span<const uint8_t>;
 
 /// One step of many signals at once: through liftStep(), and of the targets that are void or have a
 /// void neighbour once more by themselves.

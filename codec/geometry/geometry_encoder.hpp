@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Height field to geometry tracks.
+// Codes the heights of a plane as the tracks of its coefficients.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 
 namespace tetrakis {
 
-/// heights: width * height integers. wavelet: from chooseWavelet(). valid: 1 valid, 0 void, one a
-/// height; empty: all are valid. Distortion is in squared height units, summed over the samples.
-std::vector<EncodedTrack> encodeGeometry(std::span<const int32_t> heights, uint32_t width,
-                                         uint32_t height, const WaveletHeader& wavelet,
-                                         const TrackOptions& options,
-                                         std::span<const uint8_t> valid = {});
+/// Returns one track for each of regionsOf(). wavelet: from chooseWavelet(). Distortion is in
+/// squared units of the heights, summed over the valid samples.
+std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
+                                         const WaveletHeader& wavelet, const TrackOptions& options);
 
 }  // namespace tetrakis

@@ -107,8 +107,9 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
   withSampleType(heights.sample, [&](auto type) {
     using T = decltype(type);
     const auto* samples = static_cast<const T*>(heights.data);
+    const Mask valid = steps.valid;
     for (size_t i = 0; i < corrections.size(); ++i) {
-      if (!steps.valid.empty() && !steps.valid[i]) continue;
+      if (!valid[i]) continue;
       const T restored = restore<T>(steps.base, steps.step, steps.steps[i]);
       corrections[i] = static_cast<int32_t>(orderOf(samples[i]) - orderOf(restored));
     }
@@ -123,8 +124,9 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double
     std::vector<T> restored(steps.steps.size());
     restoreAll(steps.steps, 0, {steps.base, steps.step}, restored.data());
     StepErrors errors;
+    const Mask valid = steps.valid;
     for (size_t i = 0; i < restored.size(); ++i) {
-      if (!steps.valid.empty() && !steps.valid[i]) continue;
+      if (!valid[i]) continue;
       const double error =
           std::abs(static_cast<double>(restored[i]) - static_cast<double>(samples[i]));
       errors.largest = std::max(errors.largest, error);
