@@ -27,8 +27,8 @@ struct tks_decoder {
 
 namespace tetrakis {
 
-/// Returns the heights of the decoder's level, which are decoded once. TKS_USAGE if the stream holds
-/// none.
+/// Returns the heights of the decoder's level, which are decoded once. TKS_USAGE if the stream
+/// holds none.
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
 
 /// Of these, the heights between the steps.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codeword to validity mask.
+// Decodes a validity mask from its codeword.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 namespace tetrakis {
 
 /// Returns one byte for each sample of the plane, row by row, which is 1 where the sample is valid
-/// and 0 where it is void. codeword: any prefix of a validity codeword; an empty one says that every
-/// sample is valid. Safe on any bytes.
+/// and 0 where it is void. codeword: any prefix of a validity codeword; an empty one says that
+/// every sample is valid. Safe on any bytes.
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent plane);
 
 }  // namespace tetrakis

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of a mask: which samples of a height field exist, which texels can be seen. Level by level
-// of the 4-8 lattice, so that any prefix of the codeword gives the whole mask at the resolution it
-// pays for. Contexts from known neighbours after JBIG (ITU-T T.82, progressive templates):
+// The pass codes a mask: which samples of a height field exist, or which texels can be seen. It
+// goes level by level through the 4-8 lattice, so that any prefix of the codeword gives the whole
+// mask at the resolution it pays for. Its contexts come from known neighbours, as in JBIG (ITU-T
+// T.82, progressive templates):
 //
 //   near     the 4 coarser vertices next to the vertex: diagonal ones for a centre, along the
 //            axes for a midpoint; 16 patterns
@@ -9,8 +10,9 @@
 //            (-s, -s) and (s, -s) for a midpoint; 4 patterns
 //   ring     how many of the 8 coarser vertices at sqrt 5 times the distance are valid; 5 classes
 //
-// On coasts of five terrains these 320 contexts take 0.8 to 1.0 of a raster template of 12 samples
-// and 0.2 to 0.5 of Deflate; the 12 coarser neighbours one by one take 10 to 25 % more.
+// On coasts of five terrains these 320 contexts take 0.8 to 1.0 of the bytes that a raster template
+// of 12 samples takes, and 0.2 to 0.5 of those that Deflate takes. Contexts of the 12 coarser
+// neighbours one by one take 10 to 25 % more.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to a track of stored samples.
+// Stores an image sample by sample in one track.
 #pragma once
 
 #include "texture_wavelet/texture_encoder.hpp"

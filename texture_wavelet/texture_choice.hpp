@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to texture track, by the coder that suits it.
+// Codes an image as texture tracks with the coder that suits it.
 #pragma once
 
 #include "texture_wavelet/texture_encoder.hpp"

@@ -78,7 +78,7 @@ ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose p
   std::vector<const int32_t*> pointers;
   for (const std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
   const auto fit = purpose == Purpose::kLossy ? fitColour : chooseLosslessColour;
-  return fit(pointers, texels.width, texels.height);
+  return fit(pointers, texels.extent());
 }
 
 /// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which filters suit a plane. Encoder only: the choice stands in the stream header.
+// Encoders choose here which filters suit a plane. The choice stands in the stream header, so that
+// decoders need not know how it was made.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@ enum class Purpose : uint8_t {
   kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
 };
 
-/// Chooses the filters of a plane whose samples have `bits` bits. They are tried on typical parts of
-/// the plane, and compared by an estimate of the bits that their coefficients take.
+/// Chooses the filters of a plane whose samples have `bits` bits. They are tried on typical parts
+/// of the plane, and compared by an estimate of the bits that their coefficients take.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose);
 
 /// Chooses the same filters for several planes of one size.

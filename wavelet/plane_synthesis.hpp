@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inverse wavelet of a whole plane, or of every 2^level-th of its samples, in place.
+// PlaneSynthesis is the inverse wavelet of a whole plane, or of the samples of one of its levels.
+// It works in place.
 //
-// The low band after `level` levels has those samples, so it takes no inverse of the finer levels.
-// What their filters and doublings have made of constants is taken back. Where a side is too short
-// to be split so often the low band has more samples than are wanted, and some are left out.
+// The low band after `level` levels holds the samples at multiples of 2^level, so that the finer
+// levels need no inverse. The gain that their filters and doublings give to constants is divided
+// out. Where a side is too short to be split so often the low band holds more samples than the
+// level has, and those in between are left out.
 #pragma once
 
 #include <cstdint>

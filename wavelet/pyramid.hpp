@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pyramid of a plane: the low bands that a dyadic wavelet splits it into, level by level, and
-// the bands of coefficients that each split leaves behind.
+// The pyramid of a plane holds the low bands that a dyadic wavelet splits the plane into, level by
+// level, and the bands of coefficients that each split leaves behind.
 //
 // Level 1 splits the plane, and level l + 1 splits the low band of level l. The coefficients stay
-// in the plane. Rows stay where they are (the low band of level l has every 2^l-th row), which
-// spares the columns all copying. Within a row the low half comes before the high half. A side of
+// in the plane. Rows stay where they are (the low band of level l has every 2^l-th row), so that no
+// column is ever copied. Within a row the low half comes before the high half. A side of
 // kSmallestSide samples or fewer is not split.
 //
 //   HL: high along the rows (x), low along the columns (y);  LH: the other way;  HH: high in both

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a plane is looked at before it is coded. Encoder only.
+// Encoders look at typical parts of a plane before they code all of it.
 #pragma once
 
 #include <cstdint>

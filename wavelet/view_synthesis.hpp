@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inverse wavelet of what a view shows of a plane: coefficients go in, and the samples of the
-// view come out. A view of a whole plane, or of one of its levels, is worked out in place
-// (wavelet/plane_synthesis.hpp). A window is worked out from the coefficients that reach it
+// ViewSynthesis is the inverse wavelet of what a view shows of a plane: coefficients go in, and the
+// samples of the view come out. A view of a whole plane, or of one of its levels, is worked out in
+// place (wavelet/plane_synthesis.hpp). A window is worked out from the coefficients that reach it
 // (wavelet/window_synthesis.hpp), and has the same samples that the whole plane has there.
 #pragma once
 

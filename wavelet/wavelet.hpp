@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reversible separable integer wavelet of a plane, for heights and for the components of a texture.
+// The transform is a reversible separable integer wavelet of a plane. Heights and the components of
+// a texture share it.
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
 // with fraction bits keep these errors below a step. In planes without them (lossless ones) the low

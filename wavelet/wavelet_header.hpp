@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stream header says about the wavelet, as the transform needs it.
+// The functions here translate what a stream header says about the wavelet for the transform.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inverse wavelet of a window: the samples that the inverse wavelet of the whole plane would
-// give there, from the coefficients that reach it. At every level the window grows by the reach of
-// the filter and then halves, so the work follows the size of the window and not that of the plane.
+// WindowSynthesis is the inverse wavelet of a window. It gives the samples that the inverse wavelet
+// of the whole plane would give there, from the coefficients that reach the window. At every level
+// the window grows by the reach of the filter and then halves, so the work follows the size of the
+// window and not that of the plane.
 #pragma once
 
 #include <cstdint>

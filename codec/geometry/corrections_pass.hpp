@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of corrections: one small integer a sample, row by row, mostly 0. They turn decoded
+// A correction is a small integer, mostly 0, and every sample has one. Corrections turn decoded
 // heights into heights within a bound (after SPERR's outliers: S. Li, P. Lindstrom, J. Clyne 2023,
-// but quantised to twice the bound) or into the very samples.
+// but quantised to twice the bound) or into the very samples. They are coded row by row.
 //
-// A correction of magnitude m has the class bits(m). Decisions: class > 0, class > 1, ...; then the
-// sign, and the bits below the highest one, of which all but the first are at even odds. The
-// contexts are a hint of the caller, the classes of the neighbours before (2 W + 2 N + NW + NE),
-// and their signs: what coefficients left unsaid is an oscillation that goes on. Against signs at
+// A correction of magnitude m has the class bits(m). The coder decides whether the class exceeds 0,
+// then 1, and so on; then it codes the sign, and the bits below the highest one, of which all but
+// the first are at even odds. The contexts are a hint of the caller, the classes of the neighbours
+// before (2 W + 2 N + NW + NE), and their signs, because the errors of a cut oscillate from sample
+// to sample. Against signs at
 // even odds that saves 2 to 15 % of the corrections.
 #pragma once
 

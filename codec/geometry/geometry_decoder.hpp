@@ -30,8 +30,8 @@ struct DecodedGeometry {
 /// Decodes what a view shows; in a window the time follows its size if the plane has regions.
 /// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). valid: of
 /// the whole plane, 1 where a sample is valid; empty: all are. Safe on any bytes and on any header
-/// that readHeader() accepts. The memory is that of earlier calls with the same header, validity and
-/// view, which is no window.
+/// that readHeader() accepts. The memory is that of earlier calls with the same header, validity
+/// and view, which is no window.
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
                                std::vector<uint8_t> valid = {}, const View& view = {},
                                const DecodeContext<TrackMemory>& context = {});

@@ -17,8 +17,8 @@ struct DecodedHeights {
   std::vector<int32_t> corrections;  ///< to the samples; empty where there are none
 };
 
-/// What one call of decodeHeights() leaves to the next, whose only track is longer by some bytes and
-/// begins at the same address. It is empty before the first call.
+/// What one call of decodeHeights() leaves to the next, whose only track is longer by some bytes
+/// and begins at the same address. It is empty before the first call.
 struct HeightsMemory {
   std::vector<uint8_t> valid;  ///< once it is whole
   TrackMemory track;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights of any sample type to integer steps and back: sample = base + q * step.
+// Heights of any sample type are coded as integer steps: sample = base + q * step. The functions
+// here turn samples into steps and back.
 #pragma once
 
 #include <cstddef>

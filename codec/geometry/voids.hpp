@@ -11,8 +11,8 @@
 
 namespace tetrakis {
 
-/// Returns one byte for each sample, which is 1 where the sample is valid and 0 where it is void, or
-/// nothing if all samples are valid. A sample is void if it equals heights.nodata (and there is
+/// Returns one byte for each sample, which is 1 where the sample is valid and 0 where it is void,
+/// or nothing if all samples are valid. A sample is void if it equals heights.nodata (and there is
 /// has_nodata) or is NaN. TKS_USAGE: a sample is infinite; its place is in the message.
 Result<std::vector<uint8_t>> findVoids(const tks_heights& heights);
 

@@ -128,7 +128,7 @@ TEST(ColourLevels, TheFitFollowsDetailsAndShapes) {
   for (size_t i = 0; i < texels.samples.size(); ++i) planes[i % 3][i / 3] = texels.samples[i];
   const std::vector<const int32_t*> pointers = {planes[0].data(), planes[1].data(),
                                                 planes[2].data()};
-  const ColourTransform fitted = fitColour(pointers, texels.width, texels.height);
+  const ColourTransform fitted = fitColour(pointers, texels.extent());
   ASSERT_FALSE(fitted.level_shears.empty());
   EXPECT_GT(cosine(colourMatrix(fitted, 1)[0], {1, 1, 1}), 0.995);
   EXPECT_GT(cosine(colourMatrix(fitted, 5)[0], {0.9, 0.5, 0.1}), 0.99);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axes of colour that turn from level to level. Photographs out of a camera or a JPEG file have
-// details that are grey, because chroma was sampled or kept at half the resolution, while their
-// coarse shapes follow the colours of the ground: one rotation cannot suit both.
+// The axes of colour turn from level to level. Photographs out of a camera or a JPEG file have grey
+// details, because chroma was sampled or kept at half the resolution, while their coarse shapes
+// follow the colours of the ground: one rotation cannot suit both.
 #pragma once
 
 #include <cstdint>

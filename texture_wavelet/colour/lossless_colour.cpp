@@ -65,19 +65,17 @@ double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
 
 }  // namespace
 
-ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, uint32_t width,
-                                     uint32_t height) {
-  const ColourTransform none = centred(planes, size_t{width} * height);
+ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Extent extent) {
+  const ColourTransform none = centred(planes, extent.samples());
   if (planes.size() < 3) return none;
-  const ColourAxes axes = fitAxes(planes, width, height, Purpose::kLossless);
+  const ColourAxes axes = fitAxes(planes, extent, Purpose::kLossless);
   // One order for each channel that may come first; that of the other two makes no difference.
   std::vector<ColourTransform> candidates = {none, reversible(none, 0), reversible(none, 2),
                                              reversible(none, 4)};
   setRotation(candidates.emplace_back(none), axes.overall);
   if (!axes.levels.empty()) setRotation(candidates.emplace_back(none), axes.levels.front());
   std::vector<Sample> samples;
-  const Extent whole{width, height};
-  for (const Window& part : typicalParts(whole)) samples.push_back(sampleOf(part, planes, whole));
+  for (const Window& part : typicalParts(extent)) samples.push_back(sampleOf(part, planes, extent));
   ColourTransform best;
   double least = std::numeric_limits<double>::infinity();
   for (const ColourTransform& candidate : candidates) {

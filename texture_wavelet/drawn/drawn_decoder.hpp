@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Track of a drawn texture to image. Integer only.
+// Decodes the track of a drawn texture to an image. Integer arithmetic only.
 #pragma once
 
 #include <cstdint>

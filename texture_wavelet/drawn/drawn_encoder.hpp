@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to the track of a drawn texture.
+// Codes an image as the track of a drawn texture.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace tetrakis {
 /// the texels are like the one before or above them: that is no drawing.
 std::optional<EncodedTexture> encodeDrawn(const Texels& texels);
 
-/// Returns the codeword of an overlay: which texels the photograph does not mark, and the colours of
-/// those. There are fewer than kMostColours colours.
+/// Returns the codeword of an overlay: which texels the photograph does not mark, and the colours
+/// of those. There are fewer than kMostColours colours.
 std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph);
 
 }  // namespace tetrakis

@@ -10,8 +10,8 @@
 
 namespace tetrakis {
 
-/// Returns one byte for each texel, which is 1 where alpha has the largest value and 0 where it is 0;
-/// or nothing if alpha has any other value, or the largest one everywhere.
+/// Returns one byte for each texel, which is 1 where alpha has the largest value and 0 where it is
+/// 0; or nothing if alpha has any other value, or the largest one everywhere.
 std::vector<uint8_t> cutoutOf(const Texels& texels);
 
 /// Gives texels that are not coded the mean colour of those that are, or 0 if there are none.
@@ -21,7 +21,8 @@ void hideColours(Mask coded, std::vector<std::vector<int32_t>>& planes);
 /// Returns how many samples count in errors: all alphas, and the colours of texels that are seen.
 uint64_t countedSamples(const Texels& texels, Mask seen);
 
-/// Returns the sum of the squared errors of the samples that count. Both images have the same shape.
+/// Returns the sum of the squared errors of the samples that count. Both images have the same
+/// shape.
 double countedSquares(const Texels& original, const Texels& decoded, Mask seen);
 
 }  // namespace tetrakis
