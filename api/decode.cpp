@@ -44,7 +44,7 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
 DecodedHeights decodeHeights(const tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
   return decodeHeights(*header.geometry, header.layers,
-                       decoder.payload.codewordsOf(TrackId::kGeometry), view, {decoder.threads});
+                       decoder.payload.codewordsOf(Component::kGeometry), view, {decoder.threads});
 }
 
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
@@ -91,7 +91,7 @@ Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, 
   if (!view.ok()) return view.status();
   const size_t count = view->extentIn(decoder.parsed.header.geometry->extent()).samples();
   if (Status s = call.check(decoder, *view, count, sample_bytes); !s.ok()) return s;
-  if (decoder.payload.nothingOf(TrackId::kGeometry)) {
+  if (decoder.payload.nothingOf(Component::kGeometry)) {
     unsent(count);
   } else if (view->window) {
     all(decodeHeights(decoder, *view));
@@ -130,9 +130,9 @@ Status giveValidity(tks_decoder& decoder, const Call& call) {
   std::vector<uint8_t> valid;
   if (decoder.heights) {
     valid = decoder.heights->geometry.valid;
-  } else if (!decoder.payload.nothingOf(TrackId::kGeometry)) {
+  } else if (!decoder.payload.nothingOf(Component::kGeometry)) {
     valid = decodeValidityLayer(*header.geometry, header.layers,
-                                decoder.payload.codewordsOf(TrackId::kGeometry), *view);
+                                decoder.payload.codewordsOf(Component::kGeometry), *view);
   }
   auto* const out = static_cast<uint8_t*>(call.out);
   if (valid.empty()) {
@@ -151,11 +151,11 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
   const size_t count = view->extentIn(header.extent()).samples();
   const size_t texel_bytes = tks_sample_bytes(sample) * header.channels;
   if (Status s = call.check(decoder, *view, count, texel_bytes); !s.ok()) return s;
-  if (decoder.payload.nothingOf(TrackId::kTexture)) {
+  if (decoder.payload.nothingOf(Component::kTexture)) {
     writeUnsentTexels(header, call.out, count);
     return {};
   }
-  writeTexels(decodeTexture(header, decoder.payload.codewordsOf(TrackId::kTexture), *view,
+  writeTexels(decodeTexture(header, decoder.payload.codewordsOf(Component::kTexture), *view,
                             {decoder.threads}),
               sample, call.out);
   return {};

@@ -10,7 +10,7 @@
 #include "api/message.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
-#include "encoder/encode_job.hpp"
+#include "encoder/encode_stream.hpp"
 
 namespace tetrakis {
 
@@ -94,13 +94,13 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   return status;
 }
 
-Status encode(const tks_heights* heights, const tks_image* image, const tks_encode_options* options,
-              tks_buffer* out) {
+Status encodeAndProve(const tks_heights* heights, const tks_image* image,
+                      const tks_encode_options* options, tks_buffer* out) {
   Arguments known;
   if (Status status = takeArguments(heights, image, options, known); !status.ok()) return status;
   const tks_heights* known_heights = heights != nullptr ? &known.heights : nullptr;
   const tks_image* known_image = image != nullptr ? &known.image : nullptr;
-  Result<std::vector<uint8_t>> stream = EncodeJob(known_heights, known_image, known.options).run();
+  Result<std::vector<uint8_t>> stream = encodeStream({known_heights, known_image, known.options});
   if (!stream.ok()) return stream.status();
   Status proved = prove(*stream, known_heights, known_image, known.options);
   if (!proved.ok()) return proved;
@@ -122,7 +122,7 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
   if (out == nullptr) return TKS_USAGE;
   *out = {nullptr, 0};
   const tetrakis::Status status =
-      tetrakis::guarded([&] { return tetrakis::encode(heights, image, options, out); });
+      tetrakis::guarded([&] { return tetrakis::encodeAndProve(heights, image, options, out); });
   return tetrakis::report(status, message, message_size);
 }
 

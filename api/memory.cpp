@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "api/budget_mesh.hpp"
+#include "codec/mesh/budget_mesh.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/view_synthesis.hpp"
@@ -27,9 +27,9 @@ uint64_t area(const auto& extent) {
 
 /// The state of the tracks that are decoded at a time.
 uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t components,
-                    bool masked, TrackId track) {
+                    bool masked, Component component) {
   const bool known =
-      header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(track);
+      header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(component);
   const TrackNeeds needs{header.extent(), header.regions.side_log2, components, masked,
                          known,           decoder.threads};
   return needs.bytes();
@@ -83,7 +83,7 @@ class HeightsBytes {
     const uint64_t marks = view_.window ? 0 : low();
     const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
     const uint64_t corrections = corrected_ ? low() * (kValue + 1) + kRow * header_.width : 0;
-    const uint64_t state = stateBytes(decoder_, header_, 1, voids_, TrackId::kGeometry);
+    const uint64_t state = stateBytes(decoder_, header_, 1, voids_, Component::kGeometry);
     return kOnce + trackBytes(header_) + planes.coefficients + marks + masks +
            std::max({state, planes.work, corrections});
   }
@@ -155,7 +155,7 @@ class TextureBytes {
     const uint64_t masks = shown_ * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));
     // A window's samples are apart from its coefficients, which are gone then.
     const uint64_t samples = view_.window ? components * kValue * shown_ : all;
-    const uint64_t state = stateBytes(decoder_, header_, components, masked_, TrackId::kTexture);
+    const uint64_t state = stateBytes(decoder_, header_, components, masked_, Component::kTexture);
     return kDrawnOnce + opening() + trackBytes(header_) +
            std::max({all + state, all + masks + planes.work, samples + masks + out});
   }
@@ -195,12 +195,12 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
 
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
-    if (decoder.payload.nothingOf(TrackId::kTexture)) return kDrawnOnce;
+    if (decoder.payload.nothingOf(Component::kTexture)) return kDrawnOnce;
     return TextureBytes(decoder, request.view).decoding();
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
     return meshBytes(decoder, request);
-  if (decoder.payload.nothingOf(TrackId::kGeometry)) return kOnce;
+  if (decoder.payload.nothingOf(Component::kGeometry)) return kOnce;
   if (decoder.heights && !request.view.window) return 0;
   const HeightsBytes heights(decoder, request.view);
   return request.part == TKS_PART_VALIDITY ? heights.validity() : heights.decoding();

@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <limits>
 
-#include "api/budget_mesh.hpp"
 #include "api/memory.hpp"
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
-#include "api/void_mesh.hpp"
+#include "codec/mesh/budget_mesh.hpp"
+#include "codec/mesh/void_mesh.hpp"
 
 namespace tetrakis {
 
@@ -30,9 +30,49 @@ Result<Chosen> chosenVertices(const tks_decoder& decoder, const Lattice& lattice
     return checkBytes(decoder, {TKS_PART_BUDGET_MESH, {}, max_triangles},
                       voidMeshBytes(lattice, triangles));
   };
-  Result<FittedVertices> beside = verticesBesideVoids(lattice, geometry, max_triangles, admits);
+  const WeightedSurface surface{{lattice.width(), lattice.height(), geometry.heights},
+                                geometry.valid};
+  Result<FittedVertices> beside = verticesBesideVoids(lattice, surface, max_triangles, admits);
   if (!beside.ok()) return beside.status();
   return Chosen{std::move(beside->vertices), std::move(beside->heights)};
+}
+
+/// Mip level `level` of the heights, in steps of the decoder, and their scale.
+struct DecodedLevel {
+  KnownSurface known;
+  SurfaceScale scale;
+};
+
+Result<DecodedLevel> decodedLevel(tks_decoder& decoder, uint32_t level) {
+  const StreamHeader& header = decoder.parsed.header;
+  const GeometryHeader& g = *header.geometry;
+  DecodedHeights coarse;
+  const DecodedGeometry* geometry = nullptr;
+  if (level == 0) {
+    const Result<const DecodedGeometry*> whole = decodedGeometry(decoder);
+    if (!whole.ok()) return whole.status();
+    geometry = *whole;
+  } else {
+    // No higher than the coarsest: 2^level is less than a quarter of the longer side.
+    coarse = decodeHeights(decoder, {static_cast<int>(level), {}});
+    geometry = &coarse.geometry;
+  }
+  return DecodedLevel{{ofMipLevel(geometry->heights, g.width, g.height, level), level,
+                       level + geometry->quiet_levels},
+                      surfaceScale(header, *geometry)};
+}
+
+Result<SurfaceMesh> budgetMeshOf(tks_decoder& decoder, Lattice lattice, uint32_t max_triangles) {
+  Result<DecodedLevel> level = decodedLevel(decoder, budgetMeshLevel(lattice, max_triangles));
+  if (!level.ok()) return level.status();
+  Result<BudgetMesh> mesh = budgetMesh(lattice, std::move(level->known), max_triangles);
+  if (!mesh.ok()) return mesh.status();
+  std::vector<float> heights;
+  heights.reserve(mesh->heights.size());
+  for (const double steps : mesh->heights)
+    heights.push_back(static_cast<float>(steps * level->scale.scale + level->scale.offset));
+  return SurfaceMesh{std::move(lattice), std::move(mesh->vertices), std::move(mesh->mesh),
+                     std::move(heights)};
 }
 
 template <class T>
@@ -57,7 +97,7 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
   if (Status s = checkMemory(decoder, {part, {}, max_triangles}); !s.ok()) return s;
   const bool has_voids = header.layers.validity_bytes > 0;
   if (kind == TKS_MESH_BUDGET && max_triangles > 0 && !has_voids)
-    return budgetMesh(decoder, std::move(*lattice), max_triangles);
+    return budgetMeshOf(decoder, std::move(*lattice), max_triangles);
   const Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
   if (!geometry.ok()) return geometry.status();
   Result<Chosen> chosen = chosenVertices(decoder, *lattice, **geometry, kind, max_triangles);

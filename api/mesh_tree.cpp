@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
-#include "api/void_mesh.hpp"
 #include "codec/mesh/quadtree/mesh_tree.hpp"
+#include "codec/mesh/void_mesh.hpp"
 
 struct tks_mesh_tree {
   tetrakis::MeshTree tree;
@@ -19,23 +17,13 @@ struct tks_mesh_tree {
 namespace tetrakis {
 namespace {
 
-/// Leaves out voids (NaN), and heights that overflow by the scale and offset of the stream.
-MapBox boxOf(const SurfaceMesh& surface) {
-  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
-  for (const float height : surface.heights) {
-    if (!std::isfinite(height)) continue;
-    low = std::min(low, height);
-    high = std::max(high, height);
-  }
-  return {surface.lattice.width() - 1.0, surface.lattice.height() - 1.0, low, high};
-}
-
 Status decodeTree(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
                   tks_mesh_tree*& out) {
   const Result<SurfaceMesh> surface = surfaceMesh(decoder, kind, max_triangles);
   if (!surface.ok()) return surface.status();
-  out = new tks_mesh_tree{MeshTree(surface->lattice, surface->inserted, surface->heights),
-                          boxOf(*surface)};
+  out = new tks_mesh_tree{
+      MeshTree(surface->lattice, surface->inserted, surface->heights),
+      MapBox::around(surface->lattice.width(), surface->lattice.height(), surface->heights)};
   return {};
 }
 

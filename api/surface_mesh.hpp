@@ -13,7 +13,7 @@
 namespace tetrakis {
 
 /// inserted: the closed set of lattice vertices that `mesh` is made of. heights: in the unit, one
-/// for each vertex of `mesh`; NaN where it is void (api/void_mesh.hpp).
+/// for each vertex of `mesh`; NaN where it is void (codec/mesh/void_mesh.hpp).
 struct SurfaceMesh {
   Lattice lattice;
   std::vector<VertexId> inserted;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/mesh/closure.hpp"
 #include "codec/mesh/fitted_heights.hpp"
 #include "codec/mesh/gains.hpp"
+#include "codec/mesh/study/mesh_hull.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -9,9 +9,9 @@
 #include "bench/child_memory.hpp"
 #include "bench/decimation_peers.hpp"
 #include "bench/median.hpp"
-#include "codec/mesh/closure.hpp"
 #include "codec/mesh/fitted_heights.hpp"
 #include "codec/mesh/gains.hpp"
+#include "codec/mesh/study/mesh_hull.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The levels of the 4-8 lattice over a W x H grid.
+// The levels of the 4-8 lattice over a W x H grid, clipped at its border. Masks and corrections are
+// coded in this order. (Meshes use another border rule, under which the lattice overhangs the grid:
+// codec/mesh/lattice.hpp. Levels are counted from 1 here and in the thesis, from 0 there.)
 //
 // One 4-8 subdivision of squares of side 2s (s = 2^(depth-1) ... 1) inserts two levels
 // (thesis 3.2):
@@ -8,9 +10,9 @@
 //   |       |      c  square centres (odd level),  at odd multiples of s in x and y
 //   .   c   .      .  edge midpoints (even level), at multiples of s of odd coordinate sum
 //   |       |
-//   v---.---v      Every vertex of the grid belongs to exactly one level: once.
+//   v---.---v      Every vertex of the grid belongs to exactly one level.
 //
-// The grid may have any size: there is no padding, vertices outside simply do not exist.
+// The grid may have any size. It is not padded: there are no vertices outside the grid.
 #pragma once
 
 #include <array>
@@ -39,12 +41,13 @@ struct Level {
   uint32_t pitch() const { return kind == LevelKind::kRoots ? step : 2 * step; }
 };
 
-/// depth: the smallest d with 2^d >= max(width, height) - 1.
+/// Returns the depth of a grid: the smallest d with 2^d >= max(width, height) - 1.
 uint32_t depthOf(uint32_t width, uint32_t height);
 
-/// Roots first, then centres and midpoints of every step from coarse to fine: 1 + 2 * depth levels.
-/// mip: only those that have vertices at multiples of 2^mip alone, in units of 2^mip: the levels of
-/// a grid of every 2^mip-th vertex, in the order of the whole grid.
+/// Returns the 1 + 2 * depth levels of a grid: the roots, then the centres and the midpoints of
+/// every step from coarse to fine. With a mip level, returns only the levels all of whose vertices
+/// lie at multiples of 2^mip, in units of 2^mip: they are the levels of the grid of every 2^mip-th
+/// vertex, in the order of the whole grid.
 std::vector<Level> levelsOf(uint32_t width, uint32_t height, int mip = 0);
 
 }  // namespace tetrakis

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,8 +21,8 @@ struct Stencil {
   int reach = 0;                        ///< largest |dx| or |dy|
 };
 
-/// at + offset, or its mirror image at - offset where that is outside [0, size), or -1 where both
-/// are.
+/// Returns at + offset; if that lies outside [0, size), its mirror image at - offset; if both lie
+/// outside, -1.
 inline int64_t mirrored(uint32_t at, int offset, uint32_t size) {
   const int64_t direct = int64_t{at} + offset, image = int64_t{at} - offset;
   if (direct >= 0 && direct < size) return direct;
@@ -32,6 +33,7 @@ inline int64_t mirrored(uint32_t at, int offset, uint32_t size) {
 /// the same pattern turned by 45 degrees and enlarged by sqrt 2.
 inline Stencil stencilOf(LevelKind kind, uint32_t step, uint32_t width) {
   constexpr std::array<std::array<int, 2>, 3> kAxis = {{{1, 0}, {2, 1}, {1, 2}}};
+  assert(kind != LevelKind::kRoots && step > 0);  // roots have no coarser neighbours
   Stencil stencil;
   const int s = static_cast<int>(step);
   int tap = 0;
@@ -46,6 +48,7 @@ inline Stencil stencilOf(LevelKind kind, uint32_t step, uint32_t width) {
       ++tap;
     }
   }
+  assert(tap == Stencil::kTaps);
   stencil.reach = s * (kind == LevelKind::kCentres ? 3 : 2);
   return stencil;
 }

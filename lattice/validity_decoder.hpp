@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes a validity mask from its codeword.
+// Decodes a validity mask from a codeword.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes a validity mask as a codeword.
+// Encodes a validity mask as a codeword.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pass codes a mask: which samples of a height field exist, or which texels can be seen. It
-// goes level by level through the 4-8 lattice, so that any prefix of the codeword gives the whole
-// mask at the resolution it pays for. Its contexts come from known neighbours, as in JBIG (ITU-T
-// T.82, progressive templates):
+// Coding of a mask that says which samples of a height field exist, or which texels can be seen.
+// The mask is coded level by level of the 4-8 lattice, so that any prefix of the codeword gives the
+// whole mask, at a resolution that grows with its length. Contexts are made of known neighbours,
+// after JBIG (ITU-T T.82, progressive templates):
 //
 //   near     the 4 coarser vertices next to the vertex: diagonal ones for a centre, along the
 //            axes for a midpoint; 16 patterns
@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,8 +30,8 @@ namespace tetrakis {
 /// Runs over all vertices once. Io is the encoder's or the decoder's side of a decision:
 ///   bool bit(AdaptiveBit&, size_t sample)   the sample is valid
 ///   bool stopped()                          the last decision did not count
-/// A vertex whose decision does not count is what most of its near neighbours are (valid if they
-/// are even in number); a root then is valid.
+/// A vertex whose decision does not count is taken to be what most of its near neighbours are, and
+/// valid if as many are valid as not; a root is taken to be valid.
 template <class Io>
 class ValidityPass {
  public:
@@ -107,7 +108,8 @@ class ValidityPass {
     return known;
   }
 
-  /// Neighbours outside the grid are mirrored as in lifting; those that still are count as void.
+  /// Neighbours outside the grid are mirrored as in lifting. Where the mirror image is outside as
+  /// well, the neighbour counts as void.
   Known atBorder(const Stencil& stencil, uint32_t x, uint32_t y) const {
     Known known;
     int count = 0, there = 0;
@@ -128,7 +130,7 @@ class ValidityPass {
     return known;
   }
 
-  /// Two bits; a vertex outside the grid is taken to be as most of near are.
+  /// Returns two bits. A vertex outside the grid is taken to be what most of `near` are.
   unsigned causal(const Level& level, uint32_t x, uint32_t y, bool otherwise) const {
     const uint32_t s = level.step;
     const bool centre = level.kind == LevelKind::kCentres;

@@ -14,7 +14,7 @@ struct Priced {
   std::vector<Packet> packets;
 };
 
-std::vector<Priced> price(const TrackCurve& curve) {
+std::vector<Priced> price(const ComponentCurve& curve) {
   std::vector<Priced> out;
   auto next = curve.packets.begin();
   uint64_t sent = 0;
@@ -34,7 +34,7 @@ std::vector<Priced> price(const TrackCurve& curve) {
 
 }  // namespace
 
-std::vector<Packet> allocate(const std::array<TrackCurve, kTracks>& curves) {
+std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves) {
   std::vector<Packet> order;
   const std::vector<Priced> geometry = price(curves[0]);
   const std::vector<Priced> texture = price(curves[1]);
@@ -53,11 +53,11 @@ std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
   constexpr int kQualitySteps = 2;
   std::vector<Packet> joined;
   // Stated of each component ahead of the last packet, and with it.
-  std::array<int, kTracks> before = {511, 511}, stated = {511, 511};
+  std::array<int, kComponents> before = {511, 511}, stated = {511, 511};
   for (const Packet& packet : packets) {
-    const auto component = static_cast<size_t>(packet.track);
-    const bool same_track = !joined.empty() && joined.back().track == packet.track &&
-                            joined.back().region == packet.region;
+    const auto component = static_cast<size_t>(packet.component);
+    const bool same_track = !joined.empty() && joined.back().component == packet.component &&
+                            joined.back().track == packet.track;
     if (same_track && !joined.back().whole && !packet.whole &&
         before[component] - packet.quality <= kQualitySteps) {
       assert(joined.back().end == packet.begin);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lower convex hull of an operational rate-distortion curve: the only points that a marginal
-// analysis ever stops at (thesis 6.3; Y. Shoham, A. Gersho 1988). And packets between them.
+// This file thins an operational rate-distortion curve to its lower convex hull, which holds the
+// only points that a marginal analysis ever stops at (thesis 6.3; Y. Shoham, A. Gersho 1988), and
+// divides the bytes between two of them into packets.
 #pragma once
 
 #include <span>

@@ -22,7 +22,7 @@ struct Piece {
   double removed;
 };
 
-Piece pieceBetween(const RatePoint& a, const RatePoint& b, TrackId component, size_t track) {
+Piece pieceBetween(const RatePoint& a, const RatePoint& b, Component component, size_t track) {
   assert(a.bytes < b.bytes);
   const double removed = a.distortion - b.distortion;
   return {removed / static_cast<double>(b.bytes - a.bytes),
@@ -30,7 +30,7 @@ Piece pieceBetween(const RatePoint& a, const RatePoint& b, TrackId component, si
           removed};
 }
 
-void appendHull(std::span<const RatePoint> points, TrackId component, size_t track,
+void appendHull(std::span<const RatePoint> points, Component component, size_t track,
                 std::vector<Piece>& pieces) {
   const std::vector<RatePoint> hull = lowerHull(points, kRegionGrowth);
   for (size_t i = 1; i < hull.size(); ++i) {
@@ -44,13 +44,13 @@ void appendHull(std::span<const RatePoint> points, TrackId component, size_t tra
   }
 }
 
-}  // namespace
-
-OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> tracks,
-                          const FixedBytes& fixed) {
-  std::span<const RatePoint> base = tracks.front().points;
+/// All pieces in their order.
+std::vector<Piece> orderedPieces(const CodedTracks& coded) {
+  const auto& [component, tracks, opening_bytes, closing_bytes] = coded;
+  const std::span<const RatePoint> base = tracks.front().points;
   std::vector<Piece> pieces;
-  const size_t opening = fixed.opening > 0 ? 1 : 0, closing = fixed.closing > 0 ? 1 : 0;
+  const size_t opening = opening_bytes > 0 ? 1 : 0, closing = closing_bytes > 0 ? 1 : 0;
+  assert(base.size() > opening + closing);
   if (opening > 0) pieces.push_back(pieceBetween(base[0], base[1], component, 0));
   appendHull(base.subspan(opening, base.size() - opening - closing), component, 0, pieces);
   for (size_t i = 1; i < tracks.size(); ++i) appendHull(tracks[i].points, component, i, pieces);
@@ -59,13 +59,21 @@ OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> track
   std::stable_sort(pieces.begin() + static_cast<ptrdiff_t>(opening), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.slope > b.slope; });
   if (closing > 0) pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));
+  return pieces;
+}
+
+}  // namespace
+
+OrderedTracks orderTracks(const CodedTracks& coded) {
+  assert(!coded.tracks.empty());
+  const std::vector<Piece> pieces = orderedPieces(coded);
   // Summed from the end, so that rounding leaves every packet but the last something to do.
   OrderedTracks order;
   order.packets.resize(pieces.size());
   order.points.resize(pieces.size() + 1);
   double left = 0;
   uint64_t bytes = 0;
-  for (const EncodedTrack& track : tracks) left += track.points.back().distortion;
+  for (const EncodedTrack& track : coded.tracks) left += track.points.back().distortion;
   for (const Piece& piece : pieces) bytes += piece.packet.end - piece.packet.begin;
   order.points.back() = {bytes, left};
   for (size_t i = pieces.size(); i-- > 0;) {
@@ -74,6 +82,7 @@ OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> track
     order.points[i] = {bytes, left};
     order.packets[i] = pieces[i].packet;
   }
+  assert(bytes == 0);
   return order;
 }
 

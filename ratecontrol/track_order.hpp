@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of the packets of a component that is coded in regions: marginal allocation
-// (thesis 6.3) among its tracks, in the component's own distortion. What is cheap to improve
+// The order of the packets of a component that is coded in regions. It is the marginal allocation
+// (thesis 6.3) among the component's tracks, in its own distortion: what is cheap to improve
 // anywhere comes first.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_encoder.hpp"
+#include "ratecontrol/coded_tracks.hpp"
 
 namespace tetrakis {
-
-/// Bytes of the first track that come before, and behind, everything else.
-struct FixedBytes {
-  uint64_t opening = 0, closing = 0;
-};
 
 struct OrderedTracks {
   std::vector<Packet> packets;  ///< their quality is not set
@@ -24,7 +18,7 @@ struct OrderedTracks {
   std::vector<RatePoint> points;
 };
 
-OrderedTracks orderTracks(TrackId component, std::span<const EncodedTrack> tracks,
-                          const FixedBytes& fixed);
+/// The opening comes first and the closing last, whatever their slopes.
+OrderedTracks orderTracks(const CodedTracks& coded);
 
 }  // namespace tetrakis

@@ -13,8 +13,8 @@ function(tks_wall target)
 endfunction()
 
 # The decoder is the WebAssembly build: no encoder, no rate control, nothing from outside.
-tks_wall(tetrakis_decoder "encoder" "ratecontrol" "::")
-tks_wall(tetrakis "tks_files" "tks_conformance" "tks_cli" "PkgConfig" "GTest")
+tks_wall(tetrakis_decoder "encoder" "ratecontrol" "study" "::")
+tks_wall(tetrakis "study" "tks_files" "tks_conformance" "tks_cli" "PkgConfig" "GTest")
 tks_wall(tks_stream "lattice" "wavelet" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_lattice "wavelet" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_wavelet "lattice" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")

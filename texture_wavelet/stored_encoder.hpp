@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores an image sample by sample in one track.
+// This file writes the samples of an image as they are, where no coder takes fewer bytes.
 #pragma once
 
-#include "texture_wavelet/texture_encoder.hpp"
+#include "base/texels.hpp"
+#include "bitstream/stream/encoded_texture.hpp"
 
 namespace tetrakis {
 

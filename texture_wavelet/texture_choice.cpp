@@ -32,25 +32,30 @@ double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
 /// So few are not worth the time of another attempt.
 constexpr uint64_t kFewBytes = 1024;
 
-TrackOptions oneTrack(TrackOptions options) {
+TextureOptions oneTrack(TextureOptions options) {
   options.region_log2 = 0;
   return options;
 }
 
-uint64_t bytesOf(const EncodedTexture& encoded) {
-  uint64_t bytes = 0;
-  for (const EncodedTrack& track : encoded.tracks) bytes += track.codeword.size();
-  return bytes;
-}
+/// What a drawn texture and the wavelet make of an image, side by side.
+struct Contest {
+  bool drawn_wins;
+  /// In one track, if that is what encodePhotograph() would make of it without an overlay.
+  std::optional<EncodedTexture> plain;
+};
 
-/// Whether a drawn texture takes too few bytes for the wavelet to restore every sample within them,
-/// or within twice as many if that is not asked for.
-bool winsWhole(const EncodedTexture& drawn, const Texels& texels, Purpose purpose,
-               uint32_t threads) {
-  const uint64_t bytes = bytesOf(drawn);
-  if (bytes <= kFewBytes) return true;
-  const uint64_t limit = purpose == Purpose::kLossless ? bytes : 2 * bytes;
-  return !encodeByWavelet(texels, Purpose::kLossless, {limit, 0, threads}).tracks.front().complete;
+/// A drawn texture wins if it takes too few bytes for the wavelet to restore every sample within
+/// them, or within twice as many if that is not asked for.
+Contest contestWhole(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
+                     const TextureOptions& options) {
+  const uint64_t bytes = bytesOf(drawn.tracks);
+  if (bytes <= kFewBytes) return {true, {}};
+  const bool lossless = purpose == Purpose::kLossless;
+  EncodedTexture wavelet = encodeByWavelet(source, Purpose::kLossless,
+                                           {lossless ? bytes : 2 * bytes, 0, options.threads});
+  if (!wavelet.tracks.front().complete) return {true, {}};
+  if (!lossless || options.visual) return {false, {}};
+  return {false, std::move(wavelet)};
 }
 
 /// Bytes from which on the error is no larger than that; all of them if it never is.
@@ -63,64 +68,73 @@ uint64_t bytesFor(const EncodedTexture& encoded, double squares) {
 
 /// Whether a shows the image better than b where they will be cut: in fewer bytes if there is an
 /// error aimed at, else by less error in as many bytes. samples: that count.
-bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TrackOptions& options,
+bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TextureOptions& options,
                  uint64_t samples) {
   if (options.mean_square > 0) {
     const double squares = options.mean_square * static_cast<double>(samples);
     return bytesFor(a, squares) < bytesFor(b, squares);
   }
-  const uint64_t reach = std::min({options.room, bytesOf(a), bytesOf(b)});
+  const uint64_t reach = std::min({options.room, bytesOf(a.tracks), bytesOf(b.tracks)});
   const double error_a = distortionAt(a, reach), error_b = distortionAt(b, reach);
-  return error_a != error_b ? error_a < error_b : bytesOf(a) < bytesOf(b);
+  return error_a != error_b ? error_a < error_b : bytesOf(a.tracks) < bytesOf(b.tracks);
 }
 
-/// The same of a drawn texture whose end will not be sent, and the wavelet. Alpha of a cut-out
-/// would not be exact.
-bool winsCut(const EncodedTexture& drawn, const Texels& texels, Purpose purpose,
-             TrackOptions options) {
-  if (!cutoutOf(texels).empty()) return false;
-  options.region_log2 = 0;
-  if (options.mean_square > 0) options.limit = bytesOf(drawn);
-  const EncodedTexture wavelet = encodeByWavelet(texels, purpose, options);
-  return showsBetter(drawn, wavelet, options, texels.samples.size());
+/// The same of a drawn texture whose end will not be sent. Alpha of a cut-out would not be exact.
+Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
+                   const TextureOptions& options) {
+  if (!source.cutout.empty()) return {false, {}};
+  TextureOptions one_track = oneTrack(options);
+  if (options.mean_square > 0) one_track.limit = bytesOf(drawn.tracks);
+  EncodedTexture wavelet = encodeByWavelet(source, purpose, one_track);
+  if (showsBetter(drawn, wavelet, options, source.texels.samples.size())) return {true, {}};
+  const bool limited = one_track.limit < options.limit && !wavelet.tracks.front().complete;
+  if (limited) return {false, {}};
+  return {false, std::move(wavelet)};
 }
 
 /// With an overlay or without. Both are coded in one track to compare them: all of it for the last
-/// bit, else what a budget has room for.
-EncodedTexture encodePhotograph(const Texels& texels, Purpose purpose,
-                                const TrackOptions& options) {
-  const bool hides = purpose == Purpose::kLossy;
-  const std::vector<uint8_t> seen = hides ? cutoutOf(texels) : std::vector<uint8_t>(),
-                             photograph = photographOf(texels, seen);
-  if (photograph.empty()) return encodeByWavelet(texels, purpose, options);
-  EncodedTexture plain = encodeByWavelet(texels, purpose, oneTrack(options)),
-                 overlaid = encodeByWavelet(texels, purpose, oneTrack(options), photograph);
-  const bool pays = showsBetter(overlaid, plain, options, countedSamples(texels, seen));
-  if (options.region_log2 == 0) return pays ? std::move(overlaid) : std::move(plain);
-  return encodeByWavelet(texels, purpose, options, pays ? Mask(photograph) : Mask());
+/// bit, else what a budget has room for. plain: without an overlay, in one track, if that is there.
+EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
+                                const TextureOptions& options,
+                                std::optional<EncodedTexture> plain) {
+  const Mask seen = source.counted(purpose == Purpose::kLossy);
+  const std::vector<uint8_t> photograph = photographOf(source.texels, seen);
+  const bool one_track = options.region_log2 == 0;
+  if (photograph.empty()) {
+    if (plain && one_track) return std::move(*plain);
+    return encodeByWavelet(source, purpose, options, {}, plain ? &plain->header : nullptr);
+  }
+  if (!plain) plain = encodeByWavelet(source, purpose, oneTrack(options));
+  EncodedTexture overlaid = encodeByWavelet(source, purpose, oneTrack(options), photograph);
+  const bool pays = showsBetter(overlaid, *plain, options, countedSamples(source.texels, seen));
+  EncodedTexture& better = pays ? overlaid : *plain;
+  if (one_track) return std::move(better);
+  const TextureHeader like = std::move(better.header);
+  return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
+}
+
+/// Drawn, or by wavelet.
+EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
+                              const TextureOptions& options) {
+  std::optional<EncodedTexture> drawn = encodeDrawn(source.texels);
+  if (!drawn) return encodePhotograph(source, purpose, options, {});
+  const bool whole = bytesOf(drawn->tracks) <= options.room && options.mean_square == 0;
+  const auto contest = whole ? contestWhole : contestCut;
+  Contest result = contest(*drawn, source, purpose, options);
+  if (result.drawn_wins) return std::move(*drawn);
+  drawn.reset();
+  return encodePhotograph(source, purpose, options, std::move(result.plain));
 }
 
 }  // namespace
 
-namespace {
-
-EncodedTexture encodeModelled(const Texels& texels, Purpose purpose, const TrackOptions& options) {
-  const std::optional<EncodedTexture> drawn = encodeDrawn(texels);
-  if (!drawn) return encodePhotograph(texels, purpose, options);
-  const bool whole = bytesOf(*drawn) <= options.room && options.mean_square == 0;
-  const bool wins = whole ? winsWhole(*drawn, texels, purpose, options.threads)
-                          : winsCut(*drawn, texels, purpose, options);
-  return wins ? *drawn : encodePhotograph(texels, purpose, options);
-}
-
-}  // namespace
-
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, TrackOptions options) {
+EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, TextureOptions options) {
   if (purpose == Purpose::kLossless) options.mean_square = 0;
-  EncodedTexture encoded = encodeModelled(texels, purpose, options);
-  const uint64_t stored = storedBytes(texels);
-  const bool shorter = stored < bytesOf(encoded) && stored <= options.room;
-  return purpose == Purpose::kLossless && shorter ? storeTexture(texels) : std::move(encoded);
+  EncodedTexture encoded = encodeModelled(source, purpose, options);
+  const uint64_t stored = storedBytes(source.texels);
+  const bool shorter = stored < bytesOf(encoded.tracks) && stored <= options.room;
+  return purpose == Purpose::kLossless && shorter ? storeTexture(source.texels)
+                                                  : std::move(encoded);
 }
 
 }  // namespace tetrakis

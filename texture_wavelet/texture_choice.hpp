@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes an image as texture tracks with the coder that suits it.
+// This file codes an image by the coder that suits it: drawings colour by colour, photographs by
+// wavelet, and what no coder helps sample by sample.
 #pragma once
 
 #include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis {
 
-/// By wavelet; or drawn, or stored, in one track where that is better. options: as for
-/// encodeByWavelet(). Complete tracks without fraction bits that hide nothing are lossless.
-EncodedTexture encodeTexture(const Texels& texels, Purpose purpose, TrackOptions options);
+/// By wavelet; or drawn, or stored, in one track where that is better. Complete tracks without
+/// fraction bits that hide nothing are lossless.
+EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, TextureOptions options);
 
 }  // namespace tetrakis

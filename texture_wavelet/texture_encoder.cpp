@@ -81,6 +81,12 @@ ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose p
   return fit(pointers, texels.extent());
 }
 
+/// The colour transform of an image and the filters of its components.
+struct Fit {
+  ColourTransform colour;
+  WaveletHeader wavelet;
+};
+
 /// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of
 /// it, else by green, or grey, because it must be known how many fraction bits go in.
 WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, const Texels& texels,
@@ -100,15 +106,22 @@ WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, c
   return wavelet;
 }
 
+/// Chooses colours and filters, or takes those of `like`, and transforms the colours of the planes.
+Fit fitAndTransform(const Texels& texels, Purpose purpose, Mask coded, const TextureHeader* like,
+                    Planes& planes) {
+  if (like != nullptr) {
+    const Fit fit{colourOf(*like), like->wavelet};
+    transformColours(fit.colour, fit.wavelet.fraction_bits, planes);
+    return fit;
+  }
+  const ColourTransform colour = fitColours(planes, texels, purpose);
+  return {colour, transformColours(colour, purpose, texels, coded, planes)};
+}
+
 /// What the header says of tracks that are complete.
 uint64_t wholeBytes(const EncodedTexture& encoded) {
-  uint64_t bytes = 0;
-  if (encoded.header.regions.side_log2 == 0) return 0;
-  for (const EncodedTrack& track : encoded.tracks) {
-    if (!track.complete) return 0;
-    bytes += track.codeword.size();
-  }
-  return bytes;
+  const bool told = encoded.header.regions.side_log2 > 0 && allComplete(encoded.tracks);
+  return told ? bytesOf(encoded.tracks) : 0;
 }
 
 void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track) {
@@ -166,26 +179,27 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
 
 /// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
 /// samples are rounded, which matters where few steps are left.
-TrackOptions untilReached(TrackOptions options, uint64_t samples) {
+TrackOptions untilReached(const TextureOptions& options, uint64_t samples) {
+  TrackOptions tracks{options.limit, options.threads};
   if (options.mean_square > 1)
-    options.enough = options.mean_square / 2 * static_cast<double>(samples);
-  return options;
+    tracks.enough = options.mean_square / 2 * static_cast<double>(samples);
+  return tracks;
 }
 
 }  // namespace
 
-EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
-                               Mask photograph) {
-  std::vector<uint8_t> seen = cutoutOf(texels);
+EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
+                               const TextureOptions& options, Mask photograph,
+                               const TextureHeader* like) {
+  const Texels& texels = source.texels;
+  const std::vector<uint8_t>& seen = source.cutout;
   const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
   Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
   std::vector<uint8_t> common;
   if (hidden && !photograph.all()) common = intersection(seen, photograph);
   const Mask coded = !common.empty() ? Mask(common) : hidden ? Mask(seen) : photograph;
   hideColours(coded, planes);
-  const Mask counted = hidden ? Mask(seen) : Mask();
-  const ColourTransform colour = fitColours(planes, texels, purpose);
-  const WaveletHeader wavelet = transformColours(colour, purpose, texels, coded, planes);
+  const auto [colour, wavelet] = fitAndTransform(texels, purpose, coded, like, planes);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
   TextureHeader& header = encoded.header;
   header.hidden = hidden;
@@ -196,12 +210,11 @@ EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const Trac
   if (!photograph.all()) overlay = encodeOverlay(texels, photograph);
   header.alpha_bytes = mask.size();
   header.overlay_bytes = overlay.size();
-  encoded.tracks = encodePlanes(header, colour, coded,
-                                untilReached(options, countedSamples(texels, counted)), planes);
+  const uint64_t counted = countedSamples(texels, source.counted(hidden));
+  encoded.tracks = encodePlanes(header, colour, coded, untilReached(options, counted), planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   header.regions.whole_bytes = wholeBytes(encoded);
   prependOpening(texels, overlay, mask, encoded.tracks.front());
-  if (hidden) encoded.seen = std::move(seen);
   return encoded;
 }
 

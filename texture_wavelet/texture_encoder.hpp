@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes an image as texture tracks, by wavelet.
+// This file codes an image by wavelet. It fits a colour transform and filters to the image and
+// codes the coefficients that they leave into tracks.
 #pragma once
 
 #include <cstdint>
 
-#include "base/texels.hpp"
 #include "bitstream/stream/encoded_texture.hpp"
+#include "texture_wavelet/texture_source.hpp"
 #include "wavelet/filter_choice.hpp"
 
 namespace tetrakis {
@@ -14,8 +15,11 @@ namespace tetrakis {
 /// everything in the first track. Colours that it hides are coded for Purpose::kLossless alone.
 /// photograph: from photographOf(). It marks the texels of the photograph; the others are the
 /// overlay, which comes next. If it marks every texel there is no overlay. Complete tracks without
-/// fraction bits that hide nothing are lossless.
-EncodedTexture encodeByWavelet(const Texels& texels, Purpose purpose, const TrackOptions& options,
-                               Mask photograph = {});
+/// fraction bits that hide nothing are lossless. like: the header of an attempt of the same purpose
+/// and photograph, whose colours and filters are taken over; null: they are chosen, which gives the
+/// same.
+EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
+                               const TextureOptions& options, Mask photograph = {},
+                               const TextureHeader* like = nullptr);
 
 }  // namespace tetrakis

@@ -28,7 +28,7 @@ TexturePlan::TexturePlan(const TextureHeader& header, Mask coded)
 std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const {
   std::vector<BandPlan> bands;
   for (uint32_t c = 0; c < components_.size(); ++c) {
-    const Component& component = components_[c];
+    const ComponentBands& component = components_[c];
     const auto first = static_cast<int>(bands.size());
     std::vector<BandPlan> plan = layout_.plan(parts, first, component.priority, component.models);
     if (c == 0) layout_.markAbsent(parts, plan);

@@ -26,13 +26,13 @@ class TexturePlan {
   std::vector<BandPlan> bands(std::span<const BandPart> parts) const;
 
  private:
-  struct Component {
+  struct ComponentBands {
     int priority;
     uint32_t models;
   };
   PlaneLayout layout_;
   std::vector<Region> regions_;
-  std::vector<Component> components_;
+  std::vector<ComponentBands> components_;
   BandWeights weights_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an encoder makes of a texture.
+// This is what the codec of textures makes of one: its tracks, and what the header says of them.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,6 @@ struct EncodedTexture {
   TextureHeader header;
   /// Distortion: squared error summed over the samples that count.
   std::vector<EncodedTrack> tracks;
-  /// Where colours are hidden, 1 for each texel whose colours are not; else empty.
-  std::vector<uint8_t> seen = {};
 };
 
 }  // namespace tetrakis

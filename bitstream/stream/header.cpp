@@ -38,8 +38,9 @@ bool hasRegions(const StreamHeader& header) {
          (header.texture && !header.texture->regions.isDefault());
 }
 
-bool namesRegions(const StreamHeader& header, TrackId track) {
-  if (track == TrackId::kGeometry) return header.geometry && header.geometry->regions.side_log2 > 0;
+bool namesRegions(const StreamHeader& header, Component component) {
+  if (component == Component::kGeometry)
+    return header.geometry && header.geometry->regions.side_log2 > 0;
   return header.texture && header.texture->regions.side_log2 > 0;
 }
 
@@ -50,7 +51,8 @@ void visitIndex(V& v, StreamHeader& header) {
   header.index.resize(v.ok() ? count : 0);
   for (PacketHead& entry : header.index) {
     v.varint("index_head", entry.head, 0, UINT64_MAX);
-    if (namesRegions(header, entry.track())) v.varint("index_region", entry.region, 0, UINT32_MAX);
+    if (namesRegions(header, entry.component()))
+      v.varint("index_region", entry.track, 0, UINT32_MAX);
     v.u8("index_quality", entry.quality, 0, 255);
     if (!v.ok()) break;
   }

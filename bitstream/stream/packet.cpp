@@ -13,7 +13,7 @@ namespace {
 
 void putHead(const Packet& packet, FieldWriter& writer) {
   writer.put(packet.head());
-  if (packet.region) writer.put(*packet.region);
+  if (packet.track) writer.put(*packet.track);
   writer.bytes.push_back(packet.quality);
 }
 
@@ -35,11 +35,13 @@ size_t overheadOf(const Packet& packet) {
 }
 
 std::vector<uint8_t> multiplex(std::span<const Packet> packets,
-                               const std::array<Codewords, kTracks>& codewords, uint64_t limit) {
+                               const std::array<Codewords, kComponents>& codewords,
+                               uint64_t limit) {
   FieldWriter writer;
   for (const Packet& packet : packets) {
     putHead(packet, writer);
-    const auto& codeword = codewords[static_cast<size_t>(packet.track)][packet.region.value_or(0)];
+    const auto& codeword =
+        codewords[static_cast<size_t>(packet.component)][packet.track.value_or(0)];
     assert(packet.begin < packet.end && packet.end <= codeword.size());
     const auto payload = codeword.subspan(packet.begin, packet.end - packet.begin);
     writer.bytes.insert(writer.bytes.end(), payload.begin(), payload.end());
@@ -49,15 +51,15 @@ std::vector<uint8_t> multiplex(std::span<const Packet> packets,
   return std::move(writer.bytes);
 }
 
-Codewords Demultiplexed::codewordsOf(TrackId track) const {
-  const auto component = static_cast<size_t>(track);
-  Codewords all(counts[component].tracks);
-  for (const auto& [number, codeword] : codewords[component]) all[number] = codeword;
+Codewords Demultiplexed::codewordsOf(Component component) const {
+  Codewords all(counts[static_cast<size_t>(component)].tracks);
+  for (const auto& [number, codeword] : codewords[static_cast<size_t>(component)])
+    all[number] = codeword;
   return all;
 }
 
-bool Demultiplexed::nothingOf(TrackId track) const {
-  const auto& known = codewords[static_cast<size_t>(track)];
+bool Demultiplexed::nothingOf(Component component) const {
+  const auto& known = codewords[static_cast<size_t>(component)];
   return std::all_of(known.begin(), known.end(),
                      [](const auto& one) { return one.second.empty(); });
 }
@@ -73,13 +75,13 @@ Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const Trac
     FieldReader reader(payload.subspan(at), origin + at);
     PacketHead head;
     head.head = reader.take();
-    const TrackCount& count = counts[static_cast<size_t>(head.track())];
+    const TrackCount& count = counts[static_cast<size_t>(head.component())];
     const uint64_t length = head.head >> 2;
-    if (count.named) reader.varint("region", head.region, 0, UINT32_MAX);
+    if (count.named) reader.varint("region", head.track, 0, UINT32_MAX);
     reader.u8("quality", head.quality, 0, 255);
     if (reader.starved()) break;
     if (!reader.ok()) return reader.status();
-    if (length == 0 || head.region >= count.tracks) {
+    if (length == 0 || head.track >= count.tracks) {
       return Status(TKS_CORRUPT, "Corrupt stream: the packet at byte " +
                                      std::to_string(origin + at) +
                                      " is empty or of a track that the header does not announce.");
@@ -115,11 +117,11 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
   const Status status =
       forEachPacket(payload, origin, counts,
                     [&](const PacketHead& head, std::span<const uint8_t> bytes, bool complete) {
-                      const auto component = static_cast<size_t>(head.track());
+                      const auto component = static_cast<size_t>(head.component());
                       const bool whole = (head.head & 2) != 0;
                       out.heads.push_back(head);
                       if (complete || !whole) {
-                        std::vector<uint8_t>& codeword = out.codewords[component][head.region];
+                        std::vector<uint8_t>& codeword = out.codewords[component][head.track];
                         codeword.insert(codeword.end(), bytes.begin(), bytes.end());
                       }
                       if (complete) out.quality[component] = head.quality;

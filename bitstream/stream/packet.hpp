@@ -23,19 +23,21 @@
 
 namespace tetrakis {
 
-/// The component that a track belongs to; without regions it is the component's only one.
-enum class TrackId : uint8_t { kGeometry = 0, kTexture = 1 };
-inline constexpr size_t kTracks = 2;
+/// What a stream holds: heights (the geometry), a texture, or both. A component is coded in one
+/// track, or in several if it has regions.
+enum class Component : uint8_t { kGeometry = 0, kTexture = 1 };
+inline constexpr size_t kComponents = 2;
 
 struct Packet {
-  TrackId track = TrackId::kGeometry;
+  Component component = Component::kGeometry;
   bool whole = false;
   uint8_t quality = 0;
-  uint64_t begin = 0, end = 0;     ///< bytes of the track's codeword
-  std::optional<uint32_t> region;  ///< number of the track; nothing: the component has but one
+  uint64_t begin = 0, end = 0;    ///< bytes of the track's codeword
+  std::optional<uint32_t> track;  ///< number of the track; nothing: the component has but one
 
   uint64_t head() const {
-    return (end - begin) << 2 | static_cast<uint64_t>(whole) << 1 | static_cast<uint64_t>(track);
+    return (end - begin) << 2 | static_cast<uint64_t>(whole) << 1 |
+           static_cast<uint64_t>(component);
   }
 };
 
@@ -51,35 +53,35 @@ using Codewords = std::vector<std::span<const uint8_t>>;
 
 /// Writes the packets in order, stopping at `limit` bytes (inside a packet if need be).
 std::vector<uint8_t> multiplex(std::span<const Packet> packets,
-                               const std::array<Codewords, kTracks>& codewords, uint64_t limit);
+                               const std::array<Codewords, kComponents>& codewords, uint64_t limit);
 
 /// What stands before a packet's payload; the front index repeats it.
 struct PacketHead {
   uint64_t head = 0;
-  uint32_t region = 0;
+  uint32_t track = 0;
   uint8_t quality = 0;
   bool operator==(const PacketHead&) const = default;
 
-  TrackId track() const { return static_cast<TrackId>(head & 1); }
+  Component component() const { return static_cast<Component>(head & 1); }
 };
 
 struct TrackCount {
   uint64_t tracks = 0;  ///< 0: the header does not announce the component
   bool named = false;   ///< packets say which track they belong to
 };
-using TrackCounts = std::array<TrackCount, kTracks>;
+using TrackCounts = std::array<TrackCount, kComponents>;
 
 struct Demultiplexed {
   TrackCounts counts;
   /// What is available of the tracks of each component, by number; of the others nothing is.
-  std::array<std::map<uint32_t, std::vector<uint8_t>>, kTracks> codewords;
-  std::array<std::optional<uint8_t>, kTracks> quality;  ///< of the last complete packet of each
-  std::vector<PacketHead> heads;                        ///< of every packet begun
+  std::array<std::map<uint32_t, std::vector<uint8_t>>, kComponents> codewords;
+  std::array<std::optional<uint8_t>, kComponents> quality;  ///< of the last complete packet of each
+  std::vector<PacketHead> heads;                            ///< of every packet begun
 
   /// Of all tracks, which may be many.
-  Codewords codewordsOf(TrackId track) const;
+  Codewords codewordsOf(Component component) const;
   /// No byte of any track of the component is available.
-  bool nothingOf(TrackId track) const;
+  bool nothingOf(Component component) const;
 };
 
 /// What a payload holds, for an idea of what it takes to take it apart.

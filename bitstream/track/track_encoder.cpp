@@ -251,6 +251,16 @@ void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOpti
 
 }  // namespace
 
+uint64_t bytesOf(std::span<const EncodedTrack> tracks) {
+  uint64_t bytes = 0;
+  for (const EncodedTrack& track : tracks) bytes += track.codeword.size();
+  return bytes;
+}
+
+bool allComplete(std::span<const EncodedTrack> tracks) {
+  return std::all_of(tracks.begin(), tracks.end(), [](const auto& t) { return t.complete; });
+}
+
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
                          uint64_t limit) {
   return std::move(encodeTracks({{plan, sources}}, {limit}).front());

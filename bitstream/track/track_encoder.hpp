@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes the coefficients of a track down to the last bit and measures what every byte buys.
+// This file encodes the coefficients of a track down to the last bit, or to where that is no longer
+// worth it, and measures what every byte buys.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,12 @@ struct EncodedTrack {
   bool complete = true;  ///< down to the last bit
 };
 
+/// Of all codewords together.
+uint64_t bytesOf(std::span<const EncodedTrack> tracks);
+
+/// Every track is coded down to the last bit.
+bool allComplete(std::span<const EncodedTrack> tracks);
+
 /// Coefficients of one band in the cell layout of BandShape (margins zero), |value| < 2^30.
 struct BandSource {
   std::vector<int32_t> values;
@@ -44,17 +51,13 @@ struct TrackSource {
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
                          uint64_t limit);
 
-/// How a component is coded.
+/// Where the coding of a component's tracks ends.
 struct TrackOptions {
   /// An error of which the account, a sum of floats, never falls short: all passes are coded.
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
 
   uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
-  int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
   uint32_t threads = 1;         ///< nothing depends on them
-  bool visual = false;          ///< a texture: what is seen comes first, not what is off most
-  uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
-  double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
   double enough = kNever;       ///< distortion of all tracks together below which coding ends
 };
 

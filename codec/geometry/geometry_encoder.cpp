@@ -11,9 +11,9 @@
 
 namespace tetrakis {
 
-std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
-                                         const WaveletHeader& wavelet,
-                                         const TrackOptions& options) {
+std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
+                                             const WaveletHeader& wavelet,
+                                             const CoefficientOptions& options) {
   const std::span<const int32_t> given = heights.values();
   std::vector<int32_t> plane(given.begin(), given.end());
   for (int32_t& h : plane) {
@@ -35,7 +35,7 @@ std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights
     for (const BandPart& part : parts)
       track.bands.push_back({layout.gather(plane, part), layout.energy(part.subband) * unit});
   });
-  return encodeTracks(tracks, options);
+  return encodeTracks(tracks, {options.limit, options.threads});
 }
 
 }  // namespace tetrakis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the heights of a plane as the tracks of its coefficients.
+// This file transforms heights in steps and codes their coefficients into the geometry's tracks.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,16 @@
 
 namespace tetrakis {
 
-/// Returns one track for each of regionsOf(). wavelet: from chooseWavelet(). Distortion is in
-/// squared units of the heights, summed over the valid samples.
-std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
-                                         const WaveletHeader& wavelet, const TrackOptions& options);
+struct CoefficientOptions {
+  uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
+  int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
+  uint32_t threads = 1;         ///< nothing depends on them
+};
+
+/// Codes heights in steps. Returns one track for each of regionsOf(). wavelet: from
+/// chooseWavelet(). Distortion is in squared units of the heights, summed over the valid samples.
+std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
+                                             const WaveletHeader& wavelet,
+                                             const CoefficientOptions& options);
 
 }  // namespace tetrakis

@@ -15,6 +15,11 @@
 
 namespace tetrakis {
 
+/// Returns the size of a height field of the C interface.
+inline Extent extentOf(const tks_heights& heights) {
+  return {heights.width, heights.height};
+}
+
 struct HeightSteps {
   std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0; 0 where voids are
   std::vector<uint8_t> valid;  ///< 1 valid, 0 void; empty: all are valid

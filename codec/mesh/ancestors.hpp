@@ -14,6 +14,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -22,7 +23,8 @@
 
 namespace tetrakis {
 
-/// Cell (0, 0) is (left, top) of the level.
+/// A set of vertices of one level within a window of 8 x 8 cells. Cell (0, 0) of the window is cell
+/// (left, top) of the level.
 struct AncestorWindow {
   uint64_t cells = 0;
   int32_t left = 0, top = 0;
@@ -33,14 +35,14 @@ struct AncestorWindow {
     return {1, static_cast<int32_t>(v.column), static_cast<int32_t>(v.row)};
   }
   static AncestorWindow ofMidpoint(Site v);
-  /// Of a level of squares, the level of midpoints above it.
+  /// The parents of these squares: a window of the level of midpoints above.
   AncestorWindow midpointsAbove() const;
-  /// Of a level of midpoints, the level of squares above it.
+  /// The parents of these midpoints: a window of the level of squares above, whose plan is given.
   AncestorWindow squaresAbove(const Lattice::Plan& above) const;
 
-  /// Without the cells of another window of the same level.
+  /// This window without the vertices of another window of the same level.
   AncestorWindow without(const AncestorWindow& other) const;
-  /// visitOne(VertexId) for every cell.
+  /// Calls visitOne(VertexId) for every vertex in the window.
   template <class Visit>
   void visit(uint32_t level, const Lattice::Plan& plan, Visit& visitOne) const;
 
@@ -53,21 +55,22 @@ struct AncestorWindow {
   void clip(const Lattice::Plan& plan);
 };
 
-/// visit(level, AncestorWindow) for every level above v up to `last`, one of squares, from fine to
-/// coarse.
+/// Calls visit(level, AncestorWindow) with the ancestors of v on each level above v, from fine to
+/// coarse, up to and with `last`, which is a level of squares.
 template <class Visit>
 void forEachAncestorWindow(const Lattice& lattice, Site v, uint32_t last, Visit&& visit);
 
-/// visit(VertexId) for every ancestor of v, level by level; v itself is not visited.
+/// Calls visit(VertexId) for every ancestor of v, level by level; v itself is not visited.
 template <class Visit>
 void forEachAncestor(const Lattice& lattice, Site v, Visit&& visit);
 
-/// Adds amounts to all ancestors of many vertices. Neighbours share most of their ancestors:
-/// amounts wait at every level of squares until one with another window arrives. Delta has +=.
+/// Adds amounts to all ancestors of many vertices. Neighbouring vertices share most of their
+/// ancestors, so an amount waits at every level of squares until an amount with another window
+/// arrives there. Delta has +=.
 ///
-/// visit(VertexId, Delta) may follow an amount now or later. A visitor that has a function
-/// visit.pass(level, squares, taken, Delta) is told what goes on to the squares of a level, those
-/// taken included, before that.
+/// visit(VertexId, Delta) is called for each ancestor, during add() or a later call. If the visitor
+/// has a function visit.pass(level, squares, taken, Delta), it is called first, with all squares of
+/// a level that the amount reaches, those taken included.
 template <class Delta>
 class AncestorSums {
  public:
@@ -76,15 +79,15 @@ class AncestorSums {
         waiting_((lattice.levelCount() + 1) / 2),
         taken_(lattice.levelCount()) {}
 
-  /// No visits to v and its ancestors from now on. (Descendants of v share most of their ancestors
-  /// with it.) visit(level, AncestorWindow): as forEachAncestorWindow() with `last`.
+  /// From now on neither v nor its ancestors are visited. (Descendants of v share most of their
+  /// ancestors with it.) visit(level, AncestorWindow) is called as by forEachAncestorWindow().
   template <class Visit>
   void takeAncestorsOf(Site v, uint32_t last, Visit&& visit);
   /// The window of v or its ancestors on a level from `last` on; empty below v.
   const AncestorWindow& taken(uint32_t level) const { return taken_[level]; }
   template <class Visit>
   void add(Site v, const Delta& delta, Visit&& visit);
-  /// Visits all that waits.
+  /// Visits the ancestors of all amounts that still wait.
   template <class Visit>
   void flush(Visit&& visit);
 
@@ -107,6 +110,7 @@ class AncestorSums {
 };
 
 inline AncestorWindow AncestorWindow::ofMidpoint(Site v) {
+  assert(!Lattice::isCentre(v.level));
   const auto column = static_cast<int32_t>(v.column), row = static_cast<int32_t>(v.row);
   AncestorWindow w{0, (column - 1) & ~1, (row - 1) & ~1};
   w.cells = uint64_t{1} << (column - w.left + 8 * (row - w.top));
@@ -116,6 +120,7 @@ inline AncestorWindow AncestorWindow::ofMidpoint(Site v) {
 inline AncestorWindow AncestorWindow::midpointsAbove() const {
   AncestorWindow corners{0, (left - 1) & ~1, (top - 1) & ~1};
   const int32_t shift = left - corners.left + 8 * (top - corners.top);
+  assert(shift >= 0 && cells << shift >> shift == cells);
   corners.cells = (cells | cells << 1 | cells << 8 | cells << 9) << shift & kOddSum;
   return corners;
 }
@@ -168,6 +173,7 @@ void AncestorWindow::visit(uint32_t level, const Lattice::Plan& plan, Visit& vis
 
 template <class Visit>
 void forEachAncestorWindow(const Lattice& lattice, Site v, uint32_t last, Visit&& visit) {
+  assert(Lattice::isCentre(last) && last <= v.level);
   uint32_t level = v.level;
   AncestorWindow squares = AncestorWindow::ofSquare(v);
   if (!Lattice::isCentre(level)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/mesh/clamped_triangle.hpp"
 
+#include <cassert>
+
 #include "codec/mesh/triangle_samples.hpp"
 
 namespace tetrakis {
@@ -54,6 +56,8 @@ class ClampedTriangle {
 }  // namespace
 
 double clampedEnergy(const SurfaceView& surface, const std::array<GridPoint, 3>& corners) {
+  for ([[maybe_unused]] const GridPoint& p : corners)
+    assert(p.x < surface.width && p.y < surface.height);
   const ClampedTriangle triangle(surface, corners);
   double energy = 0;
   triangle.samples().forEach([&](uint32_t x, uint32_t y, const TriangleSamples::Edges& e) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lower convex hull of all 4-8 meshes of a surface: what no order of decimation can beat.
+// The best 4-8 meshes of a surface, which no order of decimation can beat: the corners of the lower
+// convex hull of all of its meshes.
 //
 // By the diamond form of the error (gains.hpp) the mesh of a closed set S has D + lambda R =
 // constant - sum over S of (g - lambda c): for one lambda the best mesh is a maximum closure of the
@@ -14,63 +15,38 @@
 #include <span>
 #include <vector>
 
-#include "codec/mesh/decimation.hpp"
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/surface_view.hpp"
 
 namespace tetrakis {
 
-/// The slope lambda, in squared height steps a triangle, at which each vertex enters the best mesh:
-/// {v : slope > lambda} is closed and minimises D + lambda R for every lambda that is no slope.
-/// Never above those of the parents; +-infinity for vertices that cost no triangles and gain or
-/// lose. vertices: a closed set, ids ascending; gains: one for each of them, e.g. of vertexGains().
-/// The gains count in units of 2^-58 of the sum of their absolute values: slopes less than a unit
-/// apart may be taken for one.
+/// Returns for each vertex the slope lambda, in squared height steps a triangle, at which it enters
+/// the best mesh: {v : slope > lambda} is closed and minimises D + lambda R for every lambda that
+/// is no slope. A slope is never greater than those of the parents. It is +infinity or -infinity
+/// for a vertex that costs no triangles and gains or loses. vertices: a closed set, ids ascending;
+/// gains: one for each of them, e.g. of vertexGains(). Gains are rounded to multiples of 2^-58 of
+/// the sum of their absolute values, so slopes that differ by less may be taken for one.
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const VertexId> vertices,
                                   std::span<const double> gains);
 
-/// Where a vertex stands to the mesh on the hull of a number of triangles. In this order parents
-/// come before children.
+/// Whether the best meshes around a number of triangles hold a vertex. The corners of the hull on
+/// either side of that number are meshes; in the order of this enumeration parents come before
+/// their children.
 enum class HullSide : uint8_t {
-  kWithin,  ///< in the last corner of no more triangles
-  kAcross,  ///< between that corner and the next
-  kBeyond,  ///< in neither
+  kWithin,  ///< the vertex is in the last corner that has no more triangles than that
+  kAcross,  ///< the vertex is in the next corner only
+  kBeyond,  ///< the vertex is in neither of the two
 };
 
-/// A small part of the work of closureSlopes() tells sides alone. vertices, gains: as there.
+/// Returns the side of each vertex, in a small part of the time of closureSlopes(). vertices and
+/// gains are as for that function.
 std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
                                 std::span<const double> gains, uint32_t triangles);
-
-/// Of all vertices.
-std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains);
 
 /// Sorts a closed set, the first vertices of an order, so that its prefixes pass through every
 /// corner of the hull of the meshes within it; between corners they keep their order. gains: of all
 /// lattice vertices.
 void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
                         std::span<VertexId> order);
-
-/// Corners of the hull, from the roots alone to full resolution.
-class MeshHull {
- public:
-  struct Corner {
-    uint32_t triangles = 0;
-    double squared_error = 0;
-  };
-
-  MeshHull(const Lattice& lattice, const std::vector<double>& gains,
-           const std::vector<double>& slopes);
-
-  const std::vector<Corner>& corners() const { return corners_; }
-  /// No mesh of at most `triangles` triangles has less squared error. Not below the roots'
-  /// triangles.
-  double bound(uint32_t triangles) const;
-
- private:
-  std::vector<Corner> corners_;
-};
-
-/// Like decimate(), but through every corner of the hull; between corners in greedy order.
-Result<MeshSequence> decimateOptimally(const SurfaceView& surface);
 
 }  // namespace tetrakis

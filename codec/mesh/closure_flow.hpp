@@ -3,10 +3,10 @@
 // vertices (Picard 1976: closure as minimum cut; Goldberg and Tarjan 1988: push-relabel; Hochbaum
 // 2008: excess and deficit at vertices instead of source and sink).
 //
-// Vertex v has the weight w(v). A vertex with something to give may lend it to its parents without
-// bound, and a parent may give back what it was lent: residual arcs child -> parent always, parent
-// -> child while the loan f > 0. e(v) = w(v) + received - lent. Once no vertex with e > 0 reaches
-// one with e < 0, the vertices that reach no deficit are a maximum closure: they hold their
+// Vertex v has the weight w(v). A vertex with an excess may lend any amount of it to its parents,
+// and a parent may give back what it was lent: a residual arc child -> parent always exists, an arc
+// parent -> child while the loan f > 0. e(v) = w(v) + received - lent. Once no vertex with e > 0
+// reaches one with e < 0, the vertices that reach no deficit are a maximum closure: they hold their
 // parents, no loan crosses their border, and so their weights sum to their e >= 0 while all e
 // outside are <= 0.
 #pragma once
@@ -19,15 +19,15 @@
 
 namespace tetrakis {
 
-/// Loans along the arcs of the parent graph, kept from one problem to the next: a warm start. Every
-/// vertex belongs to one part; arcs between parts do not exist.
+/// Loans along the arcs of the parent graph. They are kept from one problem to the next, which then
+/// starts close to its solution. Every vertex belongs to one part; arcs between parts do not exist.
 class ClosureFlow {
  public:
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   /// Parents of a vertex; kNone where there are fewer. No vertex is a parent of more than four.
   using Arcs = std::array<uint32_t, 2>;
 
-  /// All vertices in part 0, no loans.
+  /// Begins with all vertices in part 0 and without loans.
   explicit ClosureFlow(std::vector<Arcs> parents);
 
   /// Solves one part. weights: w of each vertex of `part`, in its order; any sum of absolute values

@@ -29,6 +29,7 @@ int32_t beyond(int64_t a, int64_t b, uint32_t rest, uint32_t k) {
 }  // namespace
 
 CoarseSurface coarsen(const SurfaceView& surface, uint32_t k) {
+  assert(surface.heights.size() == size_t{surface.width} * surface.height);
   CoarseSurface coarse{lastOf(surface.width, k) + 1, lastOf(surface.height, k) + 1, {}};
   coarse.heights.reserve(size_t{coarse.width} * coarse.height);
   for (uint32_t y = 0; y < coarse.height; ++y) {
@@ -40,6 +41,7 @@ CoarseSurface coarsen(const SurfaceView& surface, uint32_t k) {
 }
 
 CoarseSurface smoothed(const SurfaceView& surface) {
+  assert(surface.heights.size() == size_t{surface.width} * surface.height);
   const uint32_t right = surface.width - 1, bottom = surface.height - 1;
   CoarseSurface coarse{lastOf(surface.width, 1) + 1, lastOf(surface.height, 1) + 1, {}};
   coarse.heights.reserve(size_t{coarse.width} * coarse.height);
@@ -85,6 +87,7 @@ CoarseSurface ofMipLevel(std::span<const int32_t> level, uint32_t whole_width,
 
 uint32_t wholeSample(uint32_t sample, uint32_t coarse_width, uint32_t whole_width,
                      uint32_t whole_height, uint32_t k) {
+  assert(coarse_width > 0);
   const uint32_t x = std::min((sample % coarse_width) << k, whole_width - 1);
   const uint32_t y = std::min((sample / coarse_width) << k, whole_height - 1);
   return y * whole_width + x;

@@ -3,6 +3,7 @@
 #include "codec/mesh/complete_domains.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
 #include "codec/mesh/octagon.hpp"
@@ -99,6 +100,7 @@ void addPair(const RowSums& sums, const Lattice& lattice, uint32_t level, uint32
 std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
                                          const VertexCosts& costs) {
   const Lattice& lattice = costs.lattice();
+  assert(gains.size() == lattice.vertexCount());
   std::vector<DomainWorth> domains(gains.size());
   for (uint32_t centres = 0; centres < lattice.levelCount(); centres += 2) {
     const RowSums sums(gains, costs, centres);

@@ -10,8 +10,8 @@
 
 namespace tetrakis {
 
-/// u(M_v) of every vertex v, nothing being removed. gains: one for each vertex, their sums exact in
-/// any order (gains.hpp).
+/// Returns u(M_v) of every vertex v while no vertex is removed. gains: one for each vertex; their
+/// sums are exact in any order (gains.hpp).
 std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
                                          const VertexCosts& costs);
 

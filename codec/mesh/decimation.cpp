@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gains, a policy's order, and what the order's prefixes have.
 #include "codec/mesh/decimation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <numeric>
 
 #include "codec/mesh/closure.hpp"
 #include "codec/mesh/gains.hpp"
 #include "codec/mesh/general_decimation.hpp"
-#include "codec/mesh/leaf_order.hpp"
-#include "codec/mesh/local_errors.hpp"
 
 namespace tetrakis {
 namespace {
-
-Status check(const Lattice& lattice, const SurfaceView& surface, std::span<const uint32_t> costs) {
-  if (Status status = checkWeights(surface); !status.ok()) return status;
-  if (!costs.empty() && costs.size() != lattice.vertexCount())
-    return {TKS_USAGE, "A mesh needs one cost for each lattice vertex, or none at all."};
-  if (std::accumulate(costs.begin(), costs.end(), uint64_t{0}) > UINT32_MAX)
-    return {TKS_LIMIT,
-            "The costs of all vertices add up to more than 2^32 - 1; use a larger unit."};
-  return {};
-}
 
 /// Greedy steps cost most where few triangles are left, up to 0.2 dB below 500; there the best
 /// meshes are cheap to know.
@@ -37,26 +24,6 @@ void improveCoarsest(const Lattice& lattice, const std::vector<double>& gains,
   sortThroughCorners(lattice, gains, std::span(order).first(count));
 }
 
-std::vector<VertexId> orderOf(const Lattice& lattice, const SurfaceView& surface,
-                              const std::vector<double>& gains, const DecimationOptions& options) {
-  const VertexCosts costs(lattice, options.costs);
-  switch (options.policy) {
-    case MeshPolicy::kNearHull:
-    case MeshPolicy::kGeneralDecimation:
-      break;
-    case MeshPolicy::kRestrictedDecimation:
-      return restrictedDecimation(gains, costs);
-    case MeshPolicy::kLocalDecimation:
-      return restrictedDecimation(localErrors(lattice, surface), costs);
-    case MeshPolicy::kLocalRefinement:
-      return refinement(localErrors(lattice, surface), costs);
-  }
-  std::vector<VertexId> order = generalDecimation(gains, costs);
-  if (options.policy == MeshPolicy::kNearHull && options.costs.empty())
-    improveCoarsest(lattice, gains, order);
-  return order;
-}
-
 }  // namespace
 
 MeshSequence::MeshSequence(Lattice lattice, std::vector<VertexId> order,
@@ -65,6 +32,7 @@ MeshSequence::MeshSequence(Lattice lattice, std::vector<VertexId> order,
       order_(std::move(order)),
       triangle_counts_(order_.size() + 1),
       squared_errors_(order_.size() + 1) {
+  assert(order_.size() == lattice_.vertexCount() && gains.size() == order_.size());
   std::vector<uint8_t> costs(order_.size());
   lattice_.forEachVertex(
       [&](Site site, VertexId v) { costs[v] = static_cast<uint8_t>(lattice_.triangleCost(site)); });
@@ -87,15 +55,17 @@ size_t MeshSequence::bestPrefix(uint32_t triangles) const {
 }
 
 LatticeMesh MeshSequence::mesh(size_t inserted) const {
+  assert(inserted <= order_.size());
   return meshOf(lattice_, std::span(order_).first(inserted));
 }
 
-Result<MeshSequence> decimate(const SurfaceView& surface, const DecimationOptions& options) {
+Result<MeshSequence> decimate(const SurfaceView& surface) {
   Result<Lattice> lattice = Lattice::make(surface.width, surface.height);
   if (!lattice.ok()) return lattice.status();
-  if (const Status status = check(*lattice, surface, options.costs); !status.ok()) return status;
+  if (const Status status = checkWeights(surface); !status.ok()) return status;
   const std::vector<double> gains = vertexGains(*lattice, surface);
-  std::vector<VertexId> order = orderOf(*lattice, surface, gains, options);
+  std::vector<VertexId> order = generalDecimation(gains, VertexCosts(*lattice, {}));
+  improveCoarsest(*lattice, gains, order);
   return MeshSequence(std::move(*lattice), std::move(order), gains);
 }
 

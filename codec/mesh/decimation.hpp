@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// RD decimation (thesis 5): an order of insertion of all vertices of a 4-8 mesh whose prefixes are
-// nested, conforming meshes, good at every rate.
+// Rate-distortion decimation (thesis 5). It gives an order of insertion of all vertices of a 4-8
+// mesh. Every prefix of the order is a conforming mesh with little error for its triangles, and the
+// meshes are nested.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +22,11 @@ class MeshSequence {
   const Lattice& lattice() const { return lattice_; }
   /// Vertices in insertion order, parents before children, hidden ones included.
   const std::vector<VertexId>& order() const { return order_; }
-  /// Of the mesh after `inserted` vertices, 0 ... order().size(); never falls.
+  /// The number of triangles of the mesh of the first `inserted` vertices, 0 ... order().size(). It
+  /// never falls as vertices are inserted.
   uint32_t triangleCount(size_t inserted) const { return triangle_counts_[inserted]; }
-  /// Sum over all samples of weight * (sample - mesh)^2, in squared height steps.
+  /// The error of that mesh: the sum over all samples of weight * (sample - mesh)^2, in squared
+  /// height steps.
   double squaredError(size_t inserted) const { return squared_errors_[inserted]; }
 
   /// The shortest prefix with the least error among those of at most `triangles` triangles; 0, the
@@ -39,26 +42,11 @@ class MeshSequence {
   std::vector<double> squared_errors_;
 };
 
-/// How to choose the next vertex. The last three are the thesis's comparisons.
-enum class MeshPolicy {
-  /// General decimation; where costs are triangles its coarsest meshes then go through the corners
-  /// of the hull of all meshes within one of 4096 triangles, on small surfaces one of a triangle
-  /// for each 8 samples (closure.hpp).
-  kNearHull,
-  kGeneralDecimation,     ///< whole merging domains, global error (general_decimation.hpp)
-  kRestrictedDecimation,  ///< single vertices, global error (leaf_order.hpp; thesis 5.4.2)
-  kLocalDecimation,       ///< single vertices, error at the vertex alone (thesis 2.5.2, 5.5.2)
-  kLocalRefinement,       ///< insertion from the roots, likewise (thesis 2.5.2, 5.5.2)
-};
-
-struct DecimationOptions {
-  MeshPolicy policy = MeshPolicy::kNearHull;
-  /// One for each lattice vertex, in any unit (vertex_costs.hpp); empty: triangles.
-  std::span<const uint32_t> costs;
-};
-
-/// The errors of Lattice::make; TKS_USAGE for weights or costs that are not one each, or weights
-/// negative or not finite; TKS_LIMIT for costs that add up to 2^32 or more.
-Result<MeshSequence> decimate(const SurfaceView& surface, const DecimationOptions& options = {});
+/// Orders all vertices by general decimation (general_decimation.hpp). The coarsest meshes of the
+/// order, those of up to 4096 triangles and of no more than one for each 8 samples, pass through
+/// the corners of the hull of the meshes within them (closure.hpp). Fails with the errors of
+/// Lattice::make, and with TKS_USAGE for weights that are not one for each sample, negative or not
+/// finite.
+Result<MeshSequence> decimate(const SurfaceView& surface);
 
 }  // namespace tetrakis

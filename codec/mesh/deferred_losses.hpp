@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Losses of fine vertices that their coarse ancestors hear of only when they ask.
+// Losses of the domains of coarse vertices, which are summed up only when they are asked for.
 //
-// Vertices with the same ancestors on one level of squares share all ancestors above it. So what
-// they take from the domains above that level is kept once for each such set of squares: some of
-// 3 x 3 cells, at places of either parity in some thirty shapes. What a coarse vertex lost is the
-// sum over the sets that meet its octagon.
+// Vertices with the same ancestors on one level of squares share all ancestors above it. So the
+// amount that they take from the domains above that level is stored once for each such set of
+// squares. A set lies within 3 x 3 cells and has one of some thirty shapes for each parity of its
+// place. The loss of a coarse vertex is the sum over the sets that meet its octagon.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ namespace tetrakis {
 
 class DeferredLosses {
  public:
-  /// level: of squares. The lattice outlives this.
+  /// level: a level of squares. The lattice must outlive this object.
   DeferredLosses(const Lattice& lattice, uint32_t level);
 
   uint32_t level() const { return level_; }
   /// All ancestors of these squares of level() lose `worth`, each once.
   void add(const AncestorWindow& squares, const Worth& worth) { slot(squares) += worth; }
   void takeBack(const AncestorWindow& squares, const Worth& worth) { slot(squares) -= worth; }
-  /// What v, a vertex above level(), lost so far.
+  /// The sum of all losses so far of v, a vertex above level().
   Worth of(Site v) const;
 
  private:

@@ -3,6 +3,7 @@
 #include "codec/mesh/fitted_heights.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <iterator>
 #include <numeric>
@@ -12,7 +13,7 @@
 #include "codec/mesh/decimation.hpp"
 #include "codec/mesh/fitted_solver.hpp"
 #include "codec/mesh/gains.hpp"
-#include "codec/mesh/leaf_order.hpp"
+#include "codec/mesh/saturated_order.hpp"
 
 namespace tetrakis {
 
@@ -89,6 +90,7 @@ void FittedSequence::sortBySide(size_t count, const FittedMoments& fitted, uint3
 }
 
 std::vector<VertexId> FittedSequence::firstById(size_t count) const {
+  assert(count <= order_.size());
   std::vector<VertexId> vertices(order_.begin(), order_.begin() + static_cast<ptrdiff_t>(count));
   std::sort(vertices.begin(), vertices.end());
   return vertices;
@@ -98,6 +100,7 @@ std::vector<VertexId> FittedSequence::firstById(size_t count) const {
 template <class Key, class Before>
 void FittedSequence::sortFirst(std::span<const VertexId> vertices, const std::vector<Key>& keys,
                                Before before) {
+  assert(keys.size() == vertices.size());
   std::vector<Key> key_of(lattice_.vertexCount());
   for (size_t i = 0; i < vertices.size(); ++i) key_of[vertices[i]] = keys[i];
   std::stable_sort(order_.begin(), order_.begin() + static_cast<ptrdiff_t>(vertices.size()),

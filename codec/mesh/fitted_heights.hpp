@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decimation for meshes whose heights are fitted.
 //
-// With fitted heights a vertex is worth less than its gain says: its neighbours would fill in for
-// it. So the order of decimate() is refined: at every halving of the triangles the mesh is fitted,
-// gains are taken anew with the fitted heights (still a sum over vertices, and nested best sets),
-// and the remaining vertices are sorted by the slopes of those closures. Fitting alone saves 10 to
-// 16 % of the root mean squared error, the new order another 2 to 3 %.
+// With fitted heights a vertex is worth less than its gain says, because the heights of its
+// neighbours partly make up for its absence. So the order of decimate() is refined: at every
+// halving of the triangles the mesh is fitted, gains are computed anew with the fitted heights (the
+// error is still a sum over vertices, and the best sets are nested), and the remaining vertices are
+// sorted by the slopes of those closures. Fitting alone saves 10 to 16 % of the root mean squared
+// error, the new order another 2 to 3 %.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +30,11 @@ FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
 
 class FittedSequence {
  public:
-  /// Meshes of any number of triangles. The errors of decimate(), whose order of the view is where
-  /// refinement starts. The surface outlives the sequence.
+  /// Makes a sequence for meshes of any number of triangles, which begins with the order of
+  /// decimate(). Fails with the errors of decimate(). The surface must outlive the sequence.
   static Result<FittedSequence> make(const WeightedSurface& surface);
-  /// In a fraction of the time a sequence that is good at so many triangles alone, and ends behind
-  /// them.
+  /// Makes, in a fraction of the time, a sequence that is good only at about that many triangles,
+  /// and ends soon behind them. Fails and refers to the surface as make() does.
   static Result<FittedSequence> makeFor(const WeightedSurface& surface, uint32_t triangles);
 
   const Lattice& lattice() const { return lattice_; }

@@ -24,12 +24,6 @@ struct WeighedSample {
   double weight, a, b, p, residual;
 };
 
-/// Of a triangle whose moments of second order are known.
-struct Residuals {
-  double energy = 0;
-  TriangleMoments::First first;
-};
-
 void add(TriangleMoments& t, const WeighedSample& s) {
   t.energy += s.weight * s.residual * s.residual;
   t.first.a += s.weight * s.residual * s.a;
@@ -242,6 +236,7 @@ void FittedMoments::coarsen(std::span<const VertexId> kept) {
 
 void FittedMoments::correct(std::span<const uint32_t> samples,
                             std::span<const double> corrections) {
+  assert(!full_ && samples.size() == corrections.size());
   std::vector<double> before;
   before.reserve(3 * leaves_.size());
   for (const Leaf& leaf : leaves_)

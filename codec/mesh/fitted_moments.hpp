@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moments of the triangles of one mesh against planes through heights of one's choice.
 //
-// As in moments.hpp, but corners need not lie on the surface: heights h at the vertices are free.
-// The samples at vertices stand apart (a vertex errs by z - h on its own sample, and no triangle
-// counts it); a vertex that goes leaves its sample to the triangles on either side of its split
-// edge, half each. Coarsening the mesh merges triangles upwards, so that all stages of a decimation
+// They are the moments of moments.hpp, but the heights h at the vertices need not be samples. The
+// samples at vertices belong to no triangle: a vertex adds the error z - h of its own sample. When
+// a vertex is removed, its sample goes to the triangles on either side of the edge that it split,
+// half to each. Coarsening the mesh merges triangles upwards, so that all stages of a decimation
 // together cost one descent over the surface.
 #pragma once
 
@@ -20,8 +20,8 @@
 
 namespace tetrakis {
 
-/// A surface whose samples may be unknown: known[i] == 0 takes sample i out of fits, whatever its
-/// weight in the view; empty: all are known.
+/// A surface whose samples may be unknown. Where known[i] is 0, sample i does not count in fits,
+/// whatever its weight in the view. Where `known` is empty, all samples are known.
 struct WeightedSurface {
   SurfaceView view;
   std::span<const uint8_t> known = {};
@@ -40,7 +40,8 @@ class FittedMoments {
     TriangleMoments moments;
   };
 
-  /// The mesh of all vertices, with the samples as heights. lattice and surface outlive this.
+  /// Begins with the mesh of all vertices, whose heights are the samples. The lattice and the
+  /// surface must outlive this object.
   FittedMoments(const Lattice& lattice, const WeightedSurface& surface);
 
   /// Removes all vertices of the mesh but `kept`, a closed set.
@@ -50,12 +51,12 @@ class FittedMoments {
 
   /// Triangles of the mesh after the first coarsen(), in the order of meshOf().
   const std::vector<Leaf>& leaves() const { return leaves_; }
-  /// Of the mesh at the sample of one of its vertices.
+  /// The height of the mesh at `sample`, which is the place of one of its vertices.
   double height(uint32_t sample) const { return heights_[sample]; }
   const WeightedSurface& surface() const { return surface_; }
 
-  /// What each of `vertices`, those of the mesh, saves with these heights (gains.hpp). After the
-  /// first coarsen().
+  /// The gain of each vertex of the mesh with the present heights (gains.hpp). vertices: those of
+  /// the mesh. Must not be called before coarsen().
   std::vector<double> gains(std::span<const VertexId> vertices) const;
 
  private:

@@ -4,6 +4,7 @@
 // every sum runs in the mesh's order.
 #include "codec/mesh/fitted_solver.hpp"
 
+#include <cassert>
 #include <limits>
 
 namespace tetrakis {
@@ -110,6 +111,7 @@ std::vector<double> solve(const NormalEquations& a) {
 }  // namespace
 
 void fitHeights(FittedMoments& mesh) {
+  assert(!mesh.leaves().empty());
   const NormalEquations equations(mesh);
   mesh.correct(equations.samples(), solve(equations));
 }

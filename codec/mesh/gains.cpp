@@ -20,12 +20,6 @@ struct HeightCorner {
 };
 using HeightTriangle = LatticeTriangle<HeightCorner>;
 
-/// Of a triangle whose moments of second order are known.
-struct Residuals {
-  double energy;
-  TriangleMoments::First first;
-};
-
 class GainBuilder {
  public:
   GainBuilder(const Lattice& lattice, const SurfaceView& surface)

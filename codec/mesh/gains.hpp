@@ -18,10 +18,10 @@ namespace tetrakis {
 /// TKS_USAGE for weights that are not one for each sample, or negative or not finite.
 Status checkWeights(const SurfaceView& surface);
 
-/// g of every vertex, in squared height steps; may be negative. Rounded to multiples of one power
-/// of two, chosen (2^-30 of the largest weight where that is fine enough) so that every sum of
-/// gains is exact in any order: orders of vertices built from them depend on no rounding. The
-/// surface has the lattice's size, and weights that pass.
+/// Returns g of every vertex, in squared height steps. A gain may be negative. Gains are rounded to
+/// multiples of one power of two (2^-30 of the largest weight where that is fine enough), chosen so
+/// that every sum of gains is exact in any order; so no order of vertices that is built from them
+/// depends on rounding. The surface must have the size of the lattice and pass checkWeights().
 std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surface);
 
 }  // namespace tetrakis

@@ -4,6 +4,7 @@
 #include "codec/mesh/general_decimation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include "codec/mesh/slope_queue.hpp"
@@ -35,6 +36,7 @@ class Decimator {
     };
     order_.reserve(count_);
     while (order_.size() < count_) {
+      assert(order_.size() < count_);
       const Candidate least = queue_.pop(enqueue_remaining);
       if (domains_.removed(least.vertex)) continue;
       const double slope = domains_.slope(least.vertex);

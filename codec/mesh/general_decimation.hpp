@@ -12,8 +12,8 @@
 
 namespace tetrakis {
 
-/// All vertices, those removed last first. gains: one for each vertex (gains.hpp). prompt_levels
-/// changes the time that it takes.
+/// Returns all vertices, those removed last first. gains: one for each vertex (gains.hpp).
+/// prompt_levels (merging_domains.hpp) changes the time that decimation takes, but not the order.
 std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,
                                         uint32_t prompt_levels = MergingDomains::kPromptLevels);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 namespace tetrakis {
 
@@ -24,6 +25,7 @@ Lattice::Lattice(uint32_t width, uint32_t height)
       root_side_(std::bit_ceil(std::min(width, height) - 1)) {}
 
 void Lattice::addLevels() {
+  assert(std::has_single_bit(root_side_));
   for (uint32_t step = root_side_ / 2; step > 0; step /= 2) {
     Plan plan;
     plan.step = step;
@@ -46,6 +48,7 @@ void Lattice::addLevel(Plan plan) {
     const uint32_t offset = cell / 8 * plan.columns + cell % 8;
     plan.offsets[cell] = isCentre(levelCount()) ? offset : offset / 2;
   }
+  assert(plan.columns > 0 && plan.rows > 0);
   levels_.push_back(plan);
 }
 

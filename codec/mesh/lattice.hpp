@@ -15,15 +15,19 @@
 // Overhang. Where W - 1 or H - 1 is no multiple of 2^d the forest reaches over the grid, and
 // vertices beyond it are clamped: x -> min(x, W - 1), y -> min(y, H - 1). The map is monotone per
 // axis, so no triangle flips; a triangle without a point left of x = W - 1 and above y = H - 1 has
-// no area and is hidden. Hidden triangles belong to no mesh and make no demands: the lattice holds
-// just the vertices that split a visible triangle, and just the parents that are apexes of visible
-// ones. Every sample is a root or the place of exactly one vertex that is not hidden(); hidden
-// vertices fall onto a corner of the triangles that they split.
+// no area and is hidden. Hidden triangles belong to no mesh and need no vertices: the lattice holds
+// only the vertices that split a visible triangle, and gives them only those parents that are
+// apexes of visible triangles. Every sample is a root or the place of exactly one vertex that is
+// not hidden(). A hidden vertex falls onto a corner of the triangles that it splits.
 //
-// Only this file knows where neighbours are; kernels walk parents, children and ancestors.
+// Only this file knows where neighbours are; all other code walks parents, children and ancestors.
+//
+// The masks of lattice/ use the same vertices under another border rule (lattice/levels.hpp): their
+// levels begin at a power of two that covers the longer side, and end at the border of the grid.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -64,10 +68,11 @@ class Lattice {
 
   VertexId id(Site v) const;
   Site site(VertexId vertex) const;
-  /// First vertex of a level; vertexCount() for levelCount().
+  /// The id of the first vertex of a level, 0 ... levelCount(); of levelCount() it is
+  /// vertexCount().
   VertexId firstOf(uint32_t level) const;
 
-  /// On the lattice, before clamping.
+  /// The place of a vertex on the lattice, before clamping: it may lie outside the grid.
   GridPoint position(Site v) const;
   /// The vertex of `level` at a lattice point.
   Site siteAt(uint32_t level, GridPoint point) const;
@@ -75,24 +80,24 @@ class Lattice {
   /// Sample (row * width + column) of a lattice point, clamped.
   uint32_t gridIndex(GridPoint point) const;
 
-  /// Whether a triangle with these corners (before clamping) has no area.
+  /// Whether the triangle with these corners (before clamping) has no area once it is clamped.
   bool collapses(GridPoint a, GridPoint b, GridPoint c) const;
   /// Whether clamping moves a corner of this triangle.
   bool overhangs(GridPoint a, GridPoint b, GridPoint c) const;
-  /// Whether the vertex is clamped onto a corner of the triangles that it splits. It adds no sample
-  /// to a mesh; unless both coordinates are clamped (then it may turn a diagonal) it changes
-  /// nothing.
+  /// Whether the vertex is clamped onto a corner of the triangles that it splits. Such a vertex
+  /// adds no sample to a mesh. It changes the triangles of a mesh only if both of its coordinates
+  /// are clamped: then it may turn a diagonal.
   bool hidden(Site v) const;
-  /// Triangles gained by inserting the vertex: 0, 1 or 2.
+  /// The number of triangles that a mesh gains when the vertex is inserted: 0, 1 or 2.
   uint32_t triangleCost(Site v) const;
 
-  /// visit(Site) for the one or two parents; none on level 0.
+  /// Calls visit(Site) for each of the one or two parents of v. Vertices of level 0 have none.
   template <class Visit>
   void forEachParent(Site v, Visit&& visit) const;
-  /// visit(Site) for the up to four vertices that v is a parent of.
+  /// Calls visit(Site) for each of the up to four vertices that v is a parent of.
   template <class Visit>
   void forEachChild(Site v, Visit&& visit) const;
-  /// visit(Site, VertexId) for every vertex, by id.
+  /// Calls visit(Site, VertexId) for every vertex, in the order of their ids.
   template <class Visit>
   void forEachVertex(Visit&& visit) const;
 
@@ -121,13 +126,17 @@ class Lattice {
 };
 
 inline VertexId Lattice::id(Site v) const {
+  assert(v.level < levelCount());
   const Plan& plan = levels_[v.level];
+  assert(v.column < plan.columns && v.row < plan.rows);
+  assert(isCentre(v.level) || (v.column + v.row) % 2 == 1);
   const size_t cell = size_t{v.row} * plan.columns + v.column;
   // Every other cell of a level of midpoints is empty: halving packs the others without gaps.
   return plan.first + static_cast<VertexId>(isCentre(v.level) ? cell : cell / 2);
 }
 
 inline Site Lattice::site(VertexId vertex) const {
+  assert(vertex < vertex_count_);
   uint32_t level = levelCount() - 1;
   while (vertex < levels_[level].first) --level;
   const Plan& plan = levels_[level];

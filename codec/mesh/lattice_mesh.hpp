@@ -10,10 +10,10 @@
 
 namespace tetrakis {
 
-/// A mesh that covers the grid. vertices: samples (row * width + column), the roots first, row by
-/// row, then the inserted ones in their order; no sample twice. triangles: three indices into
-/// vertices each, counter-clockwise seen from above (x to the right, rows towards the viewer), none
-/// without area.
+/// A mesh that covers the grid. `vertices` are samples (row * width + column): first the roots, row
+/// by row, then the inserted vertices in their order; no sample comes twice. `triangles` are three
+/// indices into `vertices` each, counter-clockwise seen from above (x to the right, rows towards
+/// the viewer); every triangle has an area.
 struct LatticeMesh {
   std::vector<uint32_t> vertices;
   std::vector<uint32_t> triangles;
@@ -21,20 +21,21 @@ struct LatticeMesh {
   size_t triangleCount() const { return triangles.size() / 3; }
 };
 
-/// The mesh after inserting `vertices`, which come once each, every one after its parents.
+/// Returns the mesh of the roots and `vertices`. Each vertex comes once, after its parents.
 LatticeMesh meshOf(const Lattice& lattice, std::span<const VertexId> vertices);
 
-/// Coarse ones first: their mesh has every sample.
+/// Returns all vertices, coarse ones first. Their mesh has every sample.
 std::vector<VertexId> allVertices(const Lattice& lattice);
 
-/// The smallest closed set that holds `vertices`: them and their ancestors, in order of id.
+/// Returns the smallest closed set that holds `vertices`: these vertices and their ancestors, in
+/// the order of their ids.
 std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId> vertices);
 
 /// The closure of all samples whose mark is not zero (thesis 3.2.3: splitting domains), in order of
 /// id. marks: one for each sample, row by row.
 std::vector<VertexId> codedVertices(const Lattice& lattice, std::span<const uint8_t> marks);
 
-/// Its mesh.
+/// Returns the mesh of codedVertices().
 LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks);
 
 }  // namespace tetrakis

@@ -39,6 +39,7 @@ void MergingDomains::refresh(VertexId v) {
 
 /// The remaining vertices of M_v, level by level.
 void MergingDomains::collect(VertexId v) {
+  assert(!removed_[v]);
   sites_.assign(1, lattice().site(v));
   group_.assign(1, v);
   removed_[v] = true;
@@ -53,8 +54,9 @@ void MergingDomains::collect(VertexId v) {
     });
 }
 
-/// M_v = {v}, and no slope falls.
+/// Removes a domain of one vertex that saves something, so that no slope falls.
 void MergingDomains::removeSingle(Site site, const Worth& worth) {
+  assert(group_.size() == 1 && worth.cost > 0);
   const auto lose = [&](VertexId a) { domains_[a] -= worth; };
   AncestorWindow last = AncestorWindow::ofSquare(site);
   forEachAncestorWindow(lattice(), site, deferred_.level(),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What removing each merging domain M_v (v and its remaining descendants) would cost and save, kept
-// up while vertices are removed (thesis 5.3.1). Removed vertices are taken off all their ancestors,
-// once each: that is the inclusion and exclusion over intersections of domains (thesis 3.4.4), and
-// as sums of gains are exact (gains.hpp), so are all values at all times.
+// What the removal of each merging domain M_v (v and its remaining descendants) would cost and
+// save. The values are kept up to date while vertices are removed (thesis 5.3.1): the worth of a
+// removed vertex is subtracted from the domain of each of its ancestors exactly once, which is the
+// inclusion and exclusion over intersections of domains (thesis 3.4.4). Sums of gains are exact
+// (gains.hpp), and so are all values at all times.
 #pragma once
 
 #include <cstdint>
@@ -18,31 +19,32 @@ namespace tetrakis {
 
 class MergingDomains {
  public:
-  /// Levels, from the finest on, whose domains are kept up to date; the others, of one vertex in
-  /// four thousand but two fifths of all ancestors at 1025 x 1025, are summed up when somebody
-  /// asks.
+  /// The number of levels, from the finest on, whose domains are updated at every removal. The
+  /// coarser levels hold one vertex in four thousand but two fifths of all ancestors at 1025 x
+  /// 1025; their domains are summed up when their values are asked for.
   static constexpr uint32_t kPromptLevels = 12;
 
-  /// Complete domains. gains: one for each vertex. Both arguments must outlive the domains.
-  /// prompt_levels: even.
+  /// Begins with complete domains: no vertex is removed. gains: one for each vertex. Both arguments
+  /// must outlive the domains. prompt_levels: even.
   MergingDomains(const std::vector<double>& gains, const VertexCosts& costs,
                  uint32_t prompt_levels = kPromptLevels);
 
-  /// u(M_v), thesis (5.3), of a remaining vertex.
+  /// u(M_v), thesis (5.3), of a vertex v that is not removed.
   Worth worth(VertexId v) const;
   double slope(VertexId v) {
     if (v < late_.size()) refresh(v);
     return slopeOf(domains_[v].distortion, domains_[v].cost);
   }
   bool removed(VertexId v) const { return removed_[v]; }
-  /// Brings u(M_v) close, if the processor can.
+  /// Asks the processor to load u(M_v) into its cache.
   void prefetch(VertexId v) const { __builtin_prefetch(&domains_[v]); }
-  /// remove() reports v when its slope has become less than this, that of slope(v) or less.
+  /// Sets the slope below which remove() reports v. bound: at most slope(v).
   void setBound(VertexId v, float bound) { domains_[v].bound = bound; }
 
-  /// Removes M_v, which has the least slope of all, and returns its vertices, parents first. (Of
-  /// any other domain the values will be right, too, but not all falls reported.) onFall(VertexId)
-  /// may set a new bound.
+  /// Removes M_v, which must have the least slope of all domains, and returns its vertices, parents
+  /// first. Calls onFall(VertexId) for each vertex whose slope has fallen below its bound; the call
+  /// may set a new bound. (If another domain is removed, values stay right but falls may go
+  /// unreported.)
   template <class OnFall>
   std::span<const VertexId> remove(VertexId v, OnFall&& onFall);
 
@@ -77,9 +79,9 @@ class MergingDomains {
   const std::vector<double>* gains_;
   const VertexCosts* costs_;
   AncestorSums<Worth> sums_;
-  /// Those of late_ may lack losses that raise their slope or leave it.
+  /// Domains of the vertices of late_ may lack losses, which do not lower their slopes.
   std::vector<DomainWorth> domains_;
-  std::vector<Worth> late_;  ///< domains of coarse vertices but for what deferred_ knows of
+  std::vector<Worth> late_;  ///< domains of coarse vertices, without the losses in deferred_
   DeferredLosses deferred_;
   std::vector<bool> removed_;
   std::vector<VertexId> fallen_;  ///< coarse vertices that may have fallen
@@ -87,10 +89,11 @@ class MergingDomains {
   std::vector<VertexId> group_;
 };
 
-/// Every ancestor of v loses all of M_v, which has the least slope: none of theirs falls, if M_v
-/// saves anything. (Nor is a domain left that saves nothing and does no harm: its slope was the
-/// same, and the coarser vertex goes first.) Where domains overlap, others lose parts of M_v and
-/// may fall (thesis 5.4.2).
+/// The domain of every ancestor of v loses all of M_v. M_v has the least slope, so the slope of no
+/// ancestor falls if M_v frees triangles. (A domain that frees none and does not increase the error
+/// has slope -infinity, and among equal slopes the coarser vertex is removed first, so none of its
+/// ancestors is left with that slope.) Where domains overlap, other domains lose parts of M_v, and
+/// their slopes may fall (thesis 5.4.2).
 template <class OnFall>
 std::span<const VertexId> MergingDomains::remove(VertexId v, OnFall&& onFall) {
   const Worth all = worth(v);
@@ -121,7 +124,8 @@ std::span<const VertexId> MergingDomains::remove(VertexId v, OnFall&& onFall) {
   return group_;
 }
 
-/// Once all losses of the group are known: not before is a sum of deferred_ of any use.
+/// Reports coarse vertices. Called once all losses of the group are known, because only then is a
+/// sum of deferred_ the whole loss.
 template <class OnFall>
 void MergingDomains::reportLateFalls(OnFall& onFall) {
   for (const VertexId a : fallen_) {
@@ -142,7 +146,7 @@ inline void MergingDomains::subtract(VertexId a, const Worth& worth, OnFall& onF
   report(a, onFall);
 }
 
-/// Perhaps a fall.
+/// Reports a if its slope has fallen below its bound.
 template <class OnFall>
 [[gnu::noinline]] void MergingDomains::report(VertexId a, OnFall& onFall) {
   if (removed_[a]) return;

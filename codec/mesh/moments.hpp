@@ -24,7 +24,7 @@
 
 namespace tetrakis {
 
-/// Of samples against one triangle (a, b, apex).
+/// The moments of samples against the plane of one triangle (a, b, apex).
 struct TriangleMoments {
   struct Gram {
     double aa = 0, bb = 0, pp = 0, ab = 0, ap = 0, bp = 0;  ///< p: apex
@@ -37,12 +37,19 @@ struct TriangleMoments {
   Gram gram;
 };
 
-/// Weights of the corner samples in one full-resolution triangle; split: of w in either half.
+/// The moments that depend on the heights: what is left to find where the Gram matrix is known.
+struct Residuals {
+  double energy = 0;
+  TriangleMoments::First first;
+};
+
+/// The weights of the corner samples in one full-resolution triangle, and the weight of the split
+/// vertex w in either half.
 struct CornerWeights {
   double a = 0, b = 0, apex = 0, split = 0;
 };
 
-/// g of one triangle, the error that the split by `delta` takes away.
+/// Returns g of one triangle: the error that the split by `delta` removes.
 inline double splitGain(const TriangleMoments& t1, const TriangleMoments& t2, double delta) {
   return 2 * delta * (t1.first.p + t2.first.p) + delta * delta * (t1.gram.pp + t2.gram.pp);
 }

@@ -7,10 +7,11 @@
 //   |dx|, |dy| <= X,  |dx| + |dy| <= Y      v a centre:    X = 3 * 2^k - 2,  Y = 4 * 2^k - 3
 //                                           v a midpoint:  X = 2 * 2^k - 2,  Y = 3 * 2^k - 3
 //
-// and the centres with X - 1, Y - 1. (Midpoints reach centres by a step along both axes, centres
-// midpoints by a step along either; X and Y follow by induction.) Nothing is lost where a border
-// cuts the octagon: the lattice is its own mirror image there, and so detours across the border
-// have mirror images within.
+// and the centres with X - 1, Y - 1. (A midpoint is a parent of centres that lie one step away
+// along both axes, a centre one of midpoints one step away along either axis; X and Y follow by
+// induction.) Where the border of the grid cuts the octagon, M_v is the part inside: the lattice is
+// its own mirror image at the border, so a path of descendants that leaves the grid has a mirror
+// image inside.
 #pragma once
 
 #include <algorithm>

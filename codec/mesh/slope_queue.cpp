@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -61,6 +62,7 @@ float SlopeQueue::lowerEnd(uint32_t bucket) const {
 }
 
 float SlopeQueue::push(const Candidate& candidate) {
+  assert(!std::isnan(candidate.slope));
   const uint32_t bucket = bucketOf(candidate.slope);
   if (bucket > current_) {
     pushLater(bucket, candidate.vertex);
@@ -79,6 +81,7 @@ void SlopeQueue::pushLater(uint32_t bucket, VertexId vertex) {
   uint32_t& head = heads_[bucket];
   if (head == kNone || chunks_[head].count == chunks_[head].vertices.size()) head = newChunk(head);
   Chunk& chunk = chunks_[head];
+  assert(chunk.count < chunk.vertices.size());
   chunk.vertices[chunk.count++] = vertex;
 }
 
@@ -98,6 +101,7 @@ void SlopeQueue::sortOpened() {
 }
 
 Candidate SlopeQueue::popOpen() {
+  assert(!openIsEmpty());
   const bool from_heap =
       next_sorted_ == sorted_.size() || (!heap_.empty() && heap_.front() < sorted_[next_sorted_]);
   if (!from_heap) return sorted_[next_sorted_++];

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertices by slope: a lazy queue. An entry is a lower bound of the slope that its vertex has now.
+// A lazy queue of vertices by slope. An entry holds a lower bound of the present slope of its
+// vertex.
 //
-// Slopes at the front hardly ever fall, so most entries need no order yet:
+// Slopes at the front hardly ever fall, so most entries are not sorted before they come near it:
 //   later   vertices alone, by the upper bits of their slope as a float: 128 buckets (fewer where
 //           there are few vertices) for each of the greatest 56 powers of two, each a list of
 //           chunks of one cache line;
 //   open    the candidates of the buckets up to the current one: those that were there when it was
 //           opened, sorted, and a heap of those that came since.
-// A bucket is opened by handing its vertices back to the caller, who pushes those that are still
-// there with the slopes that they have by then: most stale entries never meet a comparison.
+// A bucket is opened by handing its vertices back to the caller, who pushes those that still remain
+// with their present slopes. So most entries that are out of date are never compared.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,7 +22,8 @@
 
 namespace tetrakis {
 
-/// Slope first; among equal slopes the coarser vertex, whose merging domain holds the finer ones.
+/// A vertex and a slope. Candidates are ordered by slope; among equal slopes the coarser vertex
+/// comes first, because its merging domain holds the finer ones.
 struct Candidate {
   double slope = 0;
   VertexId vertex = 0;
@@ -29,17 +32,20 @@ struct Candidate {
 
 class SlopeQueue {
  public:
-  /// greatest: no finite slope is greater; 0 if none is positive. vertices: about how many there
-  /// will be.
+  /// greatest: an upper bound of all finite slopes; 0 if none is positive. vertices: about how many
+  /// vertices the queue will hold.
   SlopeQueue(double greatest, size_t vertices);
 
-  /// slope: no NaN. Returns a bound: a slope below it needs an entry of its own.
+  /// Adds an entry; its slope must not be NaN. Returns a bound: when the slope of the vertex falls
+  /// below it, the vertex must be pushed again.
   float push(const Candidate& candidate);
-  /// The least entry. Entries remain; pushAgain(std::span<const VertexId>) is called with the
-  /// vertices of a bucket that is opened, some at a time, and may push them.
+  /// Removes and returns the least entry; the queue must not be empty. When a bucket is opened,
+  /// pushAgain(std::span<const VertexId>) is called with its vertices, some at a time, and may push
+  /// them.
   template <class PushAgain>
   Candidate pop(PushAgain&& pushAgain);
-  /// Whether the candidate, popped just now or of a slope risen since, comes before every entry.
+  /// Whether a candidate that was just popped, and whose slope may have risen since, comes before
+  /// every entry.
   bool isFirst(const Candidate& candidate) const;
 
  private:
@@ -81,6 +87,7 @@ Candidate SlopeQueue::pop(PushAgain&& pushAgain) {
 
 template <class PushAgain>
 void SlopeQueue::openNextBucket(PushAgain& pushAgain) {
+  assert(current_ + 1 < static_cast<int64_t>(heads_.size()));  // else there is no entry left
   uint32_t chunk = heads_[static_cast<size_t>(++current_)];
   if (chunk == kNone) return;
   heads_[static_cast<size_t>(current_)] = kNone;

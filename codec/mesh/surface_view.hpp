@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A height field that somebody else owns.
+// A height field whose samples are owned by the caller.
 #pragma once
 
 #include <cstdint>

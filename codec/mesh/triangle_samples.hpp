@@ -42,7 +42,7 @@ class TriangleSamples {
   }
 
   int64_t doubledArea() const { return doubled_area_; }
-  /// Negative: the sample is beyond that edge.
+  /// Edge functions of a sample; one that is negative says that the sample lies beyond that edge.
   Edges at(int64_t x, int64_t y) const {
     Edges e;
     for (size_t k = 0; k < 3; ++k) e[k] = across_[k] * x + down_[k] * y + origin_[k];

@@ -10,8 +10,8 @@
 
 namespace tetrakis {
 
-/// Triangles, or any other amounts of one unit, say coded bits, that somebody else owns. Refers to
-/// the lattice.
+/// The cost of each vertex: the triangles that it adds, or an amount in any other unit, such as
+/// coded bits. The lattice and the given amounts must outlive this object.
 class VertexCosts {
  public:
   /// given: one amount for each lattice vertex, their sum below 2^32; empty: triangles.

@@ -7,15 +7,16 @@
 
 namespace tetrakis {
 
-/// lambda, thesis 5.2.2. A domain that frees no triangles gets the slope -infinity (it is removed
-/// first) if its removal does not increase the error, and +infinity (removed last) if it does.
+/// Returns the slope lambda of thesis 5.2.2. A domain that frees no triangles gets the slope
+/// -infinity (it is removed first) if its removal does not increase the error, and +infinity
+/// (removed last) if it does.
 inline double slopeOf(double distortion, uint32_t cost) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (cost == 0) return distortion > 0 ? kInfinity : -kInfinity;
   return distortion / cost;
 }
 
-/// u of a vertex or several.
+/// u of a vertex or of a set of vertices.
 struct Worth {
   double distortion = 0;
   uint32_t cost = 0;
@@ -33,8 +34,8 @@ struct Worth {
   bool operator==(const Worth&) const = default;
 };
 
-/// u of a merging domain, and the slope below which its next fall counts. 16 bytes: one access to
-/// memory for each ancestor that changes.
+/// u of a merging domain, and the slope below which a fall of its slope is reported. It has 16
+/// bytes, so that each ancestor that changes takes one access to memory.
 struct DomainWorth {
   double distortion = 0;
   uint32_t cost = 0;

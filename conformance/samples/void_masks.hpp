@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <ostream>
 #include <vector>
 
 #include "conformance/samples/terrain_samples.hpp"
@@ -24,6 +25,12 @@ enum class VoidShape {
 inline constexpr VoidShape kVoidShapes[] = {
     VoidShape::kCoast,    VoidShape::kSpeckle, VoidShape::kChecker, VoidShape::kFrame,
     VoidShape::kOneValid, VoidShape::kOneVoid, VoidShape::kAll};
+
+inline std::ostream& operator<<(std::ostream& out, VoidShape shape) {
+  constexpr const char* kNames[] = {"Coast",    "Speckle", "Checker", "Frame",
+                                    "OneValid", "OneVoid", "Half",    "All"};
+  return out << kNames[static_cast<size_t>(shape)];
+}
 
 inline bool isVoid(VoidShape shape, uint32_t width, uint32_t height, uint32_t x, uint32_t y) {
   const bool middle = x == width / 2 && y == height / 2;

@@ -234,14 +234,15 @@ tks_encode_options within(double error) {
 }
 
 TEST(DecodeMemory, HeightsOfEveryKindStayBelowTheBound) {
-  const Raster heights = make({Pattern::kRidges, 201, 144, 1, TKS_U16});
+  // A few more samples than those of which the encoder measures every prefix.
+  const Raster heights = make({Pattern::kRidges, 151, 110, 1, TKS_U16});
   expectWithinBounds(encode(&heights, nullptr, lossless()), "lossless");
   expectWithinBounds(encode(&heights, nullptr, budget(8000)), "lossy");
   expectWithinBounds(encode(&heights, nullptr, inRegions(budget(9000), 32)), "regions");
   expectWithinBounds(encode(&heights, nullptr, inRegions(lossless(), 16)), "small regions");
   expectWithinBounds(encode(&heights, nullptr, within(100)), "corrections of steps");
-  expectWithinBounds(withVoids(heights, lossless()), "voids");
-  expectWithinBounds(withVoids(heights, inRegions(budget(9000), 64)), "voids in regions");
+  expectWithinBounds(withVoids(heights, lossless()), "voids", true);
+  expectWithinBounds(withVoids(heights, inRegions(budget(9000), 64)), "voids in regions", true);
 }
 
 TEST(DecodeMemory, StoredSamplesStayBelowTheBound) {
@@ -269,7 +270,8 @@ TEST(DecodeMemory, OtherHeightsStayBelowTheBound) {
     expectWithinBounds(encode(&raster, nullptr, lossless()), "pattern");
     expectWithinBounds(withVoids(raster, lossless()), "pattern with voids", true);
   }
-  for (const auto& [width, height] : {std::pair(2u, 3000u), {3000u, 2u}, {5u, 9u}, {2u, 2u}}) {
+  // Of planes as small as these the encoder measures every prefix: twice as long takes four times.
+  for (const auto& [width, height] : {std::pair(2u, 800u), {800u, 2u}, {5u, 9u}, {2u, 2u}}) {
     const Raster raster = make({Pattern::kRidges, width, height, 1, TKS_U8});
     expectWithinBounds(encode(&raster, nullptr, inRegions(lossless(), 1)), "narrow");
     expectWithinBounds(encode(&raster, nullptr, inRegions(lossless(), 16)), "narrow regions");
@@ -302,16 +304,16 @@ double excess(const Bytes& bytes, const Call& call) {
 }
 
 TEST(DecodeMemory, BoundsOfLargePlanesAreLessThanTwiceWhatIsTaken) {
-  const Raster heights = make({Pattern::kRidges, 1100, 900, 1, TKS_U16});
+  const Raster heights = make({Pattern::kRidges, 800, 700, 1, TKS_U16});
   for (const uint32_t regions : {1u, 256u}) {
     const Bytes bytes = encode(&heights, nullptr, inRegions(lossless(), regions));
     const tks_info info = Stream(bytes).info();
     for (const Call& call : {heightsOf(info, 0), heightsOf(info, 2), meshOf(TKS_MESH_CODED, 0),
                              surfaceOf(info, {100, 200, 400, 300}), meshOf(TKS_MESH_BUDGET, 0),
-                             meshOf(TKS_MESH_BUDGET, 30000), meshOf(TKS_MESH_BUDGET, 400000)})
+                             meshOf(TKS_MESH_BUDGET, 30000), meshOf(TKS_MESH_BUDGET, 220000)})
       EXPECT_LE(excess(bytes, call), 2) << call.name << ", regions of " << regions;
   }
-  const Raster image = make({Pattern::kRidges, 1000, 900, 3, TKS_U8});
+  const Raster image = make({Pattern::kRidges, 800, 700, 3, TKS_U8});
   for (const uint32_t regions : {1u, 256u}) {
     const Bytes bytes = encode(nullptr, &image, inRegions(budget(80000), regions));
     const tks_info info = Stream(bytes).info();

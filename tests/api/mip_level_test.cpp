@@ -144,8 +144,8 @@ TEST(MipLevels, LevelZeroIsTheImage) {
   std::vector<std::byte> small(13 * 11 * 2);
   EXPECT_EQ(tks_decode_heights(stream.get(), small.data(), small.size()), TKS_OK);
   ASSERT_EQ(tks_set_levels(stream.get(), 0, 0), TKS_OK);
-  EXPECT_EQ(stream.heights(), heights.data);
-  EXPECT_EQ(stream.texture(), image.data);
+  EXPECT_TRUE(sameBytes(stream.heights(), heights.data));
+  EXPECT_TRUE(sameBytes(stream.texture(), image.data));
 }
 
 /// A smooth wave of `samples` per period, 8 bits, 3 channels.
@@ -205,10 +205,8 @@ TEST(MipLevels, ConstantsAreExactAtEveryLevel) {
   const Bytes stream = encode(&heights, &image, lossless());
   for (uint32_t k = 0; k <= 6; ++k) {
     const Images images = decodeLevels(stream, k, k);
-    for (size_t i = 0; i < images.heights.size(); ++i)
-      ASSERT_EQ(images.heights[i], heights.data[i % 2]);
-    for (size_t i = 0; i < images.texture.size(); ++i)
-      ASSERT_EQ(images.texture[i], image.data[i % 4]);
+    ASSERT_TRUE(sameBytes(images.heights, std::span(heights.data).first(images.heights.size())));
+    ASSERT_TRUE(sameBytes(images.texture, std::span(image.data).first(images.texture.size())));
   }
 }
 
@@ -254,7 +252,7 @@ TEST(MipLevels, RefusesWhatThereIsNot) {
   EXPECT_EQ(tks_set_levels(stream.get(), 5, 0), TKS_USAGE);
   EXPECT_STREQ(tks_message(stream.get()), "The heights have no level 5; their coarsest is 4.");
   EXPECT_EQ(tks_set_levels(stream.get(), 0, 1), TKS_USAGE);
-  EXPECT_EQ(stream.heights(), heights.data);
+  EXPECT_TRUE(sameBytes(stream.heights(), heights.data));
   ASSERT_EQ(tks_set_levels(stream.get(), 1, 0), TKS_OK);
   tks_mesh mesh;
   EXPECT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, 100, &mesh), TKS_USAGE);

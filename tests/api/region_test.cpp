@@ -120,8 +120,9 @@ Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, in
   coded.header.wavelet.fraction_bits = static_cast<uint8_t>(fraction_bits);
   coded.header.wavelet.bits = static_cast<uint8_t>(12 + fraction_bits);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  const std::vector<EncodedTrack> tracks = encodeGeometry(
-      {heights, size.extent(), valid}, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
+  const std::vector<EncodedTrack> tracks =
+      encodeCoefficients({heights, size.extent(), valid}, coded.header.wavelet,
+                         {UINT64_MAX, region_log2, 2});
   coded.header.planes = static_cast<uint8_t>(tracks.front().planes);
   for (const EncodedTrack& track : tracks) {
     coded.codewords.push_back(track.codeword);
@@ -233,7 +234,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const WaveletHeader wavelet{{1, 1, 1}, 0, 10};
   for (const uint64_t limit : {UINT64_MAX, uint64_t{6000}}) {
-    const auto one = encodeGeometry({heights, size.extent()}, wavelet, {limit, 5, 1});
+    const auto one = encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, 1});
     uint64_t bytes = 0;
     for (const EncodedTrack& track : one) bytes += track.codeword.size();
     EXPECT_EQ(one.front().complete, limit == UINT64_MAX);
@@ -242,7 +243,8 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
       EXPECT_LT(bytes, 20000u);
     }
     for (const uint32_t threads : {2u, 5u}) {
-      const auto many = encodeGeometry({heights, size.extent()}, wavelet, {limit, 5, threads});
+      const auto many =
+          encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, threads});
       ASSERT_EQ(one.size(), many.size());
       for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].codeword, many[i].codeword);
     }
@@ -255,18 +257,18 @@ TEST(Tracks, AreOrderedBySlope) {
   Random random(11);
   const Size size{150, 130};
   const Plane heights = randomPlane(random, size.count(), -300, 300);
-  const auto tracks =
-      encodeGeometry({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
-  const OrderedTracks order = orderTracks(TrackId::kGeometry, tracks, {});
+  const auto tracks = encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10},
+                                         {UINT64_MAX, 5, 1});
+  const OrderedTracks order = orderTracks({Component::kGeometry, tracks});
   std::vector<uint64_t> sent(tracks.size());
   ASSERT_EQ(order.points.size(), order.packets.size() + 1);
   double before = 1e300;
   size_t begin = 0;  // of packets of one region, which a dip may have parted
   for (size_t i = 0; i < order.packets.size(); ++i) {
     const Packet& packet = order.packets[i];
-    ASSERT_EQ(packet.begin, sent[*packet.region]);
-    sent[*packet.region] = packet.end;
-    if (i + 1 < order.packets.size() && order.packets[i + 1].region == packet.region) continue;
+    ASSERT_EQ(packet.begin, sent[*packet.track]);
+    sent[*packet.track] = packet.end;
+    if (i + 1 < order.packets.size() && order.packets[i + 1].track == packet.track) continue;
     const RatePoint &a = order.points[begin], &b = order.points[i + 1];
     begin = i + 1;
     const double slope = (a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes);

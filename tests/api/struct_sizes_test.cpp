@@ -59,6 +59,9 @@ class StructSizes : public testing::Test {
     tks_status status;
     Bytes bytes;
     bool operator==(const Outcome&) const = default;
+    friend std::ostream& operator<<(std::ostream& out, const Outcome& outcome) {
+      return out << "status " << outcome.status << ", " << outcome.bytes.size() << " bytes";
+    }
   };
   static Outcome encode(const tks_heights* heights, const tks_image* image,
                         const tks_encode_options* options) {

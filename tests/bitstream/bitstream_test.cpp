@@ -256,9 +256,9 @@ TEST(Packets, DemultiplexUndoesMultiplexAtEveryCut) {
   std::vector<uint8_t> geometry(700), texture(300);
   for (size_t i = 0; i < geometry.size(); ++i) geometry[i] = static_cast<uint8_t>(i * 7);
   for (size_t i = 0; i < texture.size(); ++i) texture[i] = static_cast<uint8_t>(i * 11);
-  const std::vector<Packet> packets = {{TrackId::kGeometry, false, 90, 0, 40, {}},
-                                       {TrackId::kTexture, true, 80, 0, 300, {}},
-                                       {TrackId::kGeometry, false, 70, 40, 700, {}}};
+  const std::vector<Packet> packets = {{Component::kGeometry, false, 90, 0, 40, {}},
+                                       {Component::kTexture, true, 80, 0, 300, {}},
+                                       {Component::kGeometry, false, 70, 40, 700, {}}};
   const std::vector<uint8_t> payload =
       multiplex(packets, {Codewords{geometry}, Codewords{texture}}, UINT64_MAX);
   for (size_t cut = 0; cut <= payload.size(); ++cut) {

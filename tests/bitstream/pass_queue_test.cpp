@@ -11,6 +11,12 @@
 #include <vector>
 
 namespace tetrakis {
+
+std::ostream& operator<<(std::ostream& out, PassKind kind) {
+  constexpr const char* kNames[] = {"likely", "rest", "refine"};
+  return out << kNames[static_cast<size_t>(kind)];
+}
+
 namespace {
 
 using Random = std::mt19937;

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/same_bytes.hpp"
 #include "tools/commands/command_line.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"

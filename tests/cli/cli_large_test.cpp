@@ -45,43 +45,34 @@ TEST_F(CliLarge, HeightsAreOpenedUpToTheLargestFile) {
 }
 
 /// Streams of a few bytes that declare more than the machine holds end with a sentence, whatever is
-/// asked of them, and not at the kernel's hands.
+/// asked of them, and not at the kernel's hands. Every kind of stream is opened and decoded, whole
+/// and a window; those of which something is sent are asked for the rest, which no stream that is
+/// not sent makes harder. (HostileSizes asks the library for everything of all of them.)
 TEST_F(CliLarge, HugePlanesOfFewBytesAreRefused) {
   makeInputs();
   for (const HostileStream& hostile : hostileStreams()) {
     if (hostile.name.ends_with("constant")) continue;  // like those unsent, which take longer
+    SCOPED_TRACE(hostile.name);
     write("a.tks", std::string(hostile.bytes.begin(), hostile.bytes.end()));
     const bool heights = hostile.name.starts_with("heights");
-    const std::string part = heights ? "--height part.tif" : "--texture part.png";
-    const Outcome run = shell(
-        "ulimit -v 1000000; TIMED=\"timeout 20 $TETRAKIS -q\";"
-        "$TIMED info a.tks > info.txt; echo $?; $TIMED verify a.tks; echo $?;"
-        "$TIMED decode a.tks -f " +
-        part +
-        "; echo $?;"
-        "$TIMED decode a.tks -f --window 5000,1000,16,16 " +
-        part +
-        "; echo $?;"
-        "$TIMED decode a.tks -f --level 9 " +
-        part +
-        "; echo $?;"
-        "$TIMED decode a.tks -f --mesh a.glb; echo $?;"
-        "$TIMED compare a.tks " +
-        std::string(heights ? "--height height.tif" : "--texture texture.png") + "; echo $?");
-    std::istringstream lines(run.out);
-    std::vector<int> codes;
-    for (int code = 0; lines >> code;) codes.push_back(code);
-    ASSERT_EQ(codes.size(), 7u) << run.out << run.err;
-    EXPECT_EQ(codes[0], 0) << hostile.name << run.err;
-    EXPECT_EQ(codes[1], 0) << hostile.name << run.err;
-    EXPECT_EQ(codes[2], 6) << hostile.name << run.err;
-    EXPECT_NE(run.err.find(" of memory; the limit"), std::string::npos) << run.err;
+    const std::string part = heights ? " --height part.tif" : " --texture part.png";
+    const auto code = [this](const std::string& verb) {
+      return shell("ulimit -v 1000000; timeout 20 $TETRAKIS -q " + verb).code;
+    };
+    EXPECT_EQ(code("info a.tks > info.txt"), 0);
+    const Outcome whole =
+        shell("ulimit -v 1000000; timeout 20 $TETRAKIS -q decode a.tks -f" + part);
+    EXPECT_EQ(whole.code, 6);
+    EXPECT_NE(whole.err.find(" of memory; the limit"), std::string::npos) << whole.err;
+    EXPECT_EQ(code("decode a.tks -f --window 5000,1000,16,16" + part), hostile.sent ? 6 : 0);
+    if (!hostile.sent) continue;
+    EXPECT_EQ(code("verify a.tks"), 0);
     // A level of a drawn texture takes no more than its texels.
-    EXPECT_EQ(codes[3], hostile.sent ? 6 : 0) << hostile.name << run.err;
-    EXPECT_EQ(codes[4], hostile.sent && hostile.name != "drawn, sent" ? 6 : 0)
-        << hostile.name << run.err;
-    EXPECT_TRUE(codes[5] == 6 || (!heights && codes[5] == 1)) << hostile.name << run.err;
-    EXPECT_EQ(codes[6], 7) << hostile.name << run.err;
+    EXPECT_EQ(code("decode a.tks -f --level 9" + part), hostile.name == "drawn, sent" ? 0 : 6);
+    EXPECT_EQ(code("decode a.tks -f --mesh a.glb"), 6);
+    EXPECT_EQ(code(std::string("compare a.tks") +
+                   (heights ? " --height height.tif" : " --texture texture.png")),
+              7);
   }
 }
 

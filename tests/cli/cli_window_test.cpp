@@ -33,7 +33,7 @@ TEST_F(CliWindows, WritesThePartOfHeightsAndTexture) {
   ASSERT_TRUE(part.ok());
   EXPECT_EQ(part->width, 10u);
   EXPECT_EQ(part->height, 20u);
-  EXPECT_EQ(part->data, cropOf(heights.data, 65, 2, 40, 3, 10, 20));
+  EXPECT_TRUE(sameBytes(part->data, cropOf(heights.data, 65, 2, 40, 3, 10, 20)));
   const auto whole = tools::readImage(path("a.png")), image = tools::readImage(path("b.png"));
   ASSERT_TRUE(whole.ok() && image.ok());
   // Columns 40 to 49 of 0 to 64, rows 3 to 22, rounded outwards to texels.
@@ -42,8 +42,8 @@ TEST_F(CliWindows, WritesThePartOfHeightsAndTexture) {
   const size_t x = first(40, whole->width), y = first(3, whole->height);
   EXPECT_EQ(image->width, last(49, whole->width) - x);
   EXPECT_EQ(image->height, last(22, whole->height) - y);
-  EXPECT_EQ(image->data,
-            cropOf(whole->data, whole->width, whole->channels, x, y, image->width, image->height));
+  EXPECT_TRUE(sameBytes(image->data, cropOf(whole->data, whole->width, whole->channels, x, y,
+                                            image->width, image->height)));
 }
 
 TEST_F(CliWindows, RefusesWhatMakesNoSense) {

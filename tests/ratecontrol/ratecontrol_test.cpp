@@ -82,19 +82,20 @@ TEST(PacketEnds, DipsHavePacketsOfTheirOwn) {
   }
 }
 
-TrackCurve curveOf(TrackId track, const std::vector<RatePoint>& points) {
-  TrackCurve curve{lowerHull(points, 0), {}};
+ComponentCurve curveOf(Component component, const std::vector<RatePoint>& points) {
+  ComponentCurve curve{lowerHull(points, 0), {}};
   for (size_t i = 1; i < curve.points.size(); ++i) {
     curve.packets.push_back(
-        {track, false, 0, curve.points[i - 1].bytes, curve.points[i].bytes, {}});
+        {component, false, 0, curve.points[i - 1].bytes, curve.points[i].bytes, {}});
   }
   return curve;
 }
 
 /// Distortion left after the packets in `order` have used at most `budget` payload bytes, packets
 /// being divisible.
-double leftAfter(const std::array<TrackCurve, kTracks>& curves, uint64_t first, uint64_t second) {
-  const auto at = [](const TrackCurve& curve, uint64_t bytes) {
+double leftAfter(const std::array<ComponentCurve, kComponents>& curves, uint64_t first,
+                 uint64_t second) {
+  const auto at = [](const ComponentCurve& curve, uint64_t bytes) {
     size_t i = 1;
     while (i + 1 < curve.points.size() && curve.points[i].bytes < bytes) ++i;
     const RatePoint &a = curve.points[i - 1], &b = curve.points[i];
@@ -104,13 +105,14 @@ double leftAfter(const std::array<TrackCurve, kTracks>& curves, uint64_t first, 
 }
 
 TEST(Allocation, NoSplitOfAnyPrefixIsBetter) {
-  const std::array<TrackCurve, kTracks> curves = {curveOf(TrackId::kGeometry, bumpyCurve(70, 9)),
-                                                  curveOf(TrackId::kTexture, bumpyCurve(130, 40))};
-  std::array<uint64_t, kTracks> sent = {};
+  const std::array<ComponentCurve, kComponents> curves = {
+      curveOf(Component::kGeometry, bumpyCurve(70, 9)),
+      curveOf(Component::kTexture, bumpyCurve(130, 40))};
+  std::array<uint64_t, kComponents> sent = {};
   for (const Packet& packet : allocate(curves)) {
-    const auto track = static_cast<size_t>(packet.track);
-    ASSERT_EQ(packet.begin, sent[track]);
-    sent[track] = packet.end;
+    const auto component = static_cast<size_t>(packet.component);
+    ASSERT_EQ(packet.begin, sent[component]);
+    sent[component] = packet.end;
     const uint64_t total = sent[0] + sent[1];
     const double ours = leftAfter(curves, sent[0], sent[1]);
     for (uint64_t first = 0; first <= std::min<uint64_t>(total, curves[0].points.back().bytes);
@@ -124,10 +126,11 @@ TEST(Allocation, NoSplitOfAnyPrefixIsBetter) {
 }
 
 TEST(JoinNeighbours, KeepsBytesQualityStepsAndWholePackets) {
-  const auto packet = [](TrackId track, bool whole, int quality, uint64_t begin, uint64_t end) {
-    return Packet{track, whole, static_cast<uint8_t>(quality), begin, end, {}};
+  const auto packet = [](Component component, bool whole, int quality, uint64_t begin,
+                         uint64_t end) {
+    return Packet{component, whole, static_cast<uint8_t>(quality), begin, end, {}};
   };
-  const TrackId g = TrackId::kGeometry, t = TrackId::kTexture;
+  const Component g = Component::kGeometry, t = Component::kTexture;
   const std::vector<Packet> packets = {
       packet(g, false, 90, 0, 10),   packet(t, false, 99, 0, 20),   // the first of each
       packet(t, false, 98, 20, 30),  packet(t, false, 97, 30, 50),  // two steps: one packet
@@ -139,12 +142,12 @@ TEST(JoinNeighbours, KeepsBytesQualityStepsAndWholePackets) {
   const std::vector<std::pair<uint64_t, int>> expected = {
       {10, 90}, {20, 99}, {50, 97}, {60, 96}, {20, 90}, {70, 96}, {80, 96}, {100, 93}, {50, 88}};
   ASSERT_EQ(joined.size(), expected.size());
-  std::array<uint64_t, kTracks> sent = {};
+  std::array<uint64_t, kComponents> sent = {};
   for (size_t i = 0; i < joined.size(); ++i) {
     EXPECT_EQ(joined[i].end, expected[i].first);
     EXPECT_EQ(joined[i].quality, expected[i].second);
     EXPECT_EQ(joined[i].whole, i == 5);
-    uint64_t& begin = sent[static_cast<size_t>(joined[i].track)];
+    uint64_t& begin = sent[static_cast<size_t>(joined[i].component)];
     EXPECT_EQ(joined[i].begin, begin);
     begin = joined[i].end;
   }
@@ -152,13 +155,13 @@ TEST(JoinNeighbours, KeepsBytesQualityStepsAndWholePackets) {
 
 TEST(JoinNeighbours, TracksOfRegionsStayApart) {
   std::vector<Packet> packets(4);
-  for (uint32_t i = 0; i < 4; ++i) packets[i] = {TrackId::kTexture, false, 80, 0, 9, i / 2};
+  for (uint32_t i = 0; i < 4; ++i) packets[i] = {Component::kTexture, false, 80, 0, 9, i / 2};
   packets[1].begin = packets[3].begin = 9;
   packets[1].end = packets[3].end = 18;
   const std::vector<Packet> joined = joinNeighbours(packets);
   ASSERT_EQ(joined.size(), 3u);  // the first packet of a component states its quality early
-  EXPECT_EQ(joined[1].region, 0u);
-  EXPECT_EQ(joined[2].region, 1u);
+  EXPECT_EQ(joined[1].track, 0u);
+  EXPECT_EQ(joined[2].track, 1u);
   EXPECT_EQ(joined[2].end, 18u);
 }
 

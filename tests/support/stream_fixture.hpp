@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "conformance/samples/terrain_samples.hpp"
+#include "tests/support/same_bytes.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::test {

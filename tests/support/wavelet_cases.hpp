@@ -12,6 +12,11 @@
 
 namespace tetrakis {
 
+inline std::ostream& operator<<(std::ostream& out, Orientation orientation) {
+  constexpr const char* kNames[] = {"LL", "HL", "LH", "HH"};
+  return out << kNames[static_cast<size_t>(orientation)];
+}
+
 inline std::ostream& operator<<(std::ostream& out, const WaveletSpec& spec) {
   for (const FilterId id : spec.filters) out << static_cast<int>(id);
   return out << (spec.doubled ? " doubled" : "") << ", " << spec.bits << " bits";

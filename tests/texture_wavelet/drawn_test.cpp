@@ -7,8 +7,10 @@
 #include <random>
 
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
+#include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis {
 namespace {
@@ -159,8 +161,8 @@ TEST(Drawn, NoiseAndTooManyColoursAreNot) {
   EXPECT_FALSE(encodeDrawn(many));
 }
 
-TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
-  const Texels map = drawing({200, 150}, 3, 8, 10);
+/// A photograph with water of one colour, alike enough to be tried as a drawing.
+Texels lakeInPhotograph() {
   Texels lake{200, 150, 1, 8, {}};
   std::mt19937 random(4);
   for (uint32_t i = 0; i < 200 * 150; ++i) {
@@ -168,10 +170,80 @@ TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
     const double land = wave + static_cast<double>(random() % 6);
     lake.samples.push_back(i % 200 < 120 ? uint16_t{40} : static_cast<uint16_t>(land));
   }
+  return lake;
+}
+
+TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
+  const Texels map = drawing({200, 150}, 3, 8, 10), lake = lakeInPhotograph();
   ASSERT_TRUE(encodeDrawn(lake)) << "alike enough to be tried";
   for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {
     EXPECT_TRUE(encodeTexture(map, purpose, {}).header.drawn());
     EXPECT_FALSE(encodeTexture(lake, purpose, {}).header.drawn());
+  }
+}
+
+/// A grainy slope in pairs of texels alike. Every colour is as frequent as any other, so that none
+/// fills enough for an overlay.
+Texels slopeOfPairs() {
+  constexpr size_t kPairs = 100 * 150, kColours = 4000;
+  std::mt19937 random(5);
+  std::vector<std::pair<size_t, size_t>> heights(kPairs);  // and whose they are
+  for (size_t i = 0; i < kPairs; ++i)
+    heights[i] = {23 * (i % 100) + 11 * (i / 100) + random() % 40, i};
+  std::sort(heights.begin(), heights.end());
+  Texels slope{200, 150, 1, 16, std::vector<uint16_t>(2 * kPairs)};
+  for (size_t rank = 0; rank < kPairs; ++rank) {
+    const size_t at = 2 * heights[rank].second;
+    slope.samples[at] = slope.samples[at + 1] = static_cast<uint16_t>(rank * kColours / kPairs);
+  }
+  return slope;
+}
+
+std::vector<uint8_t> fieldsOf(TextureHeader header) {
+  FieldWriter writer;
+  header.visit(writer);
+  header.regions.visit(writer);
+  return writer.bytes;
+}
+
+/// What the wavelet made of an image to judge a drawing or an overlay serves instead of coding the
+/// image again, but only where that gives the same.
+void expectTheWaveletsOwn(const TextureSource& source, Purpose purpose,
+                          const TextureOptions& options) {
+  const EncodedTexture chosen = encodeTexture(source, purpose, options);
+  if (chosen.header.direct()) return;
+  std::vector<uint8_t> photograph;
+  if (chosen.header.overlay_bytes > 0) photograph = photographOf(source.texels);
+  const EncodedTexture alone = encodeByWavelet(source, purpose, options, photograph);
+  EXPECT_EQ(fieldsOf(chosen.header), fieldsOf(alone.header));
+  EXPECT_EQ(chosen.header.weights.levels, alone.header.weights.levels);
+  ASSERT_EQ(chosen.tracks.size(), alone.tracks.size());
+  for (size_t i = 0; i < chosen.tracks.size(); ++i)
+    EXPECT_EQ(chosen.tracks[i].codeword, alone.tracks[i].codeword);
+}
+
+TEST(Drawn, LosesToWhatTheWaveletMakesAlone) {
+  const TextureSource lake = lakeInPhotograph(), slope = slopeOfPairs();
+  ASSERT_TRUE(encodeDrawn(lake.texels) && encodeDrawn(slope.texels)) << "tried";
+  ASSERT_TRUE(!photographOf(lake.texels).empty() && photographOf(slope.texels).empty());
+  EXPECT_FALSE(encodeTexture(slope, Purpose::kLossless, {}).header.direct());
+  for (const TextureSource* source : {&lake, &slope}) {
+    for (const int regions : {0, 5}) {
+      for (const bool visual : {false, true}) {
+        const TextureOptions all{.region_log2 = regions, .visual = visual};
+        TextureOptions budget = all;
+        budget.room = 2000;
+        budget.limit = 2 * budget.room;
+        expectTheWaveletsOwn(*source, Purpose::kLossless, all);
+        expectTheWaveletsOwn(*source, Purpose::kLossy, all);
+        expectTheWaveletsOwn(*source, Purpose::kLossy, budget);
+        for (const double error : {0.02, 0.3, 3.0}) {
+          TextureOptions target = all;
+          target.mean_square = error;
+          expectTheWaveletsOwn(*source, Purpose::kLossy, target);
+        }
+      }
+    }
   }
 }
 

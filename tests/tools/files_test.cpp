@@ -9,6 +9,7 @@
 #include <random>
 #include <tuple>
 
+#include "tests/support/same_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace tetrakis::tools {
@@ -49,7 +50,7 @@ void expectSameSamples(const Result<HeightFile>& read, const HeightFile& written
   EXPECT_EQ(read->width, written.width);
   EXPECT_EQ(read->height, written.height);
   EXPECT_EQ(read->sample, written.sample);
-  EXPECT_TRUE(read->data == written.data);
+  EXPECT_TRUE(test::sameBytes(read->data, written.data));
 }
 
 std::string nameOf(tks_sample sample) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles of a quadtree's nodes that a raster touches: from the patches down, one fan a node.
+// The triangles of those nodes of a quadtree that a raster touches. The patches are descended, and
+// each node gives one fan of triangles.
 // Fans are drawn in mesh_tree.hpp.
 #pragma once
 
@@ -23,7 +24,7 @@ struct FanCorner {
 
 class FanTriangles {
  public:
-  /// All arguments must outlive it.
+  /// All arguments must outlive this object.
   FanTriangles(const Lattice& lattice, const SemilinearQuadtree& quadtree,
                const IndexDifferences& differences, const ViewRaster& raster)
       : lattice_(lattice), quadtree_(quadtree), differences_(differences), raster_(raster) {
@@ -66,11 +67,11 @@ class FanTriangles {
   }
 
   FanCorner centreOf(const Square& square, uint32_t number, const Ring& corners) const;
-  /// number: kNoVertex where a side has no midpoint.
+  /// The midpoints of the sides; the number of a midpoint that is not there is kNoVertex.
   Ring sidesOf(const Traversal& node, const Ring& corners, uint32_t north, uint32_t west);
   uint32_t eastNumber(const Traversal& node);
   uint32_t southNumber(const Traversal& node);
-  /// Bit k: child at corner k is there.
+  /// Bit k says whether the child at corner k is there.
   uint32_t childrenOf(const Traversal& node);
 
   const Lattice& lattice_;

@@ -36,7 +36,7 @@ constexpr uint32_t dilate(uint32_t v) {
   return (v | v << 1) & 0x55555555u;
 }
 
-/// The inverse; odd places are ignored.
+/// The inverse of spreading bits to the even places; bits at odd places are ignored.
 constexpr uint32_t undilate(uint32_t v) {
   v &= 0x55555555u;
   v = (v | v >> 1) & 0x33333333u;

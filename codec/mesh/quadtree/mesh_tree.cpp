@@ -68,6 +68,7 @@ QuadtreeShape quadtreeShapeOf(const Lattice& lattice) {
 }
 
 QuadtreePlace placeOf(const Lattice& lattice, Site v) {
+  assert(v.level < lattice.levelCount());
   const QuadtreeShape shape = quadtreeShapeOf(lattice);
   const uint32_t level = v.level / 2;
   QuadtreePlace place;
@@ -96,6 +97,7 @@ MeshTree::MeshTree(Lattice lattice, std::span<const VertexId> vertices,
     : lattice_(std::move(lattice)),
       differences_(quadtreeShapeOf(lattice_)),
       quadtree_(differences_.shape(), heights.first(rootCount(lattice_))) {
+  assert(heights.size() >= rootCount(lattice_));
   quadtree_.update(entriesOf(lattice_, vertices, heights.subspan(rootCount(lattice_))), {});
 }
 
@@ -114,6 +116,7 @@ ViewMesh MeshTree::view(std::span<const MapPoint> polygon) const {
       corners.push_back({corner.number, lattice_.gridIndex(corner.point)});
   });
   result.mesh.vertices.resize(selection.close());
+  assert(result.mesh.vertices.size() == corners.size());
   result.heights.resize(corners.size());
   for (const Corner& corner : corners) {
     const uint32_t index = selection.indexOf(corner.number);

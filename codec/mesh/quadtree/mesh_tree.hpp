@@ -10,7 +10,7 @@
 //   | \  |  / |                and (w, sw, c) unless the south-western child is there
 //   w----c----e
 //   | /  |  \ |    n and w are the node's own, s and e those of its neighbours or of a border tree:
-//   sw---s---se    asking them is what leaves no T-junction.
+//   sw---s---se    since both sides of an edge ask for the same midpoint, there are no T-junctions.
 #pragma once
 
 #include <cstddef>
@@ -39,11 +39,11 @@ class MeshTree {
   const Lattice& lattice() const { return lattice_; }
   const SemilinearQuadtree& quadtree() const { return quadtree_; }
 
-  /// The triangles that may touch the polygon (convex, in samples, within the grid): all that do,
-  /// and of others those in the same quadrants of their nodes. Time: linear in what it returns, in
-  /// the rows of the polygon, and a bit for each vertex of the tree.
+  /// Returns the triangles that may touch the polygon (convex, in samples, within the grid): all
+  /// that touch it, and those in the same quadrants of their nodes. The time is linear in the size
+  /// of the result and the rows of the polygon, plus one bit for each vertex of the tree.
   ViewMesh view(std::span<const MapPoint> polygon) const;
-  /// All of it: the mesh of meshOf(), in another order.
+  /// Returns the whole mesh, that of meshOf() in another order.
   ViewMesh whole() const;
 
  private:

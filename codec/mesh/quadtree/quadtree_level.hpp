@@ -40,7 +40,7 @@ struct QuadtreeTile {
   std::array<uint64_t, kVertices> masks{};
   uint32_t first = 0;
 
-  /// Bit n: node n is there. A node is there when its vertex 0 is.
+  /// Bit n says whether node n is there. A node is there when its vertex 0 is.
   uint64_t nodes() const { return masks[0]; }
   bool has(uint32_t n, uint32_t vertex) const { return masks[vertex] >> n & 1; }
 
@@ -128,7 +128,7 @@ class QuadtreeLevel {
   uint32_t arrayNumber(uint32_t node, uint32_t vertex) const {
     return first_ + kVertices * node + vertex;
   }
-  /// kNoVertex if absent.
+  /// The number of a vertex of a node; kNoVertex if it is absent.
   uint32_t find(uint32_t node, uint32_t vertex) const {
     if (form_ == LevelForm::kArray) return arrayNumber(node, vertex);
     size_t hint = 0;
@@ -146,7 +146,7 @@ class QuadtreeLevel {
     for (uint32_t key = 0; key < tileCount(); ++key) visitTile(key, tile(key, unused), visit);
   }
 
-  /// Memory of the tiles; values are the owner's.
+  /// The bytes of memory that the tiles take. The values belong to the owner of the level.
   size_t bytes() const {
     return (keys_.capacity() + places_.capacity()) * sizeof(uint32_t) +
            tiles_.capacity() * sizeof(Tile);
@@ -171,7 +171,7 @@ class QuadtreeLevel {
     return static_cast<size_t>(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
   }
 
-  /// Keys that have no tile share an empty one at the end.
+  /// Keys without a tile share an empty one at the end.
   void indexTiles() {
     places_.assign(tileCount(), static_cast<uint32_t>(keys_.size()));
     for (uint32_t i = 0; i < keys_.size(); ++i) places_[keys_[i]] = i;

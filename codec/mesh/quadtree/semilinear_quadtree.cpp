@@ -102,6 +102,7 @@ void SemilinearQuadtree::addLevel(uint32_t level, std::span<const Entry> entries
 }
 
 uint32_t SemilinearQuadtree::find(QuadtreePlace place) const {
+  assert(place.level < levels_.size());
   const Level& level = levels_[place.level];
   switch (place.tree) {
     case QuadtreePlace::kNodes:

@@ -57,9 +57,9 @@ class SemilinearQuadtree {
   /// roots: values of the patches' corners, row by row, (columns + 1) * (rows + 1) of them.
   SemilinearQuadtree(QuadtreeShape shape, std::span<const float> roots);
 
-  /// Inserts vertices (or replaces their values), erases others, and gathers anew what has come
-  /// together or fallen apart. A node goes by its centre: its other vertices need it. Time: linear
-  /// in the vertices of the tree and the changes. No place may be in both.
+  /// Inserts vertices (or replaces their values), erases others, and chooses the form of each level
+  /// anew. A node is there if its centre is: its other vertices must not be there without it. The
+  /// time is linear in the vertices of the tree and the changes. No place may be in both lists.
   void update(std::vector<Entry> inserted, std::vector<QuadtreePlace> erased);
 
   const QuadtreeShape& shape() const { return shape_; }
@@ -72,14 +72,14 @@ class SemilinearQuadtree {
   const QuadtreeLevel<1>& eastBorder(uint32_t level) const { return levels_[level].east; }
   const QuadtreeLevel<1>& southBorder(uint32_t level) const { return levels_[level].south; }
 
-  /// Number of the vertex; kNoVertex if absent.
+  /// The number of the vertex at a place; kNoVertex if there is none.
   uint32_t find(QuadtreePlace place) const;
 
-  /// visit(QuadtreePlace) for all vertices but the roots, in the order of their numbers.
+  /// Calls visit(QuadtreePlace) for all vertices but the roots, in the order of their numbers.
   template <class Visit>
   void forEachVertex(Visit&& visit) const;
 
-  /// Memory of values and tiles.
+  /// The bytes of memory that values and tiles take.
   size_t bytes() const;
 
  private:

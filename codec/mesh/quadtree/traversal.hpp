@@ -12,7 +12,7 @@
 
 namespace tetrakis {
 
-/// A node on its way through a forest. `differences` must outlive it.
+/// A node that moves through a forest by steps. `differences` must outlive it.
 class Traversal {
  public:
   Traversal(const IndexDifferences& differences, Square start)

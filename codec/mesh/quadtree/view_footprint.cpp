@@ -2,7 +2,9 @@
 // From a view frustum to the ground below it: Fourier-Motzkin elimination of the height, then a
 // polygon clipped by half-planes (Sutherland and Hodgman 1974).
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "codec/mesh/quadtree/view_raster.hpp"
 
@@ -55,6 +57,17 @@ std::vector<MapPoint> clipped(const std::vector<MapPoint>& polygon, const HalfSp
 }
 
 }  // namespace
+
+MapBox MapBox::around(uint32_t width, uint32_t height, std::span<const float> heights) {
+  assert(width > 0 && height > 0);
+  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+  for (const float value : heights) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return {width - 1.0, height - 1.0, low, high};
+}
 
 std::vector<MapPoint> viewFootprint(const std::array<double, 16>& clip, const MapBox& box) {
   std::vector<MapPoint> polygon{{0, 0}, {0, box.bottom}, {box.right, box.bottom}, {box.right, 0}};

@@ -26,6 +26,10 @@ struct MapPoint {
 struct MapBox {
   double right = 0, bottom = 0;
   double low = 0, high = 0;
+
+  /// The box of a grid and of the finite ones among its heights: voids are NaN, and a scale and an
+  /// offset may make heights overflow.
+  static MapBox around(uint32_t width, uint32_t height, std::span<const float> heights);
 };
 
 /// The convex polygon of ground at some height within the box that a camera may see: where

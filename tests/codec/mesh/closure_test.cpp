@@ -8,10 +8,11 @@
 #include <numeric>
 #include <random>
 
-#include "codec/mesh/closure.hpp"
 #include "codec/mesh/closure_flow.hpp"
 #include "codec/mesh/gains.hpp"
+#include "codec/mesh/study/mesh_hull.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_values.hpp"
 
 namespace tetrakis {
 namespace {
@@ -68,7 +69,7 @@ void expectHullOfAllClosedSets(const Lattice& lattice, const std::vector<double>
     EXPECT_LE(hull.bound(roots + cost), total - gain + 1e-9) << "no bound at " << cost;
   for (const MeshHull::Corner& corner : hull.corners()) {
     const auto reached = best.find(corner.triangles - roots);
-    ASSERT_NE(reached, best.end());
+    ASSERT_TRUE(reached != best.end());
     EXPECT_NEAR(corner.squared_error, total - reached->second, 1e-9) << "no mesh at a corner";
   }
 }

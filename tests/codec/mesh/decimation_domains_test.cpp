@@ -14,6 +14,7 @@
 #include "codec/mesh/gains.hpp"
 #include "codec/mesh/merging_domains.hpp"
 #include "tests/support/decimation_terrain.hpp"
+#include "tests/support/mesh_values.hpp"
 
 namespace tetrakis {
 namespace {

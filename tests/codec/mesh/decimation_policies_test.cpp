@@ -9,11 +9,12 @@
 #include <span>
 
 #include "codec/mesh/ancestors.hpp"
-#include "codec/mesh/decimation.hpp"
 #include "codec/mesh/gains.hpp"
-#include "codec/mesh/leaf_order.hpp"
-#include "codec/mesh/local_errors.hpp"
 #include "codec/mesh/merging_domains.hpp"
+#include "codec/mesh/saturated_order.hpp"
+#include "codec/mesh/study/decimation_policies.hpp"
+#include "codec/mesh/study/leaf_order.hpp"
+#include "codec/mesh/study/local_errors.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"
 

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <limits>
 
-#include "codec/mesh/decimation.hpp"
 #include "codec/mesh/gains.hpp"
 #include "codec/mesh/general_decimation.hpp"
+#include "codec/mesh/study/decimation_policies.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"
 

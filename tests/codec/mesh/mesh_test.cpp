@@ -9,6 +9,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/lattice_mesh.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_values.hpp"
 
 namespace tetrakis {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "codec/mesh/quadtree/mesh_tree.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_values.hpp"
 
 namespace tetrakis {
 namespace {

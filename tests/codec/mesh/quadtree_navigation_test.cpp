@@ -6,6 +6,7 @@
 #include <random>
 
 #include "codec/mesh/quadtree/traversal.hpp"
+#include "tests/support/mesh_values.hpp"
 
 namespace tetrakis {
 namespace {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
+#include "tests/support/mesh_values.hpp"
 
 namespace tetrakis {
 namespace {
@@ -55,7 +56,7 @@ void expectHolds(const SemilinearQuadtree& tree, const std::map<QuadtreePlace, f
   }
   auto next = expected.begin();
   tree.forEachVertex([&](const QuadtreePlace& place) { ASSERT_EQ(place, (next++)->first); });
-  ASSERT_EQ(next, expected.end());
+  ASSERT_TRUE(next == expected.end());
   for (const QuadtreePlace& place : allPlaces(tree.shape())) {
     if (!expected.contains(place)) {
       ASSERT_EQ(tree.find(place), kNoVertex);

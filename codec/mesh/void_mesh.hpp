@@ -4,11 +4,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "base/status.hpp"
-#include "codec/geometry/geometry_decoder.hpp"
+#include "codec/mesh/fitted_moments.hpp"
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/lattice_mesh.hpp"
 
@@ -20,12 +19,13 @@ struct FittedVertices {
   std::vector<double> heights;
 };
 
-/// The best mesh of at most max_triangles for a surface with voids, which are still in it. To
-/// decimation they are a pit, a quarter of the range below the lowest height: the wall at the coast
-/// keeps vertices along it, where a triangle that reaches into the void would be lost as a whole;
-/// the floor costs nothing. Heights are then fitted to the valid samples alone.
-/// admits: whether memory suffices for so many triangles, those in voids included.
-Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const DecodedGeometry& geometry,
+/// The best mesh of at most max_triangles triangles outside the voids of a surface; triangles in
+/// voids are still part of it. To decimation voids are a pit whose floor lies a quarter of the
+/// range below the lowest height: the wall at the coast keeps vertices along it, where a triangle
+/// that reaches into the void would be lost as a whole, and the floor costs nothing. Heights are
+/// then fitted to the valid samples alone. surface: known samples are those that are valid. admits:
+/// whether memory suffices for so many triangles, those in voids included; its error is returned.
+Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const WeightedSurface& surface,
                                            uint32_t max_triangles,
                                            const std::function<Status(uint64_t)>& admits);
 

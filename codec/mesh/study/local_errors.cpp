@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One descent over the forest: midpoints of split edges, planes where the forest overhangs.
-#include "codec/mesh/local_errors.hpp"
+#include "codec/mesh/study/local_errors.hpp"
 
 #include <algorithm>
 #include <cassert>

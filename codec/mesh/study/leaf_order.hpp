@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Orders of single vertices with fixed slopes: what the thesis compares general decimation with
-// (2.5.2, 5.4.2, 5.5.2), and a quick one.
+// Orders of single vertices with fixed slopes, with which the thesis compares general decimation
+// (2.5.2, 5.4.2, 5.5.2).
 #pragma once
 
 #include <vector>
@@ -19,12 +19,5 @@ std::vector<VertexId> restrictedDecimation(const std::vector<double>& errors,
 /// Refinement: from the roots up, each step inserts the vertex of greatest slope among those whose
 /// parents are there; what costs nothing first. All vertices, in this order.
 std::vector<VertexId> refinement(const std::vector<double>& errors, const VertexCosts& costs);
-
-/// By saturated slopes (Ohlberger and Rumpf 1999): of a vertex, the greatest among its own and
-/// those of its descendants. Parents before children, greatest first, as many vertices as cost
-/// `most` or more in all. What is worth little is told almost as well as by general decimation, in
-/// a fraction of the time.
-std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const VertexCosts& costs,
-                                     uint64_t most);
 
 }  // namespace tetrakis

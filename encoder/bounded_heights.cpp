@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/bounded_heights.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "codec/geometry/bound_choice.hpp"
+#include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/sample_order.hpp"
+#include "codec/geometry/voids.hpp"
+#include "encoder/candidate.hpp"
+#include "encoder/height_errors.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+using Quantised = std::shared_ptr<const QuantisedHeights>;
+
+/// What all attempts have in common.
+struct Bound {
+  Quantised of;
+  WaveletHeader wavelet;  ///< of coefficients that will be cut
+  CoefficientOptions options;
+  double error;  ///< the largest one wanted, in sample units, less what floats lose by rounding
+};
+
+/// Squared error that the account states for that many bytes; linear between its points.
+double distortionAt(const std::vector<RatePoint>& points, uint64_t bytes) {
+  const auto after = std::find_if(points.begin(), points.end(),
+                                  [&](const RatePoint& point) { return point.bytes > bytes; });
+  if (after == points.begin() || after == points.end()) return points.back().distortion;
+  const RatePoint &a = *(after - 1), &b = *after;
+  const double t = static_cast<double>(bytes - a.bytes) / static_cast<double>(b.bytes - a.bytes);
+  return a.distortion + t * (b.distortion - a.distortion);
+}
+
+/// Between the largest floats; integers are exact.
+double floatSpacing(const QuantisedHeights& heights) {
+  if (heights.samples->sample != TKS_F32) return 0;
+  const SampleRange range = rangeOf(*heights.samples, heights.steps.valid);
+  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+  return std::ldexp(1.0, spacingExponent(static_cast<float>(largest)));
+}
+
+/// The same heights in other steps, coded to the last bit.
+CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
+  assert(!bound.of->restored());
+  auto rounded = std::make_shared<QuantisedHeights>();
+  rounded->samples = bound.of->samples;
+  rounded->layers = bound.of->layers;
+  rounded->validity = bound.of->validity;
+  rounded->steps = std::move(steps);
+  if (!rounded->steps.exact) rounded->left = rounded->squaresOf(rounded->steps);
+  return codeHeights(std::move(rounded), Purpose::kLossless, bound.options);
+}
+
+/// Floats whose step is not given, rounded to the widest step that the bound allows; nothing if
+/// there is none wider than the exact one.
+std::optional<CodedHeights> widen(const Bound& bound) {
+  const tks_heights& samples = *bound.of->samples;
+  const double widest = 2 * bound.error;
+  if (samples.sample != TKS_F32 || samples.step > 0 || widest <= bound.of->steps.step) return {};
+  Result<HeightSteps> wide = toSteps(samples, {.given = widest});
+  if (!wide.ok()) return {};
+  return codeRounded(bound, std::move(*wide));
+}
+
+/// Rounds to multiples of the exact step.
+CodedHeights round(const Bound& bound, int32_t largest) {
+  HeightSteps steps = bound.of->steps;
+  if (largest > 0) {
+    for (int32_t& q : steps.steps) q = nearestMultiple(q, largest);
+    steps.step *= 2 * largest + 1;
+    steps.exact = false;
+    steps.range_bits = std::max(steps.range_bits - std::ilogb(2 * largest + 1), 1);
+  }
+  return codeRounded(bound, std::move(steps));
+}
+
+/// The first bytes of a track of coefficients.
+EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
+  assert(bytes <= whole.codeword.size());
+  EncodedTrack cut = whole;
+  cut.codeword.resize(bytes);
+  std::erase_if(cut.points, [&](const RatePoint& p) { return p.bytes > 0 && p.bytes >= bytes; });
+  cut.complete = false;
+  if (bytes > 0) cut.points.push_back({bytes, distortionAt(whole.points, bytes)});
+  return cut;
+}
+
+/// mean_square: that the cut leaves, in steps; nothing: what takes the fewest bytes.
+CodedHeights correct(const Bound& bound, int32_t largest, std::optional<double> mean_square) {
+  const QuantisedHeights& heights = *bound.of;
+  const EncodedTrack whole =
+      std::move(codeCoefficients(heights, bound.wavelet, bound.options).front());
+  GeometryHeader header = headerOf(heights);
+  header.wavelet = bound.wavelet;
+  header.planes = static_cast<uint8_t>(whole.planes);
+  const CorrectedCut cut_of(heights.steps, header, whole, largest);
+  const uint64_t bytes = mean_square ? cut_of.bytesFor(*mean_square) : cut_of.best();
+  const Corrected corrected = cut_of.correct(bytes);
+  HeightLayers layers{heights.layers, corrected.codeword, bound.wavelet};
+  if (!corrected.codeword.empty()) {
+    layers.layers.corrections = CorrectionKind::kSteps;
+    layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
+  }
+  CodedHeights coded =
+      joinLayers(bound.of, layers, {cutAt(whole, bytes)}, bound.options.region_log2);
+  // In the account's own measure, which the audit corrects later.
+  if (!corrected.codeword.empty()) {
+    coded.tracks.front().points.back().distortion =
+        distortionAt(whole.points, bytes) * corrected.after / corrected.before;
+  }
+  return coded;
+}
+
+/// All attempts at a largest error in steps, whether they keep it or not.
+std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
+  const tks_heights& samples = *bound.of->samples;
+  const BoundWays ways = boundWays(bound.of->steps, extentOf(samples), bound.wavelet, largest);
+  std::vector<Candidate<CodedHeights>> made;
+  if (ways.round) {
+    if (std::optional<CodedHeights> wide = widen(bound))
+      made.push_back(candidateOf(*std::move(wide)));
+    made.push_back(candidateOf(round(bound, largest)));
+  }
+  const bool one_track = bound.options.region_log2 == 0;  // is cut, not many
+  if (ways.correct && one_track)
+    made.push_back(candidateOf(correct(bound, largest, ways.mean_square)));
+  return made;
+}
+
+bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
+  const SampleErrors errors =
+      sampleErrorsOf(coded, codewordsOf(coded.tracks), inputs.options.threads);
+  return errors.largest * std::abs(inputs.heights->scale) <= inputs.options.max_error;
+}
+
+}  // namespace
+
+/// Exact steps leave an error of their own; what is left of the bound, in whole steps, the coding
+/// may use. Where floats are then rounded beyond the bound one step less will do; none, the exact
+/// steps, is always within.
+std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
+                                                       const Quantised& of) {
+  const double wanted = inputs.options.max_error / std::abs(inputs.heights->scale);
+  assert(wanted > 0);
+  const CoefficientOptions options = heightOptions(inputs);
+  const auto exactly = [&] {
+    return candidateOf(codeHeights(of, Purpose::kLossless, options)).coded;
+  };
+  if (of->restored()) return exactly();
+  const double finest = of->steps.step * std::abs(inputs.heights->scale);
+  const bool fine = inputs.options.max_error < 2 * finest;
+  const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;
+  const Bound bound{of, chooseHeightFilters(*of, purpose), options, wanted - floatSpacing(*of) / 2};
+  const double room = (wanted - errorsOf(*inputs.heights, of->steps).largest) / of->steps.step;
+  constexpr double kMost = 1 << 24;
+  const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
+  for (const int32_t tried : {largest, std::max(largest - 1, 0), 0}) {
+    std::vector<Candidate<CodedHeights>> made = attempts(bound, tried);
+    std::erase_if(made, [&](const auto& one) { return !keepsBound(inputs, *one.coded); });
+    if (!made.empty()) return fewestBytes(std::move(made)).coded;
+  }
+  return exactly();
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/candidates.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "codec/geometry/stored_heights.hpp"
+#include "encoder/height_errors.hpp"
+#include "encoder/order_packets.hpp"
+#include "ratecontrol/allocation.hpp"
+#include "texture_wavelet/stored_encoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+template <class Coded>
+uint8_t statedAfter(const EncodeInputs& inputs, const Candidate<Coded>& candidate, uint64_t bytes) {
+  assert(candidate.curve);
+  const Coded& coded = *candidate.coded;
+  const Codewords prefix = prefixAfter(coded.rated(), candidate.curve->packets, bytes);
+  const double squares = squaresOf(coded, prefix, inputs.options.threads);
+  return qualityOf(std::sqrt(squares / coded.counted()));
+}
+
+ComponentCurve curveIn(const std::optional<ComponentCurve>& curve) {
+  return curve ? *curve : ComponentCurve();
+}
+
+}  // namespace
+
+Candidates withCurves(const EncodeInputs& inputs, Candidates candidates) {
+  auto& [heights, texture] = candidates;
+  const Texels* texels = texture.coded ? &texture.coded->of->texels : nullptr;
+  assert((texels != nullptr) == (inputs.image != nullptr));
+  if (heights.coded && !heights.curve)
+    heights.curve = curveOfHeights(inputs, *heights.coded, texels);
+  if (texture.coded && !texture.curve) texture.curve = curveOfTexture(inputs, *texture.coded);
+  return candidates;
+}
+
+Selection orderPackets(const Candidates& candidates) {
+  const auto& [heights, texture] = candidates;
+  assert(!heights.coded == !heights.curve && !texture.coded == !texture.curve);
+  return {heights.coded, texture.coded, allocate({curveIn(heights.curve), curveIn(texture.curve)})};
+}
+
+uint8_t qualityAfter(const EncodeInputs& inputs, const HeightsCandidate& heights, uint64_t bytes) {
+  return statedAfter(inputs, heights, bytes);
+}
+
+uint8_t qualityAfter(const EncodeInputs& inputs, const TextureCandidate& texture, uint64_t bytes) {
+  return statedAfter(inputs, texture, bytes);
+}
+
+bool hasLosslessWay(const CodedHeights& heights) {
+  return heights.of->steps.exact;
+}
+
+/// Drawn and stored textures are lossless as they stand.
+bool hasLosslessWay(const CodedTexture& texture) {
+  return !texture.header.direct();
+}
+
+HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights) {
+  assert(hasLosslessWay(heights));
+  return candidateOf(codeHeights(heights.of, Purpose::kLossless, heightOptions(inputs)));
+}
+
+TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& texture) {
+  assert(hasLosslessWay(texture));
+  return candidateOf(codeTexture(inputs, texture.of, Purpose::kLossless));
+}
+
+HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights) {
+  assert(!inputs.budgeted());
+  const CodedHeights& coded = *heights.coded;
+  const uint64_t samples = storedBytes(*inputs.heights, coded.of->steps.validCount());
+  const bool shorter = samples > 0 && samples + coded.layers.validity_bytes < heights.bytes();
+  return shorter ? candidateOf(storeHeights(coded, inputs.options.threads)) : std::move(heights);
+}
+
+TextureCandidate storedIfShorter(TextureCandidate texture) {
+  const bool shorter = storedBytes(texture.coded->of->texels) < texture.bytes();
+  return shorter ? candidateOf(storeTexture(texture.coded->of)) : std::move(texture);
+}
+
+}  // namespace tetrakis

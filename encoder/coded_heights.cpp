@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/coded_heights.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "codec/geometry/stored_heights.hpp"
+#include "encoder/height_errors.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// Moves the account of the coefficients to behind the mask, and lets it end with the corrections.
+void joinAccount(const QuantisedHeights& heights, bool corrected, EncodedTrack& track) {
+  for (RatePoint& point : track.points) {
+    point.bytes += heights.validity.size();
+    point.distortion += heights.left;
+  }
+  if (!heights.validity.empty()) {
+    const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
+    const double unknown = track.points.front().distortion + voids * heights.validityWorth();
+    track.points.insert(track.points.begin(), {0, unknown});
+  }
+  if (corrected) track.points.push_back({track.codeword.size(), 0});
+}
+
+/// An account with a point for the mask and for each plane of bytes.
+std::vector<RatePoint> accountOfStored(const CodedHeights& stored, uint32_t threads) {
+  const std::span<const uint8_t> codeword = stored.tracks.front().codeword;
+  const auto at = [&](uint64_t bytes) {
+    return RatePoint{bytes, squaresOf(stored, {codeword.first(bytes)}, threads)};
+  };
+  const size_t sample_bytes = tks_sample_bytes(stored.of->samples->sample);
+  const uint64_t opening = stored.layers.validity_bytes;
+  assert(opening <= codeword.size() && (codeword.size() - opening) % sample_bytes == 0);
+  const uint64_t plane = (codeword.size() - opening) / sample_bytes;
+  std::vector<RatePoint> points = {at(0)};
+  for (uint64_t planes = 0; planes <= sample_bytes; ++planes) {
+    const RatePoint point = at(opening + planes * plane), &last = points.back();
+    if (point.bytes > last.bytes && point.distortion < last.distortion) points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace
+
+bool CodedHeights::restoresSamples() const {
+  return header.stored() || header.exact || corrects();
+}
+
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
+  const HeightSteps& steps = heights.steps;
+  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, steps.range_bits,
+                       purpose);
+}
+
+std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
+                                           const WaveletHeader& wavelet,
+                                           const CoefficientOptions& options) {
+  const HeightSteps& steps = heights.steps;
+  return encodeCoefficients({steps.steps, extentOf(*heights.samples), steps.valid}, wavelet,
+                            options);
+}
+
+CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
+                        std::vector<EncodedTrack> coefficients, int region_log2) {
+  assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
+  const QuantisedHeights& heights = *of;
+  const auto& [all_layers, corrections, wavelet] = layers;
+  CodedHeights coded{std::move(of),           headerOf(heights),  all_layers,
+                     std::move(coefficients), corrections.size(), heights.left};
+  coded.header.wavelet = wavelet;
+  coded.header.planes = static_cast<uint8_t>(coded.tracks.front().planes);
+  coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
+  if (region_log2 > 0 && allComplete(coded.tracks))
+    coded.header.regions.whole_bytes = bytesOf(coded.tracks);
+  EncodedTrack& track = coded.tracks.front();
+  std::vector<uint8_t>& codeword = track.codeword;
+  if (!corrections.empty()) coded.layers.coefficient_bytes = codeword.size();
+  codeword.insert(codeword.begin(), heights.validity.begin(), heights.validity.end());
+  codeword.insert(codeword.end(), corrections.begin(), corrections.end());
+  joinAccount(heights, !corrections.empty(), track);
+  assert(track.points.back().bytes == codeword.size() && !coded.header.stored());
+  return coded;
+}
+
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
+                         const CoefficientOptions& options) {
+  const HeightLayers layers{of->layers, of->corrections, chooseHeightFilters(*of, purpose)};
+  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, options);
+  return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+}
+
+CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
+  CodedHeights stored{
+      replaced.of, replaced.header, replaced.layers, {}, 0, QuantisedHeights::kSomething};
+  stored.header.wavelet = {};
+  stored.header.regions = {};
+  stored.header.planes = GeometryHeader::kStoredPlanes;
+  stored.layers.corrections = CorrectionKind::kNone;
+  stored.layers.coefficient_bytes = 0;
+  const QuantisedHeights& heights = *stored.of;
+  EncodedTrack& track = stored.tracks.emplace_back();
+  track.codeword = heights.validity;
+  const std::vector<uint8_t> samples = storeSamples(*heights.samples, heights.steps.valid);
+  track.codeword.insert(track.codeword.end(), samples.begin(), samples.end());
+  track.planes = GeometryHeader::kStoredPlanes;
+  track.points = accountOfStored(stored, threads);
+  return stored;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coded heights are a component of a stream: the codewords of the mask, the coefficients and the
+// corrections, joined into tracks, and what the header says of them. Such a value is not changed
+// once it is made; heights that are coded in another way are another value.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "codec/geometry/geometry_encoder.hpp"
+#include "encoder/quantised_heights.hpp"
+#include "ratecontrol/coded_tracks.hpp"
+#include "wavelet/filter_choice.hpp"
+
+namespace tetrakis {
+
+struct CodedHeights {
+  std::shared_ptr<const QuantisedHeights> of;
+  GeometryHeader header;  ///< without max_error
+  GeometryLayers layers;
+  /// The first holds the validity codeword, coefficients, corrections; others coefficients alone.
+  std::vector<EncodedTrack> tracks;
+  uint64_t closing = 0;  ///< bytes of corrections
+  double left = 0;       ///< QuantisedHeights::left, or what stored samples leave
+
+  /// The complete tracks restore every sample.
+  bool restoresSamples() const;
+  bool corrects() const { return layers.corrections == CorrectionKind::kSamples; }
+  /// Samples that count in the error.
+  double counted() const { return of->counted(); }
+  CodedTracks rated() const {
+    return {Component::kGeometry, tracks, layers.validity_bytes, closing};
+  }
+};
+
+/// The layers around coefficients, and the filters of these.
+struct HeightLayers {
+  GeometryLayers layers;
+  std::span<const uint8_t> corrections;  ///< codeword
+  WaveletHeader wavelet;
+};
+
+/// The filters that suit the heights.
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);
+
+/// The tracks of coefficients alone.
+std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
+                                           const WaveletHeader& wavelet,
+                                           const CoefficientOptions& options);
+
+/// Validity before the coefficients of the first track, corrections behind them. region_log2: what
+/// the coefficients were coded with.
+CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
+                        std::vector<EncodedTrack> coefficients, int region_log2);
+
+/// All of this, with the corrections that the heights come with.
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
+                         const CoefficientOptions& options);
+
+/// The same heights with their samples written as they are, in the place of coefficients and
+/// corrections. The header keeps its base and step. threads: nothing depends on them.
+CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads);
+
+}  // namespace tetrakis

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/height_errors.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "base/samples.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+DecodedHeights decodePrefix(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
+                            HeightsMemory* memory) {
+  assert(prefix.size() == heights.tracks.size());
+  return decodeHeights(heights.header, heights.layers, prefix, {}, {threads, memory});
+}
+
+bool isWhole(const Codewords& prefix, const std::vector<EncodedTrack>& tracks) {
+  return std::equal(
+      prefix.begin(), prefix.end(), tracks.begin(), tracks.end(),
+      [](const auto& some, const auto& track) { return some.size() == track.codeword.size(); });
+}
+
+}  // namespace
+
+double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
+                 HeightsMemory* memory) {
+  const QuantisedHeights& truth = *heights.of;
+  const bool exact_at_the_end = heights.corrects() || heights.header.stored();
+  if (exact_at_the_end && isWhole(prefix, heights.tracks)) return 0;
+  const DecodedGeometry decoded = decodePrefix(heights, prefix, threads, memory).geometry;
+  HeightSteps shown = {wholeSteps(decoded), truth.steps.valid, truth.steps.base, truth.steps.step};
+  assert(decoded.valid.empty() || decoded.valid.size() == shown.valid.size());
+  double unknown = 0;
+  for (size_t i = 0; i < decoded.valid.size(); ++i) {
+    if (decoded.valid[i] == shown.valid[i]) continue;
+    unknown += truth.validityWorth();
+    shown.valid[i] = 0;
+  }
+  const double squares = truth.squaresOf(shown);
+  return unknown + std::max(squares, std::min(heights.left, QuantisedHeights::kSomething));
+}
+
+SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix,
+                            uint32_t threads) {
+  const DecodedHeights decoded = decodePrefix(heights, prefix, threads, nullptr);
+  const tks_heights& input = *heights.of->samples;
+  const std::vector<uint8_t>& valid = heights.of->steps.valid;
+  return withSampleType(input.sample, [&](auto type) {
+    using T = decltype(type);
+    std::vector<T> samples(decoded.geometry.heights.size());
+    fromSteps(decoded, heights.header, heights.layers, samples.data());
+    const T* truth = static_cast<const T*>(input.data);
+    SampleErrors errors;
+    double squares = 0;
+    for (size_t i = 0; i < samples.size(); ++i) {
+      if (!valid.empty() && !valid[i]) continue;
+      const double error =
+          std::abs(static_cast<double>(samples[i]) - static_cast<double>(truth[i]));
+      squares += error * error;
+      errors.largest = std::max(errors.largest, error);
+    }
+    errors.mean_square = squares / heights.counted();
+    return errors;
+  });
+}
+
+}  // namespace tetrakis

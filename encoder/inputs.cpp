@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/inputs.hpp"
+
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "bitstream/track/regions.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// Sides of regions, chosen so that they cost about 1 % of the bytes (docs/ARCHITECTURE.md).
+constexpr int kRegionLog2 = 9;
+constexpr uint64_t kOneRegionHeights = 1025 * 1025, kOneRegionTexels = 2048 * 2048;
+
+/// 0: one region.
+int regionLog2(uint32_t width, uint32_t height, uint32_t wanted, bool automatic) {
+  const int log2 = wanted > 1                 ? std::countr_zero(wanted)
+                   : wanted == 0 && automatic ? kRegionLog2
+                                              : 0;
+  return regionCount(width, height, log2) > 1 ? log2 : 0;
+}
+
+/// Bytes worth coding: beyond the budget, because the slopes of the last packets within it depend
+/// on the points that follow, and the order must not depend on the budget.
+uint64_t limitOf(const EncodeInputs& inputs) {
+  constexpr uint64_t kMargin = 4096;
+  const uint64_t budget = inputs.options.bytes;
+  return inputs.budgeted() && budget < UINT64_MAX / 4 ? 2 * budget + kMargin : UINT64_MAX;
+}
+
+}  // namespace
+
+Purpose purposeOf(const EncodeInputs& inputs) {
+  return inputs.options.lossless != 0 ? Purpose::kLossless : Purpose::kLossy;
+}
+
+/// Corrections to a largest error lie behind all coefficients: no window of them can be decoded
+/// alone.
+CoefficientOptions heightOptions(const EncodeInputs& inputs) {
+  assert(inputs.heights != nullptr);
+  const auto& [heights, image, options] = inputs;
+  const bool large = uint64_t{heights->width} * heights->height > kOneRegionHeights;
+  return {
+      limitOf(inputs),
+      regionLog2(heights->width, heights->height, options.regions, large && options.max_error == 0),
+      options.threads};
+}
+
+TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) {
+  const tks_encode_options& options = inputs.options;
+  const bool large = uint64_t{texels.width} * texels.height > kOneRegionTexels;
+  TextureOptions texture;
+  texture.limit = limitOf(inputs);
+  texture.region_log2 = regionLog2(texels.width, texels.height, options.regions, large);
+  texture.threads = options.threads;
+  texture.visual = options.weights == TKS_WEIGHTS_VISUAL;
+  if (inputs.budgeted()) texture.room = options.bytes;
+  if (options.psnr > 0) texture.mean_square = worstMeanSquare(texels.most(), options.psnr);
+  return texture;
+}
+
+double worstMeanSquare(double peak, double psnr) {
+  return peak * peak / std::pow(10, psnr / 10);
+}
+
+Status reportProgress(const tks_encode_options& options, double done) {
+  assert(done >= 0 && done <= 1);
+  if (options.progress == nullptr || options.progress(options.user, done) == 0) return {};
+  return {TKS_USAGE, "Encoding was stopped by the caller."};
+}
+
+}  // namespace tetrakis

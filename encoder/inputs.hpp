@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file holds what one encoding is given, and translates its options for the codecs of the
+// components.
+#pragma once
+
+#include <cstdint>
+
+#include "base/status.hpp"
+#include "base/texels.hpp"
+#include "codec/geometry/geometry_encoder.hpp"
+#include "tetrakis/tetrakis.h"
+#include "texture_wavelet/texture_source.hpp"
+#include "wavelet/filter_choice.hpp"
+
+namespace tetrakis {
+
+/// The caller's heights, image and options, which outlive this. Exactly one of bytes, psnr,
+/// max_error and lossless is set.
+struct EncodeInputs {
+  const tks_heights* heights;  ///< null: there are none
+  const tks_image* image;      ///< null: there is none
+  const tks_encode_options& options;
+
+  bool budgeted() const { return options.bytes != 0; }
+};
+
+/// What components are coded for unless they have reasons of their own.
+Purpose purposeOf(const EncodeInputs& inputs);
+
+/// inputs: with heights.
+CoefficientOptions heightOptions(const EncodeInputs& inputs);
+
+/// inputs: with an image, which is `texels`.
+TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels);
+
+/// The mean squared error that is a PSNR in dB. peak: the range that it refers to.
+double worstMeanSquare(double peak, double psnr);
+
+/// done: from 0 to 1. TKS_USAGE if the caller wants no more.
+Status reportProgress(const tks_encode_options& options, double done);
+
+}  // namespace tetrakis

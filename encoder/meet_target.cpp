@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/meet_target.hpp"
+
+#include <cassert>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "codec/geometry/voids.hpp"
+#include "encoder/candidates.hpp"
+#include "encoder/height_errors.hpp"
+#include "encoder/write_stream.hpp"
+#include "ratecontrol/allocation.hpp"
+#include "ratecontrol/target.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// The packets that the components need, in their joint order.
+Selection selectNeeded(const EncodeInputs& inputs, const Candidates& candidates) {
+  Selection selection = orderPackets(candidates);
+  const auto& [heights, texture] = candidates;
+  selection.packets = keepNeeded(
+      selection.packets, {heights.need, texture.need}, [&](Component component, uint64_t bytes) {
+        return component == Component::kGeometry ? qualityAfter(inputs, heights, bytes)
+                                                 : qualityAfter(inputs, texture, bytes);
+      });
+  return selection;
+}
+
+/// The budget buys so much of every component that losslessness is in reach.
+bool nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
+  const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
+  return (!selection.heights || rmse[0] <= kNearlyExact) &&
+         (!selection.texture || rmse[1] <= kNearlyExact);
+}
+
+/// Everything without fraction bits, if that is lossless within the budget.
+std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy) {
+  const auto& [heights, texture] = lossy;
+  if (heights.coded && !hasLosslessWay(*heights.coded)) return {};
+  const bool textures_too = texture.coded && hasLosslessWay(*texture.coded);
+  if (!heights.coded && !textures_too) return {};
+  Candidates exact = lossy;
+  if (heights.coded) exact.heights = codeLossless(inputs, *heights.coded);
+  if (textures_too) exact.texture = codeLossless(inputs, *texture.coded);
+  const uint64_t bytes =
+      (heights.coded ? exact.heights.bytes() : 0) + (texture.coded ? exact.texture.bytes() : 0);
+  if (bytes >= inputs.options.bytes) return {};
+  Selection selection = orderPackets(withCurves(inputs, std::move(exact)));
+  Selection joined = selection;
+  joined.packets = joinNeighbours(selection.packets);
+  if (!isLossless(inputs, joined)) return {};
+  return selection;
+}
+
+/// As much as there is room for.
+Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
+  lossy = withCurves(inputs, std::move(lossy));
+  Selection selection = orderPackets(lossy);
+  if (!nearlyExact(inputs, selection)) return selection;
+  std::optional<Selection> exact = losslessIfItFits(inputs, lossy);
+  return exact ? *std::move(exact) : selection;
+}
+
+/// The first bytes of the heights' packets that reach the PSNR. Where voids are belongs to what is
+/// asked for.
+std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCandidate& heights) {
+  const CodedHeights& coded = *heights.coded;
+  const SampleRange range = rangeOf(*inputs.heights, coded.of->steps.valid);
+  const double worst = worstMeanSquare(range.high - range.low, inputs.options.psnr);
+  const auto& packets = heights.curve->packets;
+  return leastBytes(packets, [&](uint64_t bytes) {
+    if (bytes < coded.layers.validity_bytes) return false;
+    const Codewords prefix = prefixAfter(coded.rated(), packets, bytes);
+    return sampleErrorsOf(coded, prefix, inputs.options.threads).mean_square <= worst;
+  });
+}
+
+/// The first bytes of the texture's packets that reach the PSNR; all of them where none do.
+uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture) {
+  const CodedTexture& coded = *texture.coded;
+  const auto& packets = texture.curve->packets;
+  const std::optional<uint64_t> least = leastBytes(packets, [&](uint64_t bytes) {
+    return reachesPsnr(inputs, coded, prefixAfter(coded.rated(), packets, bytes));
+  });
+  return least.value_or(payloadOf(packets));
+}
+
+/// The candidate, or its lossless sibling if the need lies next to the last bit and that takes
+/// fewer bytes.
+template <class Coded>
+Candidate<Coded> preferLossless(const EncodeInputs& inputs, Candidate<Coded> lossy) {
+  if (!hasLosslessWay(*lossy.coded)) return lossy;
+  if (rmseOf(qualityAfter(inputs, lossy, lossy.bytes())) > kNearlyExact) return lossy;
+  Candidate<Coded> lossless = codeLossless(inputs, *lossy.coded);
+  return fewestBytes<Coded>({std::move(lossy), std::move(lossless)});
+}
+
+/// Each component by itself.
+Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
+  candidates = withCurves(inputs, std::move(candidates));
+  auto& [heights, texture] = candidates;
+  if (heights.coded) {
+    const std::optional<uint64_t> need = heightsNeed(inputs, heights);
+    if (!need) {
+      return Status(TKS_USAGE,
+                    "This PSNR is above what the step of the heights allows; give a smaller step.");
+    }
+    heights.need = *need;
+    heights = storedIfShorter(inputs, preferLossless(inputs, std::move(heights)));
+  }
+  if (texture.coded) {
+    texture.need = textureNeed(inputs, texture);
+    texture = storedIfShorter(preferLossless(inputs, std::move(texture)));
+  }
+  return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
+}
+
+/// Heights whole, because they were made for the target. Unless all is to be lossless, the texture
+/// gets what the order puts before the last of the heights' coefficients.
+Selection meetWholeHeights(const EncodeInputs& inputs, Candidates candidates) {
+  auto& [heights, texture] = candidates;
+  if (inputs.options.max_error > 0 && texture.coded) {
+    candidates = withCurves(inputs, std::move(candidates));
+    const uint64_t coefficients = bytesOf(heights.coded->tracks) - heights.coded->closing;
+    const Selection all = orderPackets(candidates);
+    texture.need = sentWith(all.packets, Component::kGeometry, coefficients)[1];
+  }
+  if (heights.coded) heights = storedIfShorter(inputs, std::move(heights));
+  if (texture.coded) texture = storedIfShorter(std::move(texture));
+  return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
+}
+
+Result<Selection> selectPackets(const EncodeInputs& inputs, Candidates candidates) {
+  if (inputs.budgeted()) return meetBudget(inputs, std::move(candidates));
+  if (inputs.options.psnr > 0) return meetPsnr(inputs, std::move(candidates));
+  return meetWholeHeights(inputs, std::move(candidates));
+}
+
+}  // namespace
+
+Result<Selection> meetTarget(const EncodeInputs& inputs,
+                             std::shared_ptr<const CodedHeights> heights,
+                             std::shared_ptr<const CodedTexture> texture) {
+  assert((heights != nullptr) == (inputs.heights != nullptr));
+  assert((texture != nullptr) == (inputs.image != nullptr));
+  Result<Selection> selection = selectPackets(inputs, {{std::move(heights)}, {std::move(texture)}});
+  if (!selection.ok()) return selection;
+  std::vector<Packet>& packets = selection->packets;
+  packets = joinNeighbours(packets);
+  if (inputs.budgeted()) packets = keepWithinBudget(packets, inputs.options.bytes);
+  return selection;
+}
+
+}  // namespace tetrakis

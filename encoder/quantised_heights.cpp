@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/quantised_heights.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "codec/geometry/corrections_encoder.hpp"
+#include "lattice/validity_encoder.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// Chosen for the target, and whether corrections are to restore what they do not show.
+struct ChosenSteps {
+  HeightSteps steps;
+  bool restore = false;
+};
+
+Result<ChosenSteps> chooseSteps(const EncodeInputs& inputs) {
+  const tks_heights& heights = *inputs.heights;
+  const double error = inputs.options.max_error / std::abs(heights.scale);
+  const bool lossless = inputs.options.lossless != 0;
+  Result<HeightSteps> steps = toSteps(heights, {heights.step, lossless, error, inputs.budgeted()});
+  if (!steps.ok()) return steps.status();
+  const bool too_coarse = error > 0 && errorsOf(heights, *steps).largest > error;
+  if (!too_coarse) return ChosenSteps{std::move(*steps), lossless};
+  if (heights.step > 0) {
+    return Status(TKS_USAGE,
+                  "The maximum error is below what the step of these heights allows; give a "
+                  "smaller step.");
+  }
+  steps = toSteps(heights, {.lossless = true});
+  if (!steps.ok()) return steps.status();
+  return ChosenSteps{std::move(*steps), true};
+}
+
+void addValidity(QuantisedHeights& heights) {
+  const tks_heights& samples = *heights.samples;
+  const bool infinite_integer = samples.sample != TKS_F32 && !std::isfinite(samples.nodata);
+  GeometryLayers& layers = heights.layers;
+  layers.has_nodata = samples.has_nodata != 0 && !std::isnan(samples.nodata) && !infinite_integer;
+  if (layers.has_nodata) layers.nodata = samples.nodata + 0.0;  // -0 equals 0: one of them
+  if (heights.steps.valid.empty()) return;
+  heights.validity = encodeValidity({heights.steps.valid, extentOf(samples)});
+  layers.validity_bytes = heights.validity.size();
+}
+
+/// What restores the samples behind the steps.
+void addCorrections(QuantisedHeights& heights) {
+  const tks_heights& samples = *heights.samples;
+  heights.layers.corrections = CorrectionKind::kSamples;
+  const std::vector<uint8_t> hints = sampleHints(heights.steps.steps, headerOf(heights));
+  heights.corrections = encodeCorrections(sampleCorrections(samples, heights.steps),
+                                          {hints, extentOf(samples), heights.steps.valid});
+  heights.left = std::max(heights.squaresOf(heights.steps), QuantisedHeights::kSomething);
+}
+
+}  // namespace
+
+double QuantisedHeights::counted() const {
+  return static_cast<double>(std::max<size_t>(steps.validCount(), 1));
+}
+
+double QuantisedHeights::validityWorth() const {
+  return std::exp2(2.0 * steps.range_bits - 4);
+}
+
+double QuantisedHeights::squaresOf(const HeightSteps& other) const {
+  const double most = std::exp2(2.0 * steps.range_bits + 4);
+  const double unit = other.step * other.step;
+  return errorsOf(*samples, other, most * unit).squares / unit;
+}
+
+Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs) {
+  assert(inputs.heights != nullptr);
+  Result<ChosenSteps> chosen = chooseSteps(inputs);
+  if (!chosen.ok()) return chosen.status();
+  auto heights = std::make_shared<QuantisedHeights>();
+  heights->samples = inputs.heights;
+  heights->steps = std::move(chosen->steps);
+  addValidity(*heights);
+  if (chosen->restore && !heights->steps.exact) addCorrections(*heights);
+  assert(heights->restored() || heights->corrections.empty());
+  return std::shared_ptr<const QuantisedHeights>(std::move(heights));
+}
+
+GeometryHeader headerOf(const QuantisedHeights& heights) {
+  GeometryHeader header;
+  header.width = heights.samples->width;
+  header.height = heights.samples->height;
+  header.sample = static_cast<uint8_t>(heights.samples->sample);
+  header.exact = heights.steps.exact;
+  header.base = heights.steps.base;
+  header.step = heights.steps.step;
+  return header;
+}
+
+}  // namespace tetrakis

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quantised heights are integer steps together with all that does not depend on how their
+// coefficients are coded: the validity mask, and the corrections that restore samples which no
+// steps show. Every attempt to code the heights starts from such a value and leaves it as it is.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/status.hpp"
+#include "bitstream/stream/header.hpp"
+#include "codec/geometry/height_steps.hpp"
+#include "encoder/inputs.hpp"
+
+namespace tetrakis {
+
+struct QuantisedHeights {
+  static constexpr double kSomething = 1e-200;  ///< -0 for 0 is no distance, but not exact
+
+  const tks_heights* samples = nullptr;  ///< the input, which outlives this
+  HeightSteps steps;
+  GeometryLayers layers;             ///< the bytes of coefficients are not known yet
+  std::vector<uint8_t> validity;     ///< codeword; empty: all samples are valid
+  std::vector<uint8_t> corrections;  ///< codeword; restores the samples
+  /// Squared error that exact steps leave in the samples, in steps, until corrections of the
+  /// samples are complete.
+  double left = 0;
+
+  /// Corrections restore every sample.
+  bool restored() const { return layers.corrections == CorrectionKind::kSamples; }
+
+  /// Samples that count in the error; at least 1.
+  double counted() const;
+
+  /// What a sample costs whose validity is not yet known rightly, in squared steps: as much as a
+  /// height that is off by a quarter of their range.
+  double validityWorth() const;
+
+  /// Squared error of such steps, in steps. A sample counts four times the squared range at most:
+  /// an exception of the steps may be off by 1e38, beside which nothing else would count.
+  double squaresOf(const HeightSteps& other) const;
+};
+
+/// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with
+/// heights.
+Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs);
+
+/// What the header says of the heights before their coefficients are coded.
+GeometryHeader headerOf(const QuantisedHeights& heights);
+
+}  // namespace tetrakis

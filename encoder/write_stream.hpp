@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file writes the finished stream: the header, its index, and the packets that fit.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/status.hpp"
+#include "encoder/inputs.hpp"
+#include "encoder/selection.hpp"
+
+namespace tetrakis {
+
+/// All samples come back, header and all within the budget.
+bool isLossless(const EncodeInputs& inputs, const Selection& selection);
+
+/// TKS_USAGE: the budget is too small for the header.
+Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selection& selection);
+
+}  // namespace tetrakis

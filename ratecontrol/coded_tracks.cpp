@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/coded_tracks.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace tetrakis {
+
+Codewords codewordsOf(std::span<const EncodedTrack> tracks) {
+  Codewords codewords;
+  for (const EncodedTrack& track : tracks) codewords.push_back(track.codeword);
+  return codewords;
+}
+
+Codewords prefixAfter(const CodedTracks& coded, std::span<const Packet> packets, uint64_t bytes) {
+  const Codewords all = codewordsOf(coded.tracks);
+  const uint64_t most = bytesOf(coded.tracks);
+  assert(!all.empty() && bytes <= most);
+  if (all.size() == 1) return {all.front().first(bytes)};
+  if (bytes == most) return all;
+  Codewords cut(all.size());
+  for (const Packet& packet : packets) {
+    if (packet.component != coded.component) continue;
+    assert(packet.track && *packet.track < all.size());
+    const uint64_t taken = std::min(bytes, packet.end - packet.begin);
+    cut[*packet.track] = all[*packet.track].first(packet.begin + taken);
+    bytes -= taken;
+    if (bytes == 0) break;
+  }
+  return cut;
+}
+
+}  // namespace tetrakis

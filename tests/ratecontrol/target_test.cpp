@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// What meets a target: searches over packets, needs, budgets; and the curves that packets come from.
+#include "ratecontrol/target.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "ratecontrol/component_curve.hpp"
+
+namespace tetrakis {
+namespace {
+
+/// Of each component one track: its packets, whole or not, mixed at random.
+std::vector<Packet> randomPackets(std::mt19937& random, bool both) {
+  std::vector<Packet> packets;
+  std::array<uint64_t, kComponents> sent = {};
+  const size_t count = 1 + random() % 12;
+  for (size_t i = 0; i < count; ++i) {
+    const auto component = static_cast<size_t>(both ? random() % 2 : 1);
+    const uint64_t begin = sent[component];
+    sent[component] += 1 + random() % 900;
+    packets.push_back({static_cast<Component>(component),
+                       random() % 4 == 0,
+                       static_cast<uint8_t>(200 - i),
+                       begin,
+                       sent[component],
+                       {}});
+  }
+  return packets;
+}
+
+uint64_t payloadOf(std::span<const Packet> packets, Component component) {
+  uint64_t bytes = 0;
+  for (const Packet& packet : packets)
+    bytes += packet.component == component ? packet.end - packet.begin : 0;
+  return bytes;
+}
+
+TEST(LeastBytes, AreWithinA64thOfAPacketAndNeverInAWholeOne) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 300; ++round) {
+    const std::vector<Packet> packets = randomPackets(random, false);
+    const uint64_t total = payloadOf(packets), enough = random() % (total + 50);
+    const auto least = leastBytes(packets, [&](uint64_t bytes) { return bytes >= enough; });
+    ASSERT_EQ(least.has_value(), enough <= total);
+    if (!least) continue;
+    const auto packet = std::find_if(packets.begin(), packets.end(),
+                                     [&](const Packet& p) { return p.end >= enough; });
+    if (enough == 0) {
+      EXPECT_EQ(*least, 0u);
+    } else if (packet->whole) {
+      EXPECT_EQ(*least, packet->end);
+    } else {
+      EXPECT_GE(*least, enough);
+      EXPECT_LE(*least - enough, std::max<uint64_t>(1, (packet->end - packet->begin) / 64));
+    }
+  }
+}
+
+TEST(LeastBytes, OfNoPacketsAreNoneOrNothingSuffices) {
+  EXPECT_EQ(leastBytes({}, [](uint64_t) { return true; }), 0u);
+  EXPECT_FALSE(leastBytes({}, [](uint64_t) { return false; }));
+}
+
+TEST(Needs, AreKeptToTheByteAndOnlyCutPacketsAreStatedAnew) {
+  std::mt19937 random(2);
+  for (int round = 0; round < 300; ++round) {
+    const std::vector<Packet> packets = randomPackets(random, true);
+    const Needs needs = {random() % 3000, random() % 3 ? random() % 3000 : kAllBytes};
+    const auto quality = [&](Component component, uint64_t bytes) {
+      EXPECT_EQ(bytes, needs[static_cast<size_t>(component)]);
+      return uint8_t{7};
+    };
+    const std::vector<Packet> kept = keepNeeded(packets, needs, quality);
+    for (const Component component : {Component::kGeometry, Component::kTexture}) {
+      EXPECT_EQ(payloadOf(kept, component),
+                std::min(needs[static_cast<size_t>(component)], payloadOf(packets, component)));
+    }
+    for (const Packet& packet : kept) {
+      const auto original = std::find_if(packets.begin(), packets.end(), [&](const Packet& p) {
+        return p.component == packet.component && p.begin == packet.begin;
+      });
+      ASSERT_NE(original, packets.end());
+      EXPECT_EQ(packet.quality, packet.end < original->end ? 7 : original->quality);
+    }
+  }
+}
+
+TEST(SentWith, EndsWithThePacketThatCompletesTheBytes) {
+  const auto packet = [](Component component, uint64_t begin, uint64_t end) {
+    return Packet{component, false, 80, begin, end, {}};
+  };
+  const Component g = Component::kGeometry, t = Component::kTexture;
+  const std::vector<Packet> packets = {packet(t, 0, 10), packet(g, 0, 20), packet(t, 10, 40),
+                                       packet(g, 20, 30), packet(t, 40, 45)};
+  EXPECT_EQ(sentWith(packets, g, 0), (Needs{20, 10}));
+  EXPECT_EQ(sentWith(packets, g, 20), (Needs{20, 10}));
+  EXPECT_EQ(sentWith(packets, g, 21), (Needs{30, 40}));
+  EXPECT_EQ(sentWith(packets, g, 31), (Needs{30, 45}));
+}
+
+TEST(Budgets, KeepWhatBeginsWithinThemAndStateWhatEndsWithinThem) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 300; ++round) {
+    const std::vector<Packet> packets = randomPackets(random, true);
+    const auto some = std::span(packets).first(1 + random() % packets.size());
+    const uint64_t budget =
+        round % 2 ? bytesOfPackets(some) : 1 + random() % (bytesOfPackets(packets) + 100);
+    const std::vector<Packet> kept = keepWithinBudget(packets, budget);
+    ASSERT_GE(kept.size(), 1u);
+    EXPECT_LT(bytesOfPackets(std::span(kept).first(kept.size() - 1)), budget);
+    if (kept.size() < packets.size()) {
+      EXPECT_GE(bytesOfPackets(kept), budget);
+    }
+    std::array<double, kComponents> stated = {rmseOf(255), rmseOf(255)};
+    for (size_t i = 0; i < packets.size(); ++i) {
+      if (bytesOfPackets(std::span(packets).first(i + 1)) <= budget)
+        stated[static_cast<size_t>(packets[i].component)] = rmseOf(packets[i].quality);
+    }
+    EXPECT_EQ(statedWithin(packets, budget), stated);
+  }
+}
+
+/// Tracks whose error halves with every ten bytes; the first has an opening that seems worth little.
+std::vector<EncodedTrack> tracksWithOpening(size_t count, uint64_t opening) {
+  std::vector<EncodedTrack> tracks(count);
+  for (size_t i = 0; i < count; ++i) {
+    double distortion = 1e6 * static_cast<double>(i + 1);
+    uint64_t bytes = i == 0 ? opening : 0;
+    if (bytes > 0) tracks[i].points.push_back({0, distortion + 1});
+    for (; distortion > 1; distortion /= 2, bytes += 10)
+      tracks[i].points.push_back({bytes, distortion});
+    tracks[i].codeword.resize(tracks[i].points.back().bytes);
+  }
+  return tracks;
+}
+
+/// Packets lead from nothing to all of every track, the opening first, and every prefix that
+/// decoders get is made of them.
+TEST(ComponentCurve, PacketsCoverTheTracksAndTheOpeningComesFirst) {
+  for (const size_t count : {size_t{1}, size_t{3}}) {
+    const std::vector<EncodedTrack> tracks = tracksWithOpening(count, 50);
+    const CodedTracks coded{Component::kTexture, tracks, 50};
+    const auto measure = [](uint64_t) { return 1.0; };
+    const Pricing pricing{100, [](double squares) { return squares / 100; }};
+    const ComponentCurve curve = curveOf(coded, {1 << 20, 9000}, measure, pricing);
+    ASSERT_GE(curve.packets.size(), 2u);
+    EXPECT_EQ(curve.points[1].bytes, 50u) << "worth the most of all";
+    EXPECT_EQ(curve.packets.front().end, 50u);
+    EXPECT_EQ(curve.packets.front().track.value_or(0), 0u);
+    EXPECT_EQ(payloadOf(curve.packets), bytesOf(tracks));
+    EXPECT_EQ(curve.points.back().bytes, bytesOf(tracks));
+    std::vector<uint64_t> sent(count);
+    uint64_t bytes = 0;
+    for (const Packet& packet : curve.packets) {
+      const Codewords before = prefixAfter(coded, curve.packets, bytes);
+      for (size_t i = 0; i < count; ++i) EXPECT_EQ(before[i].size(), sent[i]);
+      EXPECT_EQ(packet.begin, sent[packet.track.value_or(0)]);
+      sent[packet.track.value_or(0)] = packet.end;
+      bytes += packet.end - packet.begin;
+    }
+    for (size_t i = 0; i < count; ++i) EXPECT_EQ(sent[i], tracks[i].codeword.size());
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file holds an image that is to be coded and says how it should be. An image is often coded
+// several times before the best way is known, so what does not depend on the way is found once and
+// kept here.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/texels.hpp"
+#include "texture_wavelet/mask/cutout.hpp"
+
+namespace tetrakis {
+
+struct TextureSource {
+  /// Any image is a source.
+  TextureSource(Texels image) : texels(std::move(image)), cutout(cutoutOf(texels)) {}
+
+  /// Marks the texels whose colours count in errors. hidden: colours that a cut-out does not show
+  /// are not coded.
+  Mask counted(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
+
+  Texels texels;
+  std::vector<uint8_t> cutout;  ///< cutoutOf(texels)
+};
+
+struct TextureOptions {
+  uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
+  int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
+  uint32_t threads = 1;         ///< nothing depends on them
+  bool visual = false;          ///< what is seen comes first, not what is off most
+  uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
+  double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
+};
+
+}  // namespace tetrakis
