@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The encoding half of the C interface (include/tetrakis/tetrakis.h): arguments, and memory handed
 // to the caller.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 
 #include "api/message.hpp"
 #include "api/proof.hpp"
@@ -18,6 +20,29 @@ namespace {
 
 Status misuse(const std::string& sentence) {
   return {TKS_USAGE, sentence};
+}
+
+/// Two hundred times what a reference system takes, and a header holds all of them.
+Status checkTexts(const std::string& whose, std::initializer_list<const char*> texts) {
+  constexpr size_t kMost = 65535;
+  for (const char* text : texts) {
+    if (text != nullptr && std::strlen(text) > kMost) {
+      return misuse("A text about the " + whose + " takes " + std::to_string(std::strlen(text)) +
+                    " bytes; each takes at most " + std::to_string(kMost) + ".");
+    }
+  }
+  return {};
+}
+
+template <class T>
+Status checkPlace(const std::string& whose, const T& raster) {
+  if (raster.registration < TKS_REGISTRATION_UNKNOWN ||
+      raster.registration > TKS_REGISTRATION_POINT)
+    return misuse("The registration of the " + whose + " is unknown.");
+  GeoTransform transform;
+  std::copy_n(raster.geotransform, transform.size(), transform.begin());
+  if (!raster.has_geotransform || isSound(transform)) return {};
+  return misuse("The geotransform of the " + whose + " must be six numbers within +-2^512.");
 }
 
 Status checkHeights(const tks_heights& h) {
@@ -34,7 +59,8 @@ Status checkHeights(const tks_heights& h) {
       !std::isfinite(h.spacing_x) || !std::isfinite(h.spacing_y)) {
     return misuse("Step and spacing of the heights must be finite and not negative.");
   }
-  return {};
+  if (Status place = checkPlace("heights", h); !place.ok()) return place;
+  return checkTexts("heights", {h.unit, h.vertical_datum, h.crs, h.description, h.geo_keys});
 }
 
 Status checkImage(const tks_image& i) {
@@ -46,7 +72,8 @@ Status checkImage(const tks_image& i) {
     return misuse("A texture of " + std::to_string(i.width) + " x " + std::to_string(i.height) +
                   " texels: each side takes 1 to " + std::to_string(kMaxTextureSide) + ".");
   }
-  return {};
+  if (Status place = checkPlace("texture", i); !place.ok()) return place;
+  return checkTexts("texture", {i.crs, i.geo_keys});
 }
 
 Status checkOptions(const tks_encode_options& o, bool has_heights) {
@@ -88,7 +115,7 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
     if (status.ok()) status = checkHeights(out.heights);
   }
   if (status.ok() && image != nullptr) {
-    status = takeSized("texture", *image, sizeof(tks_image), out.image);
+    status = takeSized("texture", *image, offsetof(tks_image, geotransform), out.image);
     if (status.ok()) status = checkImage(out.image);
   }
   return status;

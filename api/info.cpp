@@ -65,6 +65,32 @@ int codingOf(const TextureHeader& texture) {
   return texture.overlay_bytes > 0 ? 2 : 0;
 }
 
+int giveTransform(const Placement& placement, int level, double* out) {
+  if (placement.has_transform) {
+    const GeoTransform transform = atLevel(placement.transform, level);
+    std::copy(transform.begin(), transform.end(), out);
+  }
+  return placement.has_transform;
+}
+
+void fillGeoreference(const tks_decoder& decoder, tks_info& info) {
+  const Georeference& place = decoder.parsed.header.georeference;
+  if (!info.has_nodata && place.nan_nodata) {
+    info.has_nodata = 1;
+    info.nodata = std::numeric_limits<double>::quiet_NaN();
+  }
+  info.has_geotransform = giveTransform(place.heights, decoder.heights_level, info.geotransform);
+  info.registration = static_cast<tks_registration>(place.heights.registration);
+  info.description = place.description.c_str();
+  info.geo_keys = place.heights.geo_keys.c_str();
+  info.texture_has_geotransform =
+      giveTransform(place.texture, decoder.texture_level, info.texture_geotransform);
+  info.texture_registration = static_cast<tks_registration>(place.texture.registration);
+  const bool shared = place.texture.has_transform && !place.hasTextureCrs();
+  info.texture_crs = shared ? info.crs : place.texture_crs.c_str();
+  info.texture_geo_keys = shared ? info.geo_keys : place.texture.geo_keys.c_str();
+}
+
 void fillInfo(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.format_version = header.version;
@@ -117,6 +143,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.unit = m.unit.c_str();
   info.vertical_datum = m.vertical_datum.c_str();
   info.crs = m.crs.c_str();
+  fillGeoreference(decoder, info);
   fillQuality(decoder, info);
 }
 

@@ -81,6 +81,14 @@ std::vector<VectorCase> refusedHeaders() {
     h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
     h.texture->regions.side_log2 = 4;
   });
+  refuse("geotransform", "a geotransform with a NaN", [](StreamHeader& h) {
+    h.georeference.heights = {true, {0, 1, 0, 0, kNaN, -1}, 0, ""};
+  });
+  refuse("huge_geotransform", "a geotransform whose sums may overflow", [](StreamHeader& h) {
+    h.georeference.heights = {true, {0x1p512, 1, 0, 0, 0, -1}, 0, ""};
+  });
+  refuse("registration", "a registration that there is not",
+         [](StreamHeader& h) { h.georeference.heights.registration = 3; });
   refuse("texels", "a texture of signed samples",
          [](StreamHeader& h) { h = textureHeader(9, 9, 1, TKS_I8, 8); });
   return cases;

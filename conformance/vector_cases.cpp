@@ -2,8 +2,10 @@
 // The table of conformance vectors: small inputs that together visit every tool of the format.
 #include "conformance/vector_cases.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <type_traits>
 
 #include "base/samples.hpp"
@@ -341,6 +343,17 @@ std::vector<VectorCase> sparseCases() {
   };
 }
 
+/// The part of the header that says where things lie.
+std::vector<VectorCase> placedCases() {
+  VectorCase joint = heightsCase("placed_joint_20x15_40x31", "georeference of heights and texture",
+                                 {Pattern::kRidges, 20, 15, 1, TKS_I16}, indexed(lossless()));
+  joint.texture = Recipe{Pattern::kRidges, 40, 31, 1, TKS_U8, 7};
+  VectorCase texture = textureCase("placed_texture_17x20", "georeference of a texture alone",
+                                   {Pattern::kRidges, 17, 20, 3, TKS_U8, 7}, lossless());
+  joint.placed = texture.placed = true;
+  return {joint, texture};
+}
+
 /// Streams that a decoder must refuse, by the byte that is wrong (docs/FORMAT.md, section 2).
 std::vector<VectorCase> damagedCases() {
   const Recipe heights{Pattern::kRidges, 9, 9, 1, TKS_I16};
@@ -378,6 +391,28 @@ samples::Raster surfaceOf(const VectorCase& vector_case) {
   return surface;
 }
 
+template <class T>
+void place(T& raster, const double (&transform)[6]) {
+  std::copy(std::begin(transform), std::end(transform), raster.geotransform);
+  raster.has_geotransform = 1;
+  raster.registration = TKS_REGISTRATION_AREA;
+}
+
+/// Heights on a square grid; a texture over their ground, or turned if it is alone.
+void placeBoth(bool has_heights, tks_heights& heights, tks_image& image) {
+  place(heights, {399960, 30, 0, 5300040, 0, -30});
+  heights.crs = "EPSG:32632";
+  heights.description = "ridges";
+  if (has_heights) {
+    place(image, {399960, 15, 0, 5300040, 0, -30 * (15.0 / 31)});
+    image.crs = heights.crs;
+  } else {
+    place(image, {100.25, 3, 8, 900, 4, -6});
+    image.crs = "my \"grid\"";
+    image.geo_keys = "1024=1 3072=32767 3073=\"my \"\"grid\"\"\" 3077=0.5";
+  }
+}
+
 }  // namespace
 
 std::vector<VectorCase> vectorCases() {
@@ -388,6 +423,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
+  for (VectorCase& next : placedCases()) all.push_back(std::move(next));
   for (VectorCase& next : craftedCases()) all.push_back(std::move(next));
   for (VectorCase& next : unusualAndRefusedCases()) all.push_back(std::move(next));
   for (VectorCase& next : damagedCases()) all.push_back(std::move(next));
@@ -417,6 +453,7 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     if (vector_case.cutout) samples::cutOut(picture, mask(*vector_case.cutout));
     image = picture.image();
   }
+  if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);
   const auto stream = encode(vector_case.heights ? &heights : nullptr,
                              vector_case.texture ? &image : nullptr, vector_case.options);
   if (!stream)

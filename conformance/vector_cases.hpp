@@ -29,6 +29,7 @@ struct VectorCase {
   bool apart = false;                         ///< valid samples that equal nodata are changed
   int exponent = 0;                           ///< float heights are multiplied by 2^exponent
   uint32_t spikes = 0;                        ///< one in so many heights stands out of a plain
+  bool placed = false;                        ///< heights and texture have a georeference
   std::vector<uint8_t> stream;  ///< not empty: nothing is encoded, these are the bytes
   bool dense = false;           ///< cuts lie close to each other in the middle
   int damaged_byte = -1;        ///< inverted after encoding; such a stream must not open

@@ -20,12 +20,12 @@ namespace {
 /// The packets that the components need, in their joint order.
 Selection selectNeeded(const EncodeInputs& inputs, const Candidates& candidates) {
   Selection selection = orderPackets(candidates);
-  const auto& [heights, texture] = candidates;
-  selection.packets = keepNeeded(
-      selection.packets, {heights.need, texture.need}, [&](Component component, uint64_t bytes) {
-        return component == Component::kGeometry ? qualityAfter(inputs, heights, bytes)
-                                                 : qualityAfter(inputs, texture, bytes);
-      });
+  const Needs needs = {candidates.heights.need, candidates.texture.need};
+  const auto quality_after = [&](Component component, uint64_t bytes) {
+    return component == Component::kGeometry ? qualityAfter(inputs, candidates.heights, bytes)
+                                             : qualityAfter(inputs, candidates.texture, bytes);
+  };
+  selection.packets = keepNeeded(selection.packets, needs, quality_after);
   return selection;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bitstream/stream/header.hpp"
+#include "encoder/georeference.hpp"
 #include "ratecontrol/target.hpp"
 
 namespace tetrakis {
@@ -41,6 +42,7 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     header.metadata = metadataOf(*inputs.heights);
   }
   if (selection.texture) header.texture = selection.texture->header;
+  header.georeference = georeferenceOf(inputs.heights, inputs.image);
   if (options.index != 0) {
     for (const Packet& packet : selection.packets)
       header.index.push_back({packet.head(), packet.track.value_or(0), packet.quality});

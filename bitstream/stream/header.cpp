@@ -19,7 +19,8 @@ enum Parts : uint8_t {
   kLayers = 16,
   kRegions = 32,
   kWeights = 64,
-  kAllParts = 127
+  kGeoreference = 128,
+  kAllParts = 255
 };
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -58,6 +59,22 @@ void visitIndex(V& v, StreamHeader& header) {
   }
 }
 
+template <class V>
+void visitGeoreference(V& v, StreamHeader& header) {
+  Georeference& place = header.georeference;
+  TransformBasis basis;
+  basis.spacing = northUp(header.metadata.spacing_x, header.metadata.spacing_y);
+  if (header.geometry) place.visitHeights(v, basis);
+  if (!header.texture) return;
+  if (header.geometry && place.heights.has_transform) {
+    const double columns = header.texture->width, rows = header.texture->height;
+    basis.heights = stretched(place.heights.transform, header.geometry->width / columns,
+                              header.geometry->height / rows);
+    basis.has_heights = true;
+  }
+  place.visitTexture(v, basis);
+}
+
 /// The body: which parts there are, then the parts.
 template <class V>
 void visitBody(V& v, StreamHeader& header) {
@@ -65,7 +82,8 @@ void visitBody(V& v, StreamHeader& header) {
       (header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
       (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex) |
       (header.layers.isDefault() ? 0 : kLayers) | (hasRegions(header) ? kRegions : 0) |
-      (header.texture && header.texture->weights.levels > 0 ? kWeights : 0));
+      (header.texture && header.texture->weights.levels > 0 ? kWeights : 0) |
+      (header.georeference.isDefault() ? 0 : kGeoreference));
   v.u8("parts", parts, 1, kAllParts);
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
   v.u8("lossless", header.lossless, 0, 1);
@@ -87,6 +105,7 @@ void visitBody(V& v, StreamHeader& header) {
   }
   if ((parts & kWeights) && header.texture)
     header.texture->weights.visit(v, header.texture->components());
+  if (parts & kGeoreference) visitGeoreference(v, header);
   if (parts & kIndex) visitIndex(v, header);
 }
 
@@ -157,6 +176,12 @@ Status checkNumbers(const StreamHeader& header) {
   return {};
 }
 
+Status checkGeoreference(const StreamHeader& header) {
+  const Georeference& g = header.georeference;
+  if (isSound(g.heights.transform) && isSound(g.texture.transform)) return {};
+  return {TKS_CORRUPT, "Corrupt stream: a number of its geotransforms is out of range."};
+}
+
 /// A texture that is drawn or stored is one track of all its channels.
 Status checkTexture(const StreamHeader& header) {
   if (!header.texture) return {};
@@ -175,6 +200,7 @@ Status checkMeaning(const StreamHeader& header) {
     return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
   }
   if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
+  if (Status place = checkGeoreference(header); !place.ok()) return place;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (Status regions = checkRegions(header); !regions.ok()) return regions;
   if (Status stored = checkStored(header); !stored.ok()) return stored;

@@ -13,6 +13,7 @@
 #include "base/plane.hpp"
 #include "base/status.hpp"
 #include "bitstream/stream/fields.hpp"
+#include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/regions.hpp"
@@ -254,6 +255,7 @@ struct StreamHeader {
   GeometryLayers layers;
   std::optional<TextureHeader> texture;
   Metadata metadata;
+  Georeference georeference;
   std::vector<PacketHead> index;  ///< the heads of all packets, ahead of time
 };
 

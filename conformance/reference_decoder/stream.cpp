@@ -2,6 +2,8 @@
 // Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 12).
 #include "conformance/reference_decoder/stream.hpp"
 
+#include "conformance/reference_decoder/metadata.hpp"
+#include "conformance/reference_decoder/reader.hpp"
 #include "conformance/reference_decoder/regions.hpp"
 
 #include <algorithm>
@@ -10,67 +12,6 @@
 
 namespace tetrakis::reference {
 namespace {
-
-/// Reads fields; after the first that is missing or out of range it returns zeros only.
-class Reader {
- public:
-  explicit Reader(std::span<const uint8_t> bytes) : bytes_(bytes) {}
-
-  Outcome outcome() const { return outcome_; }
-  std::span<const uint8_t> rest() const { return bytes_; }
-  void fail(Outcome outcome) {
-    if (outcome_ == Outcome::kDone) outcome_ = outcome;
-  }
-
-  /// `size` bytes, none if there are fewer.
-  std::span<const uint8_t> take(uint64_t size) {
-    if (size > bytes_.size()) fail(Outcome::kTruncated);
-    if (outcome_ != Outcome::kDone) return {};
-    const auto taken = bytes_.first(size);
-    bytes_ = bytes_.subspan(size);
-    return taken;
-  }
-  uint8_t byte() {
-    const auto taken = take(1);
-    return taken.empty() ? uint8_t{0} : taken[0];
-  }
-  int u8(int low, int high) { return static_cast<int>(within(byte(), low, high)); }
-  uint64_t littleEndian(int count) {
-    uint64_t value = 0;
-    for (int i = 0; i < count; ++i) value |= uint64_t{byte()} << (8 * i);
-    return value;
-  }
-  double f64() {
-    const int size = u8(0, 8);
-    const uint64_t high = littleEndian(size);
-    return std::bit_cast<double>(size == 0 ? 0 : high << (64 - 8 * size));
-  }
-
-  /// FORMAT 2: "seven bits a byte, low bits first, bit 7 set while more follow, at most 64 bits".
-  uint64_t varint(uint64_t low, uint64_t high) {
-    uint64_t value = 0;
-    for (int shift = 0; shift < 70; shift += 7) {
-      const uint64_t next = byte();
-      if (shift == 63 && next > 1) fail(Outcome::kCorrupt);
-      value |= (next & 127) << shift;
-      if (next < 128) break;
-    }
-    return within(value, low, high);
-  }
-  int zigzag(uint64_t largest) {
-    const auto coded = static_cast<int>(varint(0, 2 * largest));
-    return coded % 2 == 0 ? coded / 2 : -(coded + 1) / 2;
-  }
-
- private:
-  uint64_t within(uint64_t value, uint64_t low, uint64_t high) {
-    if (value < low || value > high) fail(Outcome::kCorrupt);
-    return outcome_ == Outcome::kDone ? value : 0;
-  }
-
-  std::span<const uint8_t> bytes_;
-  Outcome outcome_ = Outcome::kDone;
-};
 
 /// FORMAT 2: CRC-32, "polynomial EDB88320 reflected, initial and final xor FFFFFFFF".
 uint32_t crc32(std::span<const uint8_t> bytes) {
@@ -202,17 +143,7 @@ bool namesTracks(const Stream& stream, uint64_t component) {
   return stream.texture && stream.texture->regions.log2 > 0;
 }
 
-/// FORMAT 2, Metadata and Index: they decode nothing, but their syntax counts.
-void skipMetadata(Reader& in) {
-  const double scale = in.f64(), offset = in.f64();
-  const double spacingX = in.f64(), spacingY = in.f64();
-  for (const double v : {scale, offset, spacingX, spacingY}) {
-    if (!std::isfinite(v)) in.fail(Outcome::kCorrupt);
-  }
-  if (scale == 0 || spacingX < 0 || spacingY < 0) in.fail(Outcome::kCorrupt);
-  for (int i = 0; i < 3; ++i) in.take(in.varint(0, UINT64_MAX));
-}
-
+/// FORMAT 2, Index: it decodes nothing, but its syntax counts.
 void skipIndex(Reader& in, const Stream& stream) {
   for (uint64_t left = in.varint(1, 1 << 19); left > 0; --left) {
     const uint64_t head = in.varint(0, UINT64_MAX);
@@ -237,14 +168,14 @@ int levelOf(const Stream& stream) {
 /// FORMAT 2, Body. Returns `payload_bytes`.
 uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
-  const int parts = in.u8(1, 127);
+  const int parts = in.u8(1, 255);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
   in.u8(0, 1);               // lossless
   in.varint(0, UINT32_MAX);  // triangles
   if ((parts & 3) == 0) in.fail(Outcome::kCorrupt);
   if (parts & 1) stream.geometry = readGeometry(in);
   if (parts & 2) stream.texture = readTexture(in);
-  if (parts & 4) skipMetadata(in);
+  const Transform spacing = parts & 4 ? skipMetadata(in) : Transform{0, 0, 0, 0, 0, -0.0};
   if (parts & 16) stream.layers = readLayers(in, stream.geometry);
   if (parts & 32 && stream.geometry) stream.geometry->regions = readRegions(in);
   if (stream.geometry && stream.geometry->planes == kStoredPlanes &&
@@ -255,6 +186,7 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (stream.texture && stream.texture->planes == kDrawnPlanes &&
       (stream.texture->regions.log2 > 0 || parts & 64))
     in.fail(Outcome::kCorrupt);
+  if (parts & 128) skipGeoreference(in, stream, spacing);
   if (parts & 8) skipIndex(in, stream);
   if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
   return payloadBytes;

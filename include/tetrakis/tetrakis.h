@@ -61,6 +61,13 @@ typedef enum tks_sample {
 /* Bytes of one sample: 1, 1, 2, 2, 4, 4, 4. 0 for a value outside the enumeration. */
 size_t tks_sample_bytes(tks_sample sample);
 
+/* What samples are to the ground, as GDAL's AREA_OR_POINT. A geotransform does not depend on it. */
+typedef enum tks_registration {
+  TKS_REGISTRATION_UNKNOWN = 0,
+  TKS_REGISTRATION_AREA = 1, /* a sample is the mean of its cell */
+  TKS_REGISTRATION_POINT = 2 /* a sample is the value at the middle of its cell */
+} tks_registration;
+
 /* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
  * Sizes from 2 x 2. A sample v stands for the height v * scale + offset in `unit`.
  *
@@ -68,7 +75,14 @@ size_t tks_sample_bytes(tks_sample sample);
  * mask is coded; they take no part in any filter, error or mesh, and come back as `nodata`, without
  * has_nodata as the quiet NaN 7fc00000. There may be any number of them, all samples included.
  * Other samples: an infinite one is refused with its place (unless it is the nodata value);
- * subnormal ones, negative zeros and integers of the full 32 bits are heights like any other. */
+ * subnormal ones, negative zeros and integers of the full 32 bits are heights like any other.
+ *
+ * Georeference: kept as given, with every prefix; coding does not depend on it. A geotransform is
+ * that of GDAL, in units of the CRS (metres, feet, degrees): column c and row r, where (0, 0) is the
+ * outer corner of the first sample and (0.5, 0.5) its middle, lie at
+ *     x (easting, longitude)  = geotransform[0] + c * geotransform[1] + r * geotransform[2]
+ *     y (northing, latitude)  = geotransform[3] + c * geotransform[4] + r * geotransform[5]
+ * whatever the registration. Its numbers must lie within +-2^512, else TKS_USAGE. */
 typedef struct tks_heights {
   size_t size; /* sizeof(tks_heights) */
   uint32_t width, height;
@@ -78,10 +92,16 @@ typedef struct tks_heights {
   double step;                    /* quantisation step in sample units; 0: chosen (exact if possible) */
   double spacing_x, spacing_y;    /* metres per sample; 0: unknown */
   const char* unit;               /* UTF-8, NULL: unknown; e.g. "m" */
-  const char* vertical_datum;     /* UTF-8, NULL: unknown; e.g. "EGM2008" */
-  const char* crs;                /* UTF-8 WKT or EPSG text, NULL: unknown */
+  const char* vertical_datum;     /* UTF-8, NULL: unknown; e.g. "EGM2008", "EPSG:5703" */
+  const char* crs;                /* UTF-8 "EPSG:code", WKT or a name, NULL: unknown */
   int has_nodata;                 /* non-zero: `nodata` is declared */
   double nodata;                  /* in sample units; one that the type cannot hold meets no sample */
+  double geotransform[6];         /* above; in the order of GDAL */
+  int has_geotransform;           /* 0: the place is unknown, and `geotransform` not looked at */
+  tks_registration registration;  /* 0: unknown */
+  const char* description;        /* UTF-8, what GDAL calls the band's description; NULL: none */
+  const char* geo_keys;           /* what a GeoTIFF says of its CRS beyond `crs` and `vertical_datum`
+                                     ("1024=1 1026=\"my grid\" ...": docs/FORMAT.md); NULL: nothing */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed. It
@@ -90,12 +110,19 @@ typedef struct tks_heights {
  * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of the
  * colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their channels:
  * exact in the complete stream, which is sent whole.) Unless the stream is lossless, the colours of
- * texels with alpha 0 are not kept (they come back as the mean of the others) and count in no error. */
+ * texels with alpha 0 are not kept (they come back as the mean of the others) and count in no error.
+ *
+ * Georeference: as that of tks_heights. */
 typedef struct tks_image {
   size_t size; /* sizeof(tks_image) */
   uint32_t width, height, channels;
   tks_sample sample;
   const void* data;
+  double geotransform[6];        /* of the texels; in the order of GDAL */
+  int has_geotransform;          /* 0: nothing but the footprint is known */
+  tks_registration registration; /* 0: unknown */
+  const char* crs;               /* UTF-8, NULL: that of the heights */
+  const char* geo_keys;          /* UTF-8, likewise */
 } tks_image;
 
 /* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1]. */
@@ -188,7 +215,7 @@ typedef struct tks_info {
   int lossless;            /* the complete stream restores every sample */
   int has_voids;           /* some samples may be void */
   int has_nodata;          /* voids come back as `nodata` */
-  double nodata;
+  double nodata;           /* NaN where NaN was declared */
   double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
   uint32_t triangles;      /* the encoder's triangle budget; 0: none */
   uint32_t regions, texture_regions; /* side of the spatial regions; 0: none */
@@ -204,6 +231,19 @@ typedef struct tks_info {
   const char* vertical_datum;
   const char* crs;
   int heights_stored;      /* samples stored, because nothing codes them in fewer bytes */
+  int has_geotransform;    /* of the heights; 0: their place is unknown */
+  double geotransform[6];  /* of the level that is set (tks_heights says what it is); 0 when unknown.
+                              Of a window that begins at column c and row r: [0] and [3] become the
+                              x and y of (c, r) */
+  tks_registration registration;
+  const char* description; /* "" when unknown, as the texts below; owned by the decoder */
+  const char* geo_keys;
+  int texture_has_geotransform; /* the texture has a georeference of its own */
+  double texture_geotransform[6]; /* of the level that is set */
+  tks_registration texture_registration;
+  const char* texture_crs;      /* that of the heights where the texture's place is known and no other
+                                   CRS is stated */
+  const char* texture_geo_keys;
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

@@ -107,6 +107,39 @@ void expectAgreementOnLayers(const tks_heights& heights, const tks_encode_option
   }
 }
 
+/// A byte of the header says something else, and the rest is as sound as before.
+TEST(Reference, AgreesOnDamagedGeoreferences) {
+  const Raster surface = make({Pattern::kRidges, 4, 3, 1, TKS_I16, 3});
+  const Raster picture = make({Pattern::kRidges, 2, 6, 1, TKS_U8, 4});
+  tks_heights heights = surface.heights();
+  tks_image image = picture.image();
+  const double north_up[] = {399960, 30, 0, 5300040, 0, -30}, turned[] = {1, 3, 8, 0.5, 4, -6};
+  std::copy_n(north_up, 6, heights.geotransform);
+  heights.has_geotransform = image.has_geotransform = 1;
+  heights.geo_keys = "1024=1";
+  for (const bool shared : {false, true}) {
+    std::copy_n(turned, 6, image.geotransform);
+    if (shared)
+      std::copy_n(std::begin({399960., 60., 0., 5300040., 0., -15.}), 6, image.geotransform);
+    tks_buffer buffer = {};
+    const tks_encode_options options = lossless();
+    ASSERT_EQ(tks_encode(&heights, &image, &options, &buffer, nullptr, 0), TKS_OK);
+    const Bytes stream(buffer.data, buffer.data + buffer.size);
+    tks_free_buffer(&buffer);
+    const size_t header = static_cast<size_t>(Stream(stream).info().header_bytes);
+    for (size_t at = 8; at + 4 < header; ++at) {
+      for (const int change : {1, 2, 4, 127, 128, 255}) {
+        SCOPED_TRACE(std::to_string(at) + " changed by " + std::to_string(change));
+        Bytes damaged = stream;
+        damaged[at] ^= static_cast<uint8_t>(change);
+        sealHeader(damaged);
+        expectAgreement(damaged);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
 TEST(Reference, AgreesOnVoids) {
   for (const samples::VoidShape shape : samples::kVoidShapes) {
     for (const auto& [width, height] : {std::pair{2u, 2u}, {19u, 14u}, {40u, 9u}}) {

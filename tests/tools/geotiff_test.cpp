@@ -170,6 +170,54 @@ TEST_F(GeoTiff, GdalMetadata) {
   EXPECT_EQ(heights.nodata, 8);
 }
 
+TEST_F(GeoTiff, PlacesAreThoseOfGdal) {
+  tiff.shorts(kGeoKeys, {1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32645});
+  tiff.doubles(kPixelScale, {10, 20, 0});
+  tiff.doubles(kTiepoint, {1, 2, 0, 500, 900, 0});
+  EXPECT_EQ(read().geotransform, (GeoTransform{490, 10, 0, 940, 0, -20}));
+  EXPECT_EQ(read().registration, TKS_REGISTRATION_AREA);
+  EXPECT_EQ(read().geo_keys, "");
+  tiff.shorts(kGeoKeys, {1, 1, 0, 2, 1024, 0, 1, 1, 1025, 0, 1, 2});
+  EXPECT_EQ(read().geotransform, (GeoTransform{485, 10, 0, 950, 0, -20}));
+  EXPECT_EQ(read().registration, TKS_REGISTRATION_POINT);
+  tiff.remove(kTiepoint);
+  EXPECT_FALSE(read().geotransform);
+  tiff.remove(kPixelScale);
+  tiff.doubles(kTransformation, {3, 8, 0, 500, 4, -6, 0, 900, 0, 0, 0, 0, 0, 0, 0, 1});
+  EXPECT_EQ(read().geotransform, (GeoTransform{494.5, 3, 8, 901, 4, -6}));
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300}) {
+    tiff.doubles(kTransformation, {3, 8, 0, bad, 4, -6, 0, 900, 0, 0, 0, 0, 0, 0, 0, 1});
+    EXPECT_FALSE(read().geotransform) << bad;
+  }
+}
+
+/// What crs and vertical_datum do not say is kept, and comes back from a file that is written.
+TEST_F(GeoTiff, KeysOfOtherMakersComeBack) {
+  tiff.shorts(kGeoKeys, {1,    1,           0,    6, 1024, 0,           1,    1,         1025, 0,
+                         1,    1,           3072, 0, 1,    32767,       3073, kGeoAscii, 10,   0,
+                         3077, kGeoDoubles, 1,    1, 5000, kGeoDoubles, 2,    0});
+  tiff.ascii(kGeoAscii, "my \"grid\"|");
+  tiff.doubles(kGeoDoubles, {7, 0.25});
+  tiff.doubles(kPixelScale, {10, 20, 0});
+  tiff.doubles(kTiepoint, {0, 0, 0, 500, 900, 0});
+  const HeightFile heights = read();
+  EXPECT_EQ(heights.crs, "my \"grid\"");
+  EXPECT_EQ(heights.geo_keys, "1024=1 3072=32767 3073=\"my \"\"grid\"\"\" 3077=0.25 5000=7.0,0.25");
+  ASSERT_TRUE(writeHeights(path("b.tif"), heights).ok());
+  const auto again = readHeights(path("b.tif"));
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(again->geo_keys, heights.geo_keys);
+  EXPECT_EQ(again->geotransform, heights.geotransform);
+  // Streams hold any text: what are no keys is left out.
+  for (const char* text : {"1024", "1024=", "1024=1 1024=2", "1024=1  3072=7", "1024=65536", "=1",
+                           "1024=-1", "3073=\"open", "3077=1.0,", "3077=nan", "99999=1", "\n"}) {
+    HeightFile hostile = heights;
+    hostile.geo_keys = text;
+    ASSERT_TRUE(writeHeights(path("b.tif"), hostile).ok()) << text;
+    EXPECT_EQ(readHeights(path("b.tif"))->crs, heights.crs) << text;
+  }
+}
+
 /// Tags that make no sense cost the information, not the heights.
 TEST_F(GeoTiff, BrokenTagsCountAsMissing) {
   const TinyTiff plain = tiff;

@@ -11,6 +11,8 @@
 #include "tools/commands/command.hpp"
 #include "tools/commands/output.hpp"
 #include "tools/commands/output_names.hpp"
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/plain_heights.hpp"
 #include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::tools {
@@ -55,6 +57,14 @@ tks_window texelsOver(const tks_window& samples, const tks_info& info) {
   const auto [x, width] = side(samples.x, samples.width, info.width, info.texture_width);
   const auto [y, height] = side(samples.y, samples.height, info.height, info.texture_height);
   return {x, y, width, height};
+}
+
+/// An .hgt holds no place but in its name.
+std::string hgtNote(const std::string& name, const HeightFile& heights) {
+  if (formatOf(name, "") != "hgt" || !heights.geotransform) return "";
+  const std::string tile = hgtName(heights);
+  if (tile.empty()) return "an .hgt file cannot say where these heights lie: a .tif can";
+  return name == tile ? "" : "an .hgt file says by its name where it lies: call this one " + tile;
 }
 
 /// Decodes into staged outputs; the caller commits them when all have succeeded.
@@ -105,6 +115,7 @@ class Decoding {
     const Result<HeightFile> heights =
         decodeHeights(decoder_, window(), heightCopies() + beside_bytes_);
     if (!heights.ok()) return heights.status();
+    tellNote(hgtNote(height_->name(), *heights), quiet_);
     return height_->stage([&](const std::string& path) { return writeHeights(path, *heights); });
   }
 

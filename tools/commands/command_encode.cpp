@@ -13,6 +13,7 @@
 #include "tools/commands/output.hpp"
 #include "tools/commands/progress.hpp"
 #include "tools/files/file_bytes.hpp"
+#include "tools/files/given_crs.hpp"
 #include "tools/files/memory_limit.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
@@ -37,8 +38,8 @@ Status describe(const EncodeArguments& arguments, HeightFile& heights) {
   heights.scale = arguments.scale.value_or(heights.scale);
   heights.offset = arguments.offset.value_or(heights.offset);
   if (arguments.unit) heights.unit = canonicalUnit(*arguments.unit);
-  heights.vertical_datum = arguments.vertical_datum.value_or(heights.vertical_datum);
-  heights.crs = arguments.crs.value_or(heights.crs);
+  if (arguments.crs) giveCrs(heights, *arguments.crs);
+  if (arguments.vertical_datum) giveVerticalDatum(heights, *arguments.vertical_datum);
   if (arguments.spacing.empty()) return Status();
   const Result<std::array<double, 2>> spacing = parseSpacing(arguments.spacing);
   if (!spacing.ok()) return spacing.status();
@@ -126,6 +127,17 @@ const char* textOrUnknown(const std::string& text) {
   return text.empty() ? nullptr : text.c_str();
 }
 
+/// Into the fields that heights and images have alike; `place` outlives them.
+template <class T>
+void setPlace(const Georeference& place, T& raster) {
+  raster.has_geotransform = place.geotransform.has_value();
+  if (place.geotransform)
+    std::copy(place.geotransform->begin(), place.geotransform->end(), raster.geotransform);
+  raster.registration = place.registration;
+  raster.crs = textOrUnknown(place.crs);
+  raster.geo_keys = textOrUnknown(place.geo_keys);
+}
+
 tks_heights view(const HeightFile& file, double step) {
   tks_heights heights = makeHeights();
   heights.width = file.width;
@@ -139,7 +151,8 @@ tks_heights view(const HeightFile& file, double step) {
   heights.spacing_y = file.spacing_y;
   heights.unit = textOrUnknown(file.unit);
   heights.vertical_datum = textOrUnknown(file.vertical_datum);
-  heights.crs = textOrUnknown(file.crs);
+  heights.description = textOrUnknown(file.description);
+  setPlace(file, heights);
   heights.has_nodata = file.nodata.has_value();
   heights.nodata = file.nodata.value_or(0);
   return heights;
@@ -152,6 +165,7 @@ tks_image view(const ImageFile& file) {
   image.channels = file.channels;
   image.sample = file.sample;
   image.data = file.data.data();
+  setPlace(file.place, image);
   return image;
 }
 

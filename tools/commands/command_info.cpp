@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "tools/commands/command.hpp"
 #include "tools/commands/json.hpp"
@@ -31,6 +32,15 @@ Json rounded(double value, const char* format) {
   return std::strtod(text, nullptr);
 }
 
+Json transformJson(bool known, const double* transform) {
+  return known ? Json(std::vector<double>(transform, transform + 6)) : Json();
+}
+
+Json registrationJson(tks_registration registration) {
+  if (registration == TKS_REGISTRATION_AREA) return "area";
+  return registration == TKS_REGISTRATION_POINT ? Json("point") : Json();
+}
+
 Json heightsJson(const tks_info& info) {
   if (!info.has_heights) return {};
   return {{"width", info.width},
@@ -41,6 +51,10 @@ Json heightsJson(const tks_info& info) {
           {"unit", textOrNull(info.unit)},
           {"vertical_datum", textOrNull(info.vertical_datum)},
           {"crs", textOrNull(info.crs)},
+          {"geo_keys", textOrNull(info.geo_keys)},
+          {"geotransform", transformJson(info.has_geotransform != 0, info.geotransform)},
+          {"registration", registrationJson(info.registration)},
+          {"description", textOrNull(info.description)},
           {"spacing_x", info.spacing_x > 0 ? Json(info.spacing_x) : Json()},
           {"spacing_y", info.spacing_y > 0 ? Json(info.spacing_y) : Json()},
           {"step", info.step},
@@ -65,6 +79,11 @@ Json textureJson(const tks_info& info) {
           {"sample", sampleName(info.texture_sample)},
           {"coding", kCodings.at(static_cast<size_t>(info.texture_drawn))},
           {"cutout", info.texture_cutout != 0},
+          {"crs", textOrNull(info.texture_crs)},
+          {"geo_keys", textOrNull(info.texture_geo_keys)},
+          {"geotransform",
+           transformJson(info.texture_has_geotransform != 0, info.texture_geotransform)},
+          {"registration", registrationJson(info.texture_registration)},
           {"regions", info.texture_regions > 0 ? Json(info.texture_regions) : Json()},
           {"psnr", rounded(info.texture_psnr, "%.2f")},
           {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};

@@ -2,52 +2,36 @@
 // What PROJ's database says of the units of coordinate reference systems.
 #include "tools/files/crs_units.hpp"
 
-#include <proj.h>
-
-#include <memory>
+#include <cmath>
+#include <numbers>
 #include <string_view>
+#include <utility>
 
+#include "tools/files/proj_objects.hpp"
 #include "tools/files/tiff.hpp"
 #include "tools/files/units.hpp"
 
 namespace tetrakis::tools {
 namespace {
 
-struct Release {
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-  void operator()(PJ* object) const { proj_destroy(object); }
-};
-using Context = std::unique_ptr<PJ_CONTEXT, Release>;
-using Object = std::unique_ptr<PJ, Release>;
-
-/// One that prints nothing.
-Context quietContext() {
-  Context context(proj_context_create());
-  if (context) proj_log_func(context.get(), nullptr, [](void*, int, const char*) {});
-  return context;
-}
-
-/// PROJ also takes names that are only similar; those say nothing about a unit.
-Object findCrs(PJ_CONTEXT* context, std::string text) {
-  constexpr std::string_view kEsri = "ESRI PE String = ";
-  if (text.starts_with(kEsri)) text.erase(0, kEsri.size());
-  Object crs(proj_create(context, text.c_str()));
-  const bool exact = text.starts_with("EPSG:") || text.find('[') != text.npos;
-  if (crs && !exact && text != proj_get_name(crs.get())) crs.reset();
+ProjObject partWith(PJ_CONTEXT* context, ProjObject crs, CrsAxis axis) {
+  if (axis == CrsAxis::kVertical) return verticalPart(context, std::move(crs));
+  crs = horizontalPart(context, std::move(crs));
+  if (crs && proj_get_type(crs.get()) != PJ_TYPE_PROJECTED_CRS) crs.reset();
   return crs;
 }
 
-/// The part of a compound or bound CRS that has this axis, or null.
-Object partWith(PJ_CONTEXT* context, Object crs, CrsAxis axis) {
-  if (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS) {
-    crs.reset(proj_get_source_crs(context, crs.get()));
+/// Of its first axis: metres or radians in one, and its name; nothing if there is none.
+std::optional<CrsUnit> axisUnit(PJ_CONTEXT* context, const PJ* crs) {
+  const ProjObject system(proj_crs_get_coordinate_system(context, crs));
+  CrsUnit unit;
+  const char* name = nullptr;
+  if (!system || !proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr,
+                                        &unit.metres, &name, nullptr, nullptr)) {
+    return std::nullopt;
   }
-  if (crs && proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS) {
-    crs.reset(proj_crs_get_sub_crs(context, crs.get(), axis == CrsAxis::kVertical ? 1 : 0));
-  }
-  const PJ_TYPE wanted = axis == CrsAxis::kVertical ? PJ_TYPE_VERTICAL_CRS : PJ_TYPE_PROJECTED_CRS;
-  if (crs && proj_get_type(crs.get()) != wanted) crs.reset();
-  return crs;
+  if (name) unit.name = name;
+  return unit;
 }
 
 CrsUnit named(const char* name, double metres) {
@@ -59,25 +43,32 @@ CrsUnit named(const char* name, double metres) {
 }  // namespace
 
 std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis) {
-  const Context context = quietContext();
+  const ProjContext context = quietContext();
   if (!context) return std::nullopt;
-  const Object part = partWith(context.get(), findCrs(context.get(), crs), axis);
+  const ProjObject part = partWith(context.get(), findCrs(context.get(), crs), axis);
   if (!part) return std::nullopt;
-  const Object system(proj_crs_get_coordinate_system(context.get(), part.get()));
-  double metres = 0;
-  const char* name = nullptr;
-  if (!system || !proj_cs_get_axis_info(context.get(), system.get(), 0, nullptr, nullptr, nullptr,
-                                        &metres, &name, nullptr, nullptr)) {
-    return std::nullopt;
-  }
-  return metres > 0 ? std::optional(named(name, metres)) : std::nullopt;
+  const auto unit = axisUnit(context.get(), part.get());
+  return unit && unit->metres > 0 ? std::optional(named(unit->name.c_str(), unit->metres))
+                                  : std::nullopt;
+}
+
+bool isInDegrees(const std::string& crs) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  const ProjContext context = quietContext();
+  if (!context) return false;
+  const ProjObject part = horizontalPart(context.get(), findCrs(context.get(), crs));
+  if (!part) return false;
+  const PJ_TYPE type = proj_get_type(part.get());
+  if (type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS) return false;
+  const auto unit = axisUnit(context.get(), part.get());
+  return unit && std::abs(unit->metres - kDegree) < 1e-9 * kDegree;
 }
 
 std::optional<CrsUnit> epsgUnit(uint16_t code) {
   for (const LengthUnit& known : kLengthUnits) {
     if (known.code == code) return CrsUnit{known.name, known.metres};
   }
-  const Context context = quietContext();
+  const ProjContext context = quietContext();
   const char* name = nullptr;
   const char* category = nullptr;
   double metres = 0;

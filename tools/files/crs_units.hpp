@@ -20,6 +20,10 @@ enum class CrsAxis { kHorizontal, kVertical };
 /// machine lacks PROJ's database.
 std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis);
 
+/// Whether the CRS is geographic, with degrees for its horizontal axes; not if PROJ does not know
+/// it.
+bool isInDegrees(const std::string& crs);
+
 /// A unit of length by its EPSG code; metres and feet are known without PROJ's database.
 std::optional<CrsUnit> epsgUnit(uint16_t code);
 

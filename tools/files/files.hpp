@@ -2,6 +2,7 @@
 // Heights, images and meshes on disk. Everything the command line reads or writes passes here.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,16 +21,34 @@ inline constexpr uint64_t kMaxSamples = uint64_t{1} << 32;
 /// (memory_limit.hpp): before anything is allocated, as a few bytes can declare any size.
 Status checkSize(const std::string& name, uint64_t samples, size_t sample_bytes);
 
+/// As GDAL has it: column c and row r, (0, 0) the outer corner of the first sample, lie at
+/// x = [0] + c [1] + r [2], y = [3] + c [4] + r [5], in units of the reference system.
+using GeoTransform = std::array<double, 6>;
+
+/// Whether a stream takes it: six numbers within +-2^512.
+bool isSound(const GeoTransform& transform);
+
+/// That of the part that begins at this column and row.
+GeoTransform movedTo(const GeoTransform& transform, uint32_t column, uint32_t row);
+
+/// Where a raster lies on Earth.
+struct Georeference {
+  std::optional<GeoTransform> geotransform;
+  tks_registration registration = TKS_REGISTRATION_UNKNOWN;
+  std::string crs;       ///< "EPSG:code", WKT or a name; "" when unknown
+  std::string geo_keys;  ///< what a GeoTIFF says beyond `crs` (geo_keys.hpp); "" if nothing
+};
+
 /// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host
 /// byte order. Height in `unit` = sample * scale + offset.
-struct HeightFile {
+struct HeightFile : Georeference {
   uint32_t width = 0, height = 0;
   tks_sample sample = TKS_U16;
   std::vector<std::byte> data;
   double scale = 1, offset = 0;
-  double spacing_x = 0, spacing_y = 0;    ///< metres per sample; 0: unknown
-  std::optional<double> nodata;           ///< the file's declared nodata value
-  std::string unit, vertical_datum, crs;  ///< "" when unknown
+  double spacing_x = 0, spacing_y = 0;            ///< metres per sample; 0: unknown
+  std::optional<double> nodata;                   ///< the file's declared nodata value
+  std::string unit, vertical_datum, description;  ///< "" when unknown
 };
 
 /// Something about a file that is read that its user should know.
@@ -44,6 +63,7 @@ struct ImageFile {
   uint32_t width = 0, height = 0, channels = 0;
   tks_sample sample = TKS_U8;
   std::vector<std::byte> data;
+  Georeference place{};
 };
 
 /// A mesh ready to be written: positions in metres, x east, y up, z south (glTF axes), texture
@@ -60,31 +80,35 @@ struct MeshFile {
 /// what else OpenImageIO reads as stored. "-" reads standard input. Samples come as stored, never
 /// rescaled; half floats, and doubles that are floats exactly, become floats. What GDAL takes for
 /// void is: floats that nearly meet the nodata value become that value, so do samples that a mask
-/// (a page, or "path.msk") leaves out. `nodata` replaces the value that the file declares. Spacing
-/// in degrees is turned into metres at the raster's centre. Fails with TKS_IO if the file cannot be
-/// read, TKS_USAGE if it does not hold heights (channels, sample type, size).
+/// (a page, or "path.msk") leaves out. `nodata` replaces the value that the file declares. The
+/// place is that of the TIFF's tags, of the tile that an .hgt is called after, or of a world file
+/// beside (world_file.hpp). Spacing in degrees is turned into metres at the raster's centre. Fails
+/// with TKS_IO if the file cannot be read, TKS_USAGE if it does not hold heights (channels, sample
+/// type, size).
 Result<HeightFile> readHeights(const std::string& path, const std::optional<double>& nodata = {},
                                Notes* notes = nullptr);
 
 /// Writes the same integer or float type, losslessly, in the format of the extension. .tif holds
-/// all types and the tags (but CRS: there is no position to go with it), .png u8 and u16, .exr u32
-/// and f32, .hgt a square of i16, .raw all types; fails with TKS_USAGE if the format cannot hold
-/// them. Writes to `path` directly: see Output for renaming and standard output. `format` overrides
-/// the extension ("tif", "png", "exr", "hgt", "raw").
+/// all types and the tags, .png u8 and u16, .exr u32 and f32, .hgt a square of i16, .raw all types;
+/// fails with TKS_USAGE if the format cannot hold them. Formats without tags get a world file
+/// beside if the place is known; an .hgt has its name alone. Writes to `path` directly: see Output
+/// for renaming and standard output. `format` overrides the extension ("tif", "png", "exr", "hgt",
+/// "raw").
 Status writeHeights(const std::string& path, const HeightFile& heights,
                     const std::string& format = "");
 
 /// Reads what OpenImageIO reads; "-" reads standard input. Integers of other depths are scaled to 8
 /// or 16 bits, palette and CMYK files are converted to RGB, an orientation tag is applied, and
 /// `note` then says so ("" otherwise). Float or signed images and more than 4 channels are refused
-/// with TKS_USAGE. Alpha is as stored; embedded colour profiles are kept out of the samples.
+/// with TKS_USAGE. Alpha is as stored; embedded colour profiles are kept out of the samples. The
+/// place is that of a TIFF's tags or of a world file beside, unless the picture had to be turned.
 Result<ImageFile> readImage(const std::string& path, std::string* note = nullptr);
 
 /// TKS_USAGE if OpenImageIO writes no format of this name, or one that cannot hold such an image.
 Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample);
 
 /// Writes what checkImageFormat lets pass. Exact but for .jpg (quality 95, 4:4:4), .webp, .gif and
-/// .heic.
+/// .heic. A known place goes into the tags of a TIFF, or into a world file beside.
 Status writeImage(const std::string& path, const ImageFile& image, const std::string& format = "");
 
 /// JPEG by libjpeg-turbo (4:4:4), for the texture inside a GLB. 8-bit grey or RGB; quality 1 to

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a height file's TIFF tags tell: grid spacing, nodata, unit, datum, CRS.
+// What TIFF tags tell: place, CRS, grid spacing, and of heights nodata, unit and datum.
 // Sources: OGC GeoTIFF 1.1 (19-008r4), sections 7.1 (keys), 7.3 (model); GDAL GTiff driver.
 #include <charconv>
 #include <cmath>
@@ -7,73 +7,81 @@
 #include <pugixml.hpp>
 #include <vector>
 
-#include "tools/files/earth.hpp"
-#include "tools/files/geo_keys.hpp"
+#include "tools/files/crs_keys.hpp"
+#include "tools/files/geo_tags.hpp"
 #include "tools/files/geo_units.hpp"
+#include "tools/files/ground_spacing.hpp"
 #include "tools/files/tiff.hpp"
 #include "tools/files/units.hpp"
 
 namespace tetrakis::tools {
 namespace {
 
-/// Size of one sample in the CRS's own units, and the vertical coordinate of the raster's centre.
-struct Grid {
-  double step_x = 0, step_y = 0;
-  double centre_y = std::numeric_limits<double>::quiet_NaN();
-};
-
-Grid readGrid(TIFF* tiff, const HeightFile& heights) {
-  Grid grid;
-  const double column = heights.width / 2.0, row = heights.height / 2.0;
-  const auto scale = tagValues<double>(tiff, kModelPixelScaleTag, TIFF_DOUBLE);
-  const auto tie = tagValues<double>(tiff, kModelTiepointTag, TIFF_DOUBLE);
-  const auto matrix = tagValues<double>(tiff, kModelTransformationTag, TIFF_DOUBLE);
-  if (scale.size() >= 2) {
-    grid.step_x = std::abs(scale[0]);
-    grid.step_y = std::abs(scale[1]);
-    if (tie.size() >= 6) grid.centre_y = tie[4] - (row - tie[1]) * scale[1];
-  } else if (matrix.size() >= 8) {  // row-major: x = m0 i + m1 j + m3, y = m4 i + m5 j + m7
-    grid.step_x = std::hypot(matrix[0], matrix[4]);
-    grid.step_y = std::hypot(matrix[1], matrix[5]);
-    grid.centre_y = matrix[4] * column + matrix[5] * row + matrix[7];
-  }
-  return grid;
+/// Where the model is neither projected nor geographic, Esri and GDAL write WKT here; "" if none.
+std::string wktIn(const GeoKeys& keys) {
+  constexpr std::string_view kEsri = "ESRI PE String = ";
+  const uint16_t model = keys.code(kGtModelTypeGeoKey);
+  const std::string text = keys.text(kProjectedCitationGeoKey);
+  if (model == kModelTypeProjected || model == kModelTypeGeographic || !text.starts_with(kEsri))
+    return "";
+  return text.substr(kEsri.size());
 }
 
-/// Metres per unit of the CRS along x and y; 0 when unknown.
-MetresPerDegree metresPerUnit(const GeoKeys& keys, const Grid& grid) {
+GridUnit gridUnitIn(const GeoKeys& keys) {
   const uint16_t model = keys.code(kGtModelTypeGeoKey);
   if (model == kModelTypeGeographic) {
     constexpr uint16_t kDegree = 9102;
     const uint16_t unit = keys.code(kGeogAngularUnitsGeoKey);
-    return unit == 0 || unit == kDegree ? metresPerDegree(grid.centre_y) : MetresPerDegree{};
+    return {unit == 0 || unit == kDegree, 0};
   }
-  if (model != kModelTypeProjected) return {};
-  const double metres = gridUnit(keys).value_or(0);
-  return {metres, metres};
+  if (model != kModelTypeProjected) return gridUnitOf(wktIn(keys));
+  return {false, gridUnit(keys).value_or(0)};
 }
 
-void setSpacing(HeightFile& heights, const GeoKeys& keys, const Grid& grid, Notes& notes) {
-  const MetresPerDegree metres = metresPerUnit(keys, grid);
+bool speaksOfPoints(const GeoKeys& keys) {
+  return keys.code(kGtRasterTypeGeoKey) == TKS_REGISTRATION_POINT;
+}
+
+void setSpacing(HeightFile& heights, const GeoKeys& keys,
+                const std::optional<GeoTransform>& transform, Notes& notes) {
+  if (!transform) return;
+  const GridUnit unit = gridUnitIn(keys);
   const bool projected = keys.code(kGtModelTypeGeoKey) == kModelTypeProjected;
-  if (projected && grid.step_x > 0 && metres.east == 0) {
+  if (projected && unit.metres == 0) {
     notes.push_back(
         {"the unit of the grid is not stated, so its spacing is unknown: give --spacing",
          "--spacing"});
   }
-  const double x = grid.step_x * metres.east, y = grid.step_y * metres.north;
-  if (!std::isfinite(x) || !std::isfinite(y) || x <= 0 || y <= 0) return;
-  heights.spacing_x = x;
-  heights.spacing_y = y;
+  const auto spacing = groundSpacing(*transform, heights.width, heights.height, unit);
+  if (!spacing) return;
+  heights.spacing_x = (*spacing)[0];
+  heights.spacing_y = (*spacing)[1];
 }
 
-void setReferences(HeightFile& heights, const GeoKeys& keys) {
+void setPlace(Georeference& place, const GeoKeys& keys,
+              const std::optional<GeoTransform>& transform) {
+  if (transform && isSound(*transform)) place.geotransform = transform;
+  const uint16_t type = keys.code(kGtRasterTypeGeoKey);
+  if (type == TKS_REGISTRATION_AREA || type == TKS_REGISTRATION_POINT)
+    place.registration = static_cast<tks_registration>(type);
   const bool projected = keys.code(kGtModelTypeGeoKey) == kModelTypeProjected;
-  heights.crs = keys.epsg(projected ? kProjectedCrsGeoKey : kGeodeticCrsGeoKey);
-  if (heights.crs.empty()) {
-    heights.crs = keys.firstText(
+  place.crs = wktIn(keys);
+  if (place.crs.empty())
+    place.crs = keys.epsg(projected ? kProjectedCrsGeoKey : kGeodeticCrsGeoKey);
+  if (place.crs.empty()) {
+    place.crs = keys.firstText(
         {projected ? kProjectedCitationGeoKey : kGeodeticCitationGeoKey, kGtCitationGeoKey});
   }
+}
+
+/// Keys that writing would not make of the rest are kept.
+template <class Raster>
+void keepKeys(Raster& raster, GeoKeys keys) {
+  keys.remove(kGtRasterTypeGeoKey);
+  if (!keys.empty() && !keysOf(raster).contain(keys)) raster.geo_keys = textOf(keys);
+}
+
+void setVerticalDatum(HeightFile& heights, const GeoKeys& keys) {
   heights.vertical_datum = keys.epsg(kVerticalGeoKey);
   if (heights.vertical_datum.empty()) heights.vertical_datum = keys.text(kVerticalCitationGeoKey);
 }
@@ -99,7 +107,7 @@ std::optional<double> number(std::string_view text) {
   return end.ec == std::errc() ? std::optional(value) : std::nullopt;
 }
 
-/// <GDALMetadata><Item sample="0" role="scale|offset|unittype">value</Item></GDALMetadata>
+/// <GDALMetadata><Item sample="0" role="ROLE">value</Item></GDALMetadata>
 void setGdalMetadata(HeightFile& heights, const std::string& xml) {
   pugi::xml_document document;
   if (!document.load_string(xml.c_str())) return;
@@ -111,6 +119,7 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml) {
     if (role == "scale" && std::isfinite(value) && value != 0) heights.scale = value;
     if (role == "offset" && std::isfinite(value)) heights.offset = value;
     if (role == "unittype") heights.unit = canonicalUnit(text);
+    if (role == "description") heights.description = text;
   }
 }
 
@@ -119,13 +128,27 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml) {
 Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
   const auto file = TiffFile::open(path, "r");
   if (!file.ok()) return file.status();
-  const GeoKeys keys = readGeoKeys(file->get());
-  setSpacing(heights, keys, readGrid(file->get(), heights), notes);
-  setReferences(heights, keys);
-  setGdalMetadata(heights, tagText(file->get(), kGdalMetadataTag));
+  TIFF* const tiff = file->get();
+  const GeoKeys keys = readGeoKeys(tiff);
+  const auto transform = readTransform(tiff, speaksOfPoints(keys));
+  setSpacing(heights, keys, transform, notes);
+  setPlace(heights, keys, transform);
+  setVerticalDatum(heights, keys);
+  setGdalMetadata(heights, tagText(tiff, kGdalMetadataTag));
   setUnit(heights, keys, notes);
-  heights.nodata = number(tagText(file->get(), kGdalNodataTag));
+  keepKeys(heights, keys);
+  heights.nodata = number(tagText(tiff, kGdalNodataTag));
   return {};
+}
+
+Result<Georeference> readGeoreference(const std::string& path) {
+  const auto file = TiffFile::open(path, "r");
+  if (!file.ok()) return file.status();
+  const GeoKeys keys = readGeoKeys(file->get());
+  Georeference place;
+  setPlace(place, keys, readTransform(file->get(), speaksOfPoints(keys)));
+  keepKeys(place, keys);
+  return place;
 }
 
 }  // namespace tetrakis::tools

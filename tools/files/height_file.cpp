@@ -15,6 +15,7 @@
 #include "tools/files/raster.hpp"
 #include "tools/files/tiff.hpp"
 #include "tools/files/void_samples.hpp"
+#include "tools/files/world_file.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -146,6 +147,16 @@ Result<Reading> readAnyHeights(const std::string& path, const std::optional<doub
   return readRasterHeights(path, nodata, notes);
 }
 
+/// Tags go before a world file beside.
+Status findPlace(const std::string& path, HeightFile& heights) {
+  if (heights.geotransform) return {};
+  const auto raw = parseRawName(path);
+  const auto transform = readWorldFile(raw ? raw->path : path);
+  if (!transform.ok()) return transform.status();
+  heights.geotransform = *transform;
+  return {};
+}
+
 /// A mask beside the file goes before the one in it, as GDAL has it.
 Status settleVoids(const std::string& path, Reading& reading, Notes& notes) {
   HeightFile& heights = reading.heights;
@@ -196,6 +207,7 @@ Result<HeightFile> readHeights(const std::string& path, const std::optional<doub
   auto reading = readAnyHeights(path, nodata, told);
   if (!reading.ok()) return reading.status();
   if (nodata) reading->heights.nodata = nodata;
+  if (Status place = findPlace(path, reading->heights); !place.ok()) return place;
   const Status settled = settleVoids(path, *reading, told);
   if (!settled.ok()) return settled;
   return std::move(reading->heights);
@@ -206,12 +218,14 @@ Status writeHeights(const std::string& path, const HeightFile& heights, const st
   if (!shape.ok()) return shape;
   const std::string name = formatOf(path, format);
   if (name == "tif" || name == "tiff") return writeGeoTiff(path, heights);
-  if (name == "png") return writePng(path, heights);
-  if (name == "exr") return writeExr(path, heights);
   if (name == "hgt") return writeHgt(path, heights);
-  if (name == "raw") return writeRaw(path, heights);
-  return {TKS_USAGE, "cannot tell the format of " + quoted(path) +
-                         ": end the name in .tif, .png, .exr, .hgt or .raw"};
+  Status written(TKS_USAGE, "cannot tell the format of " + quoted(path) +
+                                ": end the name in .tif, .png, .exr, .hgt or .raw");
+  if (name == "png") written = writePng(path, heights);
+  if (name == "exr") written = writeExr(path, heights);
+  if (name == "raw") written = writeRaw(path, heights);
+  return written.ok() && heights.geotransform ? writeWorldFile(path, *heights.geotransform)
+                                              : written;
 }
 
 }  // namespace tetrakis::tools

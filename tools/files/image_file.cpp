@@ -7,6 +7,8 @@
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"
 #include "tools/files/raster.hpp"
+#include "tools/files/tiff.hpp"
+#include "tools/files/world_file.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -68,6 +70,20 @@ ImageFile turnedUpright(const ImageFile& stored, int orientation) {
   return upright;
 }
 
+/// Of the pixels as they are stored. Tags go before a world file beside.
+Result<Georeference> placeOf(const Raster& raster, const std::string& path) {
+  Georeference place;
+  if (raster.is_tiff()) {
+    auto tags = readGeoreference(raster.file.path());
+    if (!tags.ok() || tags->geotransform) return tags;
+    place = std::move(*tags);
+  }
+  const auto transform = readWorldFile(path);
+  if (!transform.ok()) return transform.status();
+  place.geotransform = *transform;
+  return place;
+}
+
 }  // namespace
 
 Result<ImageFile> readImage(const std::string& path, std::string* note) {
@@ -92,6 +108,9 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
   if (note) *note = noteOn(*raster);
   if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
+  auto place = placeOf(*raster, path);
+  if (!place.ok()) return place.status();
+  image.place = std::move(*place);
   return image;
 }
 

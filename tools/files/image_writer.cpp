@@ -7,6 +7,8 @@
 #include "tools/files/files.hpp"
 #include "tools/files/png.hpp"
 #include "tools/files/raster.hpp"
+#include "tools/files/tiff.hpp"
+#include "tools/files/world_file.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -104,6 +106,18 @@ Status writeOther(const std::string& path, const ImageFile& image, const Format&
                       ": it does not come back as it was; write a .png instead"};
 }
 
+Status writePixels(const std::string& path, const ImageFile& image, const Format& format) {
+  const std::string_view kind = format.name;
+  if (kind != "png" && kind != "jpeg" && kind != "tiff") return writeOther(path, image, format);
+  OIIO::ImageSpec spec = specOf(image);
+  spec["compression"] = "zip";
+  const Result<std::vector<std::byte>> bytes = kind == "png" ? encodePng(image)
+                                               : kind == "jpeg"
+                                                   ? encodeJpeg(image, kQuality)
+                                                   : encodeRaster("tif", spec, image.data);
+  return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
+}
+
 }  // namespace
 
 Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample) {
@@ -127,15 +141,9 @@ Status writeImage(const std::string& path, const ImageFile& image, const std::st
       !status.ok())
     return status;
   const Format& chosen = *formatNamed(name);
-  const std::string_view kind = chosen.name;
-  if (kind != "png" && kind != "jpeg" && kind != "tiff") return writeOther(path, image, chosen);
-  OIIO::ImageSpec spec = specOf(image);
-  spec["compression"] = "zip";
-  const Result<std::vector<std::byte>> bytes = kind == "png" ? encodePng(image)
-                                               : kind == "jpeg"
-                                                   ? encodeJpeg(image, kQuality)
-                                                   : encodeRaster("tif", spec, image.data);
-  return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
+  if (Status status = writePixels(path, image, chosen); !status.ok()) return status;
+  if (chosen.name == std::string_view("tiff")) return addGeoreference(path, image.place);
+  return image.place.geotransform ? writeWorldFile(path, *image.place.geotransform) : Status();
 }
 
 }  // namespace tetrakis::tools

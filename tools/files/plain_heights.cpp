@@ -4,14 +4,16 @@
 // named after its south-western corner (USGS, SRTM Topography, 2015).
 #include "tools/files/plain_heights.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <regex>
 
-#include "tools/files/earth.hpp"
 #include "tools/files/file_bytes.hpp"
+#include "tools/files/ground_spacing.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -30,14 +32,29 @@ constexpr std::array<NamedSample, 7> kSampleNames{{{"u8", TKS_U8},
                                                    {"i32", TKS_I32},
                                                    {"f32", TKS_F32}}};
 
-/// Degrees north of the centre of a tile called like "N46W122.hgt"; nothing for other names.
-std::optional<double> hgtLatitude(const std::string& path) {
-  static const std::regex pattern("([NS])([0-9]{2})[EW][0-9]{3}.*", std::regex::icase);
+/// A corner in whole degrees.
+struct Corner {
+  int north, east;
+};
+
+/// South-western corner of a tile called like "N46W122.hgt"; nothing for other names.
+std::optional<Corner> hgtCorner(const std::string& path) {
+  static const std::regex pattern("([NS])([0-9]{2})([EW])([0-9]{3})([^0-9].*)?", std::regex::icase);
   std::smatch match;
   const std::string name = std::filesystem::path(path).filename().string();
   if (!std::regex_match(name, match, pattern)) return {};
-  const double south = std::stod(match[2]);
-  return (std::toupper(match.str(1)[0]) == 'S' ? -south : south) + 0.5;
+  Corner corner{std::stoi(match[2]), std::stoi(match[4])};
+  if (std::toupper(match.str(1)[0]) == 'S') corner.north = -corner.north;
+  if (std::toupper(match.str(3)[0]) == 'W') corner.east = -corner.east;
+  const bool on_earth =
+      corner.north >= -90 && corner.north < 90 && corner.east >= -180 && corner.east < 180;
+  return on_earth ? std::optional(corner) : std::nullopt;
+}
+
+/// The first sample lies on the north-western corner, the last on the south-eastern one.
+GeoTransform tileAt(const Corner& corner, uint32_t side) {
+  const double step = 1.0 / (side - 1);
+  return {corner.east - 0.5 * step, step, 0, corner.north + 1 + 0.5 * step, 0, -step};
 }
 
 }  // namespace
@@ -103,12 +120,31 @@ Result<HeightFile> readHgt(const std::string& path) {
   heights.unit = "m";
   heights.vertical_datum = "EGM96";
   heights.crs = "EPSG:4326";
-  if (const auto latitude = hgtLatitude(path)) {
-    const MetresPerDegree metres = metresPerDegree(*latitude);
-    heights.spacing_x = metres.east / (side - 1);
-    heights.spacing_y = metres.north / (side - 1);
+  heights.registration = TKS_REGISTRATION_POINT;
+  const auto corner = hgtCorner(path);
+  if (!corner) return heights;
+  heights.geotransform = tileAt(*corner, side);
+  if (const auto spacing = groundSpacing(*heights.geotransform, side, side, {true, 0})) {
+    heights.spacing_x = (*spacing)[0];
+    heights.spacing_y = (*spacing)[1];
   }
   return heights;
+}
+
+std::string hgtName(const HeightFile& heights) {
+  if (!heights.geotransform || heights.width < 2 || heights.width != heights.height) return "";
+  const GeoTransform& t = *heights.geotransform;
+  const Corner corner{static_cast<int>(std::lround(std::clamp(t[3] - 1, -90.0, 90.0))),
+                      static_cast<int>(std::lround(std::clamp(t[0], -180.0, 180.0)))};
+  const GeoTransform tile = tileAt(corner, heights.width);
+  const double tolerance = 1e-3 * tile[1];
+  for (size_t i = 0; i < tile.size(); ++i)
+    if (!(std::abs(t[i] - tile[i]) <= (i % 3 == 0 ? tolerance : tolerance / heights.width)))
+      return "";
+  std::array<char, 40> name{};
+  std::snprintf(name.data(), name.size(), "%c%02d%c%03d.hgt", corner.north < 0 ? 'S' : 'N',
+                std::abs(corner.north), corner.east < 0 ? 'W' : 'E', std::abs(corner.east));
+  return name.data();
 }
 
 Status writeHgt(const std::string& path, const HeightFile& heights) {

@@ -23,6 +23,9 @@ std::optional<RawName> parseRawName(const std::string& text);
 Result<HeightFile> readRaw(const RawName& name);
 Status writeRaw(const std::string& path, const HeightFile& heights);
 
+/// What a tile that lies there is called ("N46W122.hgt"); "" if they are no tile of one degree.
+std::string hgtName(const HeightFile& heights);
+
 Result<HeightFile> readHgt(const std::string& path);
 Status writeHgt(const std::string& path, const HeightFile& heights);
 

@@ -2,6 +2,7 @@
 // Streams (.tks) as the verbs read them, and what they decode to as files hold it.
 #include "tools/files/stream.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "tools/files/file_bytes.hpp"
@@ -14,6 +15,13 @@ Status checkWhole(std::span<const uint8_t> bytes) {
   Result<Decoder> decoder = openDecoder(bytes);
   if (!decoder) return decoder.status();
   return decoder->verify();
+}
+
+/// given: six numbers of tks_info; window: what is decoded of the raster.
+std::optional<GeoTransform> placedAt(const double* given, const std::optional<tks_window>& window) {
+  GeoTransform transform;
+  std::copy_n(given, transform.size(), transform.begin());
+  return window ? movedTo(transform, window->x, window->y) : transform;
 }
 
 }  // namespace
@@ -73,6 +81,10 @@ Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_windo
   file.unit = info.unit;
   file.vertical_datum = info.vertical_datum;
   file.crs = info.crs;
+  file.description = info.description;
+  file.registration = info.registration;
+  file.geo_keys = info.geo_keys;
+  if (info.has_geotransform) file.geotransform = placedAt(info.geotransform, window);
   if (info.has_nodata) {
     file.nodata = info.nodata;
   } else if (info.has_voids) {
@@ -96,6 +108,11 @@ Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>&
   file.channels = info.texture_channels;
   file.sample = info.texture_sample;
   file.data = std::move(*texels);
+  file.place.registration = info.texture_registration;
+  file.place.crs = info.texture_crs;
+  file.place.geo_keys = info.texture_geo_keys;
+  if (info.texture_has_geotransform)
+    file.place.geotransform = placedAt(info.texture_geotransform, window);
   return file;
 }
 

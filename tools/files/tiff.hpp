@@ -31,12 +31,15 @@ enum GeoKey : uint16_t {
   kGeodeticCrsGeoKey = 2048,
   kGeodeticCitationGeoKey = 2049,
   kGeogAngularUnitsGeoKey = 2054,
+  kGeogSemiMajorAxisGeoKey = 2057,
+  kGeogInvFlatteningGeoKey = 2059,
   kProjectedCrsGeoKey = 3072,
   kProjectedCitationGeoKey = 3073,
   kProjLinearUnitsGeoKey = 3076,
   kProjLinearUnitSizeGeoKey = 3077,
   kVerticalGeoKey = 4096,
   kVerticalCitationGeoKey = 4097,
+  kVerticalDatumGeoKey = 4098,
   kVerticalUnitsGeoKey = 4099,
 };
 inline constexpr uint16_t kModelTypeProjected = 1, kModelTypeGeographic = 2;
@@ -83,13 +86,19 @@ std::pair<uint32_t, uint32_t> sizeOfPage(TIFF* tiff);
 /// Whether the current directory masks a page of this size.
 bool isMaskPage(TIFF* tiff, uint32_t width, uint32_t height);
 
-/// Fills scale, offset, spacing, nodata, unit, datum and CRS of heights whose size and sample type
-/// are known, as far as the tags tell; the nodata value as it is written, whatever the samples.
-/// Tags that make no sense count as missing.
+/// Fills place, scale, offset, spacing, nodata, unit, datum and description of heights whose size
+/// and sample type are known, as far as the tags tell; the nodata value as it is written, whatever
+/// the samples. Tags that make no sense count as missing.
 Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes);
 
-/// Deflated TIFF with the tags that readGeoTags reads. HeightFile knows no place on Earth, so a
-/// known spacing becomes a local grid in metres, without CRS.
+/// Only the place, of any picture.
+Result<Georeference> readGeoreference(const std::string& path);
+
+/// Deflated TIFF with the tags that readGeoTags reads. A spacing without a place becomes a local
+/// grid in metres, in no CRS.
 Status writeGeoTiff(const std::string& path, const HeightFile& heights);
+
+/// Adds the tags of the place to a TIFF.
+Status addGeoreference(const std::string& path, const Georeference& place);
 
 }  // namespace tetrakis::tools

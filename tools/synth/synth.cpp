@@ -22,17 +22,13 @@ void put(const T& value, std::byte*& out) {
 
 HeightFile heightsOf(const synth::Relief& relief, const synth::Storage& storage, uint32_t size) {
   const bool whole = storage.sample == TKS_U16, holes = storage.voids.size() > 0;
-  HeightFile file{.width = size,
-                  .height = size,
-                  .sample = storage.sample,
-                  .data = {},
-                  .scale = storage.step,
-                  .spacing_x = relief.spacing,
-                  .spacing_y = relief.spacing,
-                  .nodata = std::nullopt,
-                  .unit = "m",
-                  .vertical_datum = "unknown",
-                  .crs = ""};
+  HeightFile file;
+  file.width = file.height = size;
+  file.sample = storage.sample;
+  file.scale = storage.step;
+  file.spacing_x = file.spacing_y = relief.spacing;
+  file.unit = std::string("m");
+  file.vertical_datum = std::string("unknown");
   if (holes) file.nodata = kNoData;
   file.data.resize((whole ? sizeof(uint16_t) : sizeof(float)) * size * size);
   std::byte* out = file.data.data();

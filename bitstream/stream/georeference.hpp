@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where heights and texture lie (docs/FORMAT.md, section 2, Georeference): a part of the header
+// that decoding does not depend on, in as few bytes as a north-up grid needs.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "base/status.hpp"
+
+namespace tetrakis {
+
+/// Column c and row r, (0, 0) the outer corner of the first sample, are at x = [0] + c [1] + r [2],
+/// y = [3] + c [4] + r [5]: the order of GDAL.
+using GeoTransform = std::array<double, 6>;
+
+/// How a geotransform is written: what follows from other fields is not.
+enum class TransformForm : uint8_t {
+  kNone = 0,
+  kSpacing = 1,  ///< north-up, samples as large as the metadata's spacing
+  kSquare = 2,   ///< north-up, one size
+  kNorthUp = 3,  ///< two sizes
+  kAny = 4,
+  kHeights = 5  ///< of a texture: over the same ground as the heights, from corner to corner
+};
+
+/// What a geotransform may follow from.
+struct TransformBasis {
+  GeoTransform spacing{};  ///< sizes of north-up samples, without an origin
+  GeoTransform heights{};  ///< that of a texture over the ground of the heights
+  bool has_heights = false;
+};
+
+/// That of north-up samples of this size, at 0.
+GeoTransform northUp(double size_x, double size_y);
+
+/// That of samples so many times as large over the same ground.
+GeoTransform stretched(const GeoTransform& transform, double columns, double rows);
+
+/// The least form that gives the transform back bit for bit.
+TransformForm formOf(const GeoTransform& transform, const TransformBasis& basis);
+
+/// Below that in magnitude every sum over a raster is finite.
+bool isSound(const GeoTransform& transform);
+
+/// That of the raster of every 2^level-th column and row, whose samples lie where they lay.
+GeoTransform atLevel(const GeoTransform& transform, int level);
+
+struct Placement {
+  bool has_transform = false;
+  GeoTransform transform{};
+  uint8_t registration = 0;  ///< tks_registration
+  std::string geo_keys;
+
+  bool operator==(const Placement&) const = default;
+
+  template <class V>
+  void visit(V& v, const TransformBasis& basis) {
+    TransformForm form = has_transform ? formOf(transform, basis) : TransformForm::kNone;
+    v.u8("transform", form, 0, basis.has_heights ? 5 : 4);
+    has_transform = form != TransformForm::kNone;
+    if (has_transform) visitTransform(v, form, basis);
+    v.u8("registration", registration, 0, 2);
+    v.text("geo_keys", geo_keys);
+  }
+
+ private:
+  template <class V>
+  void visitTransform(V& v, TransformForm form, const TransformBasis& basis) {
+    if (form == TransformForm::kHeights) {
+      transform = basis.heights;
+      return;
+    }
+    v.f64("origin_x", transform[0]);
+    v.f64("origin_y", transform[3]);
+    if (form == TransformForm::kSpacing) {
+      transform[1] = basis.spacing[1];
+      transform[5] = basis.spacing[5];
+      return;
+    }
+    v.f64("column_x", transform[1]);
+    if (form == TransformForm::kSquare) {
+      transform[5] = -transform[1];
+      return;
+    }
+    v.f64("row_y", transform[5]);
+    if (form == TransformForm::kNorthUp) return;
+    v.f64("row_x", transform[2]);
+    v.f64("column_y", transform[4]);
+  }
+};
+
+/// Of both components.
+struct Georeference {
+  Placement heights;
+  std::string description;  ///< of the heights
+  uint8_t nan_nodata = 0;   ///< NaN is declared as the value of void heights
+  Placement texture;
+  std::string texture_crs;  ///< "" beside no geo_keys: that of the heights
+
+  bool isDefault() const { return *this == Georeference{}; }
+  bool operator==(const Georeference&) const = default;
+
+  /// Whether the texture has a reference system of its own, be it none.
+  bool hasTextureCrs() const { return !texture_crs.empty() || !texture.geo_keys.empty(); }
+
+  template <class V>
+  void visitHeights(V& v, const TransformBasis& basis) {
+    heights.visit(v, basis);
+    v.text("description", description);
+    v.u8("nan_nodata", nan_nodata, 0, 1);
+  }
+  template <class V>
+  void visitTexture(V& v, const TransformBasis& basis) {
+    texture.visit(v, basis);
+    v.text("texture_crs", texture_crs);
+  }
+};
+
+}  // namespace tetrakis

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where rasters lie, without tags: .hgt tiles by their names, world files beside pictures.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class CliPlace : public CliTest {
+ protected:
+  std::optional<tools::GeoTransform> placeOf(const std::string& stream, const char* part) {
+    const Json json = Json::parse(cli("info --json " + stream).out)[part]["geotransform"];
+    if (json.is_null()) return std::nullopt;
+    return json.get<tools::GeoTransform>();
+  }
+  Json gdalinfo(const std::string& name) {
+    return Json::parse(shell("gdalinfo -json " + name).out, nullptr, false);
+  }
+  /// A square of 16-bit samples.
+  void writeTile(const std::string& name, uint32_t side) {
+    tools::HeightFile file;
+    file.width = file.height = side;
+    file.sample = TKS_I16;
+    for (uint32_t i = 0; i < side * side; ++i) appendSample(file, static_cast<uint16_t>(i / side));
+    ASSERT_TRUE(tools::writeHeights(path(name), file).ok());
+  }
+};
+
+TEST_F(CliPlace, TilesLieWhereTheirNamesSay) {
+  struct Tile {
+    const char* name;
+    int north, east;
+  };
+  for (const auto& [name, north, east] :
+       {Tile{"N46E007.hgt", 46, 7}, Tile{"n46w122.hgt", 46, -122}, Tile{"S34E018.hgt", -34, 18},
+        Tile{"S01W071.hgt", -1, -71}, Tile{"N00E000.SRTMGL1.hgt", 0, 0}}) {
+    SCOPED_TRACE(name);
+    writeTile(name, 11);
+    ASSERT_EQ(cli("-q encode " + std::string(name) + " --lossless -f -o s.tks").code, 0);
+    const tools::GeoTransform wanted{east - 0.05, 0.1, 0, north + 1.05, 0, -0.1};
+    const auto place = placeOf("s.tks", "heights");
+    ASSERT_TRUE(place);
+    for (size_t i = 0; i < 6; ++i) EXPECT_NEAR((*place)[i], wanted[i], 1e-12) << i;
+    const Json info = Json::parse(cli("info --json s.tks").out)["heights"];
+    EXPECT_EQ(info["registration"], "point");
+    EXPECT_EQ(info["crs"], "EPSG:4326");
+    // A tenth of a degree of the meridian, by the usual series for WGS 84.
+    const double latitude = (north + 0.5) * 3.14159265358979 / 180;
+    EXPECT_NEAR(
+        info["spacing_y"],
+        0.1 * (111132.92 - 559.82 * std::cos(2 * latitude) + 1.175 * std::cos(4 * latitude)), 0.01);
+    std::string tile = std::string(name).substr(0, 7);
+    for (char& c : tile) c = static_cast<char>(std::toupper(c));
+    const Outcome other = cli("decode s.tks -f --height other.hgt");
+    EXPECT_EQ(other.code, 0);
+    EXPECT_NE(other.err.find("call this one " + tile), std::string::npos) << other.err;
+  }
+  for (const char* name : {"N46E0071.hgt", "tile.hgt", "N91E007.hgt", "S34E180.hgt"}) {
+    writeTile(name, 11);
+    ASSERT_EQ(cli("-q encode " + std::string(name) + " --lossless -f -o s.tks").code, 0) << name;
+    EXPECT_FALSE(placeOf("s.tks", "heights")) << name;
+  }
+}
+
+TEST_F(CliPlace, TilesLieWhereGdalReadsThem) {
+  writeTile("S34W071.hgt", 1201);
+  ASSERT_EQ(cli("-q encode S34W071.hgt --bytes 4k -o s.tks").code, 0);
+  ASSERT_EQ(cli("decode s.tks --height o.tif").code, 0);
+  const Json tile = gdalinfo("S34W071.hgt"), written = gdalinfo("o.tif");
+  EXPECT_EQ(written["geoTransform"], tile["geoTransform"]);
+  EXPECT_EQ(written["metadata"][""]["AREA_OR_POINT"], "Point");
+  ASSERT_EQ(cli("decode s.tks --height back/S34W071.hgt").code, 2);
+  std::filesystem::create_directory(folder() / "back");
+  const Outcome back = cli("decode s.tks --height back/S34W071.hgt");
+  EXPECT_EQ(back.err, "");
+  EXPECT_EQ(gdalinfo("back/S34W071.hgt")["geoTransform"], tile["geoTransform"]);
+  EXPECT_NE(cli("decode s.tks --window 0,0,100,100 --height p.hgt").err.find("a .tif can"),
+            std::string::npos);
+}
+
+TEST_F(CliPlace, WorldFilesAreReadAndWritten) {
+  const std::string world = "10.5\n0\n0\n-10.25\n400005.25\n5300034.875\n";
+  const tools::GeoTransform wanted{400000, 10.5, 0, 5300040, 0, -10.25};
+  ASSERT_EQ(cli("synth --size 17 -o s").code, 0);
+  for (const char* name : {"h.pgw", "h.PGW", "h.pngw", "h.wld"}) {
+    std::filesystem::remove(path("h.png"));
+    ASSERT_EQ(cli("-q encode s/height.tif --lossless -f -o p.tks").code, 0);
+    ASSERT_EQ(cli("decode p.tks -f --height h.png").code, 0);
+    std::filesystem::remove(path("h.pgw"));
+    write(name, world);
+    ASSERT_EQ(cli("-q encode h.png --crs EPSG:2227 --lossless -f -o s.tks").code, 0);
+    std::filesystem::remove(path(name));
+    EXPECT_EQ(placeOf("s.tks", "heights"), wanted) << name;
+    const Json info = Json::parse(cli("info --json s.tks").out)["heights"];
+    EXPECT_DOUBLE_EQ(info["spacing_x"], 10.5 * 1200 / 3937) << "survey feet";
+  }
+  ASSERT_EQ(cli("decode s.tks --height o.png").code, 0);
+  EXPECT_EQ(content("o.pgw"), world);
+  EXPECT_EQ(gdalinfo("o.png")["geoTransform"], Json(wanted));
+  EXPECT_EQ(cli("decode s.tks --height o.png").code, 2) << "both exist";
+  ASSERT_EQ(cli("decode s.tks --window 2,3,4,5 --height w.raw").code, 0);
+  EXPECT_EQ(content("w.rww"), "10.5\n0\n0\n-10.25\n400026.25\n5300004.125\n");
+}
+
+TEST_F(CliPlace, WorldFilesPlaceTexturesOfAllFormats) {
+  const tools::GeoTransform wanted{100, 2, 0.5, 900, 0.25, -2};
+  for (const auto& [name, side] :
+       {std::pair("t.png", "t.pgw"), {"t.jpg", "t.jgw"}, {"t.tif", "t.tfw"}, {"t.bmp", "t.bpw"}}) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(tools::writeImage(path(name), photo(20)).ok());
+    write(side, "2\r\n0.25\r\n0.5\r\n-2\r\n101.25\r\n899.125\r\n");
+    ASSERT_EQ(cli(std::string("-q encode --bytes 1k -f -o s.tks --texture ") + name).code, 0);
+    EXPECT_EQ(placeOf("s.tks", "texture"), wanted);
+    ASSERT_EQ(cli(std::string("decode s.tks -f --texture o-") + name).code, 0);
+    EXPECT_EQ(gdalinfo(std::string("o-") + name)["geoTransform"], Json(wanted));
+  }
+}
+
+TEST_F(CliPlace, DegreesOfAWorldFileBecomeMetres) {
+  ASSERT_TRUE(tools::writeHeights(path("h.png"), hills(9)).ok());
+  write("h.pgw", "0.01\n0\n0\n-0.02\n7.005\n60.08\n");
+  ASSERT_EQ(cli("-q encode h.png --crs EPSG:4326 --lossless -o s.tks").code, 0);
+  const Json info = Json::parse(cli("info --json s.tks").out)["heights"];
+  EXPECT_NEAR(info["spacing_x"], 0.01 * 55800.0, 0.01);
+  EXPECT_NEAR(info["spacing_y"], 0.02 * 111412.2, 0.01);
+}
+
+TEST_F(CliPlace, BrokenWorldFilesAreRefusedWithOneSentence) {
+  ASSERT_TRUE(tools::writeHeights(path("h.png"), hills(9)).ok());
+  for (const char* text : {"", "1 2 3 4 5", "1 2 3 4 5 6 7", "1 0 0 -1 nan 0", "1 0 0 -1 1e300 0",
+                           "1 0 0 -1 5,5 0", "a map"}) {
+    write("h.pgw", text);
+    const Outcome run = cli("encode h.png --lossless -f -o s.tks");
+    EXPECT_EQ(run.code, 2) << text;
+    EXPECT_NE(run.err.find("a world file holds six numbers"), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Metres between the samples of a placed raster: the one place that turns degrees and feet of a
+// grid into metres.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+/// Of the coordinates of a grid.
+struct GridUnit {
+  bool degrees = false;
+  double metres = 0;  ///< in one unit of a length; 0: unknown
+};
+
+/// Along rows and columns, of degrees at the middle of the raster (earth.hpp); nothing if the unit
+/// is unknown, the middle is no latitude, or a distance is none.
+std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& transform, uint32_t width,
+                                                   uint32_t height, const GridUnit& unit);
+
+/// Unknown for a CRS that PROJ does not know (crs_units.hpp), or whose angles are no degrees.
+GridUnit gridUnitOf(const std::string& crs);
+
+/// Sets the spacing of heights from their place and CRS, as far as these tell.
+void setGroundSpacing(HeightFile& heights);
+
+}  // namespace tetrakis::tools

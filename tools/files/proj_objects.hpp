@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// PROJ's objects with owners.
+#pragma once
+
+#include <proj.h>
+
+#include <memory>
+#include <string>
+
+namespace tetrakis::tools {
+
+struct ReleaseProj {
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+  void operator()(PJ* object) const { proj_destroy(object); }
+};
+using ProjContext = std::unique_ptr<PJ_CONTEXT, ReleaseProj>;
+using ProjObject = std::unique_ptr<PJ, ReleaseProj>;
+
+/// One that prints nothing.
+ProjContext quietContext();
+
+/// A CRS by its code, WKT or exact name; of one that is bound to another, itself. Null if PROJ does
+/// not know it.
+ProjObject findCrs(PJ_CONTEXT* context, std::string text);
+
+/// The horizontal or the vertical part of a compound CRS; any other that is one itself, or null.
+ProjObject horizontalPart(PJ_CONTEXT* context, ProjObject crs);
+ProjObject verticalPart(PJ_CONTEXT* context, ProjObject crs);
+
+}  // namespace tetrakis::tools
