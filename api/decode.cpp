@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights and texels of whole planes, or of a mip level.
+// Heights, validity and texels through the C interface: all of a level, or a window.
 #include <algorithm>
 #include <string>
 
@@ -8,6 +8,7 @@
 #include "api/written.hpp"
 #include "base/samples.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "wavelet/pyramid.hpp"
 
 namespace tetrakis {
 
@@ -24,14 +25,31 @@ Status noTexture() {
   return {TKS_USAGE, "The stream holds no texture."};
 }
 
-Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
+Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window) {
   const StreamHeader& header = decoder.parsed.header;
-  if (!header.geometry) return noHeights();
-  if (!decoder.heights) {
-    decoder.heights =
-        decodeLayers(decoder.payload.codewordsOf(Component::kGeometry), *header.geometry,
-                     header.layers, decoder.heights_level, decoder.threads);
-  }
+  const bool texture = part == TKS_PART_TEXTURE;
+  if (texture && !header.texture) return noTexture();
+  if (!texture && !header.geometry) return noHeights();
+  const int level = texture ? decoder.texture_level : decoder.heights_level;
+  if (window == nullptr) return View{level, {}};
+  if (level > 0) return Status(TKS_USAGE, "Windows are parts of level 0; set the level to 0.");
+  const Extent extent = texture ? header.texture->extent() : header.geometry->extent();
+  const Window asked{window->x, window->y, window->width, window->height};
+  if (asked.isInside(extent)) return View{0, asked};
+  return Status(TKS_USAGE, "The window must lie inside the " + std::to_string(extent.width) +
+                               " x " + std::to_string(extent.height) +
+                               " samples and hold one or more.");
+}
+
+DecodedHeights decodeHeights(const tks_decoder& decoder, const View& view) {
+  const StreamHeader& header = decoder.parsed.header;
+  return decodeHeights(*header.geometry, header.layers,
+                       decoder.payload.codewordsOf(Component::kGeometry), view, {decoder.threads});
+}
+
+Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
+  if (!decoder.parsed.header.geometry) return noHeights();
+  if (!decoder.heights) decoder.heights = decodeHeights(decoder, {decoder.heights_level, {}});
   return &*decoder.heights;
 }
 
@@ -43,60 +61,80 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder) {
 
 namespace {
 
-/// Samples of the level that is set; 0: there are no heights.
-size_t heightCount(const tks_decoder& decoder) {
-  const auto& header = decoder.parsed.header.geometry;
-  return header ? MipLevel(header->width, header->height, decoder.heights_level).samples() : 0;
-}
+/// What a call asks for, and where it wants it.
+struct Call {
+  tks_part part;
+  const tks_window* window;  ///< null, unless `windowed`: all of the level that is set
+  bool windowed;             ///< there must be a window
+  void* out;
+  size_t bytes;
 
-/// The stream holds heights, the output is of the right size, and memory suffices.
-Status admitHeights(tks_decoder& decoder, tks_part part, const void* out, size_t bytes,
-                    size_t sample_bytes) {
-  if (!decoder.parsed.header.geometry) return noHeights();
-  const size_t wanted = heightCount(decoder) * sample_bytes;
-  if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  return checkMemory(decoder, {part, nullptr, 0});
-}
-
-Status decodeHeights(tks_decoder& decoder, void* out, size_t bytes) {
-  const auto& header = decoder.parsed.header.geometry;
-  const auto sample = static_cast<tks_sample>(header ? header->sample : 0);
-  Status status = admitHeights(decoder, TKS_PART_HEIGHTS, out, bytes, tks_sample_bytes(sample));
-  if (!status.ok()) return status;
-  if (decoder.payload.nothingOf(Component::kGeometry)) {
-    writeUnsentHeights(decoder, out, heightCount(decoder));
-    return {};
+  Result<View> view(const tks_decoder& decoder) const {
+    if (windowed && window == nullptr && viewOf(decoder, part, nullptr).ok())
+      return Status(TKS_USAGE, "The window is missing.");
+    return viewOf(decoder, part, window);
   }
-  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
-  if (!decoded.ok()) return decoded.status();
-  writeHeights(decoder, **decoded, out);
+  /// The output takes as many bytes as so many places, and memory suffices.
+  Status check(tks_decoder& decoder, const View& view, size_t places, size_t place_bytes) const {
+    const size_t wanted = places * place_bytes;
+    if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
+    return checkMemory(decoder, {part, view, 0});
+  }
+};
+
+/// Writes heights of so many bytes a sample: all(decoded) from decoded ones, or unsent(count) if
+/// nothing of them was sent. Those of whole levels are kept for later calls.
+template <class All, class Unsent>
+Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, const All& all,
+                   const Unsent& unsent) {
+  const Result<View> view = call.view(decoder);
+  if (!view.ok()) return view.status();
+  const size_t count = view->extentIn(decoder.parsed.header.geometry->extent()).samples();
+  if (Status s = call.check(decoder, *view, count, sample_bytes); !s.ok()) return s;
+  if (decoder.payload.nothingOf(Component::kGeometry)) {
+    unsent(count);
+  } else if (view->window) {
+    all(decodeHeights(decoder, *view));
+  } else {
+    const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
+    if (!decoded.ok()) return decoded.status();
+    all(**decoded);
+  }
   return {};
 }
 
-Status decodeSurface(tks_decoder& decoder, float* out, size_t count) {
-  Status status =
-      admitHeights(decoder, TKS_PART_HEIGHTS, out, count * sizeof(float), sizeof(float));
-  if (!status.ok()) return status;
-  if (decoder.payload.nothingOf(Component::kGeometry)) {
-    writeUnsentSurface(decoder, out, count);
-    return {};
-  }
-  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
-  if (!decoded.ok()) return decoded.status();
-  writeSurface(decoder, **decoded, out);
-  return {};
+Status giveSamples(tks_decoder& decoder, const Call& call) {
+  const auto& header = decoder.parsed.header.geometry;
+  const size_t sample_bytes =
+      header ? tks_sample_bytes(static_cast<tks_sample>(header->sample)) : 0;
+  return giveHeights(
+      decoder, call, sample_bytes,
+      [&](const DecodedHeights& decoded) { writeHeights(decoder, decoded, call.out); },
+      [&](size_t count) { writeUnsentHeights(decoder, call.out, count); });
 }
 
-Status decodeValidity(tks_decoder& decoder, uint8_t* out, size_t count) {
-  if (Status s = admitHeights(decoder, TKS_PART_VALIDITY, out, count, 1); !s.ok()) return s;
+Status giveSurface(tks_decoder& decoder, const Call& call) {
+  auto* const out = static_cast<float*>(call.out);
+  return giveHeights(
+      decoder, call, sizeof(float),
+      [&](const DecodedHeights& decoded) { writeSurface(decoder, decoded, out); },
+      [&](size_t count) { writeUnsentSurface(decoder, out, count); });
+}
+
+Status giveValidity(tks_decoder& decoder, const Call& call) {
+  const Result<View> view = call.view(decoder);
+  if (!view.ok()) return view.status();
+  const StreamHeader& header = decoder.parsed.header;
+  const size_t count = view->extentIn(header.geometry->extent()).samples();
+  if (Status s = call.check(decoder, *view, count, 1); !s.ok()) return s;
   std::vector<uint8_t> valid;
   if (decoder.heights) {
     valid = decoder.heights->geometry.valid;
   } else if (!decoder.payload.nothingOf(Component::kGeometry)) {
-    const StreamHeader& header = decoder.parsed.header;
-    valid = decodeValidityLayer(decoder.payload.codewordsOf(Component::kGeometry), *header.geometry,
-                                header.layers, decoder.heights_level);
+    valid = decodeValidityLayer(*header.geometry, header.layers,
+                                decoder.payload.codewordsOf(Component::kGeometry), *view);
   }
+  auto* const out = static_cast<uint8_t*>(call.out);
   if (valid.empty()) {
     std::fill_n(out, count, uint8_t{1});
   } else {
@@ -105,22 +143,21 @@ Status decodeValidity(tks_decoder& decoder, uint8_t* out, size_t count) {
   return {};
 }
 
-Status decodeTexels(tks_decoder& decoder, void* out, size_t bytes) {
-  const auto& header = decoder.parsed.header.texture;
-  if (!header) return noTexture();
-  const auto sample = static_cast<tks_sample>(header->sample);
-  const int level = decoder.texture_level;
-  const size_t count = MipLevel(header->width, header->height, level).samples();
-  const size_t wanted = count * header->channels * tks_sample_bytes(sample);
-  if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
-  if (Status s = checkMemory(decoder, {TKS_PART_TEXTURE, nullptr, 0}); !s.ok()) return s;
+Status giveTexels(tks_decoder& decoder, const Call& call) {
+  const Result<View> view = call.view(decoder);
+  if (!view.ok()) return view.status();
+  const TextureHeader& header = *decoder.parsed.header.texture;
+  const auto sample = static_cast<tks_sample>(header.sample);
+  const size_t count = view->extentIn(header.extent()).samples();
+  const size_t texel_bytes = tks_sample_bytes(sample) * header.channels;
+  if (Status s = call.check(decoder, *view, count, texel_bytes); !s.ok()) return s;
   if (decoder.payload.nothingOf(Component::kTexture)) {
-    writeUnsentTexels(*header, out, count);
+    writeUnsentTexels(header, call.out, count);
     return {};
   }
-  writeTexels(decodeTexture(*header, decoder.payload.codewordsOf(Component::kTexture), level,
-                            decoder.threads),
-              sample, out);
+  writeTexels(decodeTexture(header, decoder.payload.codewordsOf(Component::kTexture), *view,
+                            {decoder.threads}),
+              sample, call.out);
   return {};
 }
 
@@ -132,8 +169,8 @@ Status checkLevel(const char* what, uint32_t level, int coarsest) {
 
 Status setLevels(tks_decoder& decoder, uint32_t heights, uint32_t texture) {
   const StreamHeader& header = decoder.parsed.header;
-  Status status = checkLevel("The heights", heights, coarsestLevels(header.geometry));
-  if (status.ok()) status = checkLevel("The texels", texture, coarsestLevels(header.texture));
+  Status status = checkLevel("The heights", heights, coarsestLevelOf(header.geometry));
+  if (status.ok()) status = checkLevel("The texels", texture, coarsestLevelOf(header.texture));
   if (!status.ok()) return status;
   if (static_cast<int>(heights) != decoder.heights_level) decoder.heights.reset();
   decoder.heights_level = static_cast<int>(heights);
@@ -156,17 +193,48 @@ tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t textu
 }
 
 tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes) {
-  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeHeights(*decoder, out, bytes); });
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveSamples(*decoder, {TKS_PART_HEIGHTS, nullptr, false, out, bytes});
+  });
+}
+
+tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
+                                     size_t bytes) {
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveSamples(*decoder, {TKS_PART_HEIGHTS, window, true, out, bytes});
+  });
 }
 
 tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count) {
-  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeSurface(*decoder, out, count); });
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveSurface(*decoder,
+                                 {TKS_PART_HEIGHTS, nullptr, false, out, count * sizeof(float)});
+  });
+}
+
+tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
+                                     size_t count) {
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveSurface(*decoder,
+                                 {TKS_PART_HEIGHTS, window, true, out, count * sizeof(float)});
+  });
 }
 
 tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count) {
-  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeValidity(*decoder, out, count); });
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveValidity(*decoder, {TKS_PART_VALIDITY, nullptr, false, out, count});
+  });
 }
 
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes) {
-  return tetrakis::keeping(decoder, [&] { return tetrakis::decodeTexels(*decoder, out, bytes); });
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveTexels(*decoder, {TKS_PART_TEXTURE, nullptr, false, out, bytes});
+  });
+}
+
+tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* window, void* out,
+                                     size_t bytes) {
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveTexels(*decoder, {TKS_PART_TEXTURE, window, true, out, bytes});
+  });
 }

@@ -7,10 +7,11 @@
 #include <string>
 
 #include "api/message.hpp"
+#include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "codec/geometry/height_layers.hpp"
-#include "wavelet/mip_level.hpp"
+#include "wavelet/pyramid.hpp"
 
 struct tks_decoder {
   std::span<const uint8_t> data;  ///< the caller's
@@ -26,19 +27,25 @@ struct tks_decoder {
 
 namespace tetrakis {
 
-/// Decoded once. TKS_USAGE if the stream holds none.
+/// Returns the heights of the decoder's level, which are decoded once. TKS_USAGE if the stream
+/// holds none.
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
 
 /// Of these, the heights between the steps.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
+
+/// Decodes what a view shows of the heights, which the stream holds, and keeps nothing.
+DecodedHeights decodeHeights(const tks_decoder& decoder, const View& view);
 
 /// TKS_USAGE, with their sentences.
 Status wrongSize(uint64_t wanted, uint64_t given);
 Status noHeights();
 Status noTexture();
 
-/// TKS_USAGE unless the window lies inside level 0 of a component of that size.
-Status checkWindow(const tks_window* window, uint32_t width, uint32_t height, int level);
+/// What a call shows of the component that a part belongs to: the window, or, without one, all of
+/// the level that is set for the component. TKS_USAGE with a sentence unless the stream holds the
+/// component, the level is 0 or there is no window, and the window lies inside.
+Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window);
 
 /// Height in the unit = heights value * scale + offset.
 struct SurfaceScale {
@@ -46,9 +53,9 @@ struct SurfaceScale {
 };
 SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry);
 
-/// The coarsest mip level of the heights or the texture of a header; 0 where there are none.
-inline int coarsestLevels(const auto& part) {
-  return part ? MipLevel::coarsestLevel(part->width, part->height) : 0;
+/// The coarsest level of the heights or the texture of a header; 0 where there are none.
+inline int coarsestLevelOf(const auto& component) {
+  return component ? coarsestLevel(component->extent()) : 0;
 }
 
 /// Runs f and keeps its sentence in the decoder.

@@ -109,10 +109,10 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.max_error = -1;
   if (header.geometry) {
     const GeometryHeader& g = *header.geometry;
-    const MipLevel mip(g.width, g.height, decoder.heights_level);
-    info.width = mip.size().width;
-    info.height = mip.size().height;
-    info.coarsest_level = static_cast<uint32_t>(coarsestLevels(header.geometry));
+    const Extent shown = View{decoder.heights_level, {}}.extentIn(g.extent());
+    info.width = shown.width;
+    info.height = shown.height;
+    info.coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.geometry));
     info.regions = sideOf(g.regions);
     info.sample = static_cast<tks_sample>(g.sample);
     info.base = g.base;
@@ -125,10 +125,10 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.nodata = header.layers.nodata;
   }
   if (header.texture) {
-    const MipLevel mip(header.texture->width, header.texture->height, decoder.texture_level);
-    info.texture_width = mip.size().width;
-    info.texture_height = mip.size().height;
-    info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevels(header.texture));
+    const Extent shown = View{decoder.texture_level, {}}.extentIn(header.texture->extent());
+    info.texture_width = shown.width;
+    info.texture_height = shown.height;
+    info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.texture));
     info.texture_regions = sideOf(header.texture->regions);
     info.texture_channels = header.texture->channels;
     info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;

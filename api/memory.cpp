@@ -8,8 +8,8 @@
 #include "codec/mesh/budget_mesh.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
+#include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
-#include "wavelet/window.hpp"
 
 namespace tetrakis {
 
@@ -19,16 +19,11 @@ constexpr uint64_t kOnce = 256 << 10;         // models, plans, lists of levels
 constexpr uint64_t kDrawnOnce = 3 << 20;      // models of drawn textures and overlays
 constexpr uint64_t kBytesPerTrack = 64;       // its region, and views of its bytes
 constexpr uint64_t kValue = sizeof(int32_t);  // of a plane
-/// Of a row or column that is lifted, its mask and its halves: a sample, on each thread.
-constexpr uint64_t kLifting = 8;
+constexpr uint64_t kRow = 8;                  // of corrections, a sample of the row before
 
 /// Of a rectangle.
 uint64_t area(const auto& extent) {
   return uint64_t{extent.width} * extent.height;
-}
-
-uint64_t threadsOf(const tks_decoder& decoder) {
-  return std::max<uint64_t>(decoder.threads, 1);
 }
 
 /// The state of the tracks that are decoded at a time.
@@ -36,8 +31,8 @@ uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t com
                     bool masked, Component component) {
   const bool known =
       header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(component);
-  const TrackNeeds needs{header.width, header.height, header.regions.side_log2, components,
-                         masked,       known,         decoder.threads};
+  const TrackNeeds needs{header.extent(), header.regions.side_log2, components, masked,
+                         known,           decoder.threads};
   return needs.bytes();
 }
 
@@ -46,73 +41,74 @@ uint64_t trackBytes(const auto& header) {
   return kBytesPerTrack * regionCount(header.width, header.height, header.regions.side_log2);
 }
 
-/// What a window takes until its samples are there. state: of the tracks.
-uint64_t synthesisBytes(const tks_decoder& decoder, const auto& header, uint32_t components,
-                        const tks_window& window, bool masked, uint64_t state) {
-  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
-  const WindowSynthesis synthesis(specOf(header.wavelet), subbands, header.width, header.height,
-                                  {window.x, window.y, window.width, window.height});
-  constexpr uint64_t kAround = 1024;  // what a filter reaches beyond a row, and more
-  const uint64_t lifting = kValue * synthesis.largestPart() + kLifting * (window.width + kAround) +
-                           (masked ? 2 * synthesis.largestBlock() : 0);
-  // The low band that a level starts from is no larger than the block that it was taken from.
-  return components * kValue * synthesis.samples() +
-         std::max(state, std::min<uint64_t>(threadsOf(decoder), components) * lifting);
-}
+/// What the planes of a view take until its samples are there.
+struct PlanesBytes {
+  uint64_t coefficients = 0;  ///< of one component
+  uint64_t work = 0;          ///< of the inverse transforms that run at a time
+
+  PlanesBytes(const tks_decoder& decoder, const auto& header, const View& view, uint32_t components,
+              bool masked) {
+    const Pyramid pyramid(header.extent());
+    const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
+    const uint64_t at_a_time =
+        view.window ? std::clamp<uint64_t>(decoder.threads, 1, components) : 1;
+    coefficients = kValue * synthesis.coefficients();
+    work = at_a_time * synthesis.workBytes(decoder.threads, masked);
+  }
+};
 
 class HeightsBytes {
  public:
-  /// level: of the heights.
-  HeightsBytes(const tks_decoder& decoder, int level)
+  HeightsBytes(const tks_decoder& decoder, const View& view)
       : decoder_(decoder),
         header_(*decoder.parsed.header.geometry),
-        level_(level),
-        mip_(header_.width, header_.height, level),
-        voids_(decoder.parsed.header.layers.validity_bytes > 0),
-        table_(decoder.parsed.header.layers.table_values),
-        corrects_samples_(header_.stored() || table_ > 0 ||
-                          decoder.parsed.header.layers.corrections == CorrectionKind::kSamples),
-        corrected_(header_.stored() || (level == 0 && decoder.parsed.header.layers.corrections !=
-                                                          CorrectionKind::kNone)) {}
+        layers_(decoder.parsed.header.layers),
+        view_(view),
+        shown_(area(view.extentIn(header_.extent()))),
+        voids_(layers_.validity_bytes > 0),
+        table_(layers_.table_bytes > 0),
+        corrected_(header_.stored() ||
+                   (view.level == 0 && layers_.corrections != CorrectionKind::kNone)) {}
 
-  /// What is left when they are decoded: heights, marks, masks, corrections.
+  /// What is left when a level is decoded: heights, marks, masks, corrections.
   uint64_t kept() const {
-    const uint64_t corrections = (corrected_ || table_ > 0) && corrects_samples_ ? kValue : 0;
-    return area(mip_.low()) * (kValue + 1 + (voids_ ? 1 : 0) + corrections);
+    const bool of_samples = header_.stored() || layers_.corrections == CorrectionKind::kSamples;
+    const bool corrections = table_ || (corrected_ && of_samples);
+    return low() * (kValue + 1 + (voids_ ? 1 : 0) + (corrections ? kValue : 0));
   }
 
-  uint64_t whole() const {
-    const uint64_t low = area(mip_.low());
-    const uint64_t masks = voids_ ? area(header_) + (level_ > 0 ? low : 0) : 0;
-    const uint64_t lifting = (voids_ ? low : 0) + kLifting * header_.width * threadsOf(decoder_);
-    const uint64_t corrections = corrected_ ? low * (kValue + 1) + kLifting * header_.width : 0;
-    return kOnce + trackBytes(header_) + low * (kValue + 1) + masks +
-           std::max({state(), lifting, corrections + tableBytes(low)});
+  /// What decoding takes.
+  uint64_t decoding() const {
+    // Corrections and stored samples of a window are cut out of the whole plane.
+    if (view_.window && corrected_)
+      return HeightsBytes(decoder_, {}).decoding() + shown_ * (2 * kValue + 1);
+    const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
+    const uint64_t marks = view_.window ? 0 : low();
+    const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
+    const uint64_t corrections = corrected_ ? low() * (kValue + 1) + kRow * header_.width : 0;
+    const uint64_t state = stateBytes(decoder_, header_, 1, voids_, Component::kGeometry);
+    return kOnce + trackBytes(header_) + planes.coefficients + marks + masks +
+           std::max({state, planes.work, corrections + tableBytes()});
   }
 
-  uint64_t validity() const { return kOnce + (voids_ ? area(header_) + area(mip_.low()) : 0); }
-
-  uint64_t window(const tks_window& window) const {
-    if (corrected_) return whole() + area(window) * (2 * kValue + 1);
-    return kOnce + (voids_ ? area(header_) + area(window) : 0) + trackBytes(header_) +
-           synthesisBytes(decoder_, header_, 1, window, voids_, state()) + tableBytes(area(window));
-  }
+  uint64_t validity() const { return kOnce + (voids_ ? area(header_) + shown_ : 0); }
 
  private:
-  uint64_t state() const { return stateBytes(decoder_, header_, 1, voids_, Component::kGeometry); }
   /// The table, its values as heights, and a correction for each sample.
-  uint64_t tableBytes(uint64_t samples) const {
+  uint64_t tableBytes() const {
     constexpr uint64_t kEntry = sizeof(uint32_t) + sizeof(DrawnValue);
-    return table_ > 0 ? table_ * kEntry + samples * kValue : 0;
+    const uint64_t samples = view_.window ? shown_ : low();
+    return table_ ? layers_.table_values * kEntry + samples * kValue : 0;
   }
+  uint64_t low() const { return area(Pyramid(header_.extent()).low(view_.level).extent); }
 
   const tks_decoder& decoder_;
   const GeometryHeader& header_;
-  int level_;
-  MipLevel mip_;
+  const GeometryLayers& layers_;
+  const View view_;
+  uint64_t shown_;  ///< samples of the view
   bool voids_;
-  uint32_t table_;  ///< values; 0: no table
-  bool corrects_samples_;
+  bool table_;
   bool corrected_;  ///< corrections, of steps or of samples, are decoded
 };
 
@@ -129,8 +125,8 @@ uint64_t meshBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   const Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
   if (!lattice.ok()) return 0;  // refused for that
   const uint64_t samples = verticesOf(*lattice);
-  const HeightsBytes heights(decoder, 0);
-  const uint64_t decoding = decoder.heights ? 0 : heights.whole();
+  const HeightsBytes heights(decoder, {});
+  const uint64_t decoding = decoder.heights ? 0 : heights.decoding();
   const uint64_t kept = decoder.heights ? 0 : heights.kept();
   const uint64_t base = uint64_t{2} * lattice->rootColumns() * lattice->rootRows();
   const uint64_t triangles =
@@ -145,56 +141,50 @@ uint64_t meshBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   const uint64_t mesh =
       kOnce + kFitted * fitted + kFewTriangles * few + kManyTriangles * (triangles - few);
   if (level == 0) return std::max(decoding, kept + mesh);
-  const HeightsBytes coarse(decoder, static_cast<int>(level));
-  return std::max(coarse.whole(), coarse.kept() + mesh);
+  const HeightsBytes coarse(decoder, {static_cast<int>(level), {}});
+  return std::max(coarse.decoding(), coarse.kept() + mesh);
 }
 
 class TextureBytes {
  public:
-  TextureBytes(const tks_decoder& decoder, int level)
+  TextureBytes(const tks_decoder& decoder, const View& view)
       : decoder_(decoder),
         header_(*decoder.parsed.header.texture),
-        mip_(header_.width, header_.height, level),
+        view_(view),
+        shown_(area(view.extentIn(header_.extent()))),
         seen_(header_.alpha_bytes > 0),
         masked_(header_.hidden || header_.overlay_bytes > 0) {}
 
-  uint64_t whole() const {
-    if (header_.direct()) return kDrawnOnce + direct(area(mip_.size()));
-    const uint64_t low = area(mip_.low());
-    const uint64_t planes =
-        kDrawnOnce + opening() + trackBytes(header_) + header_.components() * kValue * low;
-    const uint64_t masks = low * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));
-    const uint64_t lifting = (masked_ ? low : 0) + kLifting * header_.width * threadsOf(decoder_);
-    return planes + std::max({state(), masks + lifting, masks + texels(area(mip_.size()))});
-  }
-
-  uint64_t window(const tks_window& window) const {
-    const uint64_t out = texels(area(window));
-    if (header_.direct()) return kDrawnOnce + direct(area(header_)) + out;
+  uint64_t decoding() const {
+    const uint64_t out = shown_ * header_.channels * sizeof(uint16_t);
+    if (header_.direct())
+      return kDrawnOnce + direct(view_.window ? area(header_) : shown_) + (view_.window ? out : 0);
     const uint32_t components = header_.components();
-    const uint64_t finishing = area(window) * (components * kValue + 2) + out;
+    const PlanesBytes planes(decoder_, header_, view_, components, masked_);
+    const uint64_t all = components * planes.coefficients;
+    const uint64_t masks = shown_ * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));
+    // A window's samples are apart from its coefficients, which are gone then.
+    const uint64_t samples = view_.window ? components * kValue * shown_ : all;
+    const uint64_t state = stateBytes(decoder_, header_, components, masked_, Component::kTexture);
     return kDrawnOnce + opening() + trackBytes(header_) +
-           std::max(finishing,
-                    synthesisBytes(decoder_, header_, components, window, masked_, state()));
+           std::max({all + state, all + masks + planes.work, samples + masks + out});
   }
 
  private:
-  uint64_t texels(uint64_t count) const { return count * header_.channels * sizeof(uint16_t); }
   uint64_t direct(uint64_t count) const {
-    return (header_.drawn() ? count * sizeof(ColourIndex) : 0) + texels(count);
+    return count *
+           ((header_.drawn() ? sizeof(ColourIndex) : 0) + header_.channels * sizeof(uint16_t));
   }
   /// Of whole planes: what can be seen, the overlay, what is coded.
   uint64_t opening() const {
     const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(ColourIndex) : 0;
     return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0));
   }
-  uint64_t state() const {
-    return stateBytes(decoder_, header_, header_.components(), masked_, Component::kTexture);
-  }
 
   const tks_decoder& decoder_;
   const TextureHeader& header_;
-  MipLevel mip_;
+  const View view_;
+  uint64_t shown_;  ///< texels of the view
   bool seen_, masked_;
 };
 
@@ -216,16 +206,14 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
     if (decoder.payload.nothingOf(Component::kTexture)) return kDrawnOnce;
-    const TextureBytes texture(decoder, decoder.texture_level);
-    return request.window ? texture.window(*request.window) : texture.whole();
+    return TextureBytes(decoder, request.view).decoding();
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
     return meshBytes(decoder, request);
   if (decoder.payload.nothingOf(Component::kGeometry)) return kOnce;
-  if (decoder.heights && !request.window) return 0;
-  const HeightsBytes heights(decoder, decoder.heights_level);
-  if (request.part == TKS_PART_VALIDITY) return heights.validity();
-  return request.window ? heights.window(*request.window) : heights.whole();
+  if (decoder.heights && !request.view.window) return 0;
+  const HeightsBytes heights(decoder, request.view);
+  return request.part == TKS_PART_VALIDITY ? heights.validity() : heights.decoding();
 }
 
 }  // namespace tetrakis

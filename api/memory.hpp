@@ -15,11 +15,11 @@
 
 namespace tetrakis {
 
-/// What a call is asked for. The decoder's levels count for the whole plane.
+/// What a call is asked for.
 struct MemoryRequest {
   tks_part part = TKS_PART_HEIGHTS;
-  const tks_window* window = nullptr;  ///< null: the whole plane; inside it
-  uint32_t max_triangles = 0;          ///< of TKS_PART_BUDGET_MESH
+  View view;                   ///< of viewOf(); meshes ignore it
+  uint32_t max_triangles = 0;  ///< of TKS_PART_BUDGET_MESH
 };
 
 /// Bytes that the call allocates at its peak, at most; meshes include what they hand over. The

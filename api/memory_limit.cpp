@@ -6,7 +6,6 @@
 #include <string>
 
 #include "api/memory.hpp"
-#include "wavelet/mip_level.hpp"
 
 namespace tetrakis {
 
@@ -15,19 +14,17 @@ namespace {
 /// "Decoding 32768 x 32768 texels of 4 channels"
 std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
   const StreamHeader& header = decoder.parsed.header;
-  const auto sides = [&](const auto& part, int level) {
-    const Extent size = MipLevel(part.width, part.height, level).size();
-    return std::to_string(request.window ? request.window->width : size.width) + " x " +
-           std::to_string(request.window ? request.window->height : size.height);
+  const auto sides = [&](const auto& component) {
+    const Extent shown = request.view.extentIn(component.extent());
+    return std::to_string(shown.width) + " x " + std::to_string(shown.height);
   };
   if (request.part == TKS_PART_TEXTURE) {
     const uint32_t channels = header.texture->channels;
-    return "Decoding " + sides(*header.texture, decoder.texture_level) + " texels of " +
-           std::to_string(channels) + (channels == 1 ? " channel" : " channels");
+    return "Decoding " + sides(*header.texture) + " texels of " + std::to_string(channels) +
+           (channels == 1 ? " channel" : " channels");
   }
   const bool mesh = request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH;
-  return (mesh ? "A mesh of " : "Decoding ") + sides(*header.geometry, decoder.heights_level) +
-         " heights";
+  return (mesh ? "A mesh of " : "Decoding ") + sides(*header.geometry) + " heights";
 }
 
 /// What the decoder holds already.
@@ -45,22 +42,15 @@ uint64_t saturatingSum(uint64_t a, uint64_t b) {
                                                       : a + b;
 }
 
-/// That the stream holds what is asked for.
-Status checkRequest(const tks_decoder& decoder, const MemoryRequest& request) {
-  const StreamHeader& header = decoder.parsed.header;
-  if (request.part < TKS_PART_HEIGHTS || request.part > TKS_PART_BUDGET_MESH)
-    return {TKS_USAGE, "Unknown part of a stream."};
-  const bool texture = request.part == TKS_PART_TEXTURE;
-  if (texture && !header.texture) return noTexture();
-  if (!texture && !header.geometry) return noHeights();
-  if (request.window == nullptr) return {};
-  if (texture)
-    return checkWindow(request.window, header.texture->width, header.texture->height,
-                       decoder.texture_level);
-  if (request.part != TKS_PART_HEIGHTS)
-    return {TKS_USAGE, "Only heights and textures have windows."};
-  return checkWindow(request.window, header.geometry->width, header.geometry->height,
-                     decoder.heights_level);
+/// What tks_check_memory is asked about.
+Result<View> requestedView(const tks_decoder& decoder, tks_part part, const tks_window* window) {
+  if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
+    return Status(TKS_USAGE, "Unknown part of a stream.");
+  const Result<View> whole = viewOf(decoder, part, nullptr);
+  if (!whole.ok() || window == nullptr) return whole;
+  if (part != TKS_PART_HEIGHTS && part != TKS_PART_TEXTURE)
+    return Status(TKS_USAGE, "Only heights and textures have windows.");
+  return viewOf(decoder, part, window);
 }
 
 }  // namespace
@@ -78,7 +68,7 @@ Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t 
     return checkBytes(decoder, request, saturatingSum(callBytes(decoder, request), beside));
   };
   Status status = check();
-  const bool gives_way = request.part == TKS_PART_TEXTURE || request.window != nullptr;
+  const bool gives_way = request.part == TKS_PART_TEXTURE || request.view.window.has_value();
   if (status.ok() || !gives_way || !decoder.heights) return status;
   decoder.heights.reset();
   return check();
@@ -89,8 +79,9 @@ Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t 
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes) {
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
-    const tetrakis::MemoryRequest request{part, window, max_triangles};
-    if (tetrakis::Status s = tetrakis::checkRequest(*decoder, request); !s.ok()) return s;
+    const auto view = tetrakis::requestedView(*decoder, part, window);
+    if (!view.ok()) return view.status();
+    const tetrakis::MemoryRequest request{part, *view, max_triangles};
     if (bytes != nullptr) *bytes = tetrakis::callBytes(*decoder, request);
     return tetrakis::checkMemory(*decoder, request, beside);
   });

@@ -27,7 +27,7 @@ Result<Chosen> chosenVertices(const tks_decoder& decoder, const Lattice& lattice
   if (max_triangles == 0) return Chosen{allVertices(lattice), {}};
   const auto admits = [&](uint64_t triangles) -> Status {
     if (triangles <= max_triangles) return {};
-    return checkBytes(decoder, {TKS_PART_BUDGET_MESH, nullptr, max_triangles},
+    return checkBytes(decoder, {TKS_PART_BUDGET_MESH, {}, max_triangles},
                       voidMeshBytes(lattice, triangles));
   };
   const WeightedSurface surface{{lattice.width(), lattice.height(), geometry.heights},
@@ -54,8 +54,7 @@ Result<DecodedLevel> decodedLevel(tks_decoder& decoder, uint32_t level) {
     geometry = *whole;
   } else {
     // No higher than the coarsest: 2^level is less than a quarter of the longer side.
-    coarse = decodeLayers(decoder.payload.codewordsOf(Component::kGeometry), g, header.layers,
-                          static_cast<int>(level), decoder.threads);
+    coarse = decodeHeights(decoder, {static_cast<int>(level), {}});
     geometry = &coarse.geometry;
   }
   return DecodedLevel{{ofMipLevel(geometry->heights, g.width, g.height, level), level,
@@ -95,7 +94,7 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
   Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
   if (!lattice.ok()) return lattice.status();
   const tks_part part = kind == TKS_MESH_CODED ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
-  if (Status s = checkMemory(decoder, {part, nullptr, max_triangles}); !s.ok()) return s;
+  if (Status s = checkMemory(decoder, {part, {}, max_triangles}); !s.ok()) return s;
   const bool has_voids = header.layers.validity_bytes > 0;
   if (kind == TKS_MESH_BUDGET && max_triangles > 0 && !has_voids)
     return budgetMeshOf(decoder, std::move(*lattice), max_triangles);

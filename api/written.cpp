@@ -30,7 +30,7 @@ float surfaceAt(const DecodedGeometry& geometry, const SurfaceScale& scale, size
 DecodedHeights unsentHeights(const StreamHeader& header) {
   GeometryHeader smallest = *header.geometry;
   smallest.width = smallest.height = 2;
-  return decodeLayers(Codewords(1), smallest, header.layers);
+  return decodeHeights(smallest, header.layers, Codewords(1));
 }
 
 Texels unsentTexel(const TextureHeader& header) {

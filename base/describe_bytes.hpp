@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Amounts of memory in sentences.
+// Writes amounts of memory as sentences have them.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace tetrakis {
 
-/// "21.5 GiB".
+/// Returns an amount with its unit, such as "21.5 GiB".
 std::string describeBytes(uint64_t bytes);
 
 }  // namespace tetrakis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Independent pieces of work on several threads. What comes out never depends on their number.
+// Runs independent pieces of work on several threads. The results never depend on their number.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dispatch from tks_sample to a C++ type.
+// Finds the C++ type that a tks_sample names.
 #pragma once
 
 #include <cstdint>

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image as the texture codec sees it.
+// An image as the texture codec sees it: rows of texels, each with its channels side by side.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "base/plane.hpp"
+
 namespace tetrakis {
 
-/// width * height * channels integers, interleaved, row by row. channels: 1 grey, 2 grey+alpha, 3
-/// RGB, 4 RGBA. bits: 8 or 16, samples are in [0, 2^bits).
+/// There are width * height * channels samples, interleaved, row by row. They have 8 or 16 bits and
+/// lie in [0, 2^bits). 1 channel is grey, 2 are grey and alpha, 3 are RGB, 4 are RGBA.
 struct Texels {
   uint32_t width = 0, height = 0, channels = 0;
   int bits = 8;
   std::vector<uint16_t> samples;
 
-  /// The largest value of a sample.
+  Extent extent() const { return {width, height}; }
+  /// The largest value that a sample may have.
   uint16_t most() const { return static_cast<uint16_t>((1u << bits) - 1); }
 };
 

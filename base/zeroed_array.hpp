@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fixed-size array of zeros that the operating system need not touch before it is used: bands in
-// which nothing happens cost address space alone.
+// A ZeroedArray has a fixed size and is full of zeros that the operating system need not touch
+// before they are used: bands in which nothing happens cost address space alone.
 #pragma once
 
 #include <algorithm>

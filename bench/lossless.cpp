@@ -42,8 +42,8 @@ Result<uint64_t> withTetrakis(const tools::HeightFile& file) {
   heights.nodata = file.nodata.value_or(0);
   tks_encode_options options = makeEncodeOptions();
   options.lossless = 1;
-  const Expected<Buffer> stream = encode(&heights, nullptr, options);
-  if (!stream) return Status(stream.error().code, stream.error().message);
+  const Result<Buffer> stream = encode(&heights, nullptr, options);
+  if (!stream.ok()) return stream.status();
   return uint64_t{stream->bytes().size()};
 }
 

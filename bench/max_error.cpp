@@ -72,12 +72,12 @@ Result<Coded> withTetrakis(const tools::HeightFile& file, const Judge& judge, do
   tks_encode_options options = makeEncodeOptions();
   options.max_error = error;
   options.lossless = error == 0;
-  const Expected<Buffer> stream = encode(&heights, nullptr, options);
-  if (!stream) return Status(stream.error().code, stream.error().message);
-  Expected<Decoder> decoder = Decoder::open(stream->bytes());
-  if (!decoder) return Status(decoder.error().code, decoder.error().message);
-  const Expected<std::vector<std::byte>> samples = decoder->heights();
-  if (!samples) return Status(samples.error().code, samples.error().message);
+  const Result<Buffer> stream = encode(&heights, nullptr, options);
+  if (!stream) return stream.status();
+  Result<Decoder> decoder = Decoder::open(stream->bytes());
+  if (!decoder) return decoder.status();
+  const Result<std::vector<std::byte>> samples = decoder->heights();
+  if (!samples) return samples.status();
   return Coded{stream->bytes().size(), judge.largestError(*samples)};
 }
 

@@ -42,10 +42,6 @@ struct Subject {
   bool isImage() const { return name == "texture"; }
 };
 
-Status toStatus(const Error& error) {
-  return {error.code, error.message};
-}
-
 Result<std::vector<uint8_t>> encode(const Subject& subject, double rate, uint32_t regions,
                                     uint32_t threads) {
   const Raster& raster = subject.raster;
@@ -65,7 +61,7 @@ Result<std::vector<uint8_t>> encode(const Subject& subject, double rate, uint32_
   image.data = texels.data();
   const auto stream = subject.isImage() ? tetrakis::encode(nullptr, &image, options)
                                         : tetrakis::encode(&heights, nullptr, options);
-  if (!stream) return toStatus(stream.error());
+  if (!stream) return stream.status();
   return std::vector<uint8_t>(stream->bytes().begin(), stream->bytes().end());
 }
 
@@ -73,12 +69,12 @@ Result<std::vector<uint8_t>> encode(const Subject& subject, double rate, uint32_
 Result<std::vector<std::byte>> decode(const Subject& subject, std::span<const uint8_t> bytes,
                                       const tks_window* window, uint32_t threads) {
   auto decoder = Decoder::open(bytes);
-  if (!decoder) return toStatus(decoder.error());
+  if (!decoder) return decoder.status();
   decoder->setThreads(threads);
   auto samples = subject.isImage() ? window ? decoder->texture(*window) : decoder->texture()
                  : window ? decoder->heights(*window)
                                    : decoder->heights();
-  if (!samples) return toStatus(samples.error());
+  if (!samples) return samples.status();
   return std::move(*samples);
 }
 

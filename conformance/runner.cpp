@@ -46,7 +46,7 @@ Cut decodeCut(std::span<const uint8_t> prefix, int level) {
   cut.level = level;
   auto decoder = Decoder::open(prefix);
   if (!decoder) {
-    cut.status = decoder.error().code;
+    cut.status = decoder.status().code();
     return cut;
   }
   if (level > 0) {
@@ -56,17 +56,17 @@ Cut decodeCut(std::span<const uint8_t> prefix, int level) {
     const tks_info info = decoder->info();
     const auto set =
         decoder->setLevels(up_to(info.coarsest_level), up_to(info.texture_coarsest_level));
-    if (!set) cut.status = set.error().code;
+    if (!set.ok()) cut.status = set.code();
   }
   if (decoder->info().has_heights) {
     const auto heights = decoder->heights();
     if (heights) cut.heights = sampleDigest(*heights, decoder->info().sample);
-    if (!heights) cut.status = heights.error().code;
+    if (!heights) cut.status = heights.status().code();
   }
   if (decoder->info().has_texture) {
     const auto texture = decoder->texture();
     if (texture) cut.texture = sampleDigest(*texture, decoder->info().texture_sample);
-    if (!texture) cut.status = texture.error().code;
+    if (!texture) cut.status = texture.status().code();
   }
   return cut;
 }

@@ -482,7 +482,8 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
   if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);
   const auto stream = encode(vector_case.heights ? &heights : nullptr,
                              vector_case.texture ? &image : nullptr, vector_case.options);
-  if (!stream) return Status(stream.error().code, vector_case.name + ": " + stream.error().message);
+  if (!stream)
+    return Status(stream.status().code(), vector_case.name + ": " + stream.status().message());
   std::vector<uint8_t> bytes(stream->bytes().begin(), stream->bytes().end());
   if (vector_case.damaged_byte >= 0) bytes[static_cast<size_t>(vector_case.damaged_byte)] ^= 0xff;
   return bytes;

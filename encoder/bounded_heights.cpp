@@ -122,8 +122,7 @@ CodedHeights correct(const Bound& bound, int32_t largest, std::optional<double> 
 /// All attempts at a largest error in steps, whether they keep it or not.
 std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
   const tks_heights& samples = *bound.of->samples;
-  const BoundWays ways =
-      boundWays(bound.of->steps, samples.width, samples.height, bound.wavelet, largest);
+  const BoundWays ways = boundWays(bound.of->steps, extentOf(samples), bound.wavelet, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
     if (std::optional<CodedHeights> wide = widen(bound))

@@ -51,16 +51,16 @@ bool CodedHeights::restoresSamples() const {
 
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
   const HeightSteps& steps = heights.steps;
-  return chooseWavelet(steps.steps, steps.valid, heights.samples->width, heights.samples->height,
-                       steps.range_bits, purpose);
+  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, steps.range_bits,
+                       purpose);
 }
 
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            const CoefficientOptions& options) {
-  return encodeCoefficients(
-      {heights.steps.steps, heights.samples->width, heights.samples->height, heights.steps.valid},
-      wavelet, options);
+  const HeightSteps& steps = heights.steps;
+  return encodeCoefficients({steps.steps, extentOf(*heights.samples), steps.valid}, wavelet,
+                            options);
 }
 
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,

@@ -59,7 +59,7 @@ CodedTexture storeTexture(std::shared_ptr<const TextureSource> of) {
 double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t threads,
                  TextureMemory* memory) {
   assert(prefix.size() == texture.tracks.size());
-  const Texels shown = decodeTexture(texture.header, prefix, 0, threads, memory);
+  const Texels shown = decodeTexture(texture.header, prefix, {}, {threads, memory});
   return countedSquares(texture.of->texels, shown, texture.of->counted(texture.header.hidden));
 }
 

@@ -16,7 +16,7 @@ namespace {
 DecodedHeights decodePrefix(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
                             HeightsMemory* memory) {
   assert(prefix.size() == heights.tracks.size());
-  return decodeLayers(prefix, heights.header, heights.layers, 0, threads, memory);
+  return decodeHeights(heights.header, heights.layers, prefix, {}, {threads, memory});
 }
 
 bool isWhole(const Codewords& prefix, const std::vector<EncodedTrack>& tracks) {

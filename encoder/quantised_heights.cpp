@@ -49,7 +49,7 @@ void addValidity(QuantisedHeights& heights) {
   layers.has_nodata = samples.has_nodata != 0 && !std::isnan(samples.nodata) && !infinite_integer;
   if (layers.has_nodata) layers.nodata = samples.nodata + 0.0;  // -0 equals 0: one of them
   if (heights.steps.valid.empty()) return;
-  heights.validity = encodeValidity(heights.steps.valid, samples.width, samples.height);
+  heights.validity = encodeValidity({heights.steps.valid, extentOf(samples)});
   layers.validity_bytes = heights.validity.size();
 }
 
@@ -67,9 +67,8 @@ void addCorrections(QuantisedHeights& heights) {
   heights.layers.corrections = CorrectionKind::kSamples;
   const GeometryHeader header = headerOf(heights);
   const std::vector<uint8_t> hints = sampleHints(drawnSteps(heights.steps, header), header);
-  heights.corrections =
-      encodeCorrections(sampleCorrections(samples, heights.steps),
-                        {samples.width, samples.height, heights.steps.valid, hints});
+  heights.corrections = encodeCorrections(sampleCorrections(samples, heights.steps),
+                                          {hints, header.extent(), heights.steps.valid});
   heights.left = std::max(heights.squaresOf(heights.steps), QuantisedHeights::kSomething);
 }
 

@@ -20,11 +20,10 @@ class DecodingIo {
 
 }  // namespace
 
-std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, uint32_t width,
-                                    uint32_t height) {
-  std::vector<uint8_t> valid(size_t{width} * height);
+std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent plane) {
+  std::vector<uint8_t> valid(plane.samples());
   DecodingIo io(codeword);
-  ValidityPass<DecodingIo>(valid, width, height, io).run();
+  ValidityPass<DecodingIo>({valid, plane}, io).run();
   return valid;
 }
 

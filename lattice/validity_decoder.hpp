@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "base/plane.hpp"
+
 namespace tetrakis {
 
-/// One byte a sample, row by row: 1 valid, 0 void. codeword: any prefix of a validity codeword;
-/// none at all says that every sample is valid. Safe on any bytes.
-std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, uint32_t width,
-                                    uint32_t height);
+/// Returns one byte for each sample of the plane, row by row, which is 1 where the sample is valid
+/// and 0 where it is void. codeword: any prefix of a validity codeword; an empty one says that
+/// every sample is valid. Safe on any bytes.
+std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent plane);
 
 }  // namespace tetrakis

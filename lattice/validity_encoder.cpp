@@ -28,12 +28,10 @@ class EncodingIo {
 
 }  // namespace
 
-std::vector<uint8_t> encodeValidity(std::span<const uint8_t> valid, uint32_t width,
-                                    uint32_t height) {
-  assert(valid.size() == size_t{width} * height);
-  std::vector<uint8_t> known(valid.size());
-  EncodingIo io(valid);
-  ValidityPass<EncodingIo>(known, width, height, io).run();
+std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid) {
+  std::vector<uint8_t> known(valid.extent().samples());
+  EncodingIo io(valid.values());
+  ValidityPass<EncodingIo>({known, valid.extent()}, io).run();
   std::vector<uint8_t> codeword = io.finish();
   if (codeword.empty()) codeword.push_back(0);
   return codeword;

@@ -3,14 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
+
+#include "base/plane.hpp"
 
 namespace tetrakis {
 
-/// valid: width * height, row by row, 1 valid, 0 void. At least one byte. The whole codeword gives
-/// the mask back whatever bytes follow it.
-std::vector<uint8_t> encodeValidity(std::span<const uint8_t> valid, uint32_t width,
-                                    uint32_t height);
+/// Returns the codeword of a mask, which has one byte or more. valid: 1 where a sample is valid, 0
+/// where it is void. The whole codeword gives the mask back whatever bytes follow it.
+std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid);
 
 }  // namespace tetrakis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures that are stored sample by sample, because coding them would take more bytes.
+// Decodes textures that are stored sample by sample, because coding them would take more bytes.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace tetrakis {
 
-/// codeword: any prefix of the track of a texture with header.stored. Safe on any bytes. Samples of
-/// which nothing is there are half of the largest. level: as for decodeTexture().
+/// Returns the texels at multiples of 2^level. codeword: any prefix of the track of a texture with
+/// header.stored. Safe on any bytes. A sample that has no byte yet is half of the largest.
 Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
                            int level);
 

@@ -97,7 +97,7 @@ Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Pur
 EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
                                 const TextureOptions& options,
                                 std::optional<EncodedTexture> plain) {
-  const std::span<const uint8_t> seen = source.counted(purpose == Purpose::kLossy);
+  const Mask seen = source.counted(purpose == Purpose::kLossy);
   const std::vector<uint8_t> photograph = photographOf(source.texels, seen);
   const bool one_track = options.region_log2 == 0;
   if (photograph.empty()) {
@@ -110,8 +110,7 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
   EncodedTexture& better = pays ? overlaid : *plain;
   if (one_track) return std::move(better);
   const TextureHeader like = std::move(better.header);
-  return encodeByWavelet(source, purpose, options, pays ? photograph : std::vector<uint8_t>(),
-                         &like);
+  return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
 }
 
 /// Drawn, or by wavelet.

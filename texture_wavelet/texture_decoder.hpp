@@ -1,34 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture track to image. Integer only.
+// Decodes the tracks of a texture to an image. Integer arithmetic only.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
 #include "base/texels.hpp"
+#include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "texture_wavelet/texture_opening.hpp"
 #include "wavelet/region_decoder.hpp"
-#include "wavelet/window.hpp"
 
 namespace tetrakis {
 
 /// What one call of decodeTexture() leaves to the next, whose only track is longer by some bytes
-/// and starts in the same memory. Empty at first.
+/// and begins at the same address. It is empty before the first call.
 struct TextureMemory {
   std::shared_ptr<const TextureOpening> opening;  ///< once it is whole
   TrackMemory track;
 };
 
-/// codewords: any prefix of each track, one for each of regionsOf(). level: every 2^level-th texel
-/// in x and y, up to the coarsest (wavelet/mip_level.hpp). Safe on any bytes and any header that
-/// readHeader accepts. memory: of the calls before, with the same header and level.
-Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, int level = 0,
-                     uint32_t threads = 1, TextureMemory* memory = nullptr);
-
-/// The texels of a window, in time that follows its size where there are regions.
-Texels decodeTextureWindow(const TextureHeader& header, const Codewords& codewords,
-                           const Window& window, uint32_t threads = 1);
+/// Decodes what a view shows; in a window the time follows its size if the image has regions.
+/// codewords: any prefix of each track, one for each of regionsOf(). Safe on any bytes and on any
+/// header that readHeader() accepts. The memory is that of earlier calls with the same header and
+/// view, which is no window.
+Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view = {},
+                     const DecodeContext<TextureMemory>& context = {});
 
 }  // namespace tetrakis

@@ -78,7 +78,7 @@ ColourTransform fitColours(const Planes& planes, const Texels& texels, Purpose p
   std::vector<const int32_t*> pointers;
   for (const std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
   const auto fit = purpose == Purpose::kLossy ? fitColour : chooseLosslessColour;
-  return fit(pointers, texels.width, texels.height);
+  return fit(pointers, texels.extent());
 }
 
 /// The colour transform of an image and the filters of its components.
@@ -90,23 +90,25 @@ struct Fit {
 /// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of
 /// it, else by green, or grey, because it must be known how many fraction bits go in.
 WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, const Texels& texels,
-                               Validity coded, Planes& planes) {
-  const auto choose = [&](std::span<const std::span<const int32_t>> typical) {
-    return chooseWavelet(typical, coded, texels.width, texels.height, texels.bits, purpose);
+                               Mask coded, Planes& planes) {
+  const auto view_of = [&](const std::vector<int32_t>& plane) {
+    return PlaneView<const int32_t>(plane, texels.extent(), coded);
   };
   if (purpose == Purpose::kLossless) {
     transformColours(colour, 0, planes);
-    return choose(std::vector<std::span<const int32_t>>(planes.begin(), planes.end()));
+    std::vector<PlaneView<const int32_t>> all;
+    for (const std::vector<int32_t>& plane : planes) all.push_back(view_of(plane));
+    return chooseWavelet(all, texels.bits, purpose);
   }
-  const std::span<const int32_t> typical = planes[texels.channels >= 3 ? 1 : 0];
-  const WaveletHeader wavelet = choose(std::span(&typical, 1));
+  const WaveletHeader wavelet =
+      chooseWavelet(view_of(planes[texels.channels >= 3 ? 1 : 0]), texels.bits, purpose);
   transformColours(colour, wavelet.fraction_bits, planes);
   return wavelet;
 }
 
 /// Chooses colours and filters, or takes those of `like`, and transforms the colours of the planes.
-Fit fitAndTransform(const Texels& texels, Purpose purpose, Validity coded,
-                    const TextureHeader* like, Planes& planes) {
+Fit fitAndTransform(const Texels& texels, Purpose purpose, Mask coded, const TextureHeader* like,
+                    Planes& planes) {
   if (like != nullptr) {
     const Fit fit{colourOf(*like), like->wavelet};
     transformColours(fit.colour, fit.wavelet.fraction_bits, planes);
@@ -140,37 +142,34 @@ void prependOpening(const Texels& texels, std::span<const uint8_t> overlay,
 }
 
 /// Texels that are in both masks.
-std::vector<uint8_t> intersection(Validity a, Validity b) {
-  std::vector<uint8_t> common(a.size());
-  for (size_t i = 0; i < common.size(); ++i) common[i] = a[i] & b[i];
+std::vector<uint8_t> intersection(Mask a, Mask b) {
+  std::vector<uint8_t> common(a.bytes().size());
+  for (size_t i = 0; i < common.size(); ++i) common[i] = a[i] && b[i];
   return common;
 }
 
 std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const ColourTransform& colour,
-                                       Validity coded, const TrackOptions& options,
-                                       Planes& planes) {
-  const TexturePlan plan(header);
+                                       Mask coded, const TrackOptions& options, Planes& planes) {
+  const TexturePlan plan(header, coded);
   const PlaneLayout& layout = plan.layout();
   const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
   assert(planes.size() == header.components());
   std::vector<TrackSource> sources(plan.regions().size());
-  for (size_t i = 0; i < sources.size(); ++i)
-    sources[i].plan = plan.bands(plan.parts(i), coded, header.width);
+  for (size_t i = 0; i < sources.size(); ++i) sources[i].plan = plan.bands(plan.parts(i));
   std::vector<int32_t*> pointers;
   for (std::vector<int32_t>& plane : planes) {
-    for (size_t i = 0; i < coded.size(); ++i) plane[i] *= coded[i];
-    forwardWavelet(specOf(header.wavelet), plane, header.width, header.height, coded,
-                   options.threads);
+    clearUnmarked(std::span(plane), coded);
+    forwardWavelet(specOf(header.wavelet), {plane, header.extent(), coded}, options.threads);
     pointers.push_back(plane.data());
   }
-  forwardColourLevels(colour, layout.subbands(), 0, pointers, header.width);
+  forwardColourLevels(colour, layout.pyramid(), pointers);
   for (size_t c = 0; c < planes.size(); ++c) {
     parallelFor(options.threads, sources.size(), [&](size_t i) {
       for (const BandPart& part : plan.parts(i)) {
-        const Subband& subband = layout.subbands()[part.subband];
-        const double energy = energiesOf(planes.size(), colour, subband.level)[c];
-        sources[i].bands.push_back({gather(planes[c], header.width, subband, part),
-                                    layout.energy(part.subband) * energy * unit});
+        const int level = layout.subbands()[part.subband].level;
+        const double energy = energiesOf(planes.size(), colour, level)[c];
+        sources[i].bands.push_back(
+            {layout.gather(planes[c], part), layout.energy(part.subband) * energy * unit});
       }
     });
     planes[c] = std::vector<int32_t>();  // {} would keep its memory
@@ -190,16 +189,16 @@ TrackOptions untilReached(const TextureOptions& options, uint64_t samples) {
 }  // namespace
 
 EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
-                               const TextureOptions& options, std::span<const uint8_t> photograph,
+                               const TextureOptions& options, Mask photograph,
                                const TextureHeader* like) {
   const Texels& texels = source.texels;
   const std::vector<uint8_t>& seen = source.cutout;
   const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
   Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
   std::vector<uint8_t> common;
-  if (hidden && !photograph.empty()) common = intersection(seen, photograph);
-  const Validity coded = !common.empty() ? Validity(common) : hidden ? seen : photograph;
-  if (!coded.empty()) hideColours(coded, planes);
+  if (hidden && !photograph.all()) common = intersection(seen, photograph);
+  const Mask coded = !common.empty() ? Mask(common) : hidden ? Mask(seen) : photograph;
+  hideColours(coded, planes);
   const auto [colour, wavelet] = fitAndTransform(texels, purpose, coded, like, planes);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
   TextureHeader& header = encoded.header;
@@ -207,8 +206,8 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   if (options.visual) header.weights = visualWeights(header.components());
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
   std::vector<uint8_t> mask, overlay;
-  if (!seen.empty()) mask = encodeValidity(seen, texels.width, texels.height);
-  if (!photograph.empty()) overlay = encodeOverlay(texels, photograph);
+  if (!seen.empty()) mask = encodeValidity({seen, texels.extent()});
+  if (!photograph.all()) overlay = encodeOverlay(texels, photograph);
   header.alpha_bytes = mask.size();
   header.overlay_bytes = overlay.size();
   const uint64_t counted = countedSamples(texels, source.counted(hidden));

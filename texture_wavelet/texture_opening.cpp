@@ -2,6 +2,7 @@
 #include "texture_wavelet/texture_opening.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
 #include "lattice/validity_decoder.hpp"
@@ -21,7 +22,7 @@ std::span<const uint8_t> take(uint64_t bytes, std::span<const uint8_t>& codeword
 TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_t> alpha,
                              std::span<const uint8_t> drawn) {
   TextureOpening opening;
-  if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.width, header.height);
+  if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.extent());
   if (header.hidden) opening.coded = opening.seen;
   if (header.overlay_bytes == 0) return opening;
   opening.overlay = decodeOverlay(header, drawn);
@@ -33,14 +34,15 @@ TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_
 
 }  // namespace
 
-void TextureOpening::paint(uint32_t width, uint32_t x0, uint32_t y0, uint32_t step,
-                           Texels& texels) const {
+void TextureOpening::paint(Extent whole, const View& view, Texels& texels) const {
   if (overlay.indices.empty()) return;
+  assert(texels.extent() == view.extentIn(whole));
   uint16_t* out = texels.samples.data();
   for (uint32_t y = 0; y < texels.height; ++y) {
-    const ColourIndex* row = overlay.indices.data() + (y0 + size_t{y} * step) * width + x0;
+    const ColourIndex* row = overlay.indices.data() + view.firstColumn() +
+                             (view.firstRow() + size_t{y} * view.step()) * whole.width;
     for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
-      const ColourIndex index = row[size_t{x} * step];
+      const ColourIndex index = row[size_t{x} * view.step()];
       if (index != kSeeThrough) std::copy_n(overlay.colours[index].begin(), texels.channels, out);
     }
   }

@@ -17,22 +17,21 @@ uint32_t modelsOf(uint32_t component, uint32_t channels) {
 
 }  // namespace
 
-TexturePlan::TexturePlan(const TextureHeader& header)
-    : layout_(specOf(header.wavelet), header.width, header.height),
+TexturePlan::TexturePlan(const TextureHeader& header, Mask coded)
+    : layout_(specOf(header.wavelet), header.extent(), coded),
       regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
       weights_(header.weights) {
   for (uint32_t c = 0; c < header.components(); ++c)
     components_.push_back({static_cast<int>(header.priority[c]), modelsOf(c, header.components())});
 }
 
-std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts, Validity coded,
-                                         uint32_t width) const {
+std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const {
   std::vector<BandPlan> bands;
   for (uint32_t c = 0; c < components_.size(); ++c) {
     const ComponentBands& component = components_[c];
     const auto first = static_cast<int>(bands.size());
     std::vector<BandPlan> plan = layout_.plan(parts, first, component.priority, component.models);
-    if (c == 0) markAbsent(layout_, parts, coded, width, plan);
+    if (c == 0) layout_.markAbsent(parts, plan);
     for (size_t i = 0; i < plan.size(); ++i) {
       BandPlan& band = plan[i];
       const Subband& subband = layout_.subbands()[parts[i].subband];

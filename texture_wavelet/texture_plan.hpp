@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an image becomes bands: the subbands of every component. Each component hints at the
-// magnitudes of the next. Shared by encoder and decoder.
+// Says which bands an image is coded in: the subbands of every component. Each component hints at
+// the magnitudes of the next. Encoder and decoder share this plan.
 #pragma once
 
 #include <span>
@@ -14,16 +14,16 @@ namespace tetrakis {
 
 class TexturePlan {
  public:
-  explicit TexturePlan(const TextureHeader& header);
+  /// coded: the texels that the coefficients make. Its bytes outlive the plan.
+  TexturePlan(const TextureHeader& header, Mask coded);
 
   const PlaneLayout& layout() const { return layout_; }
-  /// Tracks, which hold the same part of every component.
+  /// The regions of the tracks. A track holds the same part of every component.
   const std::vector<Region>& regions() const { return regions_; }
   std::vector<BandPart> parts(size_t region) const { return layout_.parts(regions_[region]); }
-  /// Bands of component c are parts.size() * c onwards, in the order of the parts of a region.
-  /// coded: of all texels, 0 where they are void; empty: none. width: of the plane.
-  std::vector<BandPlan> bands(std::span<const BandPart> parts, Validity coded,
-                              uint32_t width) const;
+  /// Returns the bands of a track. Those of component c begin at parts.size() * c, and follow each
+  /// other in the order of the parts of the region.
+  std::vector<BandPlan> bands(std::span<const BandPart> parts) const;
 
  private:
   struct ComponentBands {
@@ -36,7 +36,7 @@ class TexturePlan {
   BandWeights weights_;
 };
 
-/// The component transform of a header.
+/// Returns the component transform that a header describes.
 ColourTransform colourOf(const TextureHeader& header);
 
 }  // namespace tetrakis

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,11 +17,9 @@ struct TextureSource {
   /// Any image is a source.
   TextureSource(Texels image) : texels(std::move(image)), cutout(cutoutOf(texels)) {}
 
-  /// The texels whose colours count in errors; empty: all do. hidden: colours that a cut-out does
-  /// not show are not coded.
-  std::span<const uint8_t> counted(bool hidden) const {
-    return hidden ? std::span<const uint8_t>(cutout) : std::span<const uint8_t>();
-  }
+  /// Marks the texels whose colours count in errors. hidden: colours that a cut-out does not show
+  /// are not coded.
+  Mask counted(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
 
   Texels texels;
   std::vector<uint8_t> cutout;  ///< cutoutOf(texels)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Order of the passes by what an eye sees. Encoder only.
+// Visual weights order the passes by what an eye sees. Encoder only.
 #pragma once
 
 #include <cstdint>

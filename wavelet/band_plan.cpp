@@ -5,8 +5,6 @@
 #include <cassert>
 #include <utility>
 
-#include "bitstream/track/reconstruction.hpp"
-
 namespace tetrakis {
 
 namespace {
@@ -33,8 +31,8 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
 
 }  // namespace
 
-PlaneLayout::PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height)
-    : subbands_(subbandsOf(width, height)), norms_(spec, subbands_.front().level) {}
+PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid)
+    : pyramid_(plane, valid), norms_(spec, pyramid_.levels()) {}
 
 std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region) {
   std::vector<BandPart> parts;
@@ -60,7 +58,7 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
                                         uint32_t models) const {
   std::vector<BandPlan> bands;
   for (size_t i = 0; i < parts.size(); ++i) {
-    const Subband& subband = subbands_[parts[i].subband];
+    const Subband& subband = subbands()[parts[i].subband];
     BandPlan band;
     band.shape = parts[i].shape();
     band.orientation = subband.orientation;
@@ -68,7 +66,7 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
     band.models = models + modelsOf(subband);
     const size_t parent = i - kBandsPerLevel;  // LL is nobody's
     const bool has_parent = i >= kBandsPerLevel &&
-                            subbands_[parts[parent].subband].orientation != Orientation::kLL &&
+                            subbands()[parts[parent].subband].orientation != Orientation::kLL &&
                             !parts[parent].shape().empty();
     if (has_parent) band.parent = first + static_cast<int>(parent);
     if (band.orientation != Orientation::kLL)
@@ -78,17 +76,18 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
   return bands;
 }
 
-void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Validity valid,
-                uint32_t width, std::span<BandPlan> bands) {
-  if (valid.empty()) return;
+void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
+  const Mask valid = pyramid_.valid();
+  if (valid.all()) return;
   assert(bands.size() == parts.size());
   for (size_t i = 0; i < bands.size(); ++i) {
     const BandPart& part = parts[i];
-    const Subband& subband = layout.subbands()[part.subband];
+    const Subband& subband = subbands()[part.subband];
     const BandShape& shape = bands[i].shape;
     bands[i].absent.assign(shape.wordCells(), 0);
     for (uint32_t row = 0; row < part.rows; ++row) {
-      const uint8_t* samples = valid.data() + size_t{subband.planeRow(part.row + row)} * width;
+      const size_t line = size_t{subband.planeRow(part.row + row)} * pyramid_.plane().width;
+      const uint8_t* samples = valid.from(line);
       for (uint32_t first = 0; first < part.columns; first += 32) {
         uint32_t word = 0;
         for (uint32_t k = 0; k < std::min(32u, part.columns - first); ++k)
@@ -99,26 +98,17 @@ void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Vali
   }
 }
 
-std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband,
-                            const BandPart& part) {
-  assert(plane.size() % width == 0);
+std::vector<int32_t> PlaneLayout::gather(std::span<const int32_t> plane,
+                                         const BandPart& part) const {
+  assert(plane.size() == pyramid_.plane().samples());
   const BandShape shape = part.shape();
+  const Subband& subband = subbands()[part.subband];
   std::vector<int32_t> values(shape.cells(), 0);
   for (uint32_t row = 0; row < part.rows; ++row) {
-    const int32_t* from =
-        plane.data() + size_t{subband.planeRow(part.row + row)} * width + subband.x + part.column;
-    std::copy_n(from, part.columns, values.data() + shape.cell(row, 0));
+    const size_t first = pyramid_.indexOf(subband, part.row + row) + part.column;
+    std::copy_n(plane.data() + first, part.columns, values.data() + shape.cell(row, 0));
   }
   return values;
-}
-
-void scatter(const Band& band, int fraction_bits, const Subband& subband, const BandPart& part,
-             std::span<int32_t> plane, uint32_t width) {
-  const Reconstruction values(band, fraction_bits);
-  for (uint32_t row = 0; row < part.rows; ++row) {
-    values.row(row, plane.data() + size_t{subband.planeRow(part.row + row)} * width + subband.x +
-                        part.column);
-  }
 }
 
 }  // namespace tetrakis

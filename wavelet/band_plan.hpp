@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a transformed plane becomes the bands of a track, and back.
+// This file says how a transformed plane becomes the bands of a track. Encoders gather coefficients
+// here; decoders put them back with wavelet/view_synthesis.hpp.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +10,16 @@
 #include "bitstream/track/regions.hpp"
 #include "bitstream/track/track.hpp"
 #include "wavelet/norms.hpp"
-#include "wavelet/subbands.hpp"
+#include "wavelet/pyramid.hpp"
 
 namespace tetrakis {
 
-/// Classes of contexts that the bands of one plane use: levels 1, 2, 3, all coarser ones, and LL.
+/// The classes of contexts that the bands of one plane use: levels 1, 2, 3, all coarser levels, LL.
 inline constexpr uint32_t kPlaneModels = 5;
 
 /// A rectangle of a subband's coefficients: what one track holds of it.
 struct BandPart {
-  size_t subband = 0;  ///< index in PlaneLayout::subbands()
+  size_t subband = 0;  ///< index in Pyramid::subbands()
   uint32_t column = 0, row = 0, columns = 0, rows = 0;
 
   BandShape shape() const { return {rows, columns}; }
@@ -27,41 +28,35 @@ struct BandPart {
 /// What a region holds of each of the subbands, in coding order.
 std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region);
 
-/// The subbands of planes of one size under one transform.
+/// The subbands of planes that share one size, one transform and one mask of existing samples.
 class PlaneLayout {
  public:
-  PlaneLayout(const WaveletSpec& spec, uint32_t width, uint32_t height);
+  /// The bytes of the mask outlive the layout.
+  PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid = {});
 
-  std::vector<BandPart> parts(const Region& region) const { return partsOf(subbands_, region); }
+  const Pyramid& pyramid() const { return pyramid_; }
+  const std::vector<Subband>& subbands() const { return pyramid_.subbands(); }
+  /// The squared error of the plane for a unit squared error of one of the subband's coefficients.
+  double energy(size_t subband) const { return norms_.energy(subbands()[subband]); }
 
-  /// One entry for each part of a region. The indices of parents and siblings count from `first`,
-  /// the place that the first entry will have in the plan of the track.
-  /// priority: added to every log_norm; models: class of contexts of the first band.
+  std::vector<BandPart> parts(const Region& region) const { return partsOf(subbands(), region); }
+
+  /// Returns one entry for each part of a region, without its absent coefficients. The indices of
+  /// parents and siblings count from `first`, the place that the first entry will have in the plan
+  /// of the track. priority: added to every log_norm. models: the class of contexts of the first
+  /// band.
   std::vector<BandPlan> plan(std::span<const BandPart> parts, int first, int priority,
                              uint32_t models) const;
 
-  const std::vector<Subband>& subbands() const { return subbands_; }
-  size_t size() const { return subbands_.size(); }
-  /// Squared error of the plane for a unit squared error of one of the subband's coefficients.
-  double energy(size_t subband) const { return norms_.energy(subbands_[subband]); }
+  /// Marks the coefficients of samples that do not exist as absent. bands: those of the parts.
+  void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
+
+  /// Returns the coefficients of a part of a transformed plane, in the cell layout of its shape.
+  std::vector<int32_t> gather(std::span<const int32_t> plane, const BandPart& part) const;
 
  private:
-  std::vector<Subband> subbands_;
+  Pyramid pyramid_;
   SynthesisNorms norms_;
 };
-
-/// Marks the coefficients of void samples as absent. bands: those of the parts. valid: width *
-/// height of the plane; empty: there are no voids.
-void markAbsent(const PlaneLayout& layout, std::span<const BandPart> parts, Validity valid,
-                uint32_t width, std::span<BandPlan> bands);
-
-/// The part's coefficients in the cell layout of its shape.
-std::vector<int32_t> gather(std::span<const int32_t> plane, uint32_t width, const Subband& subband,
-                            const BandPart& part);
-
-/// Puts what is known of the part's coefficients into the plane, with `fraction_bits` binary
-/// places more than they were coded with.
-void scatter(const Band& band, int fraction_bits, const Subband& subband, const BandPart& part,
-             std::span<int32_t> plane, uint32_t width);
 
 }  // namespace tetrakis

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -35,22 +36,16 @@ constexpr int kMostFractionBits = 4;
 constexpr int kOrthogonalBits = 20;  // with more, the growing low bands of kOrthogonal pass 2^30
 
 struct Sample {
-  uint32_t width, height;
+  Extent extent;
   std::vector<int32_t> values;
   std::vector<uint8_t> valid;  // empty: all
 };
 
-Sample sampleOf(const Part& part, std::span<const int32_t> plane, Validity valid, uint32_t width) {
-  Sample sample{part.width, part.height, {}, {}};
-  for (uint32_t row = 0; row < part.height; ++row) {
-    const size_t first = size_t{part.y + row} * width + part.x;
-    const auto values = plane.subspan(first, part.width);
-    sample.values.insert(sample.values.end(), values.begin(), values.end());
-    if (valid.empty()) continue;
-    const auto exist = valid.subspan(first, part.width);
-    sample.valid.insert(sample.valid.end(), exist.begin(), exist.end());
-  }
-  for (size_t i = 0; i < sample.valid.size(); ++i) sample.values[i] *= sample.valid[i];
+Sample sampleOf(const PlaneView<const int32_t>& plane, const Window& part) {
+  const View view{0, part};
+  Sample sample{part.extent(), cut(std::span<const int32_t>(plane.values()), plane.extent(), view),
+                cut(plane.valid.bytes(), plane.extent(), view)};
+  clearUnmarked(std::span(sample.values), sample.valid);
   return sample;
 }
 
@@ -62,13 +57,13 @@ void appendDetails(const Sample& sample, const WaveletHeader& header, bool plain
   std::vector<int32_t> plane = sample.values;
   for (int32_t& v : plane)
     v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
-  forwardWavelet(spec, plane, sample.width, sample.height, sample.valid);
-  const PlaneLayout layout(spec, sample.width, sample.height);
-  for (size_t i = 1; i < layout.size(); ++i) {
+  forwardWavelet(spec, {plane, sample.extent, sample.valid});
+  const PlaneLayout layout(spec, sample.extent);
+  for (size_t i = 1; i < layout.subbands().size(); ++i) {
     const Subband& band = layout.subbands()[i];
     const auto norm = static_cast<float>(plain ? 1 : std::sqrt(layout.energy(i)));
     for (uint32_t row = 0; row < band.height; ++row) {
-      const int32_t* from = plane.data() + size_t{band.planeRow(row)} * sample.width + band.x;
+      const int32_t* from = plane.data() + layout.pyramid().indexOf(band, row);
       for (uint32_t column = 0; column < band.width; ++column) {
         if (from[column] != 0) details.push_back(norm * std::abs(static_cast<float>(from[column])));
       }
@@ -111,12 +106,11 @@ struct Choice {
   double bits = std::numeric_limits<double>::infinity();
 };
 
-std::vector<Sample> samplesOf(std::span<const std::span<const int32_t>> planes, Validity valid,
-                              uint32_t width, uint32_t height) {
+std::vector<Sample> samplesOf(std::span<const PlaneView<const int32_t>> planes) {
+  assert(!planes.empty());
   std::vector<Sample> samples;
-  for (const Part& part : typicalParts(width, height)) {
-    for (const std::span<const int32_t> plane : planes)
-      samples.push_back(sampleOf(part, plane, valid, width));
+  for (const Window& part : typicalParts(planes.front().extent())) {
+    for (const PlaneView<const int32_t>& plane : planes) samples.push_back(sampleOf(plane, part));
   }
   return samples;
 }
@@ -143,22 +137,20 @@ Choice chooseAmong(const std::vector<Sample>& samples, int bits, Purpose purpose
 
 }  // namespace
 
-WaveletHeader chooseWavelet(std::span<const int32_t> plane, Validity valid, uint32_t width,
-                            uint32_t height, int bits, Purpose purpose) {
-  return chooseWavelet(std::span(&plane, 1), valid, width, height, bits, purpose);
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose) {
+  return chooseWavelet(std::span(&plane, 1), bits, purpose);
 }
 
-WaveletHeader chooseWavelet(std::span<const std::span<const int32_t>> planes, Validity valid,
-                            uint32_t width, uint32_t height, int bits, Purpose purpose) {
-  return chooseAmong(samplesOf(planes, valid, width, height), bits, purpose).header;
+WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,
+                            Purpose purpose) {
+  return chooseAmong(samplesOf(planes), bits, purpose).header;
 }
 
-double losslessBits(std::span<const int32_t> plane, Validity valid, uint32_t width,
-                    uint32_t height, int bits) {
-  const std::vector<Sample> samples = samplesOf(std::span(&plane, 1), valid, width, height);
+double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
+  const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
   size_t seen = 0;
-  for (const Sample& sample : samples) seen += sample.values.size();
-  const double whole = static_cast<double>(width) * height / static_cast<double>(seen);
+  for (const Sample& sample : samples) seen += sample.extent.samples();
+  const double whole = static_cast<double>(plane.extent().samples()) / static_cast<double>(seen);
   return chooseAmong(samples, bits, Purpose::kLossless).bits * whole;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One-dimensional lifting, along columns and along rows. Signals have two samples or more and are
-// mirrored about their first and last. With 64-bit (wide) sums results are exact, else sums wrap
-// modulo 2^32.
+// Lifting works on one-dimensional signals: the columns and the rows of a plane. A signal has two
+// samples or more and is mirrored about its first and its last sample. With 64-bit (wide) sums the
+// results are exact; without them sums wrap modulo 2^32.
 //
-// Element t of a signal is changed by its neighbours of the other parity:
+// The neighbours of the other parity change element t of a signal:
 //
 //   x[t] += round(sum_k w_k (x[t - 1 - 2k] + x[t + 1 + 2k]) / 2^shift)
 #pragma once

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The menu of wavelets, each a short list of lifting steps (W. Sweldens, "The lifting scheme",
-// 1996; integer form: A. R. Calderbank et al., 1998). Steps alternate between predicting the odd
-// samples from the even ones and updating the even ones from the odd ones:
+// This is the menu of wavelets. Each is a short list of lifting steps (W. Sweldens, "The lifting
+// scheme", 1996; integer form: A. R. Calderbank et al., 1998). Steps alternate between predicting
+// the odd samples from the even ones and updating the even ones from the odd ones:
 //
 //   predict   odd[i]  += round(sum_k w_k (even[i - k] + even[i + 1 + k]) / 2^shift)
 //   update    even[i] += round(sum_k w_k (odd[i - 1 - k] + odd[i + k]) / 2^shift)
 //
-// What the steps leave is low = even, high = odd. Rounding is half up, so every filter is exactly
+// The steps leave the low band in the even samples and the high band in the odd ones. A step adds a
+// rounded number (half up) that the other samples alone determine, so every filter is exactly
 // reversible.
 #pragma once
 

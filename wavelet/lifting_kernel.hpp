@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One lifting step of many signals at once: what all lifting comes down to. The scalar kernel is
-// the specification; where the processor has vectors of its own kind, liftStep() uses them.
+// All lifting comes down to one step of many signals at once, which is here. The scalar kernel is
+// the specification; liftStep() uses the vectors of the processor where it has suitable ones.
 #pragma once
 
 #include <array>

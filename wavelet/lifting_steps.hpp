@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lifting visits and reads, be it values or whether they exist: signals of two samples or
-// more, mirrored about their first and last.
+// This file says what lifting visits and reads, whether that is values or marks of their existence.
+// A signal has two samples or more and is mirrored about its first and its last sample.
 #pragma once
 
 #include <algorithm>

@@ -43,11 +43,12 @@ LiftingSources from(const LiftingSources& sources, size_t pairs, size_t j) {
 
 }  // namespace
 
-void MaskedStep::lift(int32_t* target, const uint8_t* valid, const LiftingSources& sources,
-                      const StepSources<uint8_t>& exist, const LiftingRule& rule, size_t count) {
-  findRegular(valid, exist, rule.step.pairs, count);
+void MaskedStep::lift(const Targets& targets, const LiftingSources& sources,
+                      const StepSources<uint8_t>& existing, const LiftingRule& rule) {
+  const auto [target, valid, count] = targets;
+  findRegular(valid, existing, rule.step.pairs, count);
   const auto lift_all = [&](size_t begin, size_t end) {
-    liftStep(target + begin, from(sources, rule.step.pairs, begin), rule, end - begin);
+    liftStep(targets.values + begin, from(sources, rule.step.pairs, begin), rule, end - begin);
   };
   const uint8_t* const regular = regular_.data();
   size_t done = 0;  // what lies between it and the current block is regular
@@ -63,7 +64,7 @@ void MaskedStep::lift(int32_t* target, const uint8_t* valid, const LiftingSource
     for (size_t j = begin; j < end; ++j) {
       if (regular[j] != 0) continue;
       const bool adds = rule.direction == Direction::kAnalysis;
-      const uint32_t change = valid[j] != 0 ? changeOf(sources, exist, rule, j) : 0;
+      const uint32_t change = valid[j] != 0 ? changeOf(sources, existing, rule, j) : 0;
       const auto value = static_cast<uint32_t>(before[j - begin]);
       target[j] = static_cast<int32_t>(adds ? value + change : value - change);
     }
@@ -87,17 +88,17 @@ void liftMaskedColumns(const Rows<int32_t>& rows, const Rows<const uint8_t>& val
   const int shift = liftingFilter(id).shift;
   MaskedStep masked;
   forEachRowStep(rows.count, id, direction, [&](ptrdiff_t t, const LiftingStep& step) {
-    masked.lift(rows.row(t), valid.row(t), rows.sources(t, step.pairs),
-                valid.sources(t, step.pairs), {step, shift, direction, true}, rows.width);
+    masked.lift({rows.row(t), valid.row(t), rows.width}, rows.sources(t, step.pairs),
+                valid.sources(t, step.pairs), {step, shift, direction, true});
   });
 }
 
 void MaskedRowLifting::run(FilterId id, Direction direction) {
   const int shift = liftingFilter(id).shift;
   forEachStep(id, direction, [&](const LiftingStep& step, bool predicts) {
-    step_.lift(values_.targets(predicts), valid_.targets(predicts),
+    step_.lift({values_.targets(predicts), valid_.targets(predicts), values_.count(predicts)},
                values_.sources(predicts, step.pairs), valid_.sources(predicts, step.pairs),
-               {step, shift, direction, true}, values_.count(predicts));
+               {step, shift, direction, true});
   });
 }
 

@@ -1,34 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lifting where some samples do not exist (after S. Li and W. Li, "Shape-adaptive discrete wavelet
-// transforms", IEEE TCSVT 10(5), 2000). A void is neither read nor changed, so nothing bleeds
-// across a coast:
+// This is lifting of signals in which some samples do not exist (after S. Li and W. Li,
+// "Shape-adaptive discrete wavelet transforms", IEEE TCSVT 10(5), 2000). A void is neither read nor
+// changed, so nothing bleeds across a coast:
 //
-//   a neighbour that is void stands for its mirror image about the target,
-//   a pair of which both are void stands for the pair before it, leading ones for the first pair
-//   that is not; a target without any stays as it is.
+//   a neighbour that is void takes the value of its mirror image about the target,
+//   a pair of which both are void takes the values of the pair before it, or, if all pairs before
+//   it are void, of the first pair that is not; a target whose pairs are all void stays as it is.
 //
 // Constants are predicted exactly as long as one pair is left. All sums are exact, so that nothing
 // depends on where the voids are.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "wavelet/lifting_steps.hpp"
 
 namespace tetrakis {
 
-/// Samples of a plane, width * height: 1 valid, 0 void; empty: all are valid.
-using Validity = std::span<const uint8_t>;
-
 /// One step of many signals at once: through liftStep(), and of the targets that are void or have a
 /// void neighbour once more by themselves.
 class MaskedStep {
  public:
-  /// valid, exist: 1 where a target or source exists, else 0; beside the values.
-  void lift(int32_t* target, const uint8_t* valid, const LiftingSources& sources,
-            const StepSources<uint8_t>& exist, const LiftingRule& rule, size_t count);
+  /// What a step changes: `count` values, and 1 for each that exists.
+  struct Targets {
+    int32_t* values;
+    const uint8_t* valid;
+    size_t count;
+  };
+
+  /// existing: 1 where a source exists, else 0.
+  void lift(const Targets& targets, const LiftingSources& sources,
+            const StepSources<uint8_t>& existing, const LiftingRule& rule);
 
  private:
   static constexpr size_t kBlock = 64;

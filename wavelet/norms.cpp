@@ -114,10 +114,8 @@ SynthesisNorms::SynthesisNorms(const WaveletSpec& spec, int levels) : doubled_(s
 }
 
 int SynthesisNorms::fine(const Subband& band) const {
-  const bool high_x = band.orientation == Orientation::kHL || band.orientation == Orientation::kHH;
-  const bool high_y = band.orientation == Orientation::kLH || band.orientation == Orientation::kHH;
-  int norm = (high_x ? high_ : low_)[static_cast<size_t>(band.splits_x)] +
-             (high_y ? high_ : low_)[static_cast<size_t>(band.splits_y)];
+  int norm = (band.isHighX() ? high_ : low_)[static_cast<size_t>(band.splits_x)] +
+             (band.isHighY() ? high_ : low_)[static_cast<size_t>(band.splits_y)];
   if (!doubled_) return norm;
   // A detail band is made from the low band of the level before, LL is itself a low band.
   const int doubled_up_to = band.orientation == Orientation::kLL ? band.level : band.level - 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much an error in a wavelet coefficient hurts: the L2 norm of its synthesis function.
+// A norm says how much an error in a wavelet coefficient hurts: it is the L2 norm of the synthesis
+// function of the coefficient's band.
 #pragma once
 
 #include <array>

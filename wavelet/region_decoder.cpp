@@ -2,6 +2,7 @@
 #include "wavelet/region_decoder.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "base/parallel.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -22,46 +23,48 @@ bool isWhole(const RegionHeader& regions, const Codewords& codewords) {
 
 uint64_t TrackNeeds::bytes() const {
   constexpr uint64_t kOnce = 64 << 10;  // plans and models
-  const std::vector<Subband> subbands = subbandsOf(width, height);
+  const Pyramid pyramid(plane);
   uint64_t largest = 0;
-  for (const Region& region : largestRegions(width, height, side_log2)) {
+  for (const Region& region : largestRegions(plane.width, plane.height, side_log2)) {
     uint64_t sum = kOnce;
-    for (const BandPart& part : partsOf(subbands, region)) {
+    for (const BandPart& part : partsOf(pyramid.subbands(), region)) {
       if (known) sum += components * Band::bytesOf(part.shape(), masked);
       if (masked) sum += components * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
     }
     largest = std::max(largest, sum);
   }
-  return largest * std::clamp<uint64_t>(threads, 1, regionCount(width, height, side_log2));
+  return largest *
+         std::clamp<uint64_t>(threads, 1, regionCount(plane.width, plane.height, side_log2));
 }
 
 bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
-  return regions.side_log2 == 0 && (planes == 0 || codewords.front().empty());
+  return regions.side_log2 == 0 && (bit_planes == 0 || codewords.front().empty());
 }
 
-int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take,
-                       TrackMemory* memory) const {
+int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const {
+  assert(!codewords.empty());
   if (nothingKnown(codewords)) {
-    const bool complete = !PassQueue(plan_of(0), planes).needed();
-    return outputFractionBits(wavelet, planes, complete);
+    const bool complete = !PassQueue(plan_of(0), bit_planes).needed();
+    return outputFractionBits(wavelet, bit_planes, complete);
   }
   if (regions.side_log2 == 0) {
     const auto taken = [&](const TrackState& state) {
-      const int bits = outputFractionBits(wavelet, planes, state.complete);
+      const int bits = outputFractionBits(wavelet, bit_planes, state.complete);
       take(0, state, bits - wavelet.fraction_bits);
       return bits;
     };
     // The plan is known when its masks are, which come first.
-    if (memory == nullptr) return taken(decodeTrack(plan_of(0), planes, codewords.front()));
-    if (!*memory) memory->emplace(plan_of(0), planes);
+    TrackMemory* memory = context.memory;
+    if (memory == nullptr) return taken(decodeTrack(plan_of(0), bit_planes, codewords.front()));
+    if (!*memory) memory->emplace(plan_of(0), bit_planes);
     return taken((*memory)->decode(codewords.front()));
   }
-  const int bits = outputFractionBits(wavelet, planes, isWhole(regions, codewords));
-  parallelFor(threads, codewords.size(), [&](size_t i) {
-    if (codewords[i].empty() || planes == 0) return;
+  const int bits = outputFractionBits(wavelet, bit_planes, isWhole(regions, codewords));
+  parallelFor(context.threads, codewords.size(), [&](size_t i) {
+    if (codewords[i].empty() || bit_planes == 0) return;
     const std::vector<BandPlan> plan = plan_of(i);
     if (plan.empty()) return;
-    take(i, decodeTrack(plan, planes, codewords[i]), bits - wavelet.fraction_bits);
+    take(i, decodeTrack(plan, bit_planes, codewords[i]), bits - wavelet.fraction_bits);
   });
   return bits;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the tracks of a component one region after the other, or on several threads, so that the
-// state of no more than one region a thread is kept.
+// Decodes the tracks of a component one region after the other, or on several threads. Only the
+// state of one region is kept for each thread.
 #pragma once
 
 #include <cstddef>
@@ -9,26 +9,28 @@
 #include <optional>
 #include <vector>
 
+#include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
+#include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"
 
 namespace tetrakis {
 
-/// What one call of a decoder leaves to the next, whose only track is longer by some bytes, and
-/// starts in the same memory. Empty at first.
+/// What one call of a decoder leaves to the next, whose only track is longer by some bytes and
+/// begins at the same address. It is empty before the first call.
 using TrackMemory = std::optional<GrowingTrack>;
 
-/// What run() below needs for the tracks of planes.
+/// What run() below needs for the tracks of a component.
 struct TrackNeeds {
-  uint32_t width, height;
-  int side_log2;
+  Extent plane;
+  int side_log2;  ///< of the regions; 0: there is one track
   uint32_t components;
-  bool masked;  ///< coefficients may be absent
-  bool known;   ///< there may be a byte of one
+  bool masked;  ///< some samples do not exist, and their coefficients are absent
+  bool known;   ///< there may be a byte of a track
   uint32_t threads;
 
-  /// Bytes at most: of the largest track, on each thread.
+  /// The bytes that the largest track takes at most, on each thread.
   uint64_t bytes() const;
 };
 
@@ -36,22 +38,21 @@ struct TrackNeeds {
 struct RegionDecoder {
   const WaveletHeader& wavelet;
   const RegionHeader& regions;
-  int planes;
-  uint32_t threads;
+  int bit_planes;
+  DecodeContext<TrackMemory> context;
 
-  /// The plan of a track; empty: it is not wanted.
+  /// Returns the plan of a track, or an empty one if the track is not wanted.
   using PlanOf = std::function<std::vector<BandPlan>(size_t track)>;
-  /// Takes what is known of a track, with so many binary places more than it was coded with.
-  /// Tracks of which nothing is known are left out: all their coefficients are 0. Called for
-  /// different tracks at the same time.
+  /// Takes what is known of a track, with `more_bits` binary places more than it was coded with.
+  /// It is not called for tracks of which nothing is known: all their coefficients are 0. It may be
+  /// called for different tracks at the same time.
   using Take = std::function<void(size_t track, const TrackState& state, int more_bits)>;
 
-  /// There is one track, of which nothing is known: run() takes none.
+  /// True if there is only one track and nothing is known of it, so that run() takes none.
   bool nothingKnown(const Codewords& codewords) const;
 
   /// Returns the fraction bits of the values taken (docs/FORMAT.md, section 7).
-  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take,
-          TrackMemory* memory = nullptr) const;
+  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
 };
 
 }  // namespace tetrakis

@@ -28,9 +28,10 @@ Interval middleOf(uint32_t field, uint32_t side, uint32_t most) {
 
 }  // namespace
 
-std::vector<Part> typicalParts(uint32_t width, uint32_t height, uint32_t side) {
+std::vector<Window> typicalParts(Extent plane, uint32_t side) {
+  const auto [width, height] = plane;
   if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};
-  std::vector<Part> parts;
+  std::vector<Window> parts;
   for (uint32_t row = 0; row < kFields; ++row) {
     const Interval y = middleOf(row, height, side);
     for (uint32_t column = 0; column < kFields; ++column) {

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a plane is looked at before it is coded. Encoder only.
+// Encoders look at typical parts of a plane before they code all of it.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "base/view.hpp"
+
 namespace tetrakis {
 
-/// A rectangle of a plane, in samples.
-struct Part {
-  uint32_t x, y, width, height;
-};
-
-/// The parts that stand for a plane of width * height samples, none of them 0, where trying all of
-/// it would take too long. One part if neither side is above 256. Otherwise one in the middle of
-/// each field of a grid of 3 by 3, of `side` samples at most along each side: one part alone may be
-/// water, or a lawn.
-std::vector<Part> typicalParts(uint32_t width, uint32_t height, uint32_t side = 96);
+/// Returns the parts that stand for a plane where trying all of it would take too long: the whole
+/// plane if neither side is above 256. Otherwise there is a part in the middle of each field of a
+/// grid of 3 by 3, with at most `side` samples along each side, because a single part may be water,
+/// or a lawn.
+std::vector<Window> typicalParts(Extent plane, uint32_t side = 96);
 
 }  // namespace tetrakis

@@ -15,133 +15,105 @@ namespace tetrakis {
 
 namespace {
 
-/// The low band that a level starts from, in place: rows 2^splits_y apart, columns together.
-struct LowBand {
-  int32_t* plane;
-  size_t stride;
+/// What a level splits: rows at equal distances, columns together.
+struct Block {
+  int32_t* first;
+  size_t pitch;  ///< from one row to the next, in values
   Extent extent;
-  int splits_x, splits_y;
 
-  Rows<int32_t> rows() const { return {plane, stride << splits_y, extent.height, extent.width}; }
-  std::span<int32_t> row(uint32_t y) const {
-    return {plane + (size_t{y} << splits_y) * stride, extent.width};
-  }
+  Rows<int32_t> rows() const { return {first, pitch, extent.height, extent.width}; }
+  std::span<int32_t> row(uint32_t y) const { return {first + y * pitch, extent.width}; }
 };
 
-void doubleValues(const LowBand& low) {
+void doubleValues(const Block& low) {
   for (uint32_t y = 0; y < low.extent.height; ++y) {
     for (int32_t& v : low.row(y)) v = static_cast<int32_t>(static_cast<uint32_t>(v) << 1);
   }
 }
 
-void halveValues(const LowBand& low) {
+void halveValues(const Block& low) {
   for (uint32_t y = 0; y < low.extent.height; ++y) {
     for (int32_t& v : low.row(y)) v = halved(v);
   }
 }
 
-/// [l]: the low band after l levels.
-std::vector<LowBand> lowBands(std::span<int32_t> plane, uint32_t width, uint32_t height) {
-  std::vector<LowBand> bands;
-  int splits_x = 0, splits_y = 0;
-  for (const Extent& extent : lowExtents(width, height)) {
-    splits_x += !bands.empty() && extent.width < bands.back().extent.width;
-    splits_y += !bands.empty() && extent.height < bands.back().extent.height;
-    bands.push_back({plane.data(), width, extent, splits_x, splits_y});
-  }
-  return bands;
+/// The low band of a level where it lies in the values of the low band of a finer level.
+Block blockOf(const Pyramid& pyramid, int level, int finer, std::span<int32_t> values) {
+  const LowBand &band = pyramid.low(level), &whole = pyramid.low(finer);
+  assert(level >= finer && values.size() == whole.extent.samples());
+  return {values.data(), size_t{whole.extent.width} << (band.splits_y - whole.splits_y),
+          band.extent};
 }
 
-/// Which samples of a low band exist, where their values lie: of rows that are split, those of the
-/// low half come first.
-class LevelMask {
- public:
-  /// valid: of the whole plane.
-  LevelMask(Validity valid, uint32_t plane_width, const LowBand& band, bool split_rows)
-      : width_(band.extent.width), height_(band.extent.height), mask_(size_t{width_} * height_) {
-    const uint32_t lows = split_rows ? width_ - width_ / 2 : width_;
-    const uint32_t pitch = (split_rows ? 2u : 1u) << band.splits_x;
-    uint8_t* to = mask_.data();
-    for (uint32_t y = 0; y < height_; ++y) {
-      const uint8_t* row = valid.data() + (size_t{y} << band.splits_y) * plane_width;
-      for (uint32_t x = 0; x < lows; ++x) *to++ = row[size_t{x} * pitch];
-      for (uint32_t x = 0; x < width_ - lows; ++x) *to++ = row[size_t{x} * pitch + pitch / 2];
-    }
-  }
+/// Which values of a block exist, where they lie.
+struct BlockMask {
+  std::span<const uint8_t> marks;
+  Extent extent;
 
-  const uint8_t* row(uint32_t y) const { return mask_.data() + size_t{y} * width_; }
+  const uint8_t* row(uint32_t y) const { return marks.data() + size_t{y} * extent.width; }
   Rows<const uint8_t> columns(uint32_t begin, uint32_t end) const {
-    return {mask_.data() + begin, width_, height_, end - begin};
+    return {marks.data() + begin, extent.width, extent.height, end - begin};
   }
-
- private:
-  uint32_t width_, height_;
-  std::vector<uint8_t> mask_;
 };
 
 /// One level of the transform: rows, then columns; backwards the other way round.
 class LevelTransform {
  public:
-  LevelTransform(const WaveletSpec& spec, Validity valid, uint32_t plane_width, uint32_t threads)
-      : spec_(spec), valid_(valid), plane_width_(plane_width), threads_(threads) {}
+  LevelTransform(const WaveletSpec& spec, int level, Direction direction, uint32_t threads)
+      : id_(spec.filter(level)),
+        direction_(direction),
+        wide_(spec.wide(level)),
+        threads_(threads) {}
 
-  void run(int level, const LowBand& whole, const LowBand& low, Direction direction) {
-    const bool rows = low.extent.width < whole.extent.width;
-    const bool columns = low.extent.height < whole.extent.height;
-    std::optional<LevelMask> mask;
-    if (!valid_.empty()) mask.emplace(valid_, plane_width_, whole, rows);
-    const Lifting lifting{spec_.filter(level), direction, spec_.wide(level), mask};
-    const bool analysis = direction == Direction::kAnalysis;
-    if (rows && analysis) liftRows(whole, lifting);
-    if (columns) liftColumns(whole, lifting);
-    if (rows && !analysis) liftRows(whole, lifting);
+  /// existing: one byte for each value of the block; empty: all exist.
+  void run(const Block& whole, Extent low, std::span<const uint8_t> existing) const {
+    assert(existing.empty() || existing.size() == whole.extent.samples());
+    const bool rows = low.width < whole.extent.width, columns = low.height < whole.extent.height;
+    std::optional<BlockMask> mask;
+    if (!existing.empty()) mask = BlockMask{existing, whole.extent};
+    if (rows && analyses()) liftRows(whole, mask);
+    if (columns) liftColumns(whole, mask);
+    if (rows && !analyses()) liftRows(whole, mask);
   }
 
  private:
   /// Rows or columns that a thread takes at a time.
   static constexpr uint32_t kChunk = 256;
 
-  struct Lifting {
-    FilterId id;
-    Direction direction;
-    bool wide;
-    const std::optional<LevelMask>& mask;
-  };
+  bool analyses() const { return direction_ == Direction::kAnalysis; }
 
-  void liftRows(const LowBand& whole, const Lifting& lifting) {
+  void liftRows(const Block& whole, const std::optional<BlockMask>& mask) const {
     const uint32_t width = whole.extent.width;
-    const bool analysis = lifting.direction == Direction::kAnalysis;
     inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
-      if (lifting.mask) {
+      if (mask) {
         MaskedRowLifting masked(width);
         for (uint32_t y = begin; y < end; ++y) {
           int32_t* row = whole.row(y).data();
-          const uint8_t* valid = lifting.mask->row(y);
-          analysis ? masked.analyse(row, valid, width, lifting.id)
-                   : masked.synthesise(row, valid, width, lifting.id);
+          analyses() ? masked.analyse(row, mask->row(y), width, id_)
+                     : masked.synthesise(row, mask->row(y), width, id_);
         }
         return;
       }
       RowLifting plain(width);
       for (uint32_t y = begin; y < end; ++y) {
         int32_t* row = whole.row(y).data();
-        analysis ? plain.analyse(row, width, lifting.id, lifting.wide)
-                 : plain.synthesise(row, width, lifting.id, lifting.wide);
+        analyses() ? plain.analyse(row, width, id_, wide_)
+                   : plain.synthesise(row, width, id_, wide_);
       }
     });
   }
-  void liftColumns(const LowBand& whole, const Lifting& lifting) {
+  void liftColumns(const Block& whole, const std::optional<BlockMask>& mask) const {
     const Rows<int32_t> rows = whole.rows();
     inChunks(rows.width, [&](uint32_t begin, uint32_t end) {
       const Rows<int32_t> part{rows.first + begin, rows.pitch, rows.count, end - begin};
-      if (lifting.mask) {
-        liftMaskedColumns(part, lifting.mask->columns(begin, end), lifting.id, lifting.direction);
+      if (mask) {
+        liftMaskedColumns(part, mask->columns(begin, end), id_, direction_);
       } else {
-        tetrakis::liftColumns(part, lifting.id, lifting.direction, lifting.wide);
+        tetrakis::liftColumns(part, id_, direction_, wide_);
       }
     });
   }
-  void inChunks(uint32_t count, const std::function<void(uint32_t, uint32_t)>& lift) {
+  void inChunks(uint32_t count, const std::function<void(uint32_t, uint32_t)>& lift) const {
     const uint32_t chunk = threads_ > 1 ? kChunk : count;
     parallelFor(threads_, (count + chunk - 1) / chunk, [&](size_t i) {
       const auto begin = static_cast<uint32_t>(i) * chunk;
@@ -149,10 +121,18 @@ class LevelTransform {
     });
   }
 
-  const WaveletSpec& spec_;
-  Validity valid_;
-  uint32_t plane_width_, threads_;
+  FilterId id_;
+  Direction direction_;
+  bool wide_;
+  uint32_t threads_;
 };
+
+/// The mask of all that a level splits; empty where all of it exists.
+std::vector<uint8_t> maskOf(const Pyramid& pyramid, int level) {
+  if (pyramid.valid().all()) return {};
+  const Extent whole = pyramid.low(level - 1).extent;
+  return pyramid.splitMask(level - 1, {0, 0, whole.width, whole.height});
+}
 
 }  // namespace
 
@@ -160,35 +140,36 @@ int32_t halved(int32_t value) {
   return static_cast<int32_t>(static_cast<uint32_t>(value) + 1) >> 1;
 }
 
-void inverseLevel(const WaveletSpec& spec, int level, std::span<int32_t> block, Extent whole,
-                  Extent low, Validity valid) {
-  const LowBand whole_band{block.data(), whole.width, whole, 0, 0};
-  const LowBand low_band{block.data(), whole.width, low, low.width < whole.width,
-                         low.height < whole.height};
-  LevelTransform(spec, valid, whole.width, 1)
-      .run(level, whole_band, low_band, Direction::kSynthesis);
+void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block) {
+  assert(block.values.size() == block.extent.samples());
+  LevelTransform(spec, level, Direction::kSynthesis, 1)
+      .run({block.values.data(), block.extent.width, block.extent}, block.low, block.existing);
 }
 
-void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid, uint32_t threads) {
-  assert(plane.size() == size_t{width} * height && width > 0 && height > 0);
-  const std::vector<LowBand> bands = lowBands(plane, width, height);
-  LevelTransform transform(spec, valid, width, threads);
-  for (size_t l = 1; l < bands.size(); ++l) {
-    transform.run(static_cast<int>(l), bands[l - 1], bands[l], Direction::kAnalysis);
-    if (spec.doubles(static_cast<int>(l))) doubleValues(bands[l]);
+void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads) {
+  const Pyramid pyramid(plane.extent(), plane.valid);
+  for (int level = 1; level <= pyramid.levels(); ++level) {
+    const Block whole = blockOf(pyramid, level - 1, 0, plane.values()),
+                low = blockOf(pyramid, level, 0, plane.values());
+    LevelTransform(spec, level, Direction::kAnalysis, threads)
+        .run(whole, low.extent, maskOf(pyramid, level));
+    if (spec.doubles(level)) doubleValues(low);
   }
 }
 
-void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid, uint32_t threads) {
-  assert(plane.size() == size_t{width} * height && width > 0 && height > 0);
-  const std::vector<LowBand> bands = lowBands(plane, width, height);
-  LevelTransform transform(spec, valid, width, threads);
-  for (size_t l = bands.size() - 1; l >= 1; --l) {
-    if (spec.doubles(static_cast<int>(l))) halveValues(bands[l]);
-    transform.run(static_cast<int>(l), bands[l - 1], bands[l], Direction::kSynthesis);
+void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
+                    std::span<int32_t> values, uint32_t threads) {
+  for (int split = pyramid.levels(); split > level; --split) {
+    const Block whole = blockOf(pyramid, split - 1, level, values),
+                low = blockOf(pyramid, split, level, values);
+    if (spec.doubles(split)) halveValues(low);
+    LevelTransform(spec, split, Direction::kSynthesis, threads)
+        .run(whole, low.extent, maskOf(pyramid, split));
   }
+}
+
+void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads) {
+  inverseWavelet(spec, Pyramid(plane.extent(), plane.valid), 0, plane.values(), threads);
 }
 
 }  // namespace tetrakis

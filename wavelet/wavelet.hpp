@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reversible separable integer wavelet of a plane, for heights and for the components of a texture.
+// The transform is a reversible separable integer wavelet of a plane. Heights and the components of
+// a texture share it.
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
 // with fraction bits keep these errors below a step. In planes without them (lossless ones) the low
@@ -11,10 +12,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "wavelet/lifting_filter.hpp"
-#include "wavelet/masked_lifting.hpp"
-#include "wavelet/subbands.hpp"
+#include "wavelet/pyramid.hpp"
 
 namespace tetrakis {
 
@@ -26,39 +27,50 @@ struct WaveletSpec {
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
   bool doubled = false;  ///< the low band is doubled after each of kDoubledLevels
   int bits = 0;          ///< of a sample, fraction included
-  int finer_levels = 0;  ///< the plane is the low band after so many others, which count as levels
 
   static constexpr int kNarrowLevels = 3;
 
   /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
   /// and kOrthogonal multiplies their mean by 1.60 at every level.
   bool wide(int level) const {
-    return level + finer_levels > kNarrowLevels || bits > widestSamples(filter(level));
+    return level > kNarrowLevels || bits > widestSamples(filter(level));
   }
   FilterId filter(int level) const {
-    return filters[std::min(static_cast<size_t>(level + finer_levels), kChoices) - 1];
+    return filters[std::min(static_cast<size_t>(level), kChoices) - 1];
   }
   /// The low band is doubled after this level.
   bool doubles(int level) const {
-    return doubled && std::find(kDoubledLevels.begin(), kDoubledLevels.end(),
-                                level + finer_levels) != kDoubledLevels.end();
+    return doubled &&
+           std::find(kDoubledLevels.begin(), kDoubledLevels.end(), level) != kDoubledLevels.end();
   }
 };
 
-/// In place: width * height samples to coefficients, laid out as subbandsOf() says. Exactly undone
-/// by inverseWavelet of the same spec and validity. Voids are left alone.
-void forwardWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid = {}, uint32_t threads = 1);
+/// Turns the samples of a plane into coefficients, in place, laid out as wavelet/pyramid.hpp says.
+/// inverseWavelet() with the same spec and the same mask undoes it exactly. Samples that do not
+/// exist are left alone.
+void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
-/// Coefficients to samples. Defined for all values.
-void inverseWavelet(const WaveletSpec& spec, std::span<int32_t> plane, uint32_t width,
-                    uint32_t height, Validity valid = {}, uint32_t threads = 1);
+/// Turns coefficients into samples, in place. Defined for all values.
+void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
-/// One level of the inverse, of a block that stands for itself: whole.width * whole.height values
-/// of which the first of a row and the even rows make up its low band (wavelet/subbands.hpp).
-/// valid: of the block.
-void inverseLevel(const WaveletSpec& spec, int level, std::span<int32_t> block, Extent whole,
-                  Extent low, Validity valid = {});
+/// The same for the low band of a level, which is a plane of its own: undoes the coarser levels
+/// alone. low: the values of that low band.
+void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
+                    std::span<int32_t> low, uint32_t threads);
+
+/// A block of the low band that a level splits, which stands for itself.
+struct LevelBlock {
+  std::span<int32_t> values;      ///< the low half of a row first; low rows at even places
+  Extent extent, low;             ///< of the block and of its low part
+  std::vector<uint8_t> existing;  ///< Pyramid::splitMask() of the block; empty: all exist
+};
+
+/// The bytes that lifting takes for each value of a row or a column, on each thread: both halves of
+/// it and their masks.
+inline constexpr uint64_t kLiftingBytes = 8;
+
+/// Undoes one level of the transform of a block, in place.
+void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block);
 
 /// Undoes the doubling of a value of the low band.
 int32_t halved(int32_t value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stream header says about the wavelet, as the transform needs it.
+// The functions here translate what a stream header says about the wavelet for the transform.
 #pragma once
 
 #include <algorithm>
@@ -18,12 +18,12 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   return spec;
 }
 
-/// Binary places that coefficients of a track with `planes` bit-planes are reconstructed with.
-/// Those of the header; where there are none and the track is incomplete, as many as fit, so that
-/// the inverse transforms add no rounding noise of their own.
-inline int outputFractionBits(const WaveletHeader& header, int planes, bool complete) {
+/// Returns how many binary places the coefficients of a track get when they are reconstructed:
+/// those of the header, or, if it has none and the track is incomplete, as many as fit, so that the
+/// inverse transform adds no rounding noise of its own.
+inline int outputFractionBits(const WaveletHeader& header, int bit_planes, bool complete) {
   if (header.fraction_bits > 0 || complete) return header.fraction_bits;
-  return std::clamp(19 - planes, 0, 4);
+  return std::clamp(19 - bit_planes, 0, 4);
 }
 
 }  // namespace tetrakis

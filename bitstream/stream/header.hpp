@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "base/status.hpp"
 #include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/georeference.hpp"
@@ -86,6 +87,7 @@ struct GeometryHeader {
     v.f64("max_error", max_error);
     if (!stored()) wavelet.visit(v);
   }
+  Extent extent() const { return {width, height}; }
   bool stored() const { return planes == kStoredPlanes; }
 
   /// In the place of a number of bit-planes: the samples are stored
@@ -189,6 +191,7 @@ struct TextureHeader {
   uint64_t overlay_bytes = 0;
   bool stored = false;  ///< sample by sample, without a transform
 
+  Extent extent() const { return {width, height}; }
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
   template <class V>

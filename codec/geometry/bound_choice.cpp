@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/bound_choice.hpp"
 
+#include <cassert>
+#include <span>
 #include <vector>
 
 #include "codec/geometry/corrected_cut.hpp"
@@ -15,24 +17,18 @@ namespace {
 constexpr uint64_t kSearchedSamples = 1025 * 1025;
 constexpr uint32_t kPartSide = 448;
 
-HeightSteps cropped(const HeightSteps& whole, uint32_t width, const Part& part) {
+HeightSteps cropped(const HeightSteps& whole, Extent plane, const Window& part) {
   HeightSteps out;
   out.range_bits = whole.range_bits;
-  for (uint32_t y = 0; y < part.height; ++y) {
-    const auto first = static_cast<ptrdiff_t>(size_t{part.y + y} * width + part.x);
-    const auto row = whole.steps.begin() + first;
-    out.steps.insert(out.steps.end(), row, row + part.width);
-    if (whole.valid.empty()) continue;
-    const auto mask = whole.valid.begin() + first;
-    out.valid.insert(out.valid.end(), mask, mask + part.width);
-  }
+  out.steps = cut(std::span<const int32_t>(whole.steps), plane, {0, part});
+  out.valid = cut(std::span<const uint8_t>(whole.valid), plane, {0, part});
   return out;
 }
 
 /// A part of the plane, as if it were one.
 class PartTrial {
  public:
-  PartTrial(HeightSteps steps, const Part& part, const WaveletHeader& wavelet, int32_t largest)
+  PartTrial(HeightSteps steps, const Window& part, const WaveletHeader& wavelet, int32_t largest)
       : steps_(std::move(steps)), largest_(largest) {
     header_.width = part.width;
     header_.height = part.height;
@@ -49,15 +45,14 @@ class PartTrial {
   uint64_t rounded() const {
     std::vector<int32_t> steps = steps_.steps;
     for (int32_t& q : steps) q = nearestMultiple(q, largest_);
-    const WaveletHeader wavelet = chooseWavelet(steps, steps_.valid, header_.width, header_.height,
+    const WaveletHeader wavelet = chooseWavelet({steps, header_.extent(), steps_.valid},
                                                 steps_.range_bits, Purpose::kLossless);
     return coded(steps, wavelet).codeword.size();
   }
 
  private:
   EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
-    return encodeCoefficients({steps, header_.width, header_.height, steps_.valid}, wavelet, {})
-        .front();
+    return encodeCoefficients({steps, header_.extent(), steps_.valid}, wavelet, {}).front();
   }
 
   HeightSteps steps_;
@@ -93,14 +88,15 @@ BestCut bestCut(const std::vector<PartTrial>& trials, int32_t largest) {
 
 }  // namespace
 
-BoundWays boundWays(const HeightSteps& steps, uint32_t width, uint32_t height,
-                    const WaveletHeader& wavelet, int32_t largest) {
+BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
+                    int32_t largest) {
+  assert(steps.steps.size() == plane.samples());
   if (largest == 0) return {.correct = false};
-  if (uint64_t{width} * height <= kSearchedSamples) return {};
+  if (plane.samples() <= kSearchedSamples) return {};
   std::vector<PartTrial> trials;
   uint64_t rounded = 0;
-  for (const Part& part : typicalParts(width, height, kPartSide)) {
-    trials.emplace_back(cropped(steps, width, part), part, wavelet, largest);
+  for (const Window& part : typicalParts(plane, kPartSide)) {
+    trials.emplace_back(cropped(steps, plane, part), part, wavelet, largest);
     rounded += trials.back().rounded();
   }
   const BestCut cut = bestCut(trials, largest);

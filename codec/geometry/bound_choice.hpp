@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which way of keeping heights within a largest error is worth trying, and where to cut.
+// There are two ways of keeping heights within a largest error. This file says which of them is
+// worth trying, and where to cut.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +18,11 @@ struct BoundWays {
   std::optional<double> mean_square = {};
 };
 
-/// largest: error allowed, in steps. Of planes of at most 1025 * 1025 samples both ways are to be
-/// tried, which takes some twenty times as long as coding them. Of larger ones both are tried on
-/// typical parts, and the way of fewer bytes there is taken for the whole. wavelet: of coefficients
-/// that will be cut.
-BoundWays boundWays(const HeightSteps& steps, uint32_t width, uint32_t height,
-                    const WaveletHeader& wavelet, int32_t largest);
+/// Says which ways to try. largest: the error allowed, in steps. wavelet: that of coefficients that
+/// will be cut. Both ways are worth trying for planes of at most 1025 * 1025 samples, which takes
+/// some twenty times as long as coding them. For larger planes both are tried on typical parts
+/// here, and the way that takes fewer bytes there is taken for the whole plane.
+BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
+                    int32_t largest);
 
 }  // namespace tetrakis

@@ -29,9 +29,8 @@ Corrected CorrectedCut::correct(uint64_t bytes) const {
     result.after += rest * rest;
   }
   if (!any) return result;
-  const std::vector<uint8_t> hints = activityHints(decoded, header_.width, header_.height);
-  result.codeword =
-      encodeCorrections(corrections, {header_.width, header_.height, steps_.valid, hints});
+  const std::vector<uint8_t> hints = activityHints(decoded);
+  result.codeword = encodeCorrections(corrections, {hints, header_.extent(), steps_.valid});
   return result;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights cut short and corrected to a largest error: which cut takes the fewest bytes in all.
+// A cut of the coefficients leaves errors, and corrections bring them below a largest error. This
+// file finds the cut that takes the fewest bytes in all.
 #pragma once
 
 #include <cstdint>

@@ -23,10 +23,10 @@ class DecodingIo {
 }  // namespace
 
 std::vector<int32_t> decodeCorrections(std::span<const uint8_t> codeword,
-                                       const CorrectionGrid& grid) {
-  std::vector<int32_t> corrections(size_t{grid.width} * grid.height, 0);
+                                       const CorrectionHints& hints) {
+  std::vector<int32_t> corrections(hints.extent().samples(), 0);
   DecodingIo io(codeword);
-  CorrectionPass<DecodingIo>(grid, io).run(corrections);
+  CorrectionPass<DecodingIo>(hints, io).run(corrections);
   return corrections;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codeword to corrections.
+// Decodes the corrections of heights.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace tetrakis {
 
-/// One integer a sample, modulo 2^32; 0 where voids are and where the codeword ends early.
-/// codeword: any prefix of one that encodeCorrections made. Safe on any bytes.
+/// Returns one integer for each sample, modulo 2^32, which is 0 where the sample is void and where
+/// the codeword ends early. codeword: any prefix of one that encodeCorrections() made. Safe on any
+/// bytes.
 std::vector<int32_t> decodeCorrections(std::span<const uint8_t> codeword,
-                                       const CorrectionGrid& grid);
+                                       const CorrectionHints& hints);
 
 }  // namespace tetrakis

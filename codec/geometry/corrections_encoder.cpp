@@ -48,12 +48,11 @@ class EncodingIo {
 }  // namespace
 
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
-                                       const CorrectionGrid& grid) {
-  assert(corrections.size() == size_t{grid.width} * grid.height);
-  assert(grid.hints.size() == corrections.size());
+                                       const CorrectionHints& hints) {
+  assert(corrections.size() == hints.extent().samples());
   std::vector<int32_t> known(corrections.size(), 0);
   EncodingIo io(corrections);
-  CorrectionPass<EncodingIo>(grid, io).run(known);
+  CorrectionPass<EncodingIo>(hints, io).run(known);
   return io.finish();
 }
 

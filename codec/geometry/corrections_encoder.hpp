@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corrections to codeword.
+// Codes the corrections of heights.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace tetrakis {
 
-/// corrections: width * height; those of void samples are not coded.
+/// Returns the codeword of one correction for each sample. Those of void samples are not coded.
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
-                                       const CorrectionGrid& grid);
+                                       const CorrectionHints& hints);
 
 }  // namespace tetrakis

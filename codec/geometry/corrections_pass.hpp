@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of corrections: one small integer a sample, row by row, mostly 0. They turn decoded
+// A correction is a small integer, mostly 0, and every sample has one. Corrections turn decoded
 // heights into heights within a bound (after SPERR's outliers: S. Li, P. Lindstrom, J. Clyne 2023,
-// but quantised to twice the bound) or into the very samples.
+// but quantised to twice the bound) or into the very samples. They are coded row by row.
 //
-// A correction of magnitude m has the class bits(m). Decisions: class > 0, class > 1, ...; then the
-// sign, and the bits below the highest one, of which all but the first are at even odds. The
-// contexts are a hint of the caller, the classes of the neighbours before (2 W + 2 N + NW + NE),
-// and their signs: what coefficients left unsaid is an oscillation that goes on. Against signs at
+// A correction of magnitude m has the class bits(m). The coder decides whether the class exceeds 0,
+// then 1, and so on; then it codes the sign, and the bits below the highest one, of which all but
+// the first are at even odds. The contexts are a hint of the caller, the classes of the neighbours
+// before (2 W + 2 N + NW + NE), and their signs, because the errors of a cut oscillate from sample
+// to sample. Against signs at
 // even odds that saves 2 to 15 % of the corrections.
 #pragma once
 
@@ -21,17 +22,15 @@
 #include <utility>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
 
 namespace tetrakis {
 
-/// What both sides know of the samples. Spans: width * height, row by row.
-struct CorrectionGrid {
-  uint32_t width = 0, height = 0;
-  std::span<const uint8_t> valid;  ///< 1 valid, 0 void: void samples have no correction; empty: all
-  std::span<const uint8_t> hints;  ///< below kHints
-  static constexpr int kHints = 32;
-};
+/// What both sides know of the samples: a hint for each, below kHints. Samples that do not exist
+/// have no correction.
+using CorrectionHints = PlaneView<const uint8_t>;
+inline constexpr int kHints = 32;
 
 /// Io is the encoder's or the decoder's side of a decision:
 ///   bool more(AdaptiveBit&, size_t sample, int depth)   the class of the correction exceeds depth
@@ -43,20 +42,18 @@ struct CorrectionGrid {
 template <class Io>
 class CorrectionPass {
  public:
-  CorrectionPass(const CorrectionGrid& grid, Io& io)
-      : grid_(grid),
-        io_(io),
-        any_(size_t{CorrectionGrid::kHints} * kQuiet),
-        more_(size_t{CorrectionGrid::kHints} * kNeighbour) {}
+  CorrectionPass(const CorrectionHints& hints, Io& io)
+      : hints_(hints), io_(io), any_(size_t{kHints} * kQuiet), more_(size_t{kHints} * kNeighbour) {}
 
   void run(std::span<int32_t> corrections) {
     // The row before and this one, with a margin on both sides.
-    std::vector<Known> above(size_t{grid_.width} + 2), here(above);
-    for (uint32_t y = 0; y < grid_.height; ++y) {
-      for (uint32_t x = 0; x < grid_.width; ++x) {
-        const size_t sample = size_t{y} * grid_.width + x;
+    assert(corrections.size() == hints_.extent().samples());
+    std::vector<Known> above(size_t{hints_.width} + 2), here(above);
+    for (uint32_t y = 0; y < hints_.height; ++y) {
+      for (uint32_t x = 0; x < hints_.width; ++x) {
+        const size_t sample = size_t{y} * hints_.width + x;
         here[x + 1] = {};
-        if (!grid_.valid.empty() && !grid_.valid[sample]) continue;
+        if (!hints_.valid[sample]) continue;
         const int32_t correction = code(sample, {here[x], above[x + 1], above[x], above[x + 2]});
         if (io_.stopped()) return;
         corrections[sample] = correction;
@@ -104,8 +101,8 @@ class CorrectionPass {
   int32_t code(size_t sample, const Before& before) {
     const int classes = before.classes(), signs = before.signs();
     const auto pattern = static_cast<size_t>(std::abs(signs));
-    const size_t hint = grid_.hints[sample];
-    assert(hint < CorrectionGrid::kHints && pattern < kSigns && classes < kNeighbour);
+    const size_t hint = hints_.data[sample];
+    assert(hint < kHints && pattern < kSigns && classes < kNeighbour);
     Unary& more = more_[hint * kNeighbour + static_cast<size_t>(classes)];
     AdaptiveBit& any =
         classes < kQuiet ? any_[hint * kQuiet + static_cast<size_t>(classes)][pattern] : more[0];
@@ -129,7 +126,7 @@ class CorrectionPass {
     return result;
   }
 
-  const CorrectionGrid& grid_;
+  const CorrectionHints hints_;
   Io& io_;
   std::vector<Signs> any_;  ///< whether there is a correction, in quiet places
   std::vector<Unary> more_;

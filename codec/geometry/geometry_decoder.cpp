@@ -4,151 +4,116 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "wavelet/band_plan.hpp"
-#include "wavelet/mip_level.hpp"
+#include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis {
 
 namespace {
 
-/// Marks the vertices that the part's significant coefficients belong to.
-void markVertices(const Band& band, const Subband& subband, const BandPart& part, uint32_t width,
-                  std::vector<uint8_t>& marks) {
-  if (band.shape.empty()) return;
-  const bool high_x =
-      subband.orientation == Orientation::kHL || subband.orientation == Orientation::kHH;
-  const size_t first = high_x ? size_t{1} << (subband.splits_x - 1) : 0;
-  for (uint32_t row = 0; row < part.rows; ++row) {
-    uint8_t* out = marks.data() + size_t{subband.planeRow(part.row + row)} * width + first;
-    for (uint32_t x = 0; x < band.shape.words(); ++x) {
-      uint32_t todo = band.significant[band.shape.word(row, x)];
-      for (; todo != 0; todo &= todo - 1) {
-        const size_t column =
-            part.column + 32 * size_t{x} + static_cast<size_t>(std::countr_zero(todo));
-        out[column << subband.splits_x] = 1;
+/// What the significant coefficients of a level of the plane say of its vertices.
+class Significance {
+ public:
+  Significance(const Pyramid& pyramid, int level, size_t tracks)
+      : pyramid_(pyramid),
+        level_(level),
+        low_(pyramid.low(level)),
+        marks_(low_.extent.samples()),
+        quiet_(tracks, pyramid.levels() - level) {}
+
+  /// Takes the bands of a track. Called for different tracks at the same time.
+  void take(size_t track, const TrackState& state, std::span<const BandPart> parts) {
+    const size_t subbands = pyramid_.subbandsOf(level_).size();
+    for (size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].subband >= subbands) continue;
+      const Subband& subband = pyramid_.subbands()[parts[i].subband];
+      mark(state.bands[i], subband, parts[i]);
+      if (state.bands[i].nonzero && subband.orientation != Orientation::kLL)
+        quiet_[track] = std::min(quiet_[track], subband.level - 1 - level_);
+    }
+  }
+
+  void giveTo(DecodedGeometry& geometry) {
+    assert(!quiet_.empty());
+    geometry.quiet_levels = static_cast<uint32_t>(*std::min_element(quiet_.begin(), quiet_.end()));
+    marks_.resize(thin(pyramid_, level_, std::span(marks_)));
+    geometry.significant = std::move(marks_);
+  }
+
+ private:
+  /// Marks the vertices that the part's significant coefficients belong to.
+  void mark(const Band& band, const Subband& subband, const BandPart& part) {
+    if (band.shape.empty()) return;
+    const int splits = subband.splits_x - low_.splits_x;
+    const size_t first = subband.isHighX() ? size_t{1} << (splits - 1) : 0;
+    for (uint32_t row = 0; row < part.rows; ++row) {
+      uint8_t* out =
+          marks_.data() + pyramid_.indexOf(subband, part.row + row, level_) - subband.x + first;
+      for (uint32_t x = 0; x < band.shape.words(); ++x) {
+        uint32_t todo = band.significant[band.shape.word(row, x)];
+        for (; todo != 0; todo &= todo - 1) {
+          const size_t column =
+              part.column + 32 * size_t{x} + static_cast<size_t>(std::countr_zero(todo));
+          out[column << splits] = 1;
+        }
       }
     }
   }
-}
 
-uint32_t quietLevels(const TrackState& state, std::span<const Subband> subbands,
-                     std::span<const BandPart> parts) {
-  auto quiet = static_cast<uint32_t>(subbands.front().level);
-  for (size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].subband >= subbands.size() || !state.bands[i].nonzero) continue;
-    const Subband& subband = subbands[parts[i].subband];
-    if (subband.orientation == Orientation::kLL) continue;
-    quiet = std::min(quiet, static_cast<uint32_t>(subband.level) - 1);
-  }
-  return quiet;
-}
+  const Pyramid& pyramid_;
+  int level_;
+  const LowBand& low_;
+  std::vector<uint8_t> marks_;  ///< of the samples of the low band
+  std::vector<int> quiet_;      ///< of each track, the finest levels without such a coefficient
+};
 
-/// The guess at an insignificant coefficient means nothing where there is none.
-void clearVoids(DecodedGeometry& geometry) {
-  for (size_t i = 0; i < geometry.valid.size(); ++i) {
-    if (!geometry.valid[i]) geometry.heights[i] = 0;
-  }
-}
-
-template <class T>
-void thin(const MipLevel& mip, std::vector<T>& values) {
-  mip.thin(std::span(values));
-  values.resize(mip.samples());
-}
-
-/// What a track of the plan holds, and which bands of it a level needs; empty: none.
+/// What a track holds, and which bands of it the view needs; empty: none.
 std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart> parts,
-                             Validity valid, uint32_t width, const MipLevel& mip) {
+                             const ViewSynthesis& synthesis) {
   std::vector<BandPlan> plan = layout.plan(parts, 0, 0, 0);
-  mip.dropFiner(parts, plan);
-  const auto needed = [](const BandPlan& band) { return band.needed; };
-  if (std::none_of(plan.begin(), plan.end(), needed)) return {};
-  markAbsent(layout, parts, valid, width, plan);
+  keepNeeded(synthesis, parts, plan);
+  if (!plan.empty()) layout.markAbsent(parts, plan);
   return plan;
 }
 
 }  // namespace
 
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
-                               std::vector<uint8_t> valid, int level, uint32_t threads,
-                               TrackMemory* memory) {
+                               std::vector<uint8_t> valid, const View& view,
+                               const DecodeContext<TrackMemory>& context) {
   const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.width, header.height);
+  const PlaneLayout layout(spec, header.extent(), valid);
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
   assert(codewords.size() == regions.size());
-  assert(valid.empty() || valid.size() == size_t{header.width} * header.height);
-  const MipLevel mip(header.width, header.height, level);
-  const auto [width, height] = mip.low();
-  const uint32_t low_width = width;
-  const std::vector<Subband> subbands = subbandsOf(width, height);
-  DecodedGeometry out;
-  out.heights.resize(size_t{width} * height);
-  out.significant.resize(out.heights.size());
-  std::vector<uint32_t> quiet(regions.size(), static_cast<uint32_t>(subbands.front().level));
-  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
-  out.fraction_bits = tracks.run(
-      codewords,
-      [&](size_t i) { return planOf(layout, layout.parts(regions[i]), valid, header.width, mip); },
-      [&](size_t i, const TrackState& state, int more_bits) {
-        const std::vector<BandPart> parts = layout.parts(regions[i]);
-        for (size_t k = 0; k < parts.size(); ++k) {
-          if (parts[k].subband >= subbands.size()) continue;
-          const Subband& subband = subbands[parts[k].subband];
-          scatter(state.bands[k], more_bits, subband, parts[k], out.heights, low_width);
-          markVertices(state.bands[k], subband, parts[k], low_width, out.significant);
-        }
-        quiet[i] = quietLevels(state, subbands, parts);
-      },
-      memory);
-  assert(!quiet.empty());
-  out.quiet_levels = *std::min_element(quiet.begin(), quiet.end());
-  out.valid = level == 0 ? std::move(valid) : mip.maskOf(valid, header.width);
-  inverseWavelet(mip.transform(spec), out.heights, width, height, out.valid, threads);
-  clearVoids(out);
-  mip.normalise(spec, out.heights);
-  thin(mip, out.heights);
-  thin(mip, out.significant);
-  if (!out.valid.empty()) thin(mip, out.valid);
-  out.width = mip.size().width;
-  out.height = mip.size().height;
-  return out;
-}
-
-DecodedGeometry decodeGeometryWindow(const GeometryHeader& header, const Codewords& codewords,
-                                     std::span<const uint8_t> valid, const Window& window,
-                                     uint32_t threads) {
-  const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.width, header.height);
-  const std::vector<Region> regions =
-      regionsOf(header.width, header.height, header.regions.side_log2);
-  WindowSynthesis synthesis(spec, layout.subbands(), header.width, header.height, window);
+  assert(context.memory == nullptr || !view.window);
+  ViewSynthesis synthesis(spec, layout.pyramid(), view);
   synthesis.allocate();
-  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, threads};
+  std::optional<Significance> significance;
+  if (!view.window) significance.emplace(layout.pyramid(), view.level, regions.size());
+  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, context};
   DecodedGeometry out;
   out.fraction_bits = tracks.run(
-      codewords,
-      [&](size_t i) {
-        const std::vector<BandPart> parts = layout.parts(regions[i]);
-        const bool needed = std::any_of(parts.begin(), parts.end(), [&](const BandPart& part) {
-          return synthesis.needs(part);
-        });
-        if (!needed) return std::vector<BandPlan>();
-        return planOf(layout, parts, valid, header.width, MipLevel(header.width, header.height, 0));
-      },
+      codewords, [&](size_t i) { return planOf(layout, layout.parts(regions[i]), synthesis); },
       [&](size_t i, const TrackState& state, int more_bits) {
         const std::vector<BandPart> parts = layout.parts(regions[i]);
         for (size_t k = 0; k < parts.size(); ++k)
           synthesis.put(state.bands[k], more_bits, parts[k]);
+        if (significance) significance->take(i, state, parts);
       });
-  out.heights = synthesis.run(valid);
-  if (!valid.empty()) out.valid = crop(valid, header.width, window);
-  for (size_t i = 0; i < out.valid.size(); ++i) out.heights[i] *= out.valid[i];
-  out.width = window.width;
-  out.height = window.height;
+  out.heights = synthesis.run(context.threads);
+  if (significance) significance->giveTo(out);
+  const Extent extent = view.extentIn(header.extent());
+  out.width = extent.width;
+  out.height = extent.height;
+  out.valid = view.isWhole() ? std::move(valid)
+                             : cut(std::span<const uint8_t>(valid), header.extent(), view);
+  clearUnmarked(std::span(out.heights), out.valid);
   return out;
 }
 

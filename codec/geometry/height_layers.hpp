@@ -1,48 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// A geometry track taken apart: validity, table of values, coefficients, corrections
-// (bitstream/stream/header.hpp).
+// Decodes heights from the layers of their tracks: validity, table of values, coefficients,
+// corrections (bitstream/stream/header.hpp), or stored samples.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
-#include "codec/geometry/corrections_pass.hpp"
 #include "codec/geometry/geometry_decoder.hpp"
 
 namespace tetrakis {
 
 struct DecodedHeights {
-  DecodedGeometry geometry;          ///< corrections of steps applied
+  DecodedGeometry geometry;          ///< corrections of steps are applied
   std::vector<int32_t> corrections;  ///< of the samples; empty where there are none
 };
 
-/// What one call of decodeLayers() leaves to the next, whose only track is longer by some bytes and
-/// starts in the same memory. Empty at first.
+/// What one call of decodeHeights() leaves to the next, whose only track is longer by some bytes
+/// and begins at the same address. It is empty before the first call.
 struct HeightsMemory {
   std::vector<uint8_t> valid;  ///< once it is whole
   TrackMemory track;
 };
 
-/// The validity of a level's samples alone; empty: all are valid.
-std::vector<uint8_t> decodeValidityLayer(const Codewords& codewords, const GeometryHeader& header,
-                                         const GeometryLayers& layers, int level);
+/// Decodes what a view shows of the heights. In a window the time follows its size if there are
+/// regions and no corrections. Levels above 0 have no corrections: those belong to the samples.
+/// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes. The
+/// memory is that of earlier calls with the same headers and view, which is no window.
+DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,
+                             const Codewords& codewords, const View& view = {},
+                             const DecodeContext<HeightsMemory>& context = {});
 
-/// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes.
-/// level: as decodeGeometry takes it; above 0 without corrections, which are those of the samples.
-DecodedHeights decodeLayers(const Codewords& codewords, const GeometryHeader& header,
-                            const GeometryLayers& layers, int level = 0, uint32_t threads = 1,
-                            HeightsMemory* memory = nullptr);
+/// Decodes which samples of a view are valid, and nothing else; empty: all are valid.
+std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
+                                         const Codewords& codewords, const View& view);
 
-/// The same in a window, in time that follows its size where there are regions and no corrections.
-DecodedHeights decodeLayersWindow(const Codewords& codewords, const GeometryHeader& header,
-                                  const GeometryLayers& layers, const Window& window,
-                                  uint32_t threads = 1);
-
-/// The hints (codec/geometry/corrections_pass.hpp) of corrections of steps: how many of a vertex
-/// and its four neighbours are significant.
-std::vector<uint8_t> activityHints(const DecodedGeometry& geometry, uint32_t width,
-                                   uint32_t height);
+/// Returns the hints (codec/geometry/corrections_pass.hpp) of corrections of steps: how many of a
+/// vertex and its four neighbours are significant.
+std::vector<uint8_t> activityHints(const DecodedGeometry& geometry);
 
 }  // namespace tetrakis

@@ -119,11 +119,12 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
   withSampleType(heights.sample, [&](auto type) {
     using T = decltype(type);
     const auto* samples = static_cast<const T*>(heights.data);
+    const Mask valid = steps.valid;
     for (size_t i = 0; i < corrections.size(); ++i) {
-      if (!steps.valid.empty() && !steps.valid[i]) continue;
-      const uint32_t restored =
-          steps.table.empty() ? orderOf(restore<T>(steps.base, steps.step, steps.steps[i]))
-                              : steps.table.wordOf(steps.steps[i]);
+      if (!valid[i]) continue;
+      const uint32_t restored = steps.table.empty()
+                                    ? orderOf(restore<T>(steps.base, steps.step, steps.steps[i]))
+                                    : steps.table.wordOf(steps.steps[i]);
       corrections[i] = static_cast<int32_t>(orderOf(samples[i]) - restored);
     }
   });
@@ -142,8 +143,9 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double
                      [&](int32_t q) { return fromOrder<T>(steps.table.wordOf(q)); });
     }
     StepErrors errors;
+    const Mask valid = steps.valid;
     for (size_t i = 0; i < restored.size(); ++i) {
-      if (!steps.valid.empty() && !steps.valid[i]) continue;
+      if (!valid[i]) continue;
       const double error =
           std::abs(static_cast<double>(restored[i]) - static_cast<double>(samples[i]));
       errors.largest = std::max(errors.largest, error);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights of any sample type to integer steps and back: sample = base + q * step.
+// Heights of any sample type are coded as integer steps: sample = base + q * step. The functions
+// here turn samples into steps and back.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,11 @@
 #include "codec/geometry/value_table.hpp"
 
 namespace tetrakis {
+
+/// Returns the size of a height field of the C interface.
+inline Extent extentOf(const tks_heights& heights) {
+  return {heights.width, heights.height};
+}
 
 struct HeightSteps {
   std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0; 0 where voids are

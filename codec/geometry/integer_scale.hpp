@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integer steps to small integer samples without floating point.
+// IntegerScale turns integer steps into small integer samples without floating point.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a step stands for as a sample.
+// A step stands for a sample, which is computed here.
 #pragma once
 
 #include <algorithm>

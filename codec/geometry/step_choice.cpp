@@ -37,10 +37,10 @@ bool same(T a, T b) {
 template <class T>
 class Stepper {
  public:
-  Stepper(const tks_heights& heights, const std::vector<uint8_t>& valid)
+  Stepper(const tks_heights& heights, Mask valid)
       : samples_(static_cast<const T*>(heights.data)),
         count_(size_t{heights.width} * heights.height),
-        valid_(valid.empty() ? nullptr : valid.data()) {
+        valid_(valid) {
     setRange(rangeOf(heights, valid));
   }
 
@@ -124,7 +124,7 @@ class Stepper {
   double commonDivisor() const {
     uint64_t divisor = 0;
     for (size_t i = 0; i < count_ && divisor != 1; ++i) {
-      if (!isValid(i)) continue;
+      if (!valid_[i]) continue;
       divisor = std::gcd(divisor, static_cast<uint64_t>(static_cast<double>(samples_[i]) - low_));
     }
     return divisor == 0 ? 1 : static_cast<double>(divisor);
@@ -162,15 +162,14 @@ class Stepper {
     high_ = range.high;
     range_ = high_ - low_;
   }
-  bool isValid(size_t i) const { return valid_ == nullptr || valid_[i]; }
   bool isInRange(size_t i) const {
     const auto value = static_cast<double>(samples_[i]);
-    return isValid(i) && value >= low_ && value <= high_;
+    return valid_[i] && value >= low_ && value <= high_;
   }
   template <class F>
   void forEachValid(const F& f) const {
     for (size_t i = 0; i < count_; ++i) {
-      if (isValid(i)) f(i);
+      if (valid_[i]) f(i);
     }
   }
   int32_t quantise(const HeightSteps& s, size_t i) const {
@@ -180,7 +179,7 @@ class Stepper {
 
   const T* samples_;
   size_t count_;
-  const uint8_t* valid_;
+  Mask valid_;
   double low_ = 0, high_ = 0, range_ = 0;
 };
 

@@ -10,7 +10,6 @@
 #include "bitstream/coder/byte_planes.hpp"
 #include "codec/geometry/restore.hpp"
 #include "codec/geometry/sample_order.hpp"
-#include "wavelet/mip_level.hpp"
 
 namespace tetrakis {
 
@@ -46,43 +45,44 @@ class StoredSamples {
   DecodedHeights& out_;
 };
 
-DecodedHeights emptyHeights(const MipLevel& mip, bool masked) {
+DecodedHeights emptyHeights(Extent extent, bool masked) {
   DecodedHeights out;
-  out.geometry.width = mip.size().width;
-  out.geometry.height = mip.size().height;
-  out.geometry.heights.resize(mip.samples());
-  out.geometry.significant.resize(mip.samples());
-  if (masked) out.geometry.valid.resize(mip.samples());
-  out.corrections.resize(mip.samples());
+  out.geometry.width = extent.width;
+  out.geometry.height = extent.height;
+  out.geometry.heights.resize(extent.samples());
+  out.geometry.significant.resize(extent.samples());
+  if (masked) out.geometry.valid.resize(extent.samples());
+  out.corrections.resize(extent.samples());
   return out;
 }
 
 }  // namespace
 
 DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_t> bytes,
-                            std::span<const uint8_t> valid, int level) {
-  const size_t count = size_t{header.width} * header.height;
-  const auto voids = static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{0}));
+                            Mask valid, int level) {
+  const size_t count = header.extent().samples();
+  const auto marks = valid.bytes();
+  const auto voids = static_cast<size_t>(std::count(marks.begin(), marks.end(), uint8_t{0}));
   const auto sample = static_cast<tks_sample>(header.sample);
   const BytePlanes words(bytes, count - voids, static_cast<int>(tks_sample_bytes(sample)));
-  const MipLevel mip(header.width, header.height, level);
-  assert(valid.empty() || valid.size() == count);
-  DecodedHeights decoded = emptyHeights(mip, !valid.empty());
+  assert(valid.all() || marks.size() == count);
+  const Extent extent = View{level, {}}.extentIn(header.extent());
+  DecodedHeights decoded = emptyHeights(extent, !valid.all());
   const size_t between = (size_t{1} << level) - 1;
   withSampleType(sample, [&](auto type) {
     StoredSamples<decltype(type)> samples(header, words, decoded);
     size_t at = 0, i = 0, number = 0;
     for (uint32_t y = 0; y < header.height; ++y) {
       for (uint32_t x = 0; x < header.width; ++x, ++at) {
-        const bool is_valid = valid.empty() || valid[at];
+        const bool is_valid = valid[at];
         const bool taken = ((x | y) & between) == 0;
         if (taken && is_valid) samples.put(i, number);
-        if (taken && !valid.empty()) decoded.geometry.valid[i] = is_valid;
+        if (taken && !valid.all()) decoded.geometry.valid[i] = is_valid;
         i += taken;
         number += is_valid;
       }
     }
-    assert(i == mip.samples() && number == count - voids);
+    assert(i == extent.samples() && number == count - voids);
   });
   return decoded;
 }
@@ -91,12 +91,12 @@ uint64_t storedBytes(const tks_heights& heights, size_t valid_samples) {
   return uint64_t{valid_samples} * tks_sample_bytes(heights.sample);
 }
 
-std::vector<uint8_t> storeSamples(const tks_heights& heights, std::span<const uint8_t> valid) {
+std::vector<uint8_t> storeSamples(const tks_heights& heights, Mask valid) {
   std::vector<uint32_t> words;
   withSampleType(heights.sample, [&](auto type) {
     const auto* samples = static_cast<const decltype(type)*>(heights.data);
     for (size_t i = 0; i < size_t{heights.width} * heights.height; ++i) {
-      if (valid.empty() || valid[i]) words.push_back(orderOf(samples[i]));
+      if (valid[i]) words.push_back(orderOf(samples[i]));
     }
   });
   return toBytePlanes(words, static_cast<int>(tks_sample_bytes(heights.sample)));

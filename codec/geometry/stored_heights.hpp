@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights that are stored sample by sample, because coding them would take more bytes.
+// Stores heights sample by sample where coding them would take more bytes.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace tetrakis {
 
-/// bytes: any prefix of what is stored of a geometry with header.stored(); valid: of the whole
-/// plane, or empty. level: every 2^level-th sample. Steps are the nearest to the samples, and
-/// corrections restore these. Samples of which nothing is there are those of step 0.
+/// Returns the samples at multiples of 2^level. Their steps are those nearest to the samples, and
+/// corrections restore the samples. A sample that has no byte yet is that of step 0. bytes: any
+/// prefix of what is stored of a geometry with header.stored(). valid: of the whole plane.
 DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_t> bytes,
-                            std::span<const uint8_t> valid, int level);
+                            Mask valid, int level);
 
-/// Bytes that storing the valid samples takes.
+/// Returns how many bytes storing the valid samples takes.
 uint64_t storedBytes(const tks_heights& heights, size_t valid_samples);
 
-/// Their codeword. valid: as in HeightSteps.
-std::vector<uint8_t> storeSamples(const tks_heights& heights, std::span<const uint8_t> valid);
+/// Returns the codeword of the valid samples.
+std::vector<uint8_t> storeSamples(const tks_heights& heights, Mask valid);
 
 }  // namespace tetrakis

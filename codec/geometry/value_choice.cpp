@@ -175,7 +175,7 @@ class TableChoice {
   }
 
   double bitsOf(const HeightSteps& steps) const {
-    return losslessBits(steps.steps, steps.valid, heights_.width, heights_.height,
+    return losslessBits({steps.steps, {heights_.width, heights_.height}, steps.valid},
                         steps.range_bits);
   }
 

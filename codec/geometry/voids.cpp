@@ -41,14 +41,14 @@ Result<std::vector<uint8_t>> findVoids(const tks_heights& heights) {
   });
 }
 
-SampleRange rangeOf(const tks_heights& heights, const std::vector<uint8_t>& valid) {
+SampleRange rangeOf(const tks_heights& heights, Mask valid) {
   return withSampleType(heights.sample, [&](auto type) {
     using T = decltype(type);
     const auto* samples = static_cast<const T*>(heights.data);
     SampleRange range;
     bool any = false;
     for (size_t i = 0; i < size_t{heights.width} * heights.height; ++i) {
-      if (!valid.empty() && !valid[i]) continue;
+      if (!valid[i]) continue;
       const auto value = static_cast<double>(samples[i]);
       range.low = any ? std::min(range.low, value) : value;
       range.high = any ? std::max(range.high, value) : value;

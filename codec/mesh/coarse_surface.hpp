@@ -25,7 +25,7 @@ CoarseSurface coarsen(const SurfaceView& surface, uint32_t k);
 /// weights 1 2 1 in x and y: what a mesh of few triangles can show of them.
 CoarseSurface smoothed(const SurfaceView& surface);
 
-/// Mip level k of a surface of whole_width * whole_height samples (wavelet/mip_level.hpp), on its
+/// Mip level k of a surface of whole_width * whole_height samples (base/view.hpp), on its
 /// lattice: where the last column (row) is none of the level's, it goes on straight from the two
 /// before. The level must have two columns and rows.
 CoarseSurface ofMipLevel(std::span<const int32_t> level, uint32_t whole_width,

@@ -8,59 +8,20 @@
 #endif
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis {
 // Inline: users write tetrakis::Decoder, while the symbols stay apart from the library's own
 // classes.
 inline namespace v0 {
-
-/// A failure: a stable code and one sentence that says what, where and what to do.
-struct Error {
-  tks_status code = TKS_OK;
-  std::string message;
-};
-
-/// A value, or the Error that explains why there is none.
-template <class T>
-class [[nodiscard]] Expected {
- public:
-  Expected(T value) : state_(std::move(value)) {}
-  Expected(Error error) : state_(std::move(error)) {}
-  explicit operator bool() const { return std::holds_alternative<T>(state_); }
-  T& operator*() { return std::get<T>(state_); }
-  const T& operator*() const { return std::get<T>(state_); }
-  T* operator->() { return &std::get<T>(state_); }
-  const T* operator->() const { return &std::get<T>(state_); }
-  const Error& error() const { return std::get<Error>(state_); }
-
- private:
-  std::variant<Error, T> state_;
-};
-
-/// Success, or an Error.
-template <>
-class [[nodiscard]] Expected<void> {
- public:
-  Expected() = default;
-  Expected(Error error) : error_(std::move(error)) {}
-  explicit operator bool() const { return !error_; }
-  const Error& error() const { return *error_; }
-
- private:
-  std::optional<Error> error_;
-};
 
 /// A stream as the encoder returned it. Move only.
 class Buffer {
@@ -111,11 +72,11 @@ class MeshTree {
   explicit MeshTree(tks_mesh_tree* tree) : tree_(tree) {}
 
   /// What a camera may see: tks_view_mesh says what `clip` is.
-  Expected<Mesh> view(std::span<const double, 16> clip) const {
+  Result<Mesh> view(std::span<const double, 16> clip) const {
     tks_mesh mesh{};
     const tks_status status = tks_view_mesh(tree_.get(), clip.data(), &mesh);
-    if (status == TKS_USAGE) return Error{status, "The matrix of a view must be finite."};
-    if (status != TKS_OK) return Error{status, "Not enough memory."};
+    if (status == TKS_USAGE) return Status(status, "The matrix of a view must be finite.");
+    if (status != TKS_OK) return Status(status, "Not enough memory.");
     return Mesh(mesh);
   }
 
@@ -150,12 +111,12 @@ inline tks_limits makeLimits() {
 }
 
 /// Encodes heights, an image, or both (a null pointer leaves one out). Errors: see tks_encode.
-inline Expected<Buffer> encode(const tks_heights* heights, const tks_image* image,
-                               const tks_encode_options& options) {
+inline Result<Buffer> encode(const tks_heights* heights, const tks_image* image,
+                             const tks_encode_options& options) {
   char message[512] = "";
   tks_buffer buffer{};
   const tks_status status = tks_encode(heights, image, &options, &buffer, message, sizeof message);
-  if (status != TKS_OK) return Error{status, message};
+  if (status != TKS_OK) return Status(status, message);
   return Buffer(buffer);
 }
 
@@ -163,17 +124,17 @@ inline Expected<Buffer> encode(const tks_heights* heights, const tks_image* imag
 class Decoder {
  public:
   /// `bytes` are borrowed and must outlive the decoder. TKS_TRUNCATED: too short for the header.
-  static Expected<Decoder> open(std::span<const uint8_t> bytes,
-                                const tks_limits& limits = makeLimits()) {
+  static Result<Decoder> open(std::span<const uint8_t> bytes,
+                              const tks_limits& limits = makeLimits()) {
     char message[512] = "";
     tks_decoder* decoder = nullptr;
     const tks_status status =
         tks_open(bytes.data(), bytes.size(), &limits, &decoder, message, sizeof message);
-    if (status != TKS_OK) return Error{status, message};
+    if (status != TKS_OK) return Status(status, message);
     Decoder result(decoder);
     result.info_.size = sizeof(tks_info);
     if (const tks_status got = tks_get_info(decoder, &result.info_); got != TKS_OK)
-      return result.error(got);
+      return result.failure(got);
     return result;
   }
 
@@ -182,58 +143,58 @@ class Decoder {
 
   /// Mip levels of heights and texture, 0 the whole image: tks_set_levels says what they are.
   /// info() follows.
-  Expected<void> setLevels(uint32_t heights, uint32_t texture) {
+  Status setLevels(uint32_t heights, uint32_t texture) {
     const tks_status status = tks_set_levels(decoder_.get(), heights, texture);
-    if (status != TKS_OK) return error(status);
+    if (status != TKS_OK) return failure(status);
     if (const tks_status got = tks_get_info(decoder_.get(), &info_); got != TKS_OK)
-      return error(got);
+      return failure(got);
     return {};
   }
 
   /// Whether such a call stays within tks_limits.max_memory with `beside` more bytes: what the call
   /// takes, or TKS_LIMIT (tks_check_memory). The calls below check the same with the array that
   /// they return, before there is one.
-  Expected<uint64_t> checkMemory(tks_part part, const tks_window* window = nullptr,
-                                 uint32_t max_triangles = 0, uint64_t beside = 0) {
+  Result<uint64_t> checkMemory(tks_part part, const tks_window* window = nullptr,
+                               uint32_t max_triangles = 0, uint64_t beside = 0) {
     uint64_t bytes = 0;
     const tks_status status =
         tks_check_memory(decoder_.get(), part, window, max_triangles, beside, &bytes);
-    if (status != TKS_OK) return error(status);
+    if (status != TKS_OK) return failure(status);
     return bytes;
   }
 
   /// width * height samples of info().sample, host byte order, row by row.
-  Expected<std::vector<std::byte>> heights() {
+  Result<std::vector<std::byte>> heights() {
     return whole<std::byte>(TKS_PART_HEIGHTS, heightCount() * tks_sample_bytes(info_.sample),
                             tks_decode_heights);
   }
 
   /// width * height bytes, 1 where a sample is valid, 0 where it is void.
-  Expected<std::vector<uint8_t>> validity() {
+  Result<std::vector<uint8_t>> validity() {
     return whole<uint8_t>(TKS_PART_VALIDITY, heightCount(), tks_decode_validity);
   }
 
   /// width * height heights in info().unit, also between the steps of the sample type: for drawing.
-  Expected<std::vector<float>> surface() {
+  Result<std::vector<float>> surface() {
     return whole<float>(TKS_PART_HEIGHTS, heightCount(), tks_decode_surface);
   }
 
   /// texture_width * texture_height * texture_channels samples of info().texture_sample.
-  Expected<std::vector<std::byte>> texture() {
+  Result<std::vector<std::byte>> texture() {
     return whole<std::byte>(TKS_PART_TEXTURE,
                             size_t{info_.texture_width} * info_.texture_height * texelBytes(),
                             tks_decode_texture);
   }
 
   /// The same in a window: tks_decode_heights_window and its siblings say what it may be.
-  Expected<std::vector<std::byte>> heights(const tks_window& window) {
+  Result<std::vector<std::byte>> heights(const tks_window& window) {
     return part<std::byte>(TKS_PART_HEIGHTS, window, tks_sample_bytes(info_.sample),
                            tks_decode_heights_window);
   }
-  Expected<std::vector<float>> surface(const tks_window& window) {
+  Result<std::vector<float>> surface(const tks_window& window) {
     return part<float>(TKS_PART_HEIGHTS, window, 1, tks_decode_surface_window);
   }
-  Expected<std::vector<std::byte>> texture(const tks_window& window) {
+  Result<std::vector<std::byte>> texture(const tks_window& window) {
     return part<std::byte>(TKS_PART_TEXTURE, window, texelBytes(), tks_decode_texture_window);
   }
 
@@ -241,21 +202,21 @@ class Decoder {
   void setThreads(uint32_t threads) { tks_set_threads(decoder_.get(), threads); }
 
   /// The mesh that the stream itself codes: closure of its significant vertices.
-  Expected<Mesh> codedMesh() { return mesh(TKS_MESH_CODED, 0); }
+  Result<Mesh> codedMesh() { return mesh(TKS_MESH_CODED, 0); }
 
   /// The best mesh of the decoded surface with at most max_triangles; 0: every sample.
-  Expected<Mesh> budgetMesh(uint32_t max_triangles) { return mesh(TKS_MESH_BUDGET, max_triangles); }
+  Result<Mesh> budgetMesh(uint32_t max_triangles) { return mesh(TKS_MESH_BUDGET, max_triangles); }
 
   /// The same meshes, kept in a tree that gives the part that a view sees.
-  Expected<MeshTree> codedMeshTree() { return meshTree(TKS_MESH_CODED, 0); }
-  Expected<MeshTree> budgetMeshTree(uint32_t max_triangles) {
+  Result<MeshTree> codedMeshTree() { return meshTree(TKS_MESH_CODED, 0); }
+  Result<MeshTree> budgetMeshTree(uint32_t max_triangles) {
     return meshTree(TKS_MESH_BUDGET, max_triangles);
   }
 
   /// Checks the syntax of the whole stream. TKS_TRUNCATED if it ends early.
-  Expected<void> verify() {
+  Status verify() {
     const tks_status status = tks_verify(decoder_.get());
-    if (status != TKS_OK) return error(status);
+    if (status != TKS_OK) return failure(status);
     return {};
   }
 
@@ -265,7 +226,8 @@ class Decoder {
   };
   explicit Decoder(tks_decoder* decoder) : decoder_(decoder) {}
 
-  Error error(tks_status status) const { return {status, tks_message(decoder_.get())}; }
+  /// status: not TKS_OK.
+  Status failure(tks_status status) const { return {status, tks_message(decoder_.get())}; }
 
   size_t heightCount() const { return size_t{info_.width} * info_.height; }
   size_t texelBytes() const {
@@ -273,40 +235,40 @@ class Decoder {
   }
 
   template <class T, class Decode>
-  Expected<std::vector<T>> whole(tks_part what, size_t count, Decode* decode) {
+  Result<std::vector<T>> whole(tks_part what, size_t count, Decode* decode) {
     if (const auto fits = checkMemory(what, nullptr, 0, count * sizeof(T)); !fits)
-      return fits.error();
+      return fits.status();
     std::vector<T> out(count);
     const tks_status status = decode(decoder_.get(), out.data(), out.size());
-    if (status != TKS_OK) return error(status);
+    if (status != TKS_OK) return failure(status);
     return out;
   }
 
   /// items: of each place of the window.
   template <class T, class Decode>
-  Expected<std::vector<T>> part(tks_part what, const tks_window& window, size_t items,
-                                Decode* decode) {
+  Result<std::vector<T>> part(tks_part what, const tks_window& window, size_t items,
+                              Decode* decode) {
     // A window that cannot be is refused before there is an array for it.
     const uint64_t count = uint64_t{window.width} * window.height * items;
     if (const auto fits = checkMemory(what, &window, 0, count * sizeof(T)); !fits)
-      return fits.error();
+      return fits.status();
     std::vector<T> out(count);
     const tks_status status = decode(decoder_.get(), &window, out.data(), out.size());
-    if (status != TKS_OK) return error(status);
+    if (status != TKS_OK) return failure(status);
     return out;
   }
 
-  Expected<Mesh> mesh(tks_mesh_kind kind, uint32_t max_triangles) {
+  Result<Mesh> mesh(tks_mesh_kind kind, uint32_t max_triangles) {
     tks_mesh result{};
     const tks_status status = tks_decode_mesh(decoder_.get(), kind, max_triangles, &result);
-    if (status != TKS_OK) return error(status);
+    if (status != TKS_OK) return failure(status);
     return Mesh(result);
   }
 
-  Expected<MeshTree> meshTree(tks_mesh_kind kind, uint32_t max_triangles) {
+  Result<MeshTree> meshTree(tks_mesh_kind kind, uint32_t max_triangles) {
     tks_mesh_tree* tree = nullptr;
     const tks_status status = tks_decode_mesh_tree(decoder_.get(), kind, max_triangles, &tree);
-    if (status != TKS_OK) return error(status);
+    if (status != TKS_OK) return failure(status);
     return MeshTree(tree);
   }
 

@@ -26,7 +26,7 @@ constexpr Size kSizes[] = {{2, 2},   {17, 23},  {24, 24}, {40, 8},   {40, 3}, {3
 /// Samples lie in the region, levels are those it holds, and nothing is missing or held twice.
 TEST(Regions, ShareOutAllCoefficients) {
   for (const Size& size : kSizes) {
-    const PlaneLayout layout(uniform(FilterId::kShort), size.width, size.height);
+    const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
     for (const int log2 : {0, 4, 5, 6, 20}) {
       const std::vector<Region> regions = regionsOf(size.width, size.height, log2);
       ASSERT_EQ(regions.size(), regionCount(size.width, size.height, log2));
@@ -58,7 +58,7 @@ TEST(Regions, ShareOutAllCoefficients) {
 template <class Visit>
 void forEachRegion(const Visit& visit) {
   for (const Size& size : kSizes) {
-    const PlaneLayout layout(uniform(FilterId::kShort), size.width, size.height);
+    const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
     for (const Region& region : regionsOf(size.width, size.height, 4)) {
       const std::vector<BandPart> parts = layout.parts(region);
       visit(layout, parts, layout.plan(parts, 0, 0, 0));
@@ -111,7 +111,7 @@ struct Coded {
 };
 
 Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, int fraction_bits,
-             int region_log2, Validity valid) {
+             int region_log2, Mask valid) {
   Coded coded;
   coded.header.width = size.width;
   coded.header.height = size.height;
@@ -121,7 +121,7 @@ Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, in
   coded.header.wavelet.bits = static_cast<uint8_t>(12 + fraction_bits);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
   const std::vector<EncodedTrack> tracks =
-      encodeCoefficients({heights, size.width, size.height, valid}, coded.header.wavelet,
+      encodeCoefficients({heights, size.extent(), valid}, coded.header.wavelet,
                          {UINT64_MAX, region_log2, 2});
   coded.header.planes = static_cast<uint8_t>(tracks.front().planes);
   for (const EncodedTrack& track : tracks) {
@@ -140,18 +140,20 @@ Window randomWindow(Random& random, const Size& size) {
 
 void expectWindows(Random& random, const Coded& coded, const Size& size,
                    const std::vector<uint8_t>& valid) {
-  const DecodedGeometry whole = decodeGeometry(coded.header, coded.spans(), valid, 0, 1);
-  const DecodedGeometry again = decodeGeometry(coded.header, coded.spans(), valid, 0, 5);
+  const DecodedGeometry whole = decodeGeometry(coded.header, coded.spans(), valid);
+  const DecodedGeometry again = decodeGeometry(coded.header, coded.spans(), valid, {}, {5});
   ASSERT_EQ(whole.heights, again.heights);
   ASSERT_EQ(whole.significant, again.significant);
   ASSERT_EQ(whole.quiet_levels, again.quiet_levels);
   for (int i = 0; i < 3; ++i) {
     const Window window =
         i == 0 ? Window{0, 0, size.width, size.height} : randomWindow(random, size);
+    const auto threads = static_cast<uint32_t>(1 + i % 3);
     const DecodedGeometry part =
-        decodeGeometryWindow(coded.header, coded.spans(), valid, window, 1 + i % 3);
+        decodeGeometry(coded.header, coded.spans(), valid, {0, window}, {threads});
     ASSERT_EQ(part.fraction_bits, whole.fraction_bits);
-    ASSERT_EQ(part.heights, crop(std::span<const int32_t>(whole.heights), size.width, window))
+    ASSERT_EQ(part.heights,
+              cut(std::span<const int32_t>(whole.heights), size.extent(), {0, window}))
         << size << ": " << window.x << " " << window.y << " " << window.width << " "
         << window.height;
   }
@@ -209,16 +211,17 @@ TEST(Windows, OfTextures) {
         const EncodedTexture coded = encodeTexture(texels, purpose, {UINT64_MAX, 4, 3});
         Codewords codewords;
         for (const EncodedTrack& track : coded.tracks) codewords.push_back(track.codeword);
-        EXPECT_EQ(decodeTexture(coded.header, codewords, 0, 2).samples, texels.samples);
+        EXPECT_EQ(decodeTexture(coded.header, codewords, {}, {2}).samples, texels.samples);
         for (auto& codeword : codewords)
           codeword = codeword.first(random() % 4 ? random() % (codeword.size() + 1) : 0);
         const Texels whole = decodeTexture(coded.header, codewords);
         for (int i = 0; i < 4; ++i) {
           const Window w = randomWindow(random, size);
-          const Texels part = decodeTextureWindow(coded.header, codewords, w, 1 + i);
+          const auto threads = static_cast<uint32_t>(1 + i);
+          const Texels part = decodeTexture(coded.header, codewords, {0, w}, {threads});
           const Window samples{w.x * channels, w.y, w.width * channels, w.height};
-          ASSERT_EQ(part.samples,
-                    crop(std::span<const uint16_t>(whole.samples), size.width * channels, samples));
+          ASSERT_EQ(part.samples, cut(std::span<const uint16_t>(whole.samples),
+                                      {size.width * channels, size.height}, {0, samples}));
         }
       }
     }
@@ -231,7 +234,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const WaveletHeader wavelet{{1, 1, 1}, 0, 10};
   for (const uint64_t limit : {UINT64_MAX, uint64_t{6000}}) {
-    const auto one = encodeCoefficients({heights, size.width, size.height}, wavelet, {limit, 5, 1});
+    const auto one = encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, 1});
     uint64_t bytes = 0;
     for (const EncodedTrack& track : one) bytes += track.codeword.size();
     EXPECT_EQ(one.front().complete, limit == UINT64_MAX);
@@ -241,7 +244,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
     }
     for (const uint32_t threads : {2u, 5u}) {
       const auto many =
-          encodeCoefficients({heights, size.width, size.height}, wavelet, {limit, 5, threads});
+          encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, threads});
       ASSERT_EQ(one.size(), many.size());
       for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].codeword, many[i].codeword);
     }
@@ -254,7 +257,7 @@ TEST(Tracks, AreOrderedBySlope) {
   Random random(11);
   const Size size{150, 130};
   const Plane heights = randomPlane(random, size.count(), -300, 300);
-  const auto tracks = encodeCoefficients({heights, size.width, size.height}, {{1, 1, 1}, 0, 10},
+  const auto tracks = encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10},
                                          {UINT64_MAX, 5, 1});
   const OrderedTracks order = orderTracks({Component::kGeometry, tracks});
   std::vector<uint64_t> sent(tracks.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++ interface: it owns what it gets, moves, and reports every failure as an Error.
+// The C++ interface: it owns what it gets, moves, and reports every failure as a Status.
 #include "tetrakis/tetrakis.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::vector<int16_t> waves() {
   return samples;
 }
 
-Expected<Buffer> encodeWaves(const std::vector<int16_t>& samples) {
+Result<Buffer> encodeWaves(const std::vector<int16_t>& samples) {
   tks_heights heights = makeHeights();
   heights.width = kWidth;
   heights.height = kHeight;
@@ -37,29 +37,29 @@ Expected<Buffer> encodeWaves(const std::vector<int16_t>& samples) {
 
 TEST(CppInterface, RoundTripThroughMovedObjects) {
   const std::vector<int16_t> samples = waves();
-  Expected<Buffer> stream = encodeWaves(samples);
-  ASSERT_TRUE(stream) << stream.error().message;
+  Result<Buffer> stream = encodeWaves(samples);
+  ASSERT_TRUE(stream) << stream.status().message();
   const Buffer buffer = std::move(*stream);
-  Expected<Decoder> opened = Decoder::open(buffer.bytes());
-  ASSERT_TRUE(opened) << opened.error().message;
+  Result<Decoder> opened = Decoder::open(buffer.bytes());
+  ASSERT_TRUE(opened) << opened.status().message();
   Decoder decoder = std::move(*opened);
   EXPECT_EQ(decoder.info().width, kWidth);
-  EXPECT_TRUE(decoder.verify());
-  const Expected<std::vector<std::byte>> heights = decoder.heights();
-  ASSERT_TRUE(heights) << heights.error().message;
+  EXPECT_TRUE(decoder.verify().ok());
+  const Result<std::vector<std::byte>> heights = decoder.heights();
+  ASSERT_TRUE(heights) << heights.status().message();
   ASSERT_EQ(heights->size(), samples.size() * sizeof(int16_t));
   EXPECT_EQ(std::memcmp(heights->data(), samples.data(), heights->size()), 0);
 }
 
 TEST(CppInterface, MeshesStayInsideTheGrid) {
   const std::vector<int16_t> samples = waves();
-  const Expected<Buffer> stream = encodeWaves(samples);
+  const Result<Buffer> stream = encodeWaves(samples);
   ASSERT_TRUE(stream);
-  Expected<Decoder> decoder = Decoder::open(stream->bytes());
+  Result<Decoder> decoder = Decoder::open(stream->bytes());
   ASSERT_TRUE(decoder);
   for (const uint32_t triangles : {0u, 40u, 100u}) {
-    Expected<Mesh> made = decoder->budgetMesh(triangles);
-    ASSERT_TRUE(made) << made.error().message;
+    Result<Mesh> made = decoder->budgetMesh(triangles);
+    ASSERT_TRUE(made) << made.status().message();
     Mesh mesh = std::move(*made);
     if (triangles > 0) {
       EXPECT_LE(mesh.triangleCount(), triangles);
@@ -73,34 +73,34 @@ TEST(CppInterface, MeshesStayInsideTheGrid) {
 }
 
 TEST(CppInterface, FailuresCarryCodeAndSentence) {
-  const Expected<Buffer> nothing = encode(nullptr, nullptr, makeEncodeOptions());
+  const Result<Buffer> nothing = encode(nullptr, nullptr, makeEncodeOptions());
   ASSERT_FALSE(nothing);
-  EXPECT_EQ(nothing.error().code, TKS_USAGE);
-  EXPECT_NE(nothing.error().message, "");
+  EXPECT_EQ(nothing.status().code(), TKS_USAGE);
+  EXPECT_NE(nothing.status().message(), "");
   const std::vector<uint8_t> noise(100, 0x5a);
-  const Expected<Decoder> corrupt = Decoder::open(noise);
+  const Result<Decoder> corrupt = Decoder::open(noise);
   ASSERT_FALSE(corrupt);
-  EXPECT_EQ(corrupt.error().code, TKS_CORRUPT);
-  EXPECT_NE(corrupt.error().message, "");
-  const Expected<Decoder> empty = Decoder::open({});
+  EXPECT_EQ(corrupt.status().code(), TKS_CORRUPT);
+  EXPECT_NE(corrupt.status().message(), "");
+  const Result<Decoder> empty = Decoder::open({});
   ASSERT_FALSE(empty);
-  EXPECT_EQ(empty.error().code, TKS_TRUNCATED);
+  EXPECT_EQ(empty.status().code(), TKS_TRUNCATED);
 }
 
 TEST(CppInterface, DecoderRefusesWhatTheStreamLacks) {
   const std::vector<int16_t> samples = waves();
-  const Expected<Buffer> stream = encodeWaves(samples);
+  const Result<Buffer> stream = encodeWaves(samples);
   ASSERT_TRUE(stream);
-  Expected<Decoder> decoder = Decoder::open(stream->bytes());
+  Result<Decoder> decoder = Decoder::open(stream->bytes());
   ASSERT_TRUE(decoder);
-  const Expected<std::vector<std::byte>> texture = decoder->texture();
+  const Result<std::vector<std::byte>> texture = decoder->texture();
   ASSERT_FALSE(texture);
-  EXPECT_EQ(texture.error().code, TKS_USAGE);
+  EXPECT_EQ(texture.status().code(), TKS_USAGE);
   tks_limits limits = makeLimits();
   limits.max_samples = 4;
-  const Expected<Decoder> limited = Decoder::open(stream->bytes(), limits);
+  const Result<Decoder> limited = Decoder::open(stream->bytes(), limits);
   ASSERT_FALSE(limited);
-  EXPECT_EQ(limited.error().code, TKS_LIMIT);
+  EXPECT_EQ(limited.status().code(), TKS_LIMIT);
 }
 
 }  // namespace

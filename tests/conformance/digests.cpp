@@ -20,7 +20,7 @@ void print(const std::string& name, std::span<const T> values, tks_sample sample
   std::printf("%s  %s\n", sampleDigest(std::as_bytes(values), sample).c_str(), name.c_str());
 }
 
-void printMesh(const std::string& name, const Expected<Mesh>& mesh) {
+void printMesh(const std::string& name, const Result<Mesh>& mesh) {
   if (!mesh) return;
   print(name + ".vertices", mesh->gridIndices(), TKS_U32);
   print(name + ".heights", mesh->heights(), TKS_F32);
@@ -64,7 +64,7 @@ int printAll() {
     const tks_heights h = heights.heights();
     const tks_image i = image.image();
     const auto stream = encode(&h, &i, options);
-    if (!stream) return stream.error().code;
+    if (!stream) return stream.status().code();
     printStream("joint_" + std::to_string(bytes), stream->bytes());
   }
   return TKS_OK;

@@ -20,7 +20,7 @@ tks_limits fuzzLimits() {
 }
 
 /// The promise of tks_mesh: indices stay inside.
-void checkMesh(const tetrakis::Expected<tetrakis::Mesh>& mesh, const tks_info& info) {
+void checkMesh(const tetrakis::Result<tetrakis::Mesh>& mesh, const tks_info& info) {
   if (!mesh) return;
   const uint64_t samples = uint64_t{info.width} * info.height;
   for (const uint32_t index : mesh->gridIndices()) {
@@ -32,7 +32,7 @@ void checkMesh(const tetrakis::Expected<tetrakis::Mesh>& mesh, const tks_info& i
 }
 
 /// A window of one column holds what the whole holds there.
-void checkWindow(const tetrakis::Expected<std::vector<std::byte>>& window,
+void checkWindow(const tetrakis::Result<std::vector<std::byte>>& window,
                  const std::vector<std::byte>& whole, const tks_info& info) {
   if (!window) std::abort();
   const size_t sample = tks_sample_bytes(info.sample), row_bytes = info.width * sample;
@@ -71,7 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto coarser = [size](uint32_t coarsest) {
     return static_cast<uint32_t>(size) % (coarsest + 1);
   };
-  if (!decoder->setLevels(coarser(info.coarsest_level), coarser(info.texture_coarsest_level)))
+  if (!decoder->setLevels(coarser(info.coarsest_level), coarser(info.texture_coarsest_level)).ok())
     std::abort();
   if (info.has_heights) static_cast<void>(decoder->heights());
   if (info.has_texture) static_cast<void>(decoder->texture());

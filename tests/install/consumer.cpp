@@ -16,9 +16,9 @@ int main() {
   tks_encode_options options = tetrakis::makeEncodeOptions();
   options.bytes = 1000;
   const auto stream = tetrakis::encode(&heights, nullptr, options);
-  if (!stream) return std::puts(stream.error().message.c_str()), 1;
+  if (!stream) return std::puts(stream.status().message().c_str()), 1;
   auto decoder = tetrakis::Decoder::open(stream->bytes().first(500));
-  if (!decoder) return std::puts(decoder.error().message.c_str()), 1;
+  if (!decoder) return std::puts(decoder.status().message().c_str()), 1;
   const auto mesh = decoder->budgetMesh(100);
   return mesh && mesh->triangleCount() > 10 && mesh->triangleCount() <= 100 ? 0 : 1;
 }

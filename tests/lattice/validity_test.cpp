@@ -53,29 +53,29 @@ TEST(Validity, ComesBackWhateverFollows) {
   for (const Size& size : kSizes) {
     for (const VoidShape shape : kVoidShapes) {
       const auto valid = validity(shape, size.width, size.height);
-      auto codeword = encodeValidity(valid, size.width, size.height);
+      auto codeword = encodeValidity({valid, {size.width, size.height}});
       ASSERT_FALSE(codeword.empty());
-      ASSERT_EQ(decodeValidity(codeword, size.width, size.height), valid);
+      ASSERT_EQ(decodeValidity(codeword, {size.width, size.height}), valid);
       for (const int tail : {0x00, 0xff}) {
         auto longer = codeword;
         longer.insert(longer.end(), 9, static_cast<uint8_t>(tail));
-        ASSERT_EQ(decodeValidity(longer, size.width, size.height), valid);
+        ASSERT_EQ(decodeValidity(longer, {size.width, size.height}), valid);
       }
     }
   }
 }
 
 TEST(Validity, NoCodewordSaysThatAllIsValid) {
-  EXPECT_EQ(decodeValidity({}, 7, 5), std::vector<uint8_t>(35, 1));
+  EXPECT_EQ(decodeValidity({}, {7, 5}), std::vector<uint8_t>(35, 1));
 }
 
 /// Half of a coast's codeword leaves far fewer samples wrong than none, and the error falls.
 TEST(Validity, PrefixesAreCoarseMasks) {
   constexpr uint32_t kSide = 129;
   const auto valid = validity(VoidShape::kCoast, kSide, kSide);
-  const auto codeword = encodeValidity(valid, kSide, kSide);
+  const auto codeword = encodeValidity({valid, {kSide, kSide}});
   const auto wrongAfter = [&](size_t bytes) {
-    return differences(decodeValidity(std::span(codeword).first(bytes), kSide, kSide), valid);
+    return differences(decodeValidity(std::span(codeword).first(bytes), {kSide, kSide}), valid);
   };
   const size_t none = wrongAfter(0);
   EXPECT_LT(wrongAfter(codeword.size() / 4), none / 3);
@@ -94,7 +94,7 @@ TEST(Validity, CoastsAreCheap) {
       coast += (valid[i] != valid[i - 1]) + (valid[i] != valid[i - kSide]);
     }
   }
-  EXPECT_LT(encodeValidity(valid, kSide, kSide).size() * 8, 3 * coast / 2);
+  EXPECT_LT(encodeValidity({valid, {kSide, kSide}}).size() * 8, 3 * coast / 2);
 }
 
 TEST(Validity, AnyBytesDecode) {
@@ -102,7 +102,7 @@ TEST(Validity, AnyBytesDecode) {
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<uint8_t> bytes(random() % 60);
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
-    for (const uint8_t v : decodeValidity(bytes, 23, 40)) ASSERT_LE(v, 1);
+    for (const uint8_t v : decodeValidity(bytes, {23, 40})) ASSERT_LE(v, 1);
   }
 }
 
@@ -114,11 +114,11 @@ TEST(Corrections, ComeBackAndPrefixesAgree) {
       std::vector<int32_t> corrections(valid.size());
       std::vector<uint8_t> hints(valid.size());
       for (size_t i = 0; i < valid.size(); ++i) {
-        hints[i] = static_cast<uint8_t>(random() % CorrectionGrid::kHints);
+        hints[i] = static_cast<uint8_t>(random() % kHints);
         const auto r = static_cast<uint32_t>(random()) >> (32 - bits);
         if (valid[i] && random() % 3 == 0) corrections[i] = static_cast<int32_t>(r);
       }
-      const CorrectionGrid grid{40, 23, valid, hints};
+      const CorrectionHints grid{hints, {40, 23}, valid};
       const auto codeword = encodeCorrections(corrections, grid);
       ASSERT_EQ(decodeCorrections(codeword, grid), corrections);
       const auto half = decodeCorrections(std::span(codeword).first(codeword.size() / 2), grid);

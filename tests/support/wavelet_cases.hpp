@@ -30,7 +30,12 @@ inline constexpr std::array<FilterId, kFilters> kAllFilters = {
 struct Size {
   uint32_t width, height;
   size_t count() const { return size_t{width} * height; }
+  Extent extent() const { return {width, height}; }
 };
+
+inline std::vector<Subband> subbandsOf(const Size& size) {
+  return Pyramid(size.extent()).subbands();
+}
 
 inline std::ostream& operator<<(std::ostream& out, const Size& size) {
   return out << size.width << " x " << size.height;
@@ -48,13 +53,13 @@ inline WaveletSpec withBits(WaveletSpec spec, int bits) {
   return spec;
 }
 
-inline Plane forward(const WaveletSpec& spec, Plane plane, const Size& size, Validity valid = {}) {
-  forwardWavelet(spec, plane, size.width, size.height, valid);
+inline Plane forward(const WaveletSpec& spec, Plane plane, const Size& size, Mask valid = {}) {
+  forwardWavelet(spec, {plane, size.extent(), valid});
   return plane;
 }
 
-inline Plane inverse(const WaveletSpec& spec, Plane plane, const Size& size, Validity valid = {}) {
-  inverseWavelet(spec, plane, size.width, size.height, valid);
+inline Plane inverse(const WaveletSpec& spec, Plane plane, const Size& size, Mask valid = {}) {
+  inverseWavelet(spec, {plane, size.extent(), valid});
   return plane;
 }
 
@@ -75,13 +80,9 @@ inline std::vector<WaveletSpec> allSpecs() {
   return specs;
 }
 
-inline bool highAlongRows(const Subband& band) {
-  return band.orientation == Orientation::kHL || band.orientation == Orientation::kHH;
-}
-
 /// Column and row of the plane's sample in whose place a coefficient of the band stands.
 inline uint32_t sampleColumn(const Subband& band, uint32_t column) {
-  return (column << band.splits_x) + (highAlongRows(band) ? uint32_t{1} << (band.splits_x - 1) : 0);
+  return (column << band.splits_x) + (band.isHighX() ? uint32_t{1} << (band.splits_x - 1) : 0);
 }
 
 /// f(index in the plane of coefficients, index of the sample whose place it is) for a whole band.

@@ -24,7 +24,7 @@ std::vector<int32_t*> pointersTo(std::vector<Plane>& planes) {
   return pointers;
 }
 
-TEST(ColourLevels, EveryTransformOfEveryCoefficientIsReversible) {
+TEST(ColourLevels, EveryTransformOfEveryCoefficientIsReversibleAtEveryLevel) {
   Random random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const auto width = static_cast<uint32_t>(1 + random() % 70),
@@ -38,11 +38,29 @@ TEST(ColourLevels, EveryTransformOfEveryCoefficientIsReversible) {
     for (size_t c = 0; c < 3 + random() % 2; ++c)
       planes.push_back(extremePlane(random, size_t{width} * height, INT32_MIN, INT32_MAX));
     const std::vector<Plane> before = planes;
-    const std::vector<Subband> subbands = subbandsOf(width, height);
-    const int finer = static_cast<int>(random() % 3);
-    forwardColourLevels(transform, subbands, finer, pointersTo(planes), width);
-    inverseColourLevels(transform, subbands, finer, pointersTo(planes), width);
-    ASSERT_EQ(planes, before);
+    const Pyramid pyramid({width, height});
+    const int level = static_cast<int>(random() % static_cast<size_t>(pyramid.levels() + 1));
+    forwardColourLevels(transform, pyramid, pointersTo(planes));
+    std::vector<ViewSynthesis> views(planes.size(),
+                                     ViewSynthesis(WaveletSpec(), pyramid, {level, {}}));
+    for (size_t c = 0; c < views.size(); ++c) {
+      views[c].allocate();
+      for (const Subband& band : pyramid.subbandsOf(level)) {
+        for (uint32_t row = 0; row < views[c].rows(band); ++row)
+          std::copy_n(planes[c].data() + pyramid.indexOf(band, row), band.width,
+                      views[c].row(band, row).begin());
+      }
+    }
+    inverseColourLevels(transform, pyramid, views);
+    for (size_t c = 0; c < views.size(); ++c) {
+      for (const Subband& band : pyramid.subbandsOf(level)) {
+        ASSERT_EQ(views[c].rows(band), band.height);
+        for (uint32_t row = 0; row < band.height; ++row) {
+          const int32_t* const truth = before[c].data() + pyramid.indexOf(band, row);
+          ASSERT_TRUE(std::ranges::equal(views[c].row(band, row), std::span(truth, band.width)));
+        }
+      }
+    }
   }
 }
 
@@ -53,10 +71,10 @@ TEST(ColourLevels, LevelOneAndAlphaStayAsTheyAre) {
   std::vector<Plane> planes;
   for (size_t c = 0; c < 4; ++c) planes.push_back(randomPlane(random, 64 * 64, -1000, 1000));
   const std::vector<Plane> before = planes;
-  const std::vector<Subband> subbands = subbandsOf(64, 64);
-  forwardColourLevels(transform, subbands, 0, pointersTo(planes), 64);
+  const Pyramid pyramid({64, 64});
+  forwardColourLevels(transform, pyramid, pointersTo(planes));
   EXPECT_EQ(planes[3], before[3]);
-  for (const Subband& band : subbands) {
+  for (const Subband& band : pyramid.subbands()) {
     const size_t first = size_t{band.planeRow(0)} * 64 + band.x;
     for (size_t c = 0; c < 3; ++c)
       EXPECT_EQ(planes[c][first] == before[c][first], band.level == 1) << band.level << " " << c;
@@ -110,7 +128,7 @@ TEST(ColourLevels, TheFitFollowsDetailsAndShapes) {
   for (size_t i = 0; i < texels.samples.size(); ++i) planes[i % 3][i / 3] = texels.samples[i];
   const std::vector<const int32_t*> pointers = {planes[0].data(), planes[1].data(),
                                                 planes[2].data()};
-  const ColourTransform fitted = fitColour(pointers, texels.width, texels.height);
+  const ColourTransform fitted = fitColour(pointers, texels.extent());
   ASSERT_FALSE(fitted.level_shears.empty());
   EXPECT_GT(cosine(colourMatrix(fitted, 1)[0], {1, 1, 1}), 0.995);
   EXPECT_GT(cosine(colourMatrix(fitted, 5)[0], {0.9, 0.5, 0.1}), 0.99);

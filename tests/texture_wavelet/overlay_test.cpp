@@ -131,7 +131,7 @@ TEST(Overlay, PrefixesThatGrowInOneMemoryDecodeAsAlone) {
     TextureMemory memory;
     for (size_t bytes = 0; bytes <= codeword.size(); bytes += bytes < opening + 9 ? 3 : 401) {
       const Codewords cut = {codeword.first(bytes)};
-      ASSERT_EQ(decodeTexture(encoded.header, cut, 0, 1, &memory).samples,
+      ASSERT_EQ(decodeTexture(encoded.header, cut, {}, {1, &memory}).samples,
                 decodeTexture(encoded.header, cut).samples)
           << channels << " " << bytes;
     }

@@ -27,12 +27,12 @@ struct Planes {
   ColourTransform fit(uint32_t width, uint32_t height) const {
     std::vector<const int32_t*> constant;
     for (const Plane& plane : values) constant.push_back(plane.data());
-    return fitColour(constant, width, height);
+    return fitColour(constant, {width, height});
   }
   ColourTransform chooseLossless(uint32_t width, uint32_t height) const {
     std::vector<const int32_t*> constant;
     for (const Plane& plane : values) constant.push_back(plane.data());
-    return chooseLosslessColour(constant, width, height);
+    return chooseLosslessColour(constant, {width, height});
   }
 };
 

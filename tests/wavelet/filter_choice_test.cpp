@@ -50,7 +50,7 @@ std::array<uint8_t, 3> all(FilterId id) {
 
 TEST(FilterChoice, SuitsThePlane) {
   const auto choose = [](const Plane& plane, Purpose purpose) {
-    return chooseWavelet(plane, {}, kSize.width, kSize.height, 16, purpose).filters;
+    return chooseWavelet({plane, kSize.extent()}, 16, purpose).filters;
   };
   EXPECT_EQ(choose(drawn(), Purpose::kLossless), all(FilterId::kShort));
   EXPECT_EQ(choose(oversampled(), Purpose::kLossless), all(FilterId::kLong));
@@ -61,8 +61,8 @@ TEST(FilterChoice, SuitsThePlane) {
 TEST(FilterChoice, IsDeterministic) {
   for (const Plane& plane : {oversampled(), drawn()}) {
     for (const Purpose purpose : kPurposes) {
-      const WaveletHeader a = chooseWavelet(plane, {}, kSize.width, kSize.height, 16, purpose),
-                          b = chooseWavelet(plane, {}, kSize.width, kSize.height, 16, purpose);
+      const WaveletHeader a = chooseWavelet({plane, kSize.extent()}, 16, purpose),
+                          b = chooseWavelet({plane, kSize.extent()}, 16, purpose);
       EXPECT_EQ(a.filters, b.filters);
       EXPECT_EQ(a.bits, b.bits);
       EXPECT_EQ(a.fraction_bits, b.fraction_bits);
@@ -89,8 +89,8 @@ TEST(FilterChoice, TinyAndConstantPlanesAreLegal) {
         const int32_t most = (1 << bits) - 1;
         for (const Plane& plane : {Plane(size.count(), 0), Plane(size.count(), most),
                                    randomPlane(random, size.count(), 0, most)}) {
-          const auto choose = [&](Validity valid) {
-            return chooseWavelet(plane, valid, size.width, size.height, bits, purpose);
+          const auto choose = [&](Mask valid) {
+            return chooseWavelet({plane, size.extent(), valid}, bits, purpose);
           };
           expectLegal(choose({}), bits, purpose);
           for (const VoidShape shape : samples::kVoidShapes) {
@@ -115,8 +115,8 @@ TEST(FilterChoice, IgnoresVoids) {
       quiet[i] = 0;
     }
     for (const Purpose purpose : kPurposes) {
-      EXPECT_EQ(chooseWavelet(noisy, valid, kSize.width, kSize.height, 16, purpose).filters,
-                chooseWavelet(quiet, valid, kSize.width, kSize.height, 16, purpose).filters);
+      EXPECT_EQ(chooseWavelet({noisy, kSize.extent(), valid}, 16, purpose).filters,
+                chooseWavelet({quiet, kSize.extent(), valid}, 16, purpose).filters);
     }
   }
 }
@@ -128,7 +128,7 @@ TEST(FilterChoice, FlatPartsDoNotDecide) {
       planeOf(large, [](double x, double y) { return 5000 * std::sin(0.9 * x + 0.1 * y); });
   for (const Purpose purpose : kPurposes) {
     const auto choose = [&](const Plane& plane) {
-      return chooseWavelet(plane, {}, large.width, large.height, 16, purpose).filters;
+      return chooseWavelet({plane, large.extent()}, 16, purpose).filters;
     };
     Plane lake = hills, coast = hills;
     for (uint32_t y = 0; y < large.height; ++y) {
@@ -145,16 +145,16 @@ TEST(FilterChoice, FlatPartsDoNotDecide) {
 TEST(TypicalParts, LieInThePlaneAndApart) {
   for (const Size& size : {Size{1, 1}, Size{256, 256}, Size{257, 1}, Size{2, 5000}, Size{257, 256},
                            Size{300, 289}, Size{4097, 2049}, Size{1u << 21, 3}}) {
-    std::vector<Part> parts = typicalParts(size.width, size.height);
+    std::vector<Window> parts = typicalParts(size.extent());
     ASSERT_FALSE(parts.empty());
     uint64_t samples = 0;
-    for (const Part& part : parts) {
+    for (const Window& part : parts) {
       ASSERT_GT(part.width, 0u);
       ASSERT_GT(part.height, 0u);
       ASSERT_LE(uint64_t{part.x} + part.width, size.width);
       ASSERT_LE(uint64_t{part.y} + part.height, size.height);
       samples += uint64_t{part.width} * part.height;
-      for (const Part& other : parts) {
+      for (const Window& other : parts) {
         const bool apart = &part == &other || part.x + part.width <= other.x ||
                            other.x + other.width <= part.x || part.y + part.height <= other.y ||
                            other.y + other.height <= part.y;

@@ -81,7 +81,7 @@ TEST(MaskedWavelet, LeavesVoidsAlone) {
       for (const VoidShape shape : kVoidShapes) {
         const auto valid = validity(shape, size.width, size.height);
         const Plane plane = forward(uniform(id), samples, size, valid);
-        for (const Subband& band : subbandsOf(size.width, size.height)) {
+        for (const Subband& band : subbandsOf(size)) {
           forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
             ASSERT_TRUE(valid[sample] || plane[coefficient] == samples[sample]) << size;
           });
@@ -103,13 +103,13 @@ TEST(MaskedWavelet, VoidsAreNotRead) {
         for (size_t i = 0; i < valid.size(); ++i) b[i] = valid[i] ? a[i] : 1 << 25;
         const Plane forward_a = forward(spec, a, size, valid),
                     forward_b = forward(spec, b, size, valid);
-        for (const Subband& band : subbandsOf(size.width, size.height)) {
+        for (const Subband& band : subbandsOf(size)) {
           forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
             ASSERT_TRUE(!valid[sample] || forward_a[coefficient] == forward_b[coefficient]) << size;
           });
         }
         Plane zeroed = forward_a;
-        for (const Subband& band : subbandsOf(size.width, size.height)) {
+        for (const Subband& band : subbandsOf(size)) {
           forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
             if (!valid[sample]) zeroed[coefficient] = 0;
           });
@@ -150,7 +150,7 @@ TEST(MaskedWavelet, VoidsAreNotFeltFarAway) {
       const Plane samples = randomPlane(random, size.count(), -30000, 30000);
       const Plane masked = forward(uniform(id), samples, size, valid),
                   plain = forward(uniform(id), samples, size);
-      for (const Subband& band : subbandsOf(size.width, size.height)) {
+      for (const Subband& band : subbandsOf(size)) {
         if (band.level != 1) continue;
         forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
           ASSERT_TRUE(sample < kReach || masked[coefficient] == plain[coefficient]) << sample;
@@ -170,7 +170,7 @@ TEST(MaskedWavelet, ALoneSampleStaysWhatItIs) {
       Plane samples(size.count(), 0);
       samples[lone] = -4321;
       const Plane plane = forward(spec, samples, size, valid);
-      for (const Subband& band : subbandsOf(size.width, size.height)) {
+      for (const Subband& band : subbandsOf(size)) {
         const int low = band.orientation == Orientation::kLL ? band.level : band.level - 1;
         const int doublings = spec.doubled ? (low >= 3) + (low >= 4) : 0;
         forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
@@ -192,7 +192,7 @@ TEST(MaskedWavelet, ConstantLinesHaveDetailsOnlyWhereTheyMust) {
         const auto valid = validity(shape, size.width, size.height);
         const auto count = static_cast<int64_t>(size.count());
         const Plane plane = forward(uniform(id), Plane(size.count(), kValue), size, valid);
-        for (const Subband& band : subbandsOf(size.width, size.height)) {
+        for (const Subband& band : subbandsOf(size)) {
           const int64_t step =
               band.orientation == Orientation::kLL ? 0 : int64_t{1} << (band.level - 1);
           forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
@@ -219,7 +219,7 @@ TEST(MaskedWavelet, ConstantsHaveFewDetails) {
   for (const FilterId id : kAllFilters) {
     const Plane plane = forward(uniform(id), Plane(valid.size(), 5000), size, valid);
     size_t details = 0;
-    for (const Subband& band : subbandsOf(size.width, size.height)) {
+    for (const Subband& band : subbandsOf(size)) {
       forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
         details += valid[sample] && std::abs(plane[coefficient]) > 1;
       });

@@ -7,7 +7,7 @@
 
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/band_plan.hpp"
+#include "wavelet/view_synthesis.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -61,13 +61,13 @@ double energyOf(const Real& line) {
 /// Squared norm of an impulse in the middle of the band, through the whole plane.
 double measuredEnergy(const WaveletSpec& spec, const Size& size, const Subband& band) {
   std::vector<uint32_t> widths, heights;
-  for (const Extent& e : lowExtents(size.width, size.height)) {
-    widths.push_back(e.width);
-    heights.push_back(e.height);
+  const Pyramid pyramid(size.extent());
+  for (int level = 0; level <= pyramid.levels(); ++level) {
+    widths.push_back(pyramid.low(level).extent.width);
+    heights.push_back(pyramid.low(level).extent.height);
   }
-  const bool high_y = band.orientation == Orientation::kLH || band.orientation == Orientation::kHH;
-  const Real x = lineOf(spec, widths, highAlongRows(band), band.level),
-             y = lineOf(spec, heights, high_y, band.level);
+  const Real x = lineOf(spec, widths, band.isHighX(), band.level),
+             y = lineOf(spec, heights, band.isHighY(), band.level);
   const int low = band.orientation == Orientation::kLL ? band.level : band.level - 1;
   const int doublings = spec.doubled ? (low >= 3) + (low >= 4) : 0;
   return energyOf(x) * energyOf(y) / std::pow(4, doublings);
@@ -80,10 +80,10 @@ std::vector<BandPart> allParts(const PlaneLayout& layout, uint32_t width, uint32
 
 void expectNorms(const Size& size) {
   for (const WaveletSpec& spec : allSpecs()) {
-    const PlaneLayout layout(spec, size.width, size.height);
+    const PlaneLayout layout(spec, size.extent());
     const std::vector<BandPlan> plan =
         layout.plan(allParts(layout, size.width, size.height), 0, 0, 0);
-    for (size_t i = 0; i < layout.size(); ++i) {
+    for (size_t i = 0; i < layout.subbands().size(); ++i) {
       const Subband& band = layout.subbands()[i];
       // Synthesis functions are some twenty coefficients wide; no room for the ends.
       if (band.level == 0 || (band.width < 20 && size.width > 1) ||
@@ -116,12 +116,12 @@ TEST(Norms, IntegerSynthesisFollowsTheReference) {
   for (const WaveletSpec& spec : mixedSpecs()) {
     WaveletSpec wide = spec;
     wide.bits = kWideBits;
-    for (const Subband& band : subbandsOf(size.width, size.height)) {
+    for (const Subband& band : subbandsOf(size)) {
       if (band.width * band.height == 0) continue;
       Plane plane(size.count(), 0);
       plane[size_t{band.planeRow(band.height / 2)} * size.width + band.x + band.width / 2] = 1
                                                                                              << 20;
-      inverseWavelet(wide, plane, size.width, size.height);
+      inverseWavelet(wide, {plane, size.extent()});
       double energy = 0;
       for (const int32_t v : plane) energy += std::pow(v / 1048576.0, 2);
       EXPECT_NEAR(energy / measuredEnergy(spec, size, band), 1, 1e-3) << spec << " " << band.level;
@@ -133,7 +133,7 @@ TEST(Norms, IntegerSynthesisFollowsTheReference) {
 TEST(PlaneLayout, ParentsCoverTheirChildren) {
   for (uint32_t height = 1; height <= 40; ++height) {
     for (uint32_t width = 1; width <= 70; width += 3) {
-      const PlaneLayout layout(uniform(FilterId::kLong), width, height);
+      const PlaneLayout layout(uniform(FilterId::kLong), {width, height});
       const std::vector<BandPlan> plan = layout.plan(allParts(layout, width, height), 100, 7, 5);
       for (const BandPlan& band : plan) {
         ASSERT_TRUE(band.models >= 5 && band.models < 5 + kPlaneModels);
@@ -156,7 +156,7 @@ TEST(PlaneLayout, ParentsCoverTheirChildren) {
 TEST(PlaneLayout, SiblingsHaveThePlacesOfEachOther) {
   for (uint32_t height = 1; height <= 40; ++height) {
     for (uint32_t width = 1; width <= 70; width += 3) {
-      const PlaneLayout layout(uniform(FilterId::kLong), width, height);
+      const PlaneLayout layout(uniform(FilterId::kLong), {width, height});
       const std::vector<BandPart> parts = allParts(layout, width, height);
       const std::vector<BandPlan> plan = layout.plan(parts, 100, 7, 5);
       for (size_t i = 0; i < plan.size(); ++i) {
@@ -180,15 +180,16 @@ TEST(PlaneLayout, SiblingsHaveThePlacesOfEachOther) {
   }
 }
 
-TEST(PlaneLayout, GatherAndScatterTakeEveryValueOnce) {
+TEST(PlaneLayout, GatheredCoefficientsArePutBack) {
   Random random(3);
   for (const Size& size : {Size{1, 1}, Size{37, 70}, Size{130, 5}, Size{3, 64}}) {
     const Plane plane = randomPlane(random, size.count(), -5000, 5000);
-    const PlaneLayout layout(uniform(FilterId::kShort), size.width, size.height);
-    Plane back(size.count(), 99999);
+    const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
+    ViewSynthesis back(uniform(FilterId::kShort), layout.pyramid(), {});
+    back.allocate();
     for (const BandPart& part : allParts(layout, size.width, size.height)) {
       const Subband& subband = layout.subbands()[part.subband];
-      const std::vector<int32_t> values = gather(plane, size.width, subband, part);
+      const std::vector<int32_t> values = layout.gather(plane, part);
       Band band(part.shape(), subband.orientation);
       band.plane = 0;
       band.nonzero = true;
@@ -202,9 +203,9 @@ TEST(PlaneLayout, GatherAndScatterTakeEveryValueOnce) {
           if (values[cell] != 0) band.significant[band.shape.word(row, column / 32)] |= bit;
         }
       }
-      scatter(band, 0, subband, part, back, size.width);
+      back.put(band, 0, part);
     }
-    EXPECT_EQ(back, plane) << size;
+    EXPECT_EQ(back.run(1), inverse(uniform(FilterId::kShort), plane, size)) << size;
   }
 }
 

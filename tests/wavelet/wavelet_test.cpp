@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/mip_level.hpp"
+#include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::test {
@@ -90,7 +91,7 @@ TEST(Wavelet, KeepsConstantsOutOfTheDetailBands) {
     for (const int32_t value : {1, -1, 1234, -77777, 1 << 20, -(1 << 20)}) {
       for (const Size& size : sizes) {
         const Plane plane = forward(withBits(spec, 22), Plane(size.count(), value), size);
-        for (const Subband& band : subbandsOf(size.width, size.height)) {
+        for (const Subband& band : subbandsOf(size)) {
           if (band.orientation == Orientation::kLL) continue;
           forEachCoefficient(band, size.width, [&](size_t i, size_t) {
             ASSERT_LE(std::abs(plane[i]), exact ? 0 : 1) << spec << ", " << size << ": " << value;
@@ -107,7 +108,7 @@ TEST(Wavelet, LowBandsKeepTheMean) {
   for (const FilterId id : {FilterId::kShort, FilterId::kSixTap, FilterId::kLong}) {
     for (const bool doubled : {false, true}) {
       const Plane plane = forward(uniform(id, doubled), Plane(size.count(), 1234), size);
-      const Subband low = subbandsOf(size.width, size.height).front();
+      const Subband low = subbandsOf(size).front();
       forEachCoefficient(low, size.width,
                          [&](size_t i, size_t) { ASSERT_EQ(plane[i], doubled ? 4 * 1234 : 1234); });
     }
@@ -124,7 +125,7 @@ TEST(Wavelet, RoundingIsUnbiased) {
     const WaveletSpec spec = uniform(id);
     const Plane coarse = forward(spec, samples, size),
                 fine = forward(withBits(spec, 17), raised, size);
-    for (const Subband& band : subbandsOf(size.width, size.height)) {
+    for (const Subband& band : subbandsOf(size)) {
       if (band.width < 64) continue;
       double bias = 0;
       forEachCoefficient(band, size.width,
@@ -213,7 +214,7 @@ TEST(Wavelet, PredictsSmoothSurfaces) {
   }
   for (const FilterId id : kAllFilters) {
     const Plane coefficients = forward(uniform(id, false, 17), plane, size);
-    for (const Subband& band : subbandsOf(size.width, size.height)) {
+    for (const Subband& band : subbandsOf(size)) {
       if (band.level != 1 || band.orientation != Orientation::kHL) continue;
       for (uint32_t row = 8; row + 8 < band.height; ++row) {
         for (uint32_t column = 8; column + 8 < band.width; ++column) {
@@ -242,7 +243,7 @@ TEST(Subbands, TileThePlaneCoarsestFirst) {
   for (uint32_t height = 1; height <= 70; ++height) {
     for (uint32_t width = 1; width <= 70; ++width) {
       std::vector<int> coefficients(size_t{width} * height, 0), samples = coefficients;
-      const std::vector<Subband> bands = subbandsOf(width, height);
+      const std::vector<Subband> bands = subbandsOf(Size{width, height});
       for (size_t i = 0; i < bands.size(); ++i) {
         const Subband& band = bands[i];
         ASSERT_EQ(static_cast<size_t>(band.orientation), i == 0 ? 0 : (i - 1) % 3 + 1);
@@ -262,7 +263,7 @@ TEST(Subbands, TileThePlaneCoarsestFirst) {
 
 TEST(Subbands, TheLargestSidesHaveLevelsEnough) {
   for (const Size& size : {Size{1u << 21, 1}, Size{1, 1u << 21}, Size{(1u << 21) - 1, 5}}) {
-    const std::vector<Subband> bands = subbandsOf(size.width, size.height);
+    const std::vector<Subband> bands = subbandsOf(size);
     ASSERT_LE(bands.front().level, kMaxLevels);
     size_t count = 0;
     for (const Subband& band : bands) count += size_t{band.width} * band.height;
@@ -284,32 +285,93 @@ TEST(WaveletHeader, GivesFractionBitsOnlyWhereTheyHelp) {
   EXPECT_FALSE(specOf({{}, 1, 8}).doubled);
 }
 
+/// The low band of a level, out of the coefficients of the whole plane.
+ViewSynthesis lowBandOf(const WaveletSpec& spec, const Pyramid& pyramid, int level,
+                        const Plane& coefficients) {
+  ViewSynthesis synthesis(spec, pyramid, {level, {}});
+  synthesis.allocate();
+  for (const Subband& subband : pyramid.subbands()) {
+    for (uint32_t row = 0; row < synthesis.rows(subband); ++row)
+      std::copy_n(coefficients.data() + pyramid.indexOf(subband, row), subband.width,
+                  synthesis.row(subband, row).begin());
+  }
+  return synthesis;
+}
+
 /// Whatever the filters and doublings of the finer levels.
-TEST(MipLevel, ConstantsKeepTheirValue) {
+TEST(ViewSynthesis, ConstantsKeepTheirValueAtEveryLevel) {
   for (const WaveletSpec& spec : allSpecs()) {
     for (const Size& size : {Size{64, 64}, Size{77, 40}, Size{5, 100}, Size{3, 9}}) {
-      for (int level = 0; level <= MipLevel::coarsestLevel(size.width, size.height); ++level) {
-        const MipLevel mip(size.width, size.height, level);
+      const Pyramid pyramid(size.extent());
+      for (int level = 0; level <= pyramid.levels(); ++level) {
         for (const int32_t constant : {-3000, 1, 77, 20000}) {
-          Plane plane = forward(spec, Plane(size.count(), constant), size);
-          const auto subbands = subbandsOf(size.width, size.height);
-          const auto coarse = subbandsOf(mip.low().width, mip.low().height);
-          Plane low(size_t{mip.low().width} * mip.low().height);
-          for (size_t i = 0; i < coarse.size(); ++i) {
-            for (uint32_t row = 0; row < coarse[i].height; ++row)
-              std::copy_n(
-                  plane.data() + size_t{subbands[i].planeRow(row)} * size.width + subbands[i].x,
-                  coarse[i].width,
-                  low.data() + size_t{coarse[i].planeRow(row)} * mip.low().width + coarse[i].x);
-          }
-          inverseWavelet(mip.transform(spec), low, mip.low().width, mip.low().height);
-          mip.normalise(spec, low);
+          const Plane plane = forward(spec, Plane(size.count(), constant), size);
+          const Plane low = lowBandOf(spec, pyramid, level, plane).run(1);
+          ASSERT_EQ(low.size(), (View{level, {}}.extentIn(size.extent()).samples()));
           for (const int32_t value : low)
             ASSERT_NEAR(value, constant, std::abs(constant) / 2000 + 2) << spec << level;
         }
       }
     }
   }
+}
+
+/// The subbands of a level fill its low band, each coefficient once.
+TEST(Pyramid, SubbandsOfALevelTileItsLowBand) {
+  for (const Size& size : {Size{1, 1}, Size{64, 64}, Size{77, 40}, Size{5, 100}, Size{300, 9}}) {
+    const Pyramid pyramid(size.extent());
+    ASSERT_EQ(coarsestLevel(size.extent()), pyramid.levels());
+    for (int level = 0; level <= pyramid.levels(); ++level) {
+      std::vector<int> seen(pyramid.low(level).extent.samples(), 0);
+      for (const Subband& subband : pyramid.subbandsOf(level)) {
+        for (uint32_t row = 0; row < subband.height; ++row) {
+          for (uint32_t x = 0; x < subband.width; ++x)
+            ++seen.at(pyramid.indexOf(subband, row, level) + x);
+        }
+      }
+      EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ssize(seen)) << size << level;
+    }
+  }
+}
+
+/// Every value of a block has the mark of its sample, wherever the block lies.
+TEST(Pyramid, MasksAreLaidOutLikeTheValuesOfTheirBlock) {
+  const Size size{45, 38};
+  Random random(12);
+  std::vector<uint8_t> valid(size.count());
+  for (uint8_t& v : valid) v = random() % 2;
+  const Pyramid pyramid(size.extent(), valid);
+  for (int level = 0; level < pyramid.levels(); ++level) {
+    const LowBand& band = pyramid.low(level);
+    for (const uint32_t x0 : {0u, 2u}) {
+      const Window block{x0, 1, band.extent.width - x0, band.extent.height - 1};
+      const std::vector<uint8_t> mask = pyramid.splitMask(level, block);
+      const uint32_t lows = pyramid.splitsX(level + 1) ? (block.width + 1) / 2 : block.width;
+      for (uint32_t y = 0; y < block.height; ++y) {
+        for (uint32_t i = 0; i < block.width; ++i) {
+          const uint32_t column = lows == block.width ? i : i < lows ? 2 * i : 2 * (i - lows) + 1;
+          const size_t sample = (size_t{y + block.y} << band.splits_y) * size.width +
+                                (size_t{x0 + column} << band.splits_x);
+          ASSERT_EQ(mask[size_t{y} * block.width + i], valid[sample]) << level << " " << x0;
+        }
+      }
+    }
+  }
+}
+
+/// A view that shows nothing but some samples shows those of the whole plane.
+TEST(View, CutsWhatItShows) {
+  const Extent plane{7, 5};
+  std::vector<int> values(plane.samples());
+  std::iota(values.begin(), values.end(), 0);
+  const std::span<const int> all(values);
+  EXPECT_EQ(cut(all, plane, {}), values);
+  EXPECT_EQ(cut(all, plane, {1, {}}), (std::vector{0, 2, 4, 6, 14, 16, 18, 20, 28, 30, 32, 34}));
+  EXPECT_EQ(cut(all, plane, {0, Window{5, 3, 2, 2}}), (std::vector{26, 27, 33, 34}));
+  EXPECT_TRUE(cut(std::span<const int>(), plane, {1, {}}).empty());
+  EXPECT_FALSE((Window{5, 3, 3, 2}.isInside(plane)));
+  EXPECT_FALSE((Window{UINT32_MAX, 0, 1, 1}.isInside(plane)));
+  EXPECT_FALSE((Window{0, 0, 0, 1}.isInside(plane)));
 }
 
 }  // namespace

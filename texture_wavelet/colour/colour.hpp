@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reversible component transform: three integer shears
+// The component transform is reversible: it consists of three integer shears
 // (P. Hao, Q. Shi, "Matrix factorizations for reversible integer mapping", IEEE TSP 49(10), 2001).
 //
 // Channels r, g, b become the planes c0 (luma), c1, c2 in the order kChannelOrders[order]; then

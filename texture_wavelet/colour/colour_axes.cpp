@@ -30,16 +30,27 @@ void rotateRows(Matrix3& rotation, size_t p, size_t q, double angle) {
   }
 }
 
-/// Rotates rows p and q by +-angle for as long as that saves bits. Returns whether it did.
-bool descend(Matrix3& rotation, std::array<double, 3>& rates, size_t p, size_t q, double angle,
-             const ColourDetails& details, double step) {
+/// The estimated bits of all details along an axis.
+struct AxisRate {
+  const ColourDetails& details;
+  double step;
+
+  double operator()(const std::array<double, 3>& axis) const {
+    return bitsAlong(axis, details, step);
+  }
+};
+
+/// Rotates two rows by +-angle for as long as that saves bits. Returns whether it did.
+bool descend(Matrix3& rotation, std::array<double, 3>& rates, std::pair<size_t, size_t> rows,
+             double angle, const AxisRate& rate) {
+  const auto [p, q] = rows;
   bool moved = false;
   for (double turn : {angle, -angle}) {
     for (;;) {
       Matrix3 turned = rotation;
       rotateRows(turned, p, q, turn);
-      const double rate_p = bitsAlong(turned[p], details, step);
-      const double rate_q = bitsAlong(turned[q], details, step);
+      const double rate_p = rate(turned[p]);
+      const double rate_q = rate(turned[q]);
       if (!(rate_p + rate_q < (rates[p] + rates[q]) * (1 - 1e-9))) break;
       rotation = turned;
       rates[p] = rate_p;
@@ -55,14 +66,14 @@ Matrix3 cheapestRotation(Matrix3 rotation, const ColourDetails& details, Purpose
   constexpr double kFirstAngle = 0.2, kLastAngle = 0.005;
   const double step = purpose == Purpose::kLossless ? 1 : meanMagnitude(details);
   if (step == 0) return rotation;
+  const AxisRate rate{details, step};
   std::array<double, 3> rates{};
-  for (size_t i = 0; i < 3; ++i) rates[i] = bitsAlong(rotation[i], details, step);
+  for (size_t i = 0; i < 3; ++i) rates[i] = rate(rotation[i]);
   for (double angle = kFirstAngle; angle > kLastAngle; angle /= 2) {
     for (bool moved = true; moved;) {
       moved = false;
-      for (auto [p, q] : {std::pair{0u, 1u}, {0u, 2u}, {1u, 2u}}) {
-        moved |= descend(rotation, rates, p, q, angle, details, step);
-      }
+      for (const auto& rows : {std::pair<size_t, size_t>{0, 1}, {0, 2}, {1, 2}})
+        moved |= descend(rotation, rates, rows, angle, rate);
     }
   }
   return rotation;
@@ -104,10 +115,9 @@ std::vector<Matrix3> fitRotations(std::span<const ColourDetails> details, Purpos
 
 }  // namespace
 
-ColourAxes fitAxes(std::span<const int32_t* const> planes, uint32_t width, uint32_t height,
-                   Purpose purpose) {
+ColourAxes fitAxes(std::span<const int32_t* const> planes, Extent extent, Purpose purpose) {
   ColourAxes axes;
-  axes.details = sampleDetails(planes, width, height);
+  axes.details = sampleDetails(planes, extent);
   axes.overall = fixedRotation();
   if (axes.details.empty()) return axes;
   const ColourDetails all = pooled(axes.details);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axes of colour that an image is cheapest to code along. Encoder only.
+// Finds the axes of colour along which an image is cheapest to code. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,7 @@ struct ColourAxes {
   std::vector<Matrix3> levels;         ///< [i]: for level i + 1; as many as details
 };
 
-/// Of 3 or more planes of width * height samples.
-ColourAxes fitAxes(std::span<const int32_t* const> planes, uint32_t width, uint32_t height,
-                   Purpose purpose);
+/// Of 3 or more planes of that extent.
+ColourAxes fitAxes(std::span<const int32_t* const> planes, Extent extent, Purpose purpose);
 
 }  // namespace tetrakis

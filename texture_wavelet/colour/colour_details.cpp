@@ -43,8 +43,8 @@ Image halve(size_t width, size_t height, float gain, ColourAt colour_at, ColourD
 
 }  // namespace
 
-std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, uint32_t width,
-                                         uint32_t height) {
+std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, Extent extent) {
+  const auto [width, height] = extent;
   std::vector<ColourDetails> details;
   if (std::min(width, height) < 2) return details;
   const auto pixel = [&](size_t i) {

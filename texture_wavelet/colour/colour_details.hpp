@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the axes of colour are fitted to: orthonormal Haar details of all scales. Encoder only.
+// The axes of colour are fitted to orthonormal Haar details of all scales, which are sampled here.
+// Encoder only.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "base/plane.hpp"
 
 namespace tetrakis {
 
@@ -17,10 +20,9 @@ struct ColourDetails {
   double weight = 1;  ///< coefficients of the image that each stands for
 };
 
-/// [i]: of level i + 1, some thousands at most. planes: 3 or more of width * height samples. Empty
+/// [i]: of level i + 1, some thousands at most. planes: 3 or more of that extent. Empty
 /// where the image has less than two rows or columns.
-std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, uint32_t width,
-                                         uint32_t height);
+std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, Extent extent);
 
 /// Mean over samples and channels; 0 if there are none.
 double meanMagnitude(const ColourDetails& details);

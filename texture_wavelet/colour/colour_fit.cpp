@@ -66,10 +66,10 @@ ColourTransform centred(std::span<const int32_t* const> planes, size_t count) {
   return transform;
 }
 
-ColourTransform fitColour(std::span<const int32_t* const> planes, uint32_t width, uint32_t height) {
-  ColourTransform best = centred(planes, size_t{width} * height);
+ColourTransform fitColour(std::span<const int32_t* const> planes, Extent extent) {
+  ColourTransform best = centred(planes, extent.samples());
   if (planes.size() < 3) return best;
-  const ColourAxes axes = fitAxes(planes, width, height, Purpose::kLossy);
+  const ColourAxes axes = fitAxes(planes, extent, Purpose::kLossy);
   setRotation(best, axes.overall);
   if (axes.details.empty()) return best;
   const double step = typicalStep(axes.details);

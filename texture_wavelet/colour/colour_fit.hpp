@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choice of the component transform for an image. Encoder only.
+// Chooses the component transform for an image. Encoder only.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "base/plane.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 
 namespace tetrakis {
 
 /// Centres every plane on its mean and fits the shears of RGB to the image. planes: 1 to 4 planes
-/// of width * height samples of at most 16 bits, as in forwardColour.
-ColourTransform fitColour(std::span<const int32_t* const> planes, uint32_t width, uint32_t height);
+/// of that many samples of at most 16 bits, as in forwardColour.
+ColourTransform fitColour(std::span<const int32_t* const> planes, Extent extent);
 
 /// Only centres every plane on its mean.
 ColourTransform centred(std::span<const int32_t* const> planes, size_t count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choice of the shears of coefficients. Encoder only.
+// Chooses the shears of the coefficients of each level. Encoder only.
 #pragma once
 
 #include "texture_wavelet/colour/colour.hpp"

@@ -2,40 +2,36 @@
 #include "texture_wavelet/colour/colour_levels.hpp"
 
 #include <array>
+#include <cassert>
 
 namespace tetrakis {
 
-namespace {
-
-/// Calls shear(level, planes, count) for every row of every subband.
-template <class Shear>
-void forEachRow(std::span<const Subband> subbands, std::span<int32_t* const> planes, uint32_t width,
-                const Shear& shear) {
+void forwardColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
+                         std::span<int32_t* const> planes) {
   if (planes.size() < 3) return;
-  for (const Subband& subband : subbands) {
+  for (const Subband& subband : pyramid.subbands()) {
     for (uint32_t row = 0; row < subband.height; ++row) {
-      const size_t first = size_t{subband.planeRow(row)} * width + subband.x;
+      const size_t first = pyramid.indexOf(subband, row);
       const std::array<int32_t*, 3> rows = {planes[0] + first, planes[1] + first,
                                             planes[2] + first};
-      shear(subband.level, rows, subband.width);
+      forwardLevelColour(transform, subband.level, rows, subband.width);
     }
   }
 }
 
-}  // namespace
-
-void forwardColourLevels(const ColourTransform& transform, std::span<const Subband> subbands,
-                         int finer_levels, std::span<int32_t* const> planes, uint32_t width) {
-  forEachRow(subbands, planes, width, [&](int level, const auto& rows, size_t count) {
-    forwardLevelColour(transform, level + finer_levels, rows, count);
-  });
-}
-
-void inverseColourLevels(const ColourTransform& transform, std::span<const Subband> subbands,
-                         int finer_levels, std::span<int32_t* const> planes, uint32_t width) {
-  forEachRow(subbands, planes, width, [&](int level, const auto& rows, size_t count) {
-    inverseLevelColour(transform, level + finer_levels, rows, count);
-  });
+void inverseColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
+                         std::span<ViewSynthesis> planes) {
+  if (planes.size() < 3) return;
+  for (const Subband& subband : pyramid.subbands()) {
+    const uint32_t count = planes.front().rows(subband);
+    for (uint32_t row = 0; row < count; ++row) {
+      const std::span<int32_t> first = planes[0].row(subband, row);
+      const std::array<int32_t*, 3> rows = {first.data(), planes[1].row(subband, row).data(),
+                                            planes[2].row(subband, row).data()};
+      assert(planes[1].row(subband, row).size() == first.size());
+      inverseLevelColour(transform, subband.level, rows, first.size());
+    }
+  }
 }
 
 }  // namespace tetrakis

@@ -27,19 +27,14 @@ ColourTransform reversible(const ColourTransform& none, uint8_t order) {
 }
 
 struct Sample {
-  uint32_t width, height;
+  Extent extent;
   std::vector<std::vector<int32_t>> planes;
 };
 
-Sample sampleOf(const Part& part, std::span<const int32_t* const> planes, uint32_t width) {
-  Sample sample{part.width, part.height, {}};
-  for (const int32_t* plane : planes) {
-    std::vector<int32_t>& values = sample.planes.emplace_back();
-    for (uint32_t row = 0; row < part.height; ++row) {
-      const int32_t* from = plane + size_t{part.y + row} * width + part.x;
-      values.insert(values.end(), from, from + part.width);
-    }
-  }
+Sample sampleOf(const Window& part, std::span<const int32_t* const> planes, Extent whole) {
+  Sample sample{part.extent(), {}};
+  for (const int32_t* plane : planes)
+    sample.planes.push_back(cut(std::span(plane, whole.samples()), whole, {0, part}));
   return sample;
 }
 
@@ -63,26 +58,24 @@ double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
     for (std::vector<int32_t>& plane : sample.planes) pointers.push_back(plane.data());
     forwardColour(transform, pointers, sample.planes.front().size(), 0);
     for (const std::vector<int32_t>& plane : sample.planes)
-      bits += bitsOf(plane, sample.width, sample.height);
+      bits += bitsOf(plane, sample.extent.width, sample.extent.height);
   }
   return bits;
 }
 
 }  // namespace
 
-ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, uint32_t width,
-                                     uint32_t height) {
-  const ColourTransform none = centred(planes, size_t{width} * height);
+ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Extent extent) {
+  const ColourTransform none = centred(planes, extent.samples());
   if (planes.size() < 3) return none;
-  const ColourAxes axes = fitAxes(planes, width, height, Purpose::kLossless);
+  const ColourAxes axes = fitAxes(planes, extent, Purpose::kLossless);
   // One order for each channel that may come first; that of the other two makes no difference.
   std::vector<ColourTransform> candidates = {none, reversible(none, 0), reversible(none, 2),
                                              reversible(none, 4)};
   setRotation(candidates.emplace_back(none), axes.overall);
   if (!axes.levels.empty()) setRotation(candidates.emplace_back(none), axes.levels.front());
   std::vector<Sample> samples;
-  for (const Part& part : typicalParts(width, height))
-    samples.push_back(sampleOf(part, planes, width));
+  for (const Window& part : typicalParts(extent)) samples.push_back(sampleOf(part, planes, extent));
   ColourTransform best;
   double least = std::numeric_limits<double>::infinity();
   for (const ColourTransform& candidate : candidates) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choice of the component transform where every bit will be coded. Encoder only.
+// Chooses the component transform for an image of which every bit will be coded. Encoder only.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "base/plane.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 
 namespace tetrakis {
@@ -12,8 +13,7 @@ namespace tetrakis {
 /// A rotation that packs the energy is best at low rates; the last bits are noise, which it spreads
 /// over all components. Takes the cheapest, by the residuals of a gradient predictor, of the
 /// fitted rotations (colour_axes.hpp), JPEG 2000's reversible transform about each channel, and
-/// none. planes: 1 to 4 planes of width * height samples, as in fitColour.
-ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, uint32_t width,
-                                     uint32_t height);
+/// none. planes: 1 to 4 planes of that extent, as in fitColour.
+ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Extent extent);
 
 }  // namespace tetrakis

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of a drawn texture, in the order in which they first appear. Both sides build it.
+// A drawn texture has a list of colours, in the order in which they first appear. Encoder and
+// decoder both build it.
 #pragma once
 
 #include <array>

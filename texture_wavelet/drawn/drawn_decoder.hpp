@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Track of a drawn texture to image. Integer only.
+// Decodes the track of a drawn texture to an image. Integer arithmetic only.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace tetrakis {
 
-/// codeword: any prefix of the track of a texture with header.drawn(). Safe on any bytes. level: as
-/// for decodeTexture(); texels of finer levels are not decoded.
+/// Decodes the texels at multiples of 2^level alone. codeword: any prefix of the track of a texture
+/// with header.drawn(). Safe on any bytes.
 Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level);
 
 /// What lies over a photograph.

@@ -22,10 +22,10 @@ struct Numbered {
   std::vector<DrawnColour> colours;
 };
 
-/// coded: 1 for texels that are seen through, which get the number 0; empty: none.
-std::optional<Numbered> number(const Texels& texels, std::span<const uint8_t> coded) {
+/// seen_through: 1 for texels that get the number 0; empty: there are none.
+std::optional<Numbered> number(const Texels& texels, std::span<const uint8_t> seen_through) {
   Numbered out;
-  if (!coded.empty()) out.colours.push_back(greyOf(texels));
+  if (!seen_through.empty()) out.colours.push_back(greyOf(texels));
   out.numbers.resize(size_t{texels.width} * texels.height);
   std::unordered_map<uint64_t, ColourIndex> known;
   uint64_t last_key = 0;
@@ -40,7 +40,7 @@ std::optional<Numbered> number(const Texels& texels, std::span<const uint8_t> co
     }
     ColourIndex& n = out.numbers[i];
     n = kSeeThrough;
-    if (!coded.empty() && coded[i] != 0) continue;
+    if (!seen_through.empty() && seen_through[i] != 0) continue;
     if (last == kNoColour || key != last_key) {
       const auto [entry, added] =
           known.try_emplace(key, static_cast<ColourIndex>(out.colours.size()));
@@ -166,8 +166,8 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels) {
   return encoded;
 }
 
-std::vector<uint8_t> encodeOverlay(const Texels& texels, std::span<const uint8_t> coded) {
-  const std::optional<Numbered> image = number(texels, coded);
+std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph) {
+  const std::optional<Numbered> image = number(texels, photograph.bytes());
   assert(image.has_value());
   std::vector<ColourIndex> indices(image->numbers.size(), kNoColour);
   DrawnColours colours;

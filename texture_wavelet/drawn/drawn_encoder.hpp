@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image to the track of a drawn texture.
+// Codes an image as the track of a drawn texture.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace tetrakis {
 /// the texels are like the one before or above them: that is no drawing.
 std::optional<EncodedTexture> encodeDrawn(const Texels& texels);
 
-/// The codeword of an overlay: the colours of the texels that are 0 in `coded`, and which those
-/// are. They have fewer than kMostColours.
-std::vector<uint8_t> encodeOverlay(const Texels& texels, std::span<const uint8_t> coded);
+/// Returns the codeword of an overlay: which texels the photograph does not mark, and the colours
+/// of those. There are fewer than kMostColours colours.
+std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph);
 
 }  // namespace tetrakis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours for the texels of a drawn texture, known or not.
+// Gives every texel of a drawn texture a colour, whether its colour is known or not.
 #pragma once
 
 #include <span>

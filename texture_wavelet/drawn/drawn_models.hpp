@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The probabilities of a drawn texture's decisions.
+// The models here hold the probabilities of the decisions of a drawn texture.
 #pragma once
 
 #include <algorithm>

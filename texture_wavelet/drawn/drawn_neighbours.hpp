@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the known neighbours of a vertex say about its colour: they vote.
+// The known neighbours of a vertex vote for its colour.
 //
 //   near     the 4 coarser vertices next to it: diagonal ones for a centre, along the axes for a
 //            midpoint; 6 votes each

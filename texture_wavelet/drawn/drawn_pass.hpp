@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of drawn textures: maps, classes of land cover, plans, lettering. Few colours, sharp
-// edges: a wavelet spends most of its bytes on ringing, and a palette has no use for magnitudes.
+// The pass codes drawn textures: maps, classes of land cover, plans, lettering. These have few
+// colours and sharp edges. A wavelet spends most of its bytes on ringing there, and a palette has
+// no use for magnitudes.
 //
 // Every texel is a vertex of the 4-8 lattice. Level by level, coarse to fine, it is asked whether a
 // vertex has the first, second or third of the colours that its neighbours vote for (exact matches

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace tetrakis {
 
@@ -22,7 +23,9 @@ std::vector<uint8_t> cutoutOf(const Texels& texels) {
   return seen;
 }
 
-void hideColours(std::span<const uint8_t> coded, std::vector<std::vector<int32_t>>& planes) {
+void hideColours(Mask mask, std::vector<std::vector<int32_t>>& planes) {
+  if (mask.all()) return;
+  const std::span<const uint8_t> coded = mask.bytes();
   const auto count = std::max(int64_t{1}, std::accumulate(coded.begin(), coded.end(), int64_t{0}));
   for (std::vector<int32_t>& plane : planes) {
     int64_t sum = 0;
@@ -34,25 +37,26 @@ void hideColours(std::span<const uint8_t> coded, std::vector<std::vector<int32_t
   }
 }
 
-uint64_t countedSamples(const Texels& texels, std::span<const uint8_t> seen) {
-  if (seen.empty()) return texels.samples.size();
-  const auto opaque = std::accumulate(seen.begin(), seen.end(), uint64_t{0});
-  return seen.size() + opaque * (texels.channels - 1);
+uint64_t countedSamples(const Texels& texels, Mask seen) {
+  if (seen.all()) return texels.samples.size();
+  const std::span<const uint8_t> marks = seen.bytes();
+  const auto opaque = std::accumulate(marks.begin(), marks.end(), uint64_t{0});
+  return marks.size() + opaque * (texels.channels - 1);
 }
 
-double countedSquares(const Texels& original, const Texels& decoded,
-                      std::span<const uint8_t> seen) {
+double countedSquares(const Texels& original, const Texels& decoded, Mask seen) {
   uint64_t squares = 0;
   const auto add = [&](size_t k) {
     const int32_t difference = int32_t{original.samples[k]} - decoded.samples[k];
     squares += static_cast<uint32_t>(difference) * static_cast<uint32_t>(difference);
   };
   const size_t channels = original.channels;
-  if (seen.empty()) {
+  if (seen.all()) {
     for (size_t k = 0; k < original.samples.size(); ++k) add(k);
+    return static_cast<double>(squares);
   }
-  for (size_t i = 0; i < seen.size(); ++i) {
-    for (size_t c = seen[i] != 0 ? 0 : channels - 1; c < channels; ++c) add(i * channels + c);
+  for (size_t i = 0; i < seen.bytes().size(); ++i) {
+    for (size_t c = seen[i] ? 0 : channels - 1; c < channels; ++c) add(i * channels + c);
   }
   return static_cast<double>(squares);
 }

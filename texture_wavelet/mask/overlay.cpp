@@ -15,8 +15,8 @@ constexpr size_t kLeastAlike = 500;   // where fewer than 1/500 of them are alik
 /// A colour in one number; nothing for one that does not matter.
 using Colour = std::optional<uint64_t>;
 
-Colour colourAt(const Texels& texels, std::span<const uint8_t> seen, size_t texel) {
-  if (!seen.empty() && seen[texel] == 0) return {};
+Colour colourAt(const Texels& texels, Mask seen, size_t texel) {
+  if (!seen[texel]) return {};
   uint64_t colour = 0;
   for (size_t c = 0; c < texels.channels; ++c)
     colour = colour << 16 | texels.samples[texel * texels.channels + c];
@@ -28,8 +28,7 @@ struct Use {
 };
 
 /// Of the colours that occur twice in a row. Photographs have next to none of them.
-std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels,
-                                                  std::span<const uint8_t> seen) {
+std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels, Mask seen) {
   std::unordered_map<uint64_t, Use> uses;
   const size_t count = size_t{texels.width} * texels.height;
   Colour before = colourAt(texels, seen, 0);
@@ -43,7 +42,7 @@ std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels,
 
 }  // namespace
 
-std::vector<uint8_t> photographOf(const Texels& texels, std::span<const uint8_t> seen) {
+std::vector<uint8_t> photographOf(const Texels& texels, Mask seen) {
   const size_t count = size_t{texels.width} * texels.height;
   std::unordered_map<uint64_t, Use> uses = repeatedColours(texels, seen);
   size_t alike = 0;
@@ -65,7 +64,7 @@ std::vector<uint8_t> photographOf(const Texels& texels, std::span<const uint8_t>
     photograph[i] = use == uses.end() || 2 * use->second.alike < use->second.texels ||
                     use->second.texels * kLeastShare < count;
     drawn += photograph[i] == 0;
-    left += photograph[i] != 0 && (seen.empty() || seen[i] != 0);
+    left += photograph[i] != 0 && seen[i];
   }
   if (drawn == 0 || left == 0) return {};
   return photograph;

@@ -93,11 +93,10 @@ class Decoding {
     if (arguments_.threads < 2 || !wantsTexture() || !wants_heights || !info.has_texture) return;
     if (!fitsBesideHeights()) return;
     beside_ = std::async(std::launch::async, [this]() -> Result<ImageFile> {
-      Expected<Decoder> decoder = openDecoder(octets(stream_.bytes));
-      if (!decoder) return toStatus(decoder.error());
+      Result<Decoder> decoder = openDecoder(octets(stream_.bytes));
+      if (!decoder) return decoder.status();
       decoder->setThreads(arguments_.threads);
-      if (const Expected<void> set = decoder->setLevels(0, arguments_.level); !set)
-        return toStatus(set.error());
+      if (const Status set = decoder->setLevels(0, arguments_.level); !set.ok()) return set;
       return decodeImage(*decoder, textureWindow(), textureCopies());
     });
   }
@@ -189,15 +188,15 @@ class Decoding {
   }
 
   Status check(tks_part part, const std::optional<tks_window>& window, uint64_t copies) {
-    const Expected<uint64_t> fits =
+    const Result<uint64_t> fits =
         decoder_.checkMemory(part, window ? &*window : nullptr, arguments_.triangles, copies);
-    return fits ? Status() : toStatus(fits.error());
+    return fits.status();
   }
 
   /// Then beside_bytes_ is what the texture takes meanwhile.
   bool fitsBesideHeights() {
     const std::optional<tks_window> texels = textureWindow();
-    const Expected<uint64_t> texture =
+    const Result<uint64_t> texture =
         decoder_.checkMemory(TKS_PART_TEXTURE, texels ? &*texels : nullptr);
     if (!texture) return false;
     // Its decoder takes the packets apart once more.
@@ -235,8 +234,8 @@ class Decoding {
     const bool coded = arguments_.coded_mesh;
     if (!arguments_.camera.isDefault())
       return viewedMesh(decoder_, coded, arguments_.triangles, arguments_.camera);
-    Expected<Mesh> mesh = coded ? decoder_.codedMesh() : decoder_.budgetMesh(arguments_.triangles);
-    if (!mesh) return toStatus(mesh.error());
+    Result<Mesh> mesh = coded ? decoder_.codedMesh() : decoder_.budgetMesh(arguments_.triangles);
+    if (!mesh) return mesh.status();
     return std::move(*mesh);
   }
 
@@ -272,8 +271,8 @@ Status decode(const DecodeArguments& arguments, bool quiet) {
   if (Status status = checkWindow(arguments, stream->decoder.info()); !status.ok()) return status;
   const uint32_t heights_level = arguments.height.empty() ? 0 : arguments.level,
                  texture_level = arguments.texture.empty() ? 0 : arguments.level;
-  const Expected<void> set = stream->decoder.setLevels(heights_level, texture_level);
-  if (!set) return toStatus(set.error());
+  const Status set = stream->decoder.setLevels(heights_level, texture_level);
+  if (!set.ok()) return set;
   Decoding decoding(arguments, *stream, quiet);
   if (Status status = decoding.plan(); !status.ok()) return status;
   if (Status status = decoding.checkMemory(); !status.ok()) return status;

@@ -178,9 +178,9 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   const tks_heights heights =
       inputs.heights ? view(*inputs.heights, arguments.step) : tks_heights{};
   const tks_image image = inputs.image ? view(*inputs.image) : tks_image{};
-  Expected<Buffer> stream = tetrakis::encode(inputs.heights ? &heights : nullptr,
-                                             inputs.image ? &image : nullptr, *options);
-  if (!stream) return toStatus(stream.error());
+  Result<Buffer> stream = tetrakis::encode(inputs.heights ? &heights : nullptr,
+                                           inputs.image ? &image : nullptr, *options);
+  if (!stream) return stream.status();
   return std::move(*stream);
 }
 
@@ -199,8 +199,8 @@ Status checkMemory(const Reference& inputs) {
 
 /// One line about what was written.
 Result<std::string> summary(const std::string& name, std::span<const uint8_t> stream) {
-  const Expected<Decoder> decoder = openDecoder(stream);
-  if (!decoder) return toStatus(decoder.error());
+  const Result<Decoder> decoder = openDecoder(stream);
+  if (!decoder) return decoder.status();
   const tks_info& info = decoder->info();
   return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
          std::to_string(info.header_bytes) + ", geometry " + std::to_string(info.geometry_bytes) +

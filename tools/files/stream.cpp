@@ -12,10 +12,9 @@ namespace tetrakis::tools {
 namespace {
 
 Status checkWhole(std::span<const uint8_t> bytes) {
-  Expected<Decoder> decoder = openDecoder(bytes);
-  if (!decoder) return toStatus(decoder.error());
-  const Expected<void> verified = decoder->verify();
-  return verified ? Status() : toStatus(verified.error());
+  Result<Decoder> decoder = openDecoder(bytes);
+  if (!decoder) return decoder.status();
+  return decoder->verify();
 }
 
 /// given: six numbers of tks_info; window: what is decoded of the raster.
@@ -27,15 +26,11 @@ std::optional<GeoTransform> placedAt(const double* given, const std::optional<tk
 
 }  // namespace
 
-Status toStatus(const Error& error) {
-  return Status(error.code, error.message);
-}
-
 std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-Expected<Decoder> openDecoder(std::span<const uint8_t> bytes) {
+Result<Decoder> openDecoder(std::span<const uint8_t> bytes) {
   tks_limits limits = makeLimits();
   limits.max_samples = limits.max_texels = kMaxSamples;
   limits.max_memory = memoryLimit();
@@ -48,8 +43,8 @@ Result<OpenStream> openStream(const StreamSource& source) {
   if (source.strict)
     if (Status status = checkWhole(octets(*bytes)); !status.ok()) return status;
   if (source.bytes && *source.bytes < bytes->size()) bytes->resize(*source.bytes);
-  Expected<Decoder> decoder = openDecoder(octets(*bytes));
-  if (!decoder) return toStatus(decoder.error());
+  Result<Decoder> decoder = openDecoder(octets(*bytes));
+  if (!decoder) return decoder.status();
   return OpenStream{std::move(*bytes), std::move(*decoder)};
 }
 
@@ -69,11 +64,11 @@ Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_windo
                                  uint64_t copies) {
   const tks_info& info = decoder.info();
   if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
-  const Expected<uint64_t> fits = decoder.checkMemory(TKS_PART_HEIGHTS, window ? &*window : nullptr,
-                                                      0, heightsBytes(info, window) + copies);
-  if (!fits) return toStatus(fits.error());
-  Expected<std::vector<std::byte>> samples = window ? decoder.heights(*window) : decoder.heights();
-  if (!samples) return toStatus(samples.error());
+  const Result<uint64_t> fits = decoder.checkMemory(TKS_PART_HEIGHTS, window ? &*window : nullptr,
+                                                    0, heightsBytes(info, window) + copies);
+  if (!fits) return fits.status();
+  Result<std::vector<std::byte>> samples = window ? decoder.heights(*window) : decoder.heights();
+  if (!samples) return samples.status();
   HeightFile file;
   file.width = window ? window->width : info.width;
   file.height = window ? window->height : info.height;
@@ -102,11 +97,11 @@ Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>&
                               uint64_t copies) {
   const tks_info& info = decoder.info();
   if (!info.has_texture) return Status(TKS_USAGE, "the stream has no texture");
-  const Expected<uint64_t> fits = decoder.checkMemory(TKS_PART_TEXTURE, window ? &*window : nullptr,
-                                                      0, imageBytes(info, window) + copies);
-  if (!fits) return toStatus(fits.error());
-  Expected<std::vector<std::byte>> texels = window ? decoder.texture(*window) : decoder.texture();
-  if (!texels) return toStatus(texels.error());
+  const Result<uint64_t> fits = decoder.checkMemory(TKS_PART_TEXTURE, window ? &*window : nullptr,
+                                                    0, imageBytes(info, window) + copies);
+  if (!fits) return fits.status();
+  Result<std::vector<std::byte>> texels = window ? decoder.texture(*window) : decoder.texture();
+  if (!texels) return texels.status();
   ImageFile file;
   file.width = window ? window->width : info.texture_width;
   file.height = window ? window->height : info.texture_height;

@@ -28,14 +28,12 @@ struct OpenStream {
   Decoder decoder;
 };
 
-Status toStatus(const Error& error);
-
 /// The same bytes under the type that the library takes.
 std::span<const uint8_t> octets(std::span<const std::byte> bytes);
 
 /// A decoder of every size that the format holds, within the memory of this process
 /// (memory_limit.hpp).
-Expected<Decoder> openDecoder(std::span<const uint8_t> bytes);
+Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 
 /// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);

@@ -147,11 +147,11 @@ Result<MeshFile> Comparer::measureHeights(Decoder& decoder, uint32_t triangles,
     result.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3);
     return mesh;
   }
-  const Expected<uint64_t> fits =
+  const Result<uint64_t> fits =
       decoder.checkMemory(TKS_PART_BUDGET_MESH, nullptr, triangles, copies);
-  if (!fits) return toStatus(fits.error());
-  const Expected<Mesh> mesh = decoder.budgetMesh(triangles);
-  if (!mesh) return toStatus(mesh.error());
+  if (!fits) return fits.status();
+  const Result<Mesh> mesh = decoder.budgetMesh(triangles);
+  if (!mesh) return mesh.status();
   result.triangles = mesh->triangleCount();
   result.heights = heightErrors(surface_, rasterize(*mesh, frame_.width, frame_.height));
   return placeMesh(*mesh, frame_);
@@ -169,8 +169,8 @@ Status Comparer::drawAndScore(MeshFile& mesh, const ImageFile* texture, Measurem
 }
 
 Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t triangles) {
-  Expected<Decoder> decoder = openDecoder(stream);
-  if (!decoder) return toStatus(decoder.error());
+  Result<Decoder> decoder = openDecoder(stream);
+  if (!decoder) return decoder.status();
   Measurement result;
   result.bytes = stream.size();
   result.geometry_bytes = decoder->info().geometry_bytes;

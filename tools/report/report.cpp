@@ -12,8 +12,8 @@ constexpr uint32_t kLargestDivisor = 16;
 }  // namespace
 
 Result<Report> makeReport(const Reference& reference, const ReportRequest& request) {
-  Expected<Decoder> decoder = Decoder::open(request.stream);
-  if (!decoder) return Status(decoder.error().code, decoder.error().message);
+  Result<Decoder> decoder = Decoder::open(request.stream);
+  if (!decoder) return decoder.status();
   const tks_info& info = decoder->info();
   Result<Comparer> comparer = Comparer::create(reference, info);
   if (!comparer.ok()) return comparer.status();

@@ -14,8 +14,8 @@ namespace tetrakis::tools {
 namespace {
 
 Result<Camera> chooseCamera(Decoder& decoder, const CameraChoice& choice) {
-  Expected<std::vector<float>> heights = decoder.surface();
-  if (!heights) return toStatus(heights.error());
+  Result<std::vector<float>> heights = decoder.surface();
+  if (!heights) return heights.status();
   const tks_info& info = decoder.info();
   const Surface surface{info.width, info.height, {heights->begin(), heights->end()}};
   Result<std::vector<Camera>> cameras = chooseCameras(choice, boundsOf(surface, frameOf(info)));
@@ -50,11 +50,10 @@ Result<Mesh> viewedMesh(Decoder& decoder, bool coded, uint32_t triangles,
                         const CameraChoice& choice) {
   const Result<Camera> camera = chooseCamera(decoder, choice);
   if (!camera.ok()) return camera.status();
-  const Expected<MeshTree> tree =
-      coded ? decoder.codedMeshTree() : decoder.budgetMeshTree(triangles);
-  if (!tree) return toStatus(tree.error());
-  Expected<Mesh> mesh = tree->view(clipOf(*camera, frameOf(decoder.info())));
-  if (!mesh) return toStatus(mesh.error());
+  const Result<MeshTree> tree = coded ? decoder.codedMeshTree() : decoder.budgetMeshTree(triangles);
+  if (!tree) return tree.status();
+  Result<Mesh> mesh = tree->view(clipOf(*camera, frameOf(decoder.info())));
+  if (!mesh) return mesh.status();
   if (mesh->triangleCount() == 0)
     return Status(TKS_USAGE, "the camera '" + camera->name + "' sees no ground");
   return std::move(*mesh);

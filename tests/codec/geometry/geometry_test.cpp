@@ -29,21 +29,21 @@ struct Coded {
   EncodedTrack track;
 };
 
-Coded encode(const Plane& heights, const Size& size, const WaveletHeader& wavelet,
-             Validity valid = {}, uint64_t limit = UINT64_MAX) {
+Coded encode(const Plane& heights, const Size& size, const WaveletHeader& wavelet, Mask valid = {},
+             uint64_t limit = UINT64_MAX) {
   Coded coded;
   coded.header.width = size.width;
   coded.header.height = size.height;
   coded.header.wavelet = wavelet;
   coded.track =
-      encodeCoefficients({heights, size.width, size.height, valid}, wavelet, {limit}).front();
+      encodeCoefficients({heights, size.extent(), valid}, wavelet, {limit}).front();
   coded.header.planes = static_cast<uint8_t>(coded.track.planes);
   return coded;
 }
 
 /// With the encoder's own choice of filters.
 Coded encode(const Plane& heights, const Size& size, int bits, Purpose purpose) {
-  return encode(heights, size, chooseWavelet(heights, {}, size.width, size.height, bits, purpose));
+  return encode(heights, size, chooseWavelet({heights, size.extent()}, bits, purpose));
 }
 
 DecodedGeometry decode(const Coded& coded, std::vector<uint8_t> valid = {}) {
@@ -101,7 +101,7 @@ TEST(GeometryTrack, VoidsDecodeToZeroAndTheRestExactly) {
       const auto valid = validity(shape, size.width, size.height);
       Plane heights = randomPlane(random, size.count(), -500, 500);
       const WaveletHeader wavelet =
-          chooseWavelet(heights, valid, size.width, size.height, 10, Purpose::kLossless);
+          chooseWavelet({heights, size.extent(), valid}, 10, Purpose::kLossless);
       const DecodedGeometry decoded = decode(encode(heights, size, wavelet, valid), valid);
       for (size_t i = 0; i < valid.size(); ++i) {
         ASSERT_EQ(decoded.heights[i], valid[i] ? heights[i] : 0);
@@ -119,9 +119,9 @@ TEST(GeometryTrack, SignificantVerticesAreThoseOfItsCoefficients) {
     for (int i = 0; i < 6; ++i) heights[random() % heights.size()] = 40;
     const Coded coded = encode(heights, size, {{1, 1, 1}, 0, 8});
     Plane plane = heights;
-    forwardWavelet(uniform(FilterId::kSixTap, true, 8), plane, size.width, size.height);
+    forwardWavelet(uniform(FilterId::kSixTap, true, 8), {plane, size.extent()});
     std::vector<uint8_t> expected(plane.size(), 0);
-    for (const Subband& band : subbandsOf(size.width, size.height)) {
+    for (const Subband& band : subbandsOf(size)) {
       forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
         expected[sample] = plane[coefficient] != 0;
       });
@@ -134,8 +134,7 @@ TEST(GeometryTrack, StopsSoonAfterItsLimitWithTheSameBytes) {
   Random random(6);
   const Size size{130, 70};
   const Plane heights = randomPlane(random, size.count(), -500, 499);
-  const WaveletHeader wavelet =
-      chooseWavelet(heights, {}, size.width, size.height, 10, Purpose::kLossless);
+  const WaveletHeader wavelet = chooseWavelet({heights, size.extent()}, 10, Purpose::kLossless);
   const EncodedTrack full = encode(heights, size, wavelet).track,
                      cut = encode(heights, size, wavelet, {}, 2000).track;
   ASSERT_FALSE(cut.complete);
@@ -195,8 +194,8 @@ TEST(GeometryTrack, HighPlateausAreCodedWell) {
       for (uint32_t x = 0; x < size.width; ++x) heights.push_back(3 * y < 2 * x ? top : -top);
     }
     std::vector<WaveletHeader> wavelets = {
-        chooseWavelet(heights, {}, size.width, size.height, bits, Purpose::kLossy),
-        chooseWavelet(heights, {}, size.width, size.height, bits, Purpose::kLossless)};
+        chooseWavelet({heights, size.extent()}, bits, Purpose::kLossy),
+        chooseWavelet({heights, size.extent()}, bits, Purpose::kLossless)};
     if (bits <= 16) wavelets.push_back({{2, 2, 2}, 4, static_cast<uint8_t>(bits + 4)});
     for (const WaveletHeader& wavelet : wavelets) {
       Coded coded = encode(heights, size, wavelet);

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// A view says which samples of a plane a caller wants: all of them, every 2^level-th one in both
+// directions, or those in a rectangle. Every decoder takes one.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/plane.hpp"
+
+namespace tetrakis {
+
+/// A rectangle of samples, which lies inside a plane and holds at least one sample.
+struct Window {
+  uint32_t x = 0, y = 0, width = 0, height = 0;
+
+  Extent extent() const { return {width, height}; }
+  bool isInside(Extent plane) const {
+    return width > 0 && height > 0 && width <= plane.width && height <= plane.height &&
+           x <= plane.width - width && y <= plane.height - height;
+  }
+};
+
+/// The default view shows the whole plane. A view with a window has level 0.
+struct View {
+  int level = 0;                 ///< the samples at multiples of 2^level in x and y are shown
+  std::optional<Window> window;  ///< only the samples in the window are shown
+
+  bool isWhole() const { return level == 0 && !window; }
+  /// How many samples of a plane of that size are shown.
+  Extent extentIn(Extent plane) const {
+    assert(!window || (level == 0 && window->isInside(plane)));
+    if (window) return window->extent();
+    return {((plane.width - 1) >> level) + 1, ((plane.height - 1) >> level) + 1};
+  }
+  /// The column and the row of the plane that the first shown sample lies in.
+  uint32_t firstColumn() const { return window ? window->x : 0; }
+  uint32_t firstRow() const { return window ? window->y : 0; }
+  /// The distance between shown samples in the plane.
+  uint32_t step() const { return uint32_t{1} << level; }
+};
+
+/// What a decoder may use, beside what it decodes. Memory is a type of the decoder.
+template <class Memory>
+struct DecodeContext {
+  uint32_t threads = 1;      ///< at most so many threads run at a time; 0 counts as 1
+  Memory* memory = nullptr;  ///< what earlier calls with a shorter codeword have left; null: none
+};
+
+/// Copies the values that a view shows. A plane without values stays empty: masks without bytes
+/// mark every sample of a view as well.
+template <class T>
+std::vector<T> cut(std::span<const T> values, Extent plane, const View& view) {
+  std::vector<T> shown;
+  if (values.empty()) return shown;
+  assert(values.size() == plane.samples());
+  const Extent extent = view.extentIn(plane);
+  shown.reserve(extent.samples());
+  for (uint32_t y = 0; y < extent.height; ++y) {
+    const T* row = values.data() + (view.firstRow() + (size_t{y} << view.level)) * plane.width +
+                   view.firstColumn();
+    if (view.level == 0) {
+      shown.insert(shown.end(), row, row + extent.width);
+      continue;
+    }
+    for (uint32_t x = 0; x < extent.width; ++x) shown.push_back(row[size_t{x} << view.level]);
+  }
+  return shown;
+}
+
+}  // namespace tetrakis
