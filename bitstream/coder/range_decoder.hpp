@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary range decoder, mirror of range_encoder.hpp, with the tail rule: where bytes are missing, a
-// decision counts only if reading the missing tail as all zeros and as all ones agrees on it.
+// This binary range decoder mirrors range_encoder.hpp and adds the tail rule: where bytes are
+// missing, a decision counts only if reading the missing tail as all zeros and as all ones agrees
+// on it.
 #pragma once
 
 #include <cassert>

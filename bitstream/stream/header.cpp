@@ -156,8 +156,8 @@ Status checkRegions(const StreamHeader& header) {
 Status checkStored(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->stored()) return {};
   const bool one_track = header.geometry->regions.side_log2 == 0;
-  const bool plain = header.layers.corrections == CorrectionKind::kNone &&
-                     header.layers.table_bytes == 0;
+  const bool plain =
+      header.layers.corrections == CorrectionKind::kNone && header.layers.table_bytes == 0;
   if (one_track && plain) return {};
   return {TKS_CORRUPT, "Corrupt stream: stored heights have regions, corrections or a table."};
 }
@@ -248,6 +248,7 @@ std::vector<uint8_t> writeHeader(const StreamHeader& header) {
   copy.level = levelFor(header);
   FieldWriter body;
   visitBody(body, copy);
+  assert(body.bytes.size() <= kMaxHeaderBytes);
   FieldWriter out;
   out.bytes.assign(kMagic.begin(), kMagic.end());
   out.bytes.insert(out.bytes.end(), {copy.version, copy.profile, copy.level});

@@ -20,6 +20,7 @@ void putHead(const Packet& packet, FieldWriter& writer) {
 }  // namespace
 
 uint8_t qualityOf(double rmse) {
+  assert(!std::isnan(rmse));
   if (!(rmse > 0)) return 0;
   return static_cast<uint8_t>(std::clamp(std::ceil(8 * std::log2(rmse)) + 64, 1.0, 255.0));
 }
@@ -48,13 +49,16 @@ std::vector<uint8_t> multiplex(std::span<const Packet> packets,
     if (writer.bytes.size() >= limit) break;
   }
   if (writer.bytes.size() > limit) writer.bytes.resize(limit);
+  assert(writer.bytes.size() <= limit);
   return std::move(writer.bytes);
 }
 
 Codewords Demultiplexed::codewordsOf(Component component) const {
   Codewords all(counts[static_cast<size_t>(component)].tracks);
-  for (const auto& [number, codeword] : codewords[static_cast<size_t>(component)])
+  for (const auto& [number, codeword] : codewords[static_cast<size_t>(component)]) {
+    assert(number < all.size());
     all[number] = codeword;
+  }
   return all;
 }
 
@@ -90,6 +94,7 @@ Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const Trac
     const bool complete = length <= payload.size() - at;
     const size_t available = complete ? static_cast<size_t>(length) : payload.size() - at;
     visit(head, payload.subspan(at, available), complete);
+    assert(available > 0 || at == payload.size());
     at += available;
   }
   return {};
@@ -118,6 +123,7 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
       forEachPacket(payload, origin, counts,
                     [&](const PacketHead& head, std::span<const uint8_t> bytes, bool complete) {
                       const auto component = static_cast<size_t>(head.component());
+                      assert(head.track < counts[component].tracks);
                       const bool whole = (head.head & 2) != 0;
                       out.heads.push_back(head);
                       if (complete || !whole) {
@@ -127,6 +133,7 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
                       if (complete) out.quality[component] = head.quality;
                     });
   if (!status.ok()) return status;
+  assert(out.heads.size() <= packets);
   return out;
 }
 

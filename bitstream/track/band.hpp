@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of one band of transform coefficients while its bit-planes arrive.
+// A Band holds what is known of one band of transform coefficients while its bit-planes arrive.
 //
-// Structure of arrays with a margin of zeros, so that neighbours need no bounds checks. Sets of
-// coefficients (significant, visited in this plane) are bit maps, one word for each 32 columns: a
-// pass finds its coefficients by word operations and skips the others. Coefficients that do not
-// exist, because their sample is void, count as visited from the start of every plane.
+// It is a structure of arrays with a margin of zeros, so that neighbours need no bounds checks.
+// Sets of coefficients (significant, visited in this plane) are bit maps, one word for each 32
+// columns: a pass finds its coefficients by word operations and skips the others. Coefficients that
+// do not exist, because their sample is void, count as visited from the start of every plane.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contexts of one class of bands. They start from means over terrain and aerial images, which saves
-// what a small stream would otherwise spend on learning them: 0.7 % of the bytes in the mean over
-// parts of 13 DEMs, up to 1.3 % on those of 257 x 257.
+// BandModels are the contexts of one class of bands. They start from means over terrain and aerial
+// images, which saves what a small stream would otherwise spend on learning them: 0.7 % of the
+// bytes in the mean over parts of 13 DEMs, up to 1.3 % on those of 257 x 257.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of the magnitudes around coefficients: 2 (near) + 1 (far), in units of a bit-plane, each
-// product held at kMostLocal. Eight bits hold the largest sum, so that vector units add many at a
-// time.
+// The contexts of a coefficient come from sums of the magnitudes around it, in units of a
+// bit-plane: near neighbours count twice, far ones once, and each product is at most kMostLocal.
+// Eight bits hold the largest sum, so that vector units add many at a time.
 #pragma once
 
 #include <algorithm>

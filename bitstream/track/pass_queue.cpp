@@ -21,6 +21,7 @@ constexpr Delays kRestDelay = {6, 6, 6, 7, 8, 8, 9, 10, 10, 11, 12, 14, 14, 15, 
 constexpr int kRefineDelay = 12;
 
 int delayOf(PassKind kind, size_t density) {
+  assert(density < kDensities);
   if (kind == PassKind::kRefine) return kRefineDelay;
   return (kind == PassKind::kLikely ? kLikelyDelay : kRestDelay)[density];
 }
@@ -42,6 +43,7 @@ uint32_t existingOf(const BandPlan& plan) {
 }  // namespace
 
 PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes) : progress_(plan.size()) {
+  assert(planes >= 0 && plan.size() <= UINT16_MAX);
   if (planes == 0) return;
   for (size_t band = 0; band < plan.size(); ++band) {
     if (plan[band].vacant()) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A track: the bands of one component (geometry, or texture), coded into one codeword.
+// A track holds bands of one component (heights, or texture), all of them or those of a region,
+// which are coded into one codeword.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/track/track_decoder.hpp"
 
+#include <cassert>
 #include <utility>
 
 namespace tetrakis {
@@ -53,6 +54,7 @@ TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
     const Pass pass = passes.front();
     state.run(plan, pass.band, pass.kind, pass.plane, io);
     if (io.stopped()) return state;
+    assert(pass.band < state.bands.size());
     passes.pop(state.bands[pass.band]);
   }
   state.complete = true;
@@ -64,6 +66,7 @@ GrowingTrack::GrowingTrack(std::vector<BandPlan> plan, int planes)
 
 /// Takes back what a shorter prefix told of the pass in which it ended.
 void GrowingTrack::restore() {
+  assert(passes_.needed());
   const uint16_t band = passes_.front().band;
   if (band_) {
     state_.bands[band] = *band_;

@@ -189,6 +189,7 @@ class TrackCoder {
   /// Runs the passes of this key and above, until the codeword passes `limit` bytes or the
   /// distortion is enough. Every turn takes one of the 3 * planes passes of a band off the queue.
   void run(int least_key, uint64_t limit, double enough) {
+    assert(state_ && passes_);
     while (!done() && firstKey() >= least_key && bytes() <= limit && distortion() > enough) {
       const Pass pass = passes_->front();
       io_.select(source_.plan[pass.band].shape, source_.bands[pass.band], occupancy_[pass.band]);
@@ -227,6 +228,7 @@ class TrackCoder {
 /// All coders together, one bit-plane after the other. It ends: `key` falls below the key of every
 /// pass, and a coder that is asked for all keys from there on is done.
 void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOptions& options) {
+  assert(!coders.empty());
   constexpr int kBitPlane = 16;
   int key = TrackCoder::kNoKey;
   for (const auto& coder : coders) key = std::max(key, coder->firstKey());
@@ -268,6 +270,7 @@ EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<Ba
 
 std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
                                        const TrackOptions& options) {
+  assert(!sources.empty());
   const uint32_t threads = options.threads;
   std::vector<std::optional<TrackCoder>> coders(sources.size());
   parallelFor(threads, coders.size(), [&](size_t i) { coders[i].emplace(sources[i]); });
