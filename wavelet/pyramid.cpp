@@ -57,8 +57,9 @@ std::span<const Subband> Pyramid::subbandsOf(int level) const {
 
 std::vector<uint8_t> Pyramid::splitMask(int level, const Window& block) const {
   const LowBand& band = low(level);
-  assert(!valid_.all() && block.isInside(band.extent) && block.x % 2 == 0);
   const bool split_rows = level < levels() && splitsX(level + 1);
+  assert(!valid_.all() && block.isInside(band.extent));
+  assert(!split_rows || block.x % 2 == 0);
   const uint32_t lows = split_rows ? block.width - block.width / 2 : block.width;
   const uint32_t pitch = (split_rows ? 2u : 1u) << band.splits_x;
   std::vector<uint8_t> mask(block.extent().samples());

@@ -86,8 +86,8 @@ class Pyramid {
   }
 
   /// Which samples exist of a rectangle of the low band of a level, laid out like the values that
-  /// the next level leaves there: where it splits rows, the even columns come before the odd ones.
-  /// The rectangle begins at an even column. The pyramid has a mask with bytes.
+  /// the next level leaves there: where it splits rows, the rectangle begins at an even column, and
+  /// the even columns come before the odd ones. The pyramid has a mask with bytes.
   std::vector<uint8_t> splitMask(int level, const Window& block) const;
 
  private:

@@ -336,23 +336,24 @@ TEST(Pyramid, SubbandsOfALevelTileItsLowBand) {
 
 /// Every value of a block has the mark of its sample, wherever the block lies.
 TEST(Pyramid, MasksAreLaidOutLikeTheValuesOfTheirBlock) {
-  const Size size{45, 38};
   Random random(12);
-  std::vector<uint8_t> valid(size.count());
-  for (uint8_t& v : valid) v = random() % 2;
-  const Pyramid pyramid(size.extent(), valid);
-  for (int level = 0; level < pyramid.levels(); ++level) {
-    const LowBand& band = pyramid.low(level);
-    for (const uint32_t x0 : {0u, 2u}) {
-      const Window block{x0, 1, band.extent.width - x0, band.extent.height - 1};
-      const std::vector<uint8_t> mask = pyramid.splitMask(level, block);
-      const uint32_t lows = pyramid.splitsX(level + 1) ? (block.width + 1) / 2 : block.width;
-      for (uint32_t y = 0; y < block.height; ++y) {
-        for (uint32_t i = 0; i < block.width; ++i) {
-          const uint32_t column = lows == block.width ? i : i < lows ? 2 * i : 2 * (i - lows) + 1;
-          const size_t sample = (size_t{y + block.y} << band.splits_y) * size.width +
-                                (size_t{x0 + column} << band.splits_x);
-          ASSERT_EQ(mask[size_t{y} * block.width + i], valid[sample]) << level << " " << x0;
+  for (const Size& size : {Size{45, 38}, Size{4, 60}, Size{60, 3}}) {
+    std::vector<uint8_t> valid(size.count());
+    for (uint8_t& v : valid) v = random() % 2;
+    const Pyramid pyramid(size.extent(), valid);
+    for (int level = 0; level < pyramid.levels(); ++level) {
+      const LowBand& band = pyramid.low(level);
+      const bool split = pyramid.splitsX(level + 1);
+      for (const uint32_t x0 : {0u, split ? 2u : 1u}) {
+        const Window block{x0, 1, band.extent.width - x0, band.extent.height - 1};
+        const std::vector<uint8_t> mask = pyramid.splitMask(level, block);
+        const uint32_t lows = split ? (block.width + 1) / 2 : block.width;
+        for (uint32_t i = 0; i < block.extent().samples(); ++i) {
+          const uint32_t x = i % block.width, y = block.y + i / block.width;
+          const uint32_t column = !split ? x : x < lows ? 2 * x : 2 * (x - lows) + 1;
+          const size_t sample =
+              (size_t{y} << band.splits_y) * size.width + (size_t{x0 + column} << band.splits_x);
+          ASSERT_EQ(mask[i], valid[sample]) << size << ": level " << level << " from " << x0;
         }
       }
     }
