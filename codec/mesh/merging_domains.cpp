@@ -17,7 +17,8 @@ MergingDomains::MergingDomains(const std::vector<double>& gains, const VertexCos
       domains_(completeDomains(gains, costs)),
       deferred_(costs.lattice(), costs.lattice().levelCount() -
                                      std::min(costs.lattice().levelCount(), prompt_levels)),
-      removed_(gains.size()) {
+      removed_(gains.size()),
+      remaining_(gains.size()) {
   assert(prompt_levels > 0 && prompt_levels % 2 == 0);
   const VertexId late = lattice().firstOf(deferred_.level());
   late_.reserve(late);
@@ -37,6 +38,14 @@ void MergingDomains::refresh(VertexId v) {
   domains_[v].cost = now.cost;
 }
 
+/// For more vertices of a group, but never for more than remain: the first group of a flat surface
+/// is all of its vertices.
+void MergingDomains::makeRoom() {
+  const size_t room = std::min(2 * sites_.size(), remaining_);
+  sites_.reserve(room);
+  group_.reserve(room);
+}
+
 /// The remaining vertices of M_v, level by level.
 void MergingDomains::collect(VertexId v) {
   assert(!removed_[v]);
@@ -49,9 +58,12 @@ void MergingDomains::collect(VertexId v) {
       if (removed_[w]) return;
       removed_[w] = true;
       __builtin_prefetch(&(*gains_)[w]);
+      if (sites_.size() == sites_.capacity()) [[unlikely]]
+        makeRoom();
       sites_.push_back(child);
       group_.push_back(w);
     });
+  remaining_ -= group_.size();
 }
 
 /// Removes a domain of one vertex that saves something, so that no slope falls.

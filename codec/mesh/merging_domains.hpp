@@ -66,6 +66,7 @@ class MergingDomains {
   Worth worthOf(Site site, VertexId v) const { return {(*gains_)[v], costs_->of(site, v)}; }
   void refresh(VertexId v);
   void collect(VertexId v);
+  void makeRoom();
   void removeSingle(Site site, const Worth& worth);
   void loseLate();
   void deferPart(const AncestorWindow& squares, const AncestorWindow& taken, const Worth& part);
@@ -84,6 +85,7 @@ class MergingDomains {
   std::vector<Worth> late_;  ///< domains of coarse vertices, without the losses in deferred_
   DeferredLosses deferred_;
   std::vector<bool> removed_;
+  size_t remaining_;              ///< vertices that are not removed
   std::vector<VertexId> fallen_;  ///< coarse vertices that may have fallen
   std::vector<Site> sites_;       ///< of the group that is being removed
   std::vector<VertexId> group_;

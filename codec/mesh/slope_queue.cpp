@@ -96,6 +96,13 @@ uint32_t SlopeQueue::newChunk(uint32_t next) {
   return chunk;
 }
 
+/// In this chunk of a bucket and those after it.
+size_t SlopeQueue::entriesFrom(uint32_t chunk) const {
+  size_t count = 0;
+  for (; chunk != kNone; chunk = chunks_[chunk].next) count += chunks_[chunk].count;
+  return count;
+}
+
 void SlopeQueue::sortOpened() {
   std::sort(sorted_.begin(), sorted_.end());
 }

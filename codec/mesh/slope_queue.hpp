@@ -59,6 +59,7 @@ class SlopeQueue {
   bool openIsEmpty() const { return next_sorted_ == sorted_.size() && heap_.empty(); }
   void pushLater(uint32_t bucket, VertexId vertex);
   uint32_t newChunk(uint32_t next);
+  size_t entriesFrom(uint32_t chunk) const;
   template <class PushAgain>
   void openNextBucket(PushAgain& pushAgain);
   void sortOpened();
@@ -92,6 +93,8 @@ void SlopeQueue::openNextBucket(PushAgain& pushAgain) {
   if (chunk == kNone) return;
   heads_[static_cast<size_t>(current_)] = kNone;
   sorted_.clear();
+  // Where slopes are equal, one bucket holds nearly all vertices: twice as many would be the peak.
+  sorted_.reserve(entriesFrom(chunk));
   next_sorted_ = 0;
   opening_ = true;
   while (chunk != kNone) {
