@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The levels of the 4-8 lattice over a W x H grid, clipped at its border. Masks and corrections are
-// coded in this order. (Meshes use another border rule, under which the lattice overhangs the grid:
-// codec/mesh/lattice.hpp. Levels are counted from 1 here and in the thesis, from 0 there.)
+// The levels of the 4-8 lattice over a W x H grid, clipped at its border (border_rule.hpp). Masks
+// and corrections are coded in this order. Levels are counted from 1 here and in the thesis,
+// because the roots are level 0; meshes, whose roots are no level, count from 0.
 //
 // One 4-8 subdivision of squares of side 2s (s = 2^(depth-1) ... 1) inserts two levels
 // (thesis 3.2):
@@ -20,9 +20,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace tetrakis {
+#include "lattice/border_rule.hpp"
 
-enum class LevelKind : uint8_t { kRoots, kCentres, kMidpoints };
+namespace tetrakis {
 
 /// Vertices of one level, in rows.
 struct Level {
@@ -32,7 +32,7 @@ struct Level {
   std::array<uint32_t, 2> columns{};  ///< in even and in odd rows
 
   uint32_t y(uint32_t row) const {
-    return kind == LevelKind::kCentres ? (2 * row + 1) * step : row * step;
+    return kind == LevelKind::kCentres ? centreAt(step, row) : row * step;
   }
   uint32_t firstX(uint32_t row) const {
     if (kind == LevelKind::kRoots) return 0;
@@ -40,9 +40,6 @@ struct Level {
   }
   uint32_t pitch() const { return kind == LevelKind::kRoots ? step : 2 * step; }
 };
-
-/// Returns the depth of a grid: the smallest d with 2^d >= max(width, height) - 1.
-uint32_t depthOf(uint32_t width, uint32_t height);
 
 /// Returns the 1 + 2 * depth levels of a grid: the roots, then the centres and the midpoints of
 /// every step from coarse to fine. With a mip level, returns only the levels all of whose vertices

@@ -2,11 +2,13 @@
 // Size and numbering of the 4-8 lattice.
 #include "codec/mesh/lattice.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 
 namespace tetrakis {
+namespace {
+constexpr BorderRule kRule = BorderRule::kOverhanging;
+}
 
 Result<Lattice> Lattice::make(uint32_t width, uint32_t height) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
@@ -22,7 +24,7 @@ Result<Lattice> Lattice::make(uint32_t width, uint32_t height) {
 Lattice::Lattice(uint32_t width, uint32_t height)
     : right_(width - 1),
       bottom_(height - 1),
-      root_side_(std::bit_ceil(std::min(width, height) - 1)) {}
+      root_side_(uint32_t{1} << depthOf(kRule, width, height)) {}
 
 void Lattice::addLevels() {
   assert(std::has_single_bit(root_side_));
@@ -31,13 +33,13 @@ void Lattice::addLevels() {
     plan.step = step;
     plan.shift = static_cast<uint32_t>(std::countr_zero(step));
     plan.first = vertex_count_;
-    plan.columns = (right_ - 1) / (2 * step) + 1;
-    plan.rows = (bottom_ - 1) / (2 * step) + 1;
+    plan.columns = centresAlong(kRule, width(), step);
+    plan.rows = centresAlong(kRule, height(), step);
     vertex_count_ += plan.columns * plan.rows;
     addLevel(plan);
     plan.first = vertex_count_;
-    plan.columns = (right_ - 1) / step + 2;
-    plan.rows = (bottom_ - 1) / step + 2;
+    plan.columns = multiplesAlong(kRule, width(), step);
+    plan.rows = multiplesAlong(kRule, height(), step);
     vertex_count_ += static_cast<uint32_t>(uint64_t{plan.columns} * plan.rows / 2);
     addLevel(plan);
   }

@@ -20,10 +20,8 @@
 // apexes of visible triangles. Every sample is a root or the place of exactly one vertex that is
 // not hidden(). A hidden vertex falls onto a corner of the triangles that it splits.
 //
-// Only this file knows where neighbours are; all other code walks parents, children and ancestors.
-//
-// The masks of lattice/ use the same vertices under another border rule (lattice/levels.hpp): their
-// levels begin at a power of two that covers the longer side, and end at the border of the grid.
+// Of meshes, only this file knows where neighbours are; all other code walks parents, children and
+// ancestors. Masks use the same vertices under another border rule (lattice/border_rule.hpp).
 #pragma once
 
 #include <array>
@@ -33,6 +31,7 @@
 #include <vector>
 
 #include "base/status.hpp"
+#include "lattice/border_rule.hpp"
 
 namespace tetrakis {
 
@@ -154,7 +153,7 @@ inline VertexId Lattice::firstOf(uint32_t level) const {
 
 inline GridPoint Lattice::position(Site v) const {
   const uint32_t step = levels_[v.level].step;
-  if (isCentre(v.level)) return {(2 * v.column + 1) * step, (2 * v.row + 1) * step};
+  if (isCentre(v.level)) return {centreAt(step, v.column), centreAt(step, v.row)};
   return {v.column * step, v.row * step};
 }
 
