@@ -120,9 +120,8 @@ Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, in
   coded.header.wavelet.fraction_bits = static_cast<uint8_t>(fraction_bits);
   coded.header.wavelet.bits = static_cast<uint8_t>(12 + fraction_bits);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  const std::vector<EncodedTrack> tracks =
-      encodeCoefficients({heights, size.extent(), valid}, coded.header.wavelet,
-                         {UINT64_MAX, region_log2, 2});
+  const std::vector<EncodedTrack> tracks = encodeCoefficients(
+      {heights, size.extent(), valid}, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
   coded.header.planes = static_cast<uint8_t>(tracks.front().planes);
   for (const EncodedTrack& track : tracks) {
     coded.codewords.push_back(track.codeword);
@@ -243,8 +242,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
       EXPECT_LT(bytes, 20000u);
     }
     for (const uint32_t threads : {2u, 5u}) {
-      const auto many =
-          encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, threads});
+      const auto many = encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, threads});
       ASSERT_EQ(one.size(), many.size());
       for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].codeword, many[i].codeword);
     }
@@ -257,8 +255,8 @@ TEST(Tracks, AreOrderedBySlope) {
   Random random(11);
   const Size size{150, 130};
   const Plane heights = randomPlane(random, size.count(), -300, 300);
-  const auto tracks = encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10},
-                                         {UINT64_MAX, 5, 1});
+  const auto tracks =
+      encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
   const OrderedTracks order = orderTracks({Component::kGeometry, tracks});
   std::vector<uint64_t> sent(tracks.size());
   ASSERT_EQ(order.points.size(), order.packets.size() + 1);
