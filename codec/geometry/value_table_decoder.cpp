@@ -8,9 +8,9 @@ namespace tetrakis {
 
 namespace {
 
-class DecodingIo {
+class TableDecoding {
  public:
-  explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  explicit TableDecoding(std::span<const uint8_t> codeword) : decoder_(codeword) {}
   bool decide(AdaptiveBit& model, bool) { return decoder_.decode(model); }
   bool even(bool) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
@@ -23,8 +23,8 @@ class DecodingIo {
 
 ValueTable decodeValueTable(std::span<const uint8_t> codeword, uint32_t values) {
   ValueTable table{std::vector<uint32_t>(values)};
-  DecodingIo io(codeword);
-  ValueTablePass<DecodingIo>(io).run(table.words);
+  TableDecoding io(codeword);
+  ValueTablePass<TableDecoding>(io).run(table.words);
   if (io.stopped()) return {};
   return table;
 }

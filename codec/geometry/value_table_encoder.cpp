@@ -8,7 +8,7 @@ namespace tetrakis {
 
 namespace {
 
-class EncodingIo {
+class TableEncoding {
  public:
   bool decide(AdaptiveBit& model, bool answer) {
     encoder_.encode(model, answer);
@@ -28,9 +28,9 @@ class EncodingIo {
 }  // namespace
 
 std::vector<uint8_t> encodeValueTable(const ValueTable& table) {
-  EncodingIo io;
+  TableEncoding io;
   std::vector<uint32_t> words = table.words;
-  ValueTablePass<EncodingIo>(io).run(words);
+  ValueTablePass<TableEncoding>(io).run(words);
   return io.finish();
 }
 
