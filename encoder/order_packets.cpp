@@ -11,7 +11,7 @@
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/screen_model.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -89,4 +89,4 @@ ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& te
                  {samples, [=](double squares) { return squares / samples; }});
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder
