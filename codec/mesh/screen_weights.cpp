@@ -2,9 +2,7 @@
 #include "codec/mesh/screen_weights.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <string>
 
 namespace tetrakis::inline mesh {
 namespace {
@@ -28,8 +26,6 @@ class ViewCosts {
         picture_(surface, view, image),
         has_image_(!image.empty()),
         share_(view.weight / static_cast<double>(std::max<size_t>(picture_.covered(), 1))) {}
-
-  bool seesGround() const { return picture_.covered() > 0; }
 
   /// Of a sample that is known.
   double operator()(uint32_t column, uint32_t row) const {
@@ -121,18 +117,13 @@ std::vector<float> roundedWeights(const WeightedSurface& surface,
 
 }  // namespace
 
-Result<std::vector<float>> screenWeights(const WeightedSurface& surface,
-                                         std::span<const ScreenView> views,
-                                         const GroundImage& image) {
-  assert(!views.empty());
+std::vector<float> screenWeights(const WeightedSurface& surface, std::span<const ScreenView> views,
+                                 const GroundImage& image) {
   const SurfaceView& grid = surface.view;
   std::vector<double> costs(grid.heights.size());
-  for (size_t i = 0; i < views.size(); ++i) {
-    const ScreenView view = reduced(views[i]);
+  for (const ScreenView& given : views) {
+    const ScreenView view = reduced(given);
     const ViewCosts cost(surface, view, image);
-    if (!cost.seesGround())
-      return Status(TKS_USAGE, "Camera " + std::to_string(i + 1) + " of " +
-                                   std::to_string(views.size()) + " sees no ground.");
     for (uint32_t y = 0; y < grid.height; ++y)
       for (uint32_t x = 0; x < grid.width; ++x) {
         const size_t sample = size_t{y} * grid.width + x;
@@ -140,6 +131,12 @@ Result<std::vector<float>> screenWeights(const WeightedSurface& surface,
       }
   }
   return roundedWeights(surface, costs);
+}
+
+uint64_t screenWeightsBytes(uint64_t samples) {
+  constexpr uint64_t kSample = sizeof(double) + sizeof(float);
+  constexpr uint64_t kPixel = sizeof(float) + sizeof(uint8_t), kRows = 1 << 20;
+  return kSample * samples + kPixel * kMostPixels + kRows;
 }
 
 }  // namespace tetrakis::inline mesh

@@ -15,21 +15,23 @@
 // look.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "base/status.hpp"
 #include "codec/mesh/surface_picture.hpp"
 #include "codec/mesh/weighted_surface.hpp"
 
 namespace tetrakis::inline mesh {
 
 /// Returns a weight for each sample, for SurfaceView::weights: means over 3 x 3 samples, rounded to
-/// multiples of 2^-10 of the mean of all, from 2^-6 to 2^14; 1 where a sample is not known. The
-/// surface's own weights do not count. The same bits with every compiler. TKS_USAGE with the number
-/// of the first view that sees no ground. views: one or more.
-Result<std::vector<float>> screenWeights(const WeightedSurface& surface,
-                                         std::span<const ScreenView> views,
-                                         const GroundImage& image);
+/// multiples of 2^-10 of the mean of all, from 2^-6 to 2^14; 1 where a sample is not known, and
+/// everywhere if no view sees ground. The surface's own weights do not count. The same bits with
+/// every compiler.
+std::vector<float> screenWeights(const WeightedSurface& surface, std::span<const ScreenView> views,
+                                 const GroundImage& image);
+
+/// Bytes that this takes at most beside what it is given: weights, costs, and a picture.
+uint64_t screenWeightsBytes(uint64_t samples);
 
 }  // namespace tetrakis::inline mesh

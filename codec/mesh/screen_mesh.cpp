@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/mesh/view_mesh.hpp"
+#include "codec/mesh/screen_mesh.hpp"
 
 #include <span>
 #include <utility>
@@ -25,8 +25,9 @@ Result<FittedMesh> latticeMesh(const Lattice& lattice, const WeightedSurface& su
 
 }  // namespace
 
-Result<FittedMesh> viewMesh(const Lattice& lattice, const WeightedSurface& surface,
-                            uint32_t max_triangles, const std::function<Status(uint64_t)>& admits) {
+Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& surface,
+                              uint32_t max_triangles,
+                              const std::function<Status(uint64_t)>& admits) {
   Result<FittedMesh> mesh = latticeMesh(lattice, surface, max_triangles, admits);
   if (mesh.ok()) turnEdges(surface, *mesh);
   return mesh;

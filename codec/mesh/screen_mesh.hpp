@@ -16,7 +16,8 @@ namespace tetrakis::inline mesh {
 /// all samples by their weighted error and fitted, and whose edges are then turned (turned_edges.hpp).
 /// Where samples are unknown it is that of verticesBesideVoids(), and triangles in voids are part of
 /// it. admits: as there. Fails with the errors of FittedSequence::makeFor().
-Result<FittedMesh> viewMesh(const Lattice& lattice, const WeightedSurface& surface,
-                            uint32_t max_triangles, const std::function<Status(uint64_t)>& admits);
+Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& surface,
+                              uint32_t max_triangles,
+                              const std::function<Status(uint64_t)>& admits);
 
 }  // namespace tetrakis::inline mesh
