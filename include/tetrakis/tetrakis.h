@@ -321,7 +321,7 @@ typedef enum tks_mesh_kind {
                          level with 20 or more a triangle; then nothing finer is decoded */
 } tks_mesh_kind;
 
-/* A conforming 4-8 mesh. Vertex i lies on sample grid_index[i] (y * width + x) and has the height
+/* A conforming 4-8 mesh (but for tks_decode_screen_mesh). Vertex i lies on sample grid_index[i] (y * width + x) and has the height
  * height[i] in `unit`. Vertices come in insertion order, parents before children; of a budget mesh the
  * most important ones come first. Triangles are counter-clockwise seen from above with x to the right
  * and y down the rows towards the viewer. No vertex is void and no triangle touches a void sample with
