@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -104,6 +105,12 @@ class Halves {
   void copyTo(T* row) {
     std::copy_n(low(), lows_, row);
     std::copy_n(high(), highs_, row + lows_);
+  }
+
+  /// Room for what a step of a signal of that length reads, and how many values that are.
+  std::span<T> room(bool predicts, uint32_t length) {
+    setLength(length);
+    return {predicts ? low() : high(), static_cast<size_t>(predicts ? lows_ : highs_)};
   }
 
   /// What a step changes that predicts or updates, and what it reads.

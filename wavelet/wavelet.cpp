@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "wavelet/joint_lifting.hpp"
 #include "wavelet/lifting.hpp"
 #include "wavelet/masked_lifting.hpp"
 
@@ -56,19 +57,23 @@ struct BlockMask {
   }
 };
 
-/// One level of the transform: rows, then columns; backwards the other way round.
+/// One level of the transform: rows and columns jointly, or rows, then columns; backwards the other
+/// way round.
 class LevelTransform {
  public:
   LevelTransform(const WaveletSpec& spec, int level, Direction direction, uint32_t threads)
       : id_(spec.filter(level)),
         direction_(direction),
         wide_(spec.wide(level)),
+        joint_(spec.joint(level)),
+        jointly_wide_(spec.jointlyWide(level)),
         threads_(threads) {}
 
   /// existing: one byte for each value of the block; empty: all exist.
   void run(const Block& whole, Extent low, std::span<const uint8_t> existing) const {
     assert(existing.empty() || existing.size() == whole.extent.samples());
     const bool rows = low.width < whole.extent.width, columns = low.height < whole.extent.height;
+    if (joint_ && rows && columns && existing.empty()) return liftJointly(whole);
     std::optional<BlockMask> mask;
     if (!existing.empty()) mask = BlockMask{existing, whole.extent};
     if (rows && analyses()) liftRows(whole, mask);
@@ -82,6 +87,14 @@ class LevelTransform {
 
   bool analyses() const { return direction_ == Direction::kAnalysis; }
 
+  void liftJointly(const Block& whole) const {
+    const JointBlock block{whole.first, whole.pitch, whole.extent};
+    for (const JointStep step : JointLifting::steps(direction_)) {
+      inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
+        JointLifting(block, id_, direction_, jointly_wide_).run(step, begin, end);
+      });
+    }
+  }
   void liftRows(const Block& whole, const std::optional<BlockMask>& mask) const {
     const uint32_t width = whole.extent.width;
     inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
@@ -123,7 +136,7 @@ class LevelTransform {
 
   FilterId id_;
   Direction direction_;
-  bool wide_;
+  bool wide_, joint_, jointly_wide_;
   uint32_t threads_;
 };
 

@@ -13,7 +13,7 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   WaveletSpec spec;
   std::transform(header.filters.begin(), header.filters.end(), spec.filters.begin(),
                  [](uint8_t id) { return static_cast<FilterId>(id); });
-  spec.doubled = header.fraction_bits == 0;
+  spec.whole = header.fraction_bits == 0;
   spec.bits = header.bits;
   return spec;
 }
