@@ -66,7 +66,7 @@ void JointLifting::centres(uint32_t row) {
   sums_.assign(half(row, true).size(), 0);
   addRow(true, kJointPlaces);
   addColumns({row, true, true}, Direction::kAnalysis, sums_);
-  round(half(row, true));
+  round(kJointPlaces, half(row, true));
 }
 
 /// b += [Px a + Uy d]
@@ -75,7 +75,7 @@ void JointLifting::rightSides(uint32_t row) {
   sums_.assign(half(row, true).size(), 0);
   addRow(true, 0);
   addColumns({row, true, false}, Direction::kAnalysis, sums_);
-  round(half(row, true));
+  round(kJointPlaces, half(row, true));
 }
 
 /// c += [Py a + Ux d]
@@ -84,7 +84,7 @@ void JointLifting::lowerSides(uint32_t row) {
   sums_.assign(half(row, false).size(), 0);
   addRow(false, 0);
   addColumns({row, false, true}, Direction::kAnalysis, sums_);
-  round(half(row, false));
+  round(kJointPlaces, half(row, false));
 }
 
 /// a += [Ux (b - Uy d) + Uy c]
@@ -95,7 +95,11 @@ void JointLifting::corners(uint32_t row) {
   sums_.assign(half(row, false).size(), 0);
   addRow(false, kJointPlaces);
   addColumns({row, false, false}, Direction::kAnalysis, sums_);
-  round(half(row, false));
+  const std::span<int32_t> a = half(row, false);
+  if (!block_.doubled) return round(kJointPlaces, a);
+  if (direction_ == Direction::kAnalysis) doubleValues(a);
+  round(kJointPlaces - 1, a);
+  if (direction_ == Direction::kSynthesis) halveValues(a);
 }
 
 std::span<int32_t> JointLifting::half(uint32_t row, bool high) const {
@@ -123,11 +127,12 @@ void JointLifting::addColumns(const Columns& of, Direction direction,
   liftStep(sums.data(), rows.sources(of.row, rule.step.pairs), rule, sums.size());
 }
 
-void JointLifting::round(std::span<int32_t> target) const {
-  constexpr uint32_t kHalf = 1u << (kJointPlaces - 1);
+/// Adds the brackets to a row, or takes them off, rounded at a binary place.
+void JointLifting::round(int places, std::span<int32_t> target) const {
+  const uint32_t half = 1u << (places - 1);
   const uint32_t sign = direction_ == Direction::kAnalysis ? 0 : ~0u;  // -c is ~c + 1
   for (size_t i = 0; i < target.size(); ++i) {
-    const auto sum = static_cast<int32_t>(static_cast<uint32_t>(sums_[i]) + kHalf) >> kJointPlaces;
+    const auto sum = static_cast<int32_t>(static_cast<uint32_t>(sums_[i]) + half) >> places;
     target[i] = static_cast<int32_t>(static_cast<uint32_t>(target[i]) +
                                      (static_cast<uint32_t>(sum) ^ sign) - sign);
   }

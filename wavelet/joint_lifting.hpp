@@ -36,6 +36,7 @@ struct JointBlock {
   int32_t* first;
   size_t pitch;   ///< from one row to the next, in values
   Extent extent;  ///< two samples or more in each direction
+  bool doubled;   ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
 };
 
 /// What analysis does, in this order; synthesis does it backwards.
@@ -73,7 +74,7 @@ class JointLifting {
   LiftingRule ruleOf(bool predicts, int places, Direction direction) const;
   void addRow(bool predicts, int places);
   void addColumns(const Columns& of, Direction direction, std::span<int32_t> sums) const;
-  void round(std::span<int32_t> target) const;
+  void round(int places, std::span<int32_t> target) const;
 
   JointBlock block_;
   LiftingFilter filter_;

@@ -22,6 +22,20 @@ inline ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
   return std::min(p, period - p);
 }
 
+/// Doubles values of a low band.
+inline void doubleValues(std::span<int32_t> values) {
+  for (int32_t& v : values) v = static_cast<int32_t>(static_cast<uint32_t>(v) << 1);
+}
+
+/// Undoes the doubling of a value of a low band; what is odd is rounded up.
+inline int32_t halved(int32_t value) {
+  return static_cast<int32_t>(static_cast<uint32_t>(value) + 1) >> 1;
+}
+
+inline void halveValues(std::span<int32_t> values) {
+  for (int32_t& v : values) v = halved(v);
+}
+
 /// Rows of equal length at equal distances.
 template <class T>
 struct Rows {

@@ -80,7 +80,4 @@ inline constexpr uint64_t kLiftingBytes = 8;
 /// Undoes one level of the transform of a block, in place.
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block);
 
-/// Undoes the doubling of a value of the low band.
-int32_t halved(int32_t value);
-
 }  // namespace tetrakis
