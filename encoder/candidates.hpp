@@ -11,7 +11,7 @@
 #include "encoder/inputs.hpp"
 #include "encoder/selection.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 using HeightsCandidate = Candidate<CodedHeights>;
 using TextureCandidate = Candidate<CodedTexture>;
@@ -48,4 +48,4 @@ TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& te
 HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights);
 TextureCandidate storedIfShorter(TextureCandidate texture);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -8,7 +8,7 @@
 #include "encoder/height_errors.hpp"
 #include "wavelet/rounding_choice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -116,4 +116,4 @@ CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
   return stored;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

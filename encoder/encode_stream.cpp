@@ -13,7 +13,7 @@
 #include "encoder/quantised_heights.hpp"
 #include "encoder/write_stream.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -83,4 +83,4 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& inputs) {
   return stream;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -8,7 +8,7 @@
 #include "encoder/inputs.hpp"
 #include "ratecontrol/component_curve.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// texture: the image of the inputs, which heights are seen with; null: there is none.
 ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights,
@@ -16,4 +16,4 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
   return joined;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

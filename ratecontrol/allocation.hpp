@@ -11,7 +11,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "ratecontrol/component_curve.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// Steepest slope first; within a component the order of its packets. Equal slopes: geometry first.
 std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves);
@@ -20,4 +20,4 @@ std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curv
 /// than two steps of stated quality (1.5 dB). Packets that count only when whole stay as they are.
 std::vector<Packet> joinNeighbours(std::span<const Packet> packets);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

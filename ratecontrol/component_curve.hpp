@@ -12,7 +12,7 @@
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/coded_tracks.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// One component as the allocation sees it: its packets in their order, and the hull in a
 /// distortion common to all components, whose points lie at ends of packets.
@@ -33,4 +33,4 @@ struct Pricing {
 ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope, const Measure& measure,
                        const Pricing& pricing);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

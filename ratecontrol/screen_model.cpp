@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -88,4 +88,4 @@ double ScreenModel::cost(double height_mse) const {
   return patches_.empty() ? 0 : total / static_cast<double>(patches_.size());
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -13,7 +13,7 @@
 
 #include "base/texels.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 class ScreenModel {
  public:
@@ -35,4 +35,4 @@ class ScreenModel {
 /// Texture metres that one metre of height error moves in the default oblique view: cot 35 degrees.
 inline constexpr double kDefaultParallax = 1.43;
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

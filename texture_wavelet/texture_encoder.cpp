@@ -18,7 +18,7 @@
 #include "wavelet/rounding_choice.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 namespace {
 
@@ -219,4 +219,4 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   return encoded;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

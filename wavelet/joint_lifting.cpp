@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -138,4 +138,4 @@ void JointLifting::round(int places, std::span<int32_t> target) const {
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

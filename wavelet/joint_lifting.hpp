@@ -23,7 +23,7 @@
 #include "base/plane.hpp"
 #include "wavelet/lifting_steps.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 inline constexpr int kJointPlaces = 4;
 
@@ -84,4 +84,4 @@ class JointLifting {
   std::vector<int32_t> sums_;  ///< the brackets of a row
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

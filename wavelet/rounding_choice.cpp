@@ -15,7 +15,7 @@
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -106,4 +106,4 @@ uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double missing_bits)
   return exact - std::min(exact, missing);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -11,7 +11,7 @@
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// The bits per sample that may be missing for the inverse to be better with roundings than
 /// without. Measured on typical parts of the plane. wavelet: without fraction bits.
@@ -21,4 +21,4 @@ double roundedBits(const PlaneView<const int32_t>& plane, const WaveletHeader& w
 /// are never rounded.
 uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double missing_bits);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

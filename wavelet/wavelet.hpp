@@ -18,7 +18,7 @@
 #include "wavelet/lifting_filter.hpp"
 #include "wavelet/pyramid.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// Which transform: stands in the stream header.
 struct WaveletSpec {
@@ -80,4 +80,4 @@ inline constexpr uint64_t kLiftingBytes = 8;
 /// Undoes one level of the transform of a block, in place.
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -7,7 +7,7 @@
 #include "bitstream/stream/header.hpp"
 #include "wavelet/wavelet.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 inline WaveletSpec specOf(const WaveletHeader& header) {
   WaveletSpec spec;
@@ -33,4 +33,4 @@ inline int outputFractionBits(const WaveletHeader& header, int bit_planes, uint6
   return rounds ? header.fraction_bits : unroundedBits(bit_planes);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet
