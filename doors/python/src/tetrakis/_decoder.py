@@ -90,9 +90,17 @@ class Decoder:
         call = ("surface", c.PART_HEIGHTS)
         return self._decode(call, window, (info.shape or (0, 0), np.dtype("f4")), out)
 
-    def validity(self, info: _info.Info) -> np.ndarray:
+    def validity(self, info: _info.Info, window: Optional[c.Window]) -> np.ndarray:
+        """The C interface has no window of it: all of the level, cut. What it says of such a window
+        of heights holds here as well."""
+        if window is not None:
+            self._allow(c.PART_HEIGHTS, window, 0)
         call = ("validity", c.PART_VALIDITY)
-        return self._decode(call, None, (info.shape or (0, 0), np.dtype("u1")), None).view(bool)
+        valid = self._decode(call, None, (info.shape or (0, 0), np.dtype("u1")), None).view(bool)
+        if window is None:
+            return valid
+        rows = slice(window.y, window.y + window.height)
+        return valid[rows, window.x : window.x + window.width]
 
     def texture(
         self, info: _info.Info, window: Optional[c.Window], out: Optional[np.ndarray]

@@ -172,8 +172,7 @@ class Stream:
             samples = decoder.heights(info, part, out)
             if not masked:
                 return samples
-            valid = decoder.validity(info)
-            return _masked(samples, _cut(valid, part), info)
+            return _masked(samples, decoder.validity(info, part), info)
 
     def surface(
         self,
@@ -200,8 +199,7 @@ class Stream:
         Arguments are those of :meth:`heights`."""
         with self._decoder(level, 0, bytes) as decoder:
             info = decoder.info()
-            part = values.window(window, info.shape or (0, 0))
-            return _cut(decoder.validity(info), part)
+            return decoder.validity(info, values.window(window, info.shape or (0, 0)))
 
     def texture(
         self,
@@ -276,13 +274,6 @@ class Stream:
             decoder.__exit__()
             raise
         return decoder
-
-
-def _cut(array: np.ndarray, window: Optional[c.Window]) -> np.ndarray:
-    if window is None:
-        return array
-    rows = slice(window.y, window.y + window.height)
-    return array[rows, window.x : window.x + window.width]
 
 
 def _masked(samples: np.ndarray, valid: np.ndarray, info: Info) -> np.ma.MaskedArray:
