@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any, Dict, Optional
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._errors import TksUsageError
 from ._stream import BytesLike
@@ -23,7 +24,7 @@ def configuration(
     return {name: value for name, value in options.items() if value is not None}
 
 
-def to_stream(chunk: np.ndarray, options: Dict[str, Any]) -> bytes:
+def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> bytes:
     """Axes of length 1 in front (time, band) are left out."""
     array = chunk
     while array.ndim > 2 and array.shape[0] == 1:
@@ -38,5 +39,5 @@ def to_stream(chunk: np.ndarray, options: Dict[str, Any]) -> bytes:
     return tks_encode(array, **options)
 
 
-def from_stream(stream: BytesLike) -> np.ndarray:
+def from_stream(stream: BytesLike) -> NDArray[Any]:
     return tks_decode(stream)

@@ -8,6 +8,7 @@ import ctypes
 from typing import Any, Optional, Tuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _info
 from . import _library as c
@@ -47,19 +48,17 @@ class Decoder:
     def set_levels(self, heights: int, texture: int) -> None:
         self.check(c.lib.tks_set_levels(self._handle, heights, texture))
 
-    def _allow(self, part: int, window: Optional[c.Window], beside: int, triangles: int = 0) -> None:
+    def _allow(self, part: int, window: Optional[c.Window], beside: int) -> None:
         """Refused here, a stream that claims too much costs no array."""
-        self.check(
-            c.lib.tks_check_memory(self._handle, part, window, triangles, beside, None)
-        )
+        self.check(c.lib.tks_check_memory(self._handle, part, window, 0, beside, None))
 
     def _decode(
         self,
         call: Tuple[str, int],
         window: Optional[c.Window],
         target: Tuple[Tuple[int, ...], np.dtype],
-        out: Optional[np.ndarray],
-    ) -> np.ndarray:
+        out: Optional[NDArray[Any]],
+    ) -> NDArray[Any]:
         """Calls tks_decode_<what>[_window] for `call` = (what, part); `target` is the shape and
         type of all that the level holds."""
         (what, part), (shape, dtype) = call, target
@@ -79,18 +78,18 @@ class Decoder:
         return array
 
     def heights(
-        self, info: _info.Info, window: Optional[c.Window], out: Optional[np.ndarray]
-    ) -> np.ndarray:
+        self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
+    ) -> NDArray[Any]:
         call = ("heights", c.PART_HEIGHTS)
         return self._decode(call, window, (info.shape or (0, 0), info.dtype or np.dtype("u1")), out)
 
     def surface(
-        self, info: _info.Info, window: Optional[c.Window], out: Optional[np.ndarray]
-    ) -> np.ndarray:
+        self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
+    ) -> NDArray[Any]:
         call = ("surface", c.PART_HEIGHTS)
         return self._decode(call, window, (info.shape or (0, 0), np.dtype("f4")), out)
 
-    def validity(self, info: _info.Info, window: Optional[c.Window]) -> np.ndarray:
+    def validity(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
         """The C interface has no window of it: all of the level, cut. What it says of such a window
         of heights holds here as well."""
         if window is not None:
@@ -103,8 +102,8 @@ class Decoder:
         return valid[rows, window.x : window.x + window.width]
 
     def texture(
-        self, info: _info.Info, window: Optional[c.Window], out: Optional[np.ndarray]
-    ) -> np.ndarray:
+        self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
+    ) -> NDArray[Any]:
         call = ("texture", c.PART_TEXTURE)
         target = (info.texture_shape or (0, 0), info.texture_dtype or np.dtype("u1"))
         return self._decode(call, window, target, out)
@@ -113,8 +112,8 @@ class Decoder:
         self.check(c.lib.tks_verify(self._handle))
 
     def mesh(
-        self, triangles: int, view: Optional[np.ndarray]
-    ) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+        self, triangles: int, view: Optional[NDArray[Any]]
+    ) -> Tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Grid indices and heights of the vertices, and (n, 3) corners."""
         raw = c.Mesh()
         if view is None:
@@ -130,7 +129,7 @@ class Decoder:
         finally:
             c.lib.tks_free_mesh(raw)
 
-    def _view(self, triangles: int, view: np.ndarray, raw: c.Mesh) -> None:
+    def _view(self, triangles: int, view: NDArray[Any], raw: c.Mesh) -> None:
         tree = ctypes.c_void_p()
         self.check(c.lib.tks_decode_mesh_tree(self._handle, c.MESH_BUDGET, triangles, tree))
         try:
@@ -142,7 +141,7 @@ class Decoder:
             raise error(status, "The view must be a 4 x 4 matrix of finite numbers.")
 
 
-def _copied(pointer: Any, count: int, dtype: str) -> np.ndarray:
+def _copied(pointer: Any, count: int, dtype: str) -> NDArray[Any]:
     """A copy of the library's memory; an empty array may have no address."""
     if count == 0:
         return np.empty(0, dtype)

@@ -8,7 +8,7 @@ import ctypes
 from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
 from . import _values as values
@@ -17,7 +17,7 @@ from ._errors import Status, TksUsageError, error
 Progress = Callable[[float], Any]
 
 
-def _unused_value(valid: np.ndarray, fill_value: Any) -> int:
+def _unused_value(valid: NDArray[Any], fill_value: Any) -> int:
     """An integer of the array's type that none of the valid samples has."""
     limits = np.iinfo(valid.dtype)
     for value in (int(fill_value), limits.min, limits.max):
@@ -33,7 +33,7 @@ def _unused_value(valid: np.ndarray, fill_value: Any) -> int:
     return int(used[gaps[0]]) + 1
 
 
-def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[np.ndarray, Any]:
+def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArray[Any], Any]:
     """Heights whose masked samples are voids, and the nodata value to declare. Those of floats are
     NaN, which come back as whatever nodata is declared."""
     data = np.ma.getdata(heights)
@@ -52,7 +52,7 @@ def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[np.nda
     return np.where(mask, data.dtype.type(int(nodata)), data), nodata
 
 
-def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, np.ndarray]:
+def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
     """The struct, and the samples that it points to: they must live as long."""
     nodata = place["nodata"]
     if isinstance(array, np.ma.MaskedArray):
@@ -87,7 +87,7 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, np.ndarray]:
     ), data
 
 
-def _image_struct(array: Any, place: dict) -> Tuple[c.Image, np.ndarray]:
+def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
     """The struct, and the texels that it points to: they must live as long."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.getmaskarray(array).any():
         raise TksUsageError("A texture has no masked texels: give an alpha of 0 as last channel.")

@@ -36,7 +36,7 @@ class Info:
 
     shape: Optional[Tuple[int, int]]
     """Of the heights: (rows, columns)."""
-    dtype: Optional[np.dtype]
+    dtype: Optional[np.dtype[Any]]
     coarsest_level: int
     """The greatest `level` that `heights` takes."""
     scale: float
@@ -71,7 +71,7 @@ class Info:
 
     texture_shape: Optional[Tuple[int, ...]]
     """(rows, columns) of a grey one, else (rows, columns, channels)."""
-    texture_dtype: Optional[np.dtype]
+    texture_dtype: Optional[np.dtype[Any]]
     texture_coarsest_level: int
     texture_cutout: int
     texture_drawn: int
@@ -89,9 +89,7 @@ _PLAIN = (
     "coarsest_level scale offset step base texture_coarsest_level texture_cutout texture_drawn"
 ).split()
 _BOOLEAN = "lossless exact_steps has_voids heights_stored".split()
-_TEXT = (
-    "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys"
-).split()
+_TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys".split()
 _FROM_ZERO = "max_error heights_rmse texture_psnr".split()
 _ABOVE_ZERO = "triangles regions texture_regions".split()
 

@@ -9,7 +9,7 @@ import os
 from typing import Any, BinaryIO, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
 from . import _values as values
@@ -24,11 +24,11 @@ Source = Union[str, "os.PathLike[str]", BytesLike, BinaryIO]
 class Mesh(NamedTuple):
     """A conforming mesh; unpacks as ``vertices, triangles, uv``."""
 
-    vertices: np.ndarray
+    vertices: NDArray[Any]
     """float64 (n, 3): x, y and the height in `Info.unit`."""
-    triangles: np.ndarray
+    triangles: NDArray[Any]
     """uint32 (m, 3): places in `vertices`, counter-clockwise seen from above."""
-    uv: np.ndarray
+    uv: NDArray[Any]
     """float32 (n, 2): place in the texture; (0, 0) is where its first row and column begin."""
 
 
@@ -154,8 +154,8 @@ class Stream:
         bytes: Optional[int] = None,
         *,
         masked: bool = False,
-        out: Optional[np.ndarray] = None,
-    ) -> np.ndarray:
+        out: Optional[NDArray[Any]] = None,
+    ) -> NDArray[Any]:
         """Samples of the heights: (rows, columns) of `info.dtype`.
 
         level: 1/2^level of the resolution, up to `info.coarsest_level`.
@@ -180,8 +180,8 @@ class Stream:
         window: Optional[values.WindowLike] = None,
         bytes: Optional[int] = None,
         *,
-        out: Optional[np.ndarray] = None,
-    ) -> np.ndarray:
+        out: Optional[NDArray[Any]] = None,
+    ) -> NDArray[Any]:
         """Heights in `info.unit` (scale and offset are applied): float32 (rows, columns), voids
         NaN. Prefixes may say more than whole samples can show, so this is what to draw.
         Arguments are those of :meth:`heights`."""
@@ -194,7 +194,7 @@ class Stream:
         level: int = 0,
         window: Optional[values.WindowLike] = None,
         bytes: Optional[int] = None,
-    ) -> np.ndarray:
+    ) -> NDArray[Any]:
         """bool (rows, columns): True where a sample is a height, False where it is void.
         Arguments are those of :meth:`heights`."""
         with self._decoder(level, 0, bytes) as decoder:
@@ -207,8 +207,8 @@ class Stream:
         window: Optional[values.WindowLike] = None,
         bytes: Optional[int] = None,
         *,
-        out: Optional[np.ndarray] = None,
-    ) -> np.ndarray:
+        out: Optional[NDArray[Any]] = None,
+    ) -> NDArray[Any]:
         """Texels: (rows, columns) of a grey texture, else (rows, columns, channels), of
         `info.texture_dtype`. Arguments are those of :meth:`heights`, counted in texels."""
         with self._decoder(0, level, bytes) as decoder:
@@ -245,8 +245,9 @@ class Stream:
             if coordinates == "crs" and info.shape and info.geotransform is None:
                 raise TksUsageError("The stream does not say where its heights lie.")
             places, heights, corners = decoder.mesh(count, matrix)
-        rows, columns = np.divmod(places.astype(np.int64), info.shape[1])
-        x, y, mirrored = _ground(info, columns, rows, coordinates)
+        rows, columns = np.divmod(places.astype(np.int64), (info.shape or (0, 0))[1])
+        transform = info.geotransform if coordinates == "crs" else None
+        x, y, mirrored = _ground(info, columns, rows, transform)
         vertices = np.stack([x, y, heights.astype(np.float64)], axis=1)
         if mirrored:
             corners = np.ascontiguousarray(corners[:, ::-1])
@@ -276,7 +277,7 @@ class Stream:
         return decoder
 
 
-def _masked(samples: np.ndarray, valid: np.ndarray, info: Info) -> np.ma.MaskedArray:
+def _masked(samples: NDArray[Any], valid: NDArray[Any], info: Info) -> np.ma.MaskedArray:
     fill = None
     if info.nodata is not None:
         kept = np.array([info.nodata]).astype(samples.dtype)[0]
@@ -284,7 +285,7 @@ def _masked(samples: np.ndarray, valid: np.ndarray, info: Info) -> np.ma.MaskedA
     return np.ma.MaskedArray(samples, mask=~valid, fill_value=fill)
 
 
-def _matrix(view: ArrayLike) -> np.ndarray:
+def _matrix(view: ArrayLike) -> NDArray[Any]:
     matrix = np.asarray(view, np.float64)
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
         raise TksUsageError("A view is a 4 x 4 matrix of finite numbers.")
@@ -297,28 +298,29 @@ def _at(transform: GeoTransform, columns: Any, rows: Any) -> Tuple[Any, Any]:
 
 
 def _ground(
-    info: Info, columns: np.ndarray, rows: np.ndarray, coordinates: str
-) -> Tuple[np.ndarray, np.ndarray, bool]:
+    info: Info, columns: NDArray[Any], rows: NDArray[Any], transform: Optional[GeoTransform]
+) -> Tuple[NDArray[Any], NDArray[Any], bool]:
     """x, y, and whether they lie as in a mirror: rows usually run against y."""
-    if coordinates == "local":
+    if transform is None:
         spacing_x, spacing_y = info.spacing or (1.0, 1.0)
         return columns * spacing_x, 0.0 - rows * spacing_y, False
-    t = info.geotransform
+    t = transform
     x, y = _at(t, columns + 0.5, rows + 0.5)
     return x, y, t[1] * t[5] - t[2] * t[4] > 0
 
 
-def _uv(info: Info, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
+def _uv(info: Info, columns: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
     """By both geotransforms where heights and texture have one in the same CRS. Otherwise the first
     and last samples lie on the texture's borders, as in the meshes of the command line."""
-    t = info.texture_geotransform
-    if t is not None and info.geotransform is not None and info.texture_crs == info.crs:
+    height, width = info.shape or (0, 0)
+    u, v = columns / (width - 1), rows / (height - 1)
+    ground, t = info.geotransform, info.texture_geotransform
+    if ground and t and info.texture_shape and info.texture_crs == info.crs:
         determinant = t[1] * t[5] - t[2] * t[4]
         if determinant != 0:
-            x, y = _at(info.geotransform, columns + 0.5, rows + 0.5)
+            x, y = _at(ground, columns + 0.5, rows + 0.5)
             x, y = x - t[0], y - t[3]
             u = (x * t[5] - y * t[2]) / determinant / info.texture_shape[1]
             v = (y * t[1] - x * t[4]) / determinant / info.texture_shape[0]
-            return np.stack([u, v], axis=1).astype(np.float32)
-    height, width = info.shape
-    return np.stack([columns / (width - 1), rows / (height - 1)], axis=1).astype(np.float32)
+    uv: NDArray[Any] = np.stack([u, v], axis=1).astype(np.float32)
+    return uv

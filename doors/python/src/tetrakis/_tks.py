@@ -7,7 +7,7 @@ import builtins
 from typing import Any, Optional
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _values as values
 from ._encode import encode
@@ -49,8 +49,8 @@ def tks_encode(
         if options.get("psnr") is not None:
             raise TksUsageError("level is the PSNR: give one of them.")
         options["psnr"] = level
-    component = "texture" if array.ndim == 3 else "heights"
-    stream = encode(**{component: array}, threads=numthreads or 1, **options)
+    heights, texture = (None, array) if array.ndim == 3 else (array, None)
+    stream = encode(heights, texture, threads=numthreads or 1, **options)
     if out is None:
         return stream
     room = memoryview(out).cast("B")
@@ -68,8 +68,8 @@ def tks_decode(
     window: Optional[values.WindowLike] = None,
     masked: bool = False,
     numthreads: Optional[int] = None,
-    out: Optional[np.ndarray] = None,
-) -> np.ndarray:
+    out: Optional[NDArray[Any]] = None,
+) -> NDArray[Any]:
     """The heights, (rows, columns); of a stream without heights the texture. Arguments are those of
     :meth:`tetrakis.Stream.heights`."""
     with open(data, threads=numthreads or 1) as stream:

@@ -8,6 +8,7 @@ import operator
 from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _library as c
 from ._errors import TksUsageError
@@ -15,7 +16,7 @@ from ._errors import TksUsageError
 # In the order of tks_sample.
 SAMPLES = tuple(np.dtype(name) for name in ("u1", "i1", "u2", "i2", "u4", "i4", "f4"))
 
-# (x, y, width, height) in samples, or the two slices (rows, columns) that would cut it from an array.
+# (x, y, width, height) in samples, or the slices (rows, columns) that would cut it from an array.
 WindowLike = Union[Tuple[int, int, int, int], Tuple[slice, slice]]
 
 
@@ -82,7 +83,7 @@ def window(asked: Optional[WindowLike], shape: Tuple[int, ...]) -> Optional[c.Wi
     return c.Window(*(unsigned(number, "A window's number") for number in asked))
 
 
-def samples(array: np.ndarray, what: str, allowed: Sequence[np.dtype] = SAMPLES) -> np.ndarray:
+def samples(array: NDArray[Any], what: str, allowed: Sequence[np.dtype] = SAMPLES) -> NDArray[Any]:
     """The array in C order and this machine's byte order; refused if no sample type fits."""
     native = array.dtype.newbyteorder("=")
     if native not in allowed:
@@ -94,7 +95,7 @@ def samples(array: np.ndarray, what: str, allowed: Sequence[np.dtype] = SAMPLES)
     return np.ascontiguousarray(array, native)
 
 
-def output(out: Optional[np.ndarray], shape: Tuple[int, ...], dtype: np.dtype) -> np.ndarray:
+def output(out: Optional[NDArray[Any]], shape: Tuple[int, ...], dtype: np.dtype) -> NDArray[Any]:
     """`out` if it can take the samples, else a new array."""
     if out is None:
         return np.empty(shape, dtype)
