@@ -7,7 +7,7 @@ import {extname, join, normalize} from 'node:path';
 
 const TYPES = {
   '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
-  '.tks': 'application/octet-stream', '.svg': 'image/svg+xml',
+  '.tks': 'application/octet-stream', '.svg': 'image/svg+xml', '.mjs': 'text/javascript',
 };
 
 /**
