@@ -47,6 +47,7 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addCompare(app, line);
   addVerify(app, line);
   addSynth(app, line);
+  addView(app, line);
 }
 
 bool isVerb(const CLI::App& app, const std::string& name) {
