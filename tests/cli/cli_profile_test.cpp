@@ -219,7 +219,7 @@ TEST_F(CliProfile, TakesNarrowGroundAndOneSampleOfIt) {
   encode(file);
   EXPECT_EQ(json("1,0 1,49", "50")["samples"], 50);
   const nlohmann::json corner = json("2,-1 0,1", "3"), across = json("-5,3 5,3", "2");
-  EXPECT_EQ(corner["samples"], 2);
+  EXPECT_EQ(corner["samples"], 3);
   EXPECT_EQ(across["points"].size(), 2U);
   EXPECT_EQ(across["gaps"].size(), 2U);
   const nlohmann::json touched = json("-1,1 1,-1", "2");
