@@ -34,9 +34,9 @@ def built_library():
         options = ["-DCMAKE_BUILD_TYPE=Release"]
         options += [f"-DTETRAKIS_{what}=OFF" for what in ("BUILD_TOOLS", "BUILD_TESTS", "INSTALL")]
         subprocess.check_call(["cmake", "-S", SOURCE, "-B", folder, *options])
-    subprocess.check_call(
-        ["cmake", "--build", folder, "--target", "tetrakis_python", "--parallel"]
-    )
+    jobs = str(os.cpu_count() or 1)  # without a number make starts all of them at once
+    build = ["cmake", "--build", folder, "--target", "tetrakis_python", "--parallel", jobs]
+    subprocess.check_call(build)
     return folder / "doors" / "python" / LIBRARY
 
 

@@ -16,19 +16,16 @@ import numpy as np
 
 import tetrakis
 
-# %% Arguments, and a terrain to play with: sums of ever finer noise, in centimetres
+# %% Arguments, and a terrain to play with: noise whose spectrum falls as that of mountains does
 
 
 def hills(side=257, seed=1):
-    random = np.random.default_rng(seed)
-    y, x = np.mgrid[0:side, 0:side] / (side - 1)
-    heights = np.zeros((side, side))
-    for octave in range(7):
-        for _ in range(3):
-            a, b = random.normal(0, 3 * 1.8**octave, 2)
-            phase = random.uniform(0, 2 * np.pi)
-            heights += 300 * 0.45**octave * np.sin(a * x + b * y + phase)
-    return (np.round(heights * 100) / 100).astype(np.float32)
+    frequency = np.hypot(*np.meshgrid(np.fft.fftfreq(side), np.fft.rfftfreq(side), indexing="ij"))
+    frequency[0, 0] = np.inf
+    noise = np.random.default_rng(seed).normal(size=(side, side))
+    heights = np.fft.irfft2(np.fft.rfft2(noise) * frequency**-2.0, (side, side))
+    heights *= 300 / heights.std()
+    return (np.round(heights * 10) / 10).astype(np.float32)  # metres, in decimetres
 
 
 parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
