@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_polyline [HEIGHT...]: table 2.3 and figures 2.9, 2.10, 2.17 and 2.20 of the thesis on rows of
-// height fields, beside the numbers that it prints.
+// bench_polyline [HEIGHT...]: table 2.3 and figures 2.9, 2.10, 2.17 and 2.20 of the thesis on rows
+// of height fields, beside the numbers that it prints.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

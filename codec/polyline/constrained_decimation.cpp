@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cdecimate: greedy decimation along the tree (thesis 2.5.2, fig. 2.16). The leaves wait in a sorted
-// list; a knot becomes a leaf when both of its children are gone.
+// cdecimate: greedy decimation along the tree (thesis 2.5.2, fig. 2.16). The leaves wait in a
+// sorted list; a knot becomes a leaf when both of its children are gone.
 #include <utility>
 
 #include "codec/polyline/algorithms.hpp"

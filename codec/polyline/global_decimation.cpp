@@ -3,8 +3,8 @@
 //
 // The thesis keeps, at each node, the error that removing its whole subtree adds, subtracts from it
 // what descendants took with them as they went (2.41), and the best leaf of the subtree. What is
-// left at a leaf is then what its removal adds now. With g = E(a, b) - E(a, k) - E(k, b) the error of
-// a subtree is the sum of its knots' g, so the subtraction leaves g itself: it need not be done.
+// left at a leaf is then what its removal adds now. With g = E(a, b) - E(a, k) - E(k, b) the error
+// of a subtree is the sum of its knots' g, so the subtraction leaves g itself: it need not be done.
 #include <cstddef>
 #include <utility>
 
