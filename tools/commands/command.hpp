@@ -34,6 +34,7 @@ void addTruncate(CLI::App& app, CommandLine& line);
 void addInfo(CLI::App& app, CommandLine& line);
 void addCompare(CLI::App& app, CommandLine& line);
 void addVerify(CLI::App& app, CommandLine& line);
+void addProfile(CLI::App& app, CommandLine& line);
 void addSynth(CLI::App& app, CommandLine& line);
 void addView(CLI::App& app, CommandLine& line);
 

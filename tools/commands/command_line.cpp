@@ -46,6 +46,7 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addInfo(app, line);
   addCompare(app, line);
   addVerify(app, line);
+  addProfile(app, line);
   addSynth(app, line);
   addView(app, line);
 }
