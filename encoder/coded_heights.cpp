@@ -11,18 +11,32 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Moves the account of the coefficients to behind the mask and the table, and lets it end with the corrections.
-void joinAccount(const QuantisedHeights& heights, bool corrected, EncodedTrack& track) {
+/// Squared error, in steps, of flat areas that are not known.
+double squaresOf(const FlatLayer& flat) {
+  double squares = 0;
+  for (const uint16_t number : flat.areas.numbers) {
+    if (number == 0) continue;
+    const double level = flat.areas.levels[number - 1u];
+    squares += level * level;
+  }
+  return squares;
+}
+
+/// Moves the account of the coefficients to behind the opening, and lets it end with the
+/// corrections.
+void joinAccount(const QuantisedHeights& heights, const HeightLayers& layers, EncodedTrack& track) {
+  const uint64_t opening = layers.layers.openingBytes();
   for (RatePoint& point : track.points) {
-    point.bytes += heights.layers.openingBytes();
+    point.bytes += opening;
     point.distortion += heights.left;
   }
-  if (heights.layers.openingBytes() > 0) {
+  if (opening > 0) {
     const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
-    const double unknown = track.points.front().distortion + voids * heights.validityWorth();
+    const double unknown = track.points.front().distortion + voids * heights.validityWorth() +
+                           squaresOf(layers.flat);
     track.points.insert(track.points.begin(), {0, unknown});
   }
-  if (corrected) track.points.push_back({track.codeword.size(), 0});
+  if (!layers.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
 }
 
 /// An account with a point for the mask and for each plane of bytes.
@@ -49,10 +63,11 @@ bool CodedHeights::restoresSamples() const {
   return header.stored() || header.exact || corrects();
 }
 
-WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose,
+                                  const FlatAreas& flat) {
   const HeightSteps& steps = heights.steps;
-  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, steps.range_bits,
-                       purpose);
+  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, flat.held(),
+                       steps.range_bits, purpose);
 }
 
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
@@ -67,7 +82,7 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
                         std::vector<EncodedTrack> coefficients, int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
   const QuantisedHeights& heights = *of;
-  const auto& [all_layers, corrections, wavelet] = layers;
+  const auto& [all_layers, corrections, wavelet, flat] = layers;
   CodedHeights coded{std::move(of),           headerOf(heights),  all_layers,
                      std::move(coefficients), corrections.size(), heights.left};
   coded.header.wavelet = wavelet;
@@ -78,18 +93,27 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
   EncodedTrack& track = coded.tracks.front();
   std::vector<uint8_t>& codeword = track.codeword;
   if (!corrections.empty()) coded.layers.coefficient_bytes = codeword.size();
+  codeword.insert(codeword.begin(), flat.codeword.begin(), flat.codeword.end());
   codeword.insert(codeword.begin(), heights.table.begin(), heights.table.end());
   codeword.insert(codeword.begin(), heights.validity.begin(), heights.validity.end());
   codeword.insert(codeword.end(), corrections.begin(), corrections.end());
-  joinAccount(heights, !corrections.empty(), track);
+  joinAccount(heights, layers, track);
   assert(track.points.back().bytes == codeword.size() && !coded.header.stored());
   return coded;
 }
 
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
                          const CoefficientOptions& options) {
-  const HeightLayers layers{of->layers, of->corrections, chooseHeightFilters(*of, purpose)};
-  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, options);
+  HeightLayers layers{of->layers, of->corrections, {}, {}};
+  const HeightSteps& steps = of->steps;
+  layers.flat = chooseFlatAreas({steps.steps, extentOf(*of->samples), steps.valid},
+                                steps.range_bits, purpose);
+  layers.layers.flat_bytes = layers.flat.codeword.size();
+  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());
+  layers.wavelet = chooseHeightFilters(*of, purpose, layers.flat.areas);
+  CoefficientOptions free = options;
+  if (!layers.flat.areas.empty()) free.flat = &layers.flat.areas;
+  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, free);
   return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
 }
 
@@ -102,6 +126,7 @@ CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
   stored.layers.corrections = CorrectionKind::kNone;
   stored.layers.coefficient_bytes = 0;
   stored.layers.table_bytes = stored.layers.table_values = 0;
+  stored.layers.flat_bytes = stored.layers.flat_areas = 0;
   const QuantisedHeights& heights = *stored.of;
   EncodedTrack& track = stored.tracks.emplace_back();
   track.codeword = heights.validity;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/geometry/flat_choice.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/quantised_heights.hpp"
 #include "ratecontrol/coded_tracks.hpp"
@@ -20,8 +21,8 @@ struct CodedHeights {
   std::shared_ptr<const QuantisedHeights> of;
   GeometryHeader header;  ///< without max_error
   GeometryLayers layers;
-  /// The first holds the codewords of validity and table, coefficients, corrections; others
-  /// coefficients alone.
+  /// The first holds the codewords of validity, table and flat areas, coefficients, corrections;
+  /// others coefficients alone.
   std::vector<EncodedTrack> tracks;
   uint64_t closing = 0;  ///< bytes of corrections
   double left = 0;       ///< QuantisedHeights::left, or what stored samples leave
@@ -41,18 +42,20 @@ struct HeightLayers {
   GeometryLayers layers;
   std::span<const uint8_t> corrections;  ///< codeword
   WaveletHeader wavelet;
+  FlatLayer flat = {};
 };
 
 /// The filters that suit the heights.
-WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose,
+                                  const FlatAreas& flat = {});
 
 /// The tracks of coefficients alone.
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            const CoefficientOptions& options);
 
-/// Validity and table before the coefficients of the first track, corrections behind them. region_log2: what
-/// the coefficients were coded with.
+/// Validity, table and flat areas before the coefficients of the first track, corrections behind
+/// them. region_log2: what the coefficients were coded with.
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
                         std::vector<EncodedTrack> coefficients, int region_log2);
 

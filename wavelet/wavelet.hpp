@@ -50,19 +50,27 @@ struct WaveletSpec {
 /// exist are left alone.
 void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
+/// The same for the plane of a pyramid, which knows what is held: held samples have their values,
+/// and the places of their coefficients may be anything afterwards.
+void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
+                    uint32_t threads = 1);
+
 /// Turns coefficients into samples, in place. Defined for all values.
 void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
 /// The same for the low band of a level, which is a plane of its own: undoes the coarser levels
-/// alone. low: the values of that low band.
+/// alone. low: the values of that low band. Where samples are held any values will do.
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
                     std::span<int32_t> low, uint32_t threads);
+
+class HeldBlock;
 
 /// A block of the low band that a level splits, which stands for itself.
 struct LevelBlock {
   std::span<int32_t> values;      ///< the low half of a row first; low rows at even places
   Extent extent, low;             ///< of the block and of its low part
   std::vector<uint8_t> existing;  ///< Pyramid::splitMask() of the block; empty: all exist
+  const HeldBlock* held = nullptr;  ///< null: all samples are free
 };
 
 /// The bytes that lifting takes for each value of a row or a column, on each thread: both halves of
