@@ -63,11 +63,10 @@ bool CodedHeights::restoresSamples() const {
   return header.stored() || header.exact || corrects();
 }
 
-WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose,
-                                  const FlatAreas& flat) {
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
   const HeightSteps& steps = heights.steps;
-  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, flat.held(),
-                       steps.range_bits, purpose);
+  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, steps.range_bits,
+                       purpose);
 }
 
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
@@ -102,18 +101,18 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
   return coded;
 }
 
-CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options) {
-  HeightLayers layers{of->layers, of->corrections, {}, {}};
   const HeightSteps& steps = of->steps;
-  layers.flat = chooseFlatAreas({steps.steps, extentOf(*of->samples), steps.valid},
-                                steps.range_bits, purpose);
+  FlatChoice choice = chooseFlatAreas({steps.steps, extentOf(*of->samples), steps.valid},
+                                      {steps.range_bits, target.purpose, target.bytes,
+                                       target.mean_square, options.threads});
+  HeightLayers layers{of->layers, of->corrections, choice.wavelet, std::move(choice.flat)};
   layers.layers.flat_bytes = layers.flat.codeword.size();
   layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());
-  layers.wavelet = chooseHeightFilters(*of, purpose, layers.flat.areas);
-  CoefficientOptions free = options;
-  if (!layers.flat.areas.empty()) free.flat = &layers.flat.areas;
-  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, free);
+  CoefficientOptions beside = options;
+  if (!layers.flat.areas.empty()) beside.flat = &layers.flat.areas;
+  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, beside);
   return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
 }
 

@@ -46,8 +46,7 @@ struct HeightLayers {
 };
 
 /// The filters that suit the heights.
-WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose,
-                                  const FlatAreas& flat = {});
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);
 
 /// The tracks of coefficients alone.
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
@@ -59,8 +58,17 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
                         std::vector<EncodedTrack> coefficients, int region_log2);
 
-/// All of this, with the corrections that the heights come with.
-CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
+/// What coefficients are coded for.
+struct HeightTarget {
+  Purpose purpose;
+  uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
+  double mean_square = 0;       ///< > 0: the error that is wanted, in squared steps
+
+  HeightTarget(Purpose of) : purpose(of) {}
+};
+
+/// All of this, with the corrections that the heights come with, and flat areas that pay.
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options);
 
 /// The same heights with their samples written as they are, in the place of coefficients and

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders choose here which flat areas are worth their shapes.
+// Encoders choose here which flat areas are worth their shapes, and the filters that suit what is
+// left.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,21 @@ struct FlatLayer {
   std::vector<uint8_t> codeword;
 };
 
-/// heights: in steps, of so many bits.
-FlatLayer chooseFlatAreas(const PlaneView<const int32_t>& heights, int bits, Purpose purpose);
+/// What heights in steps are coded for.
+struct HeightPurpose {
+  int range_bits;  ///< the steps span less than 2^range_bits
+  Purpose purpose;
+  uint64_t bytes = UINT64_MAX;  ///< that there will be for them
+  double mean_square = 0;       ///< > 0: the error wanted, in squared steps
+  uint32_t threads = 1;         ///< nothing depends on them
+};
+
+struct FlatChoice {
+  FlatLayer flat;
+  WaveletHeader wavelet;
+};
+
+/// heights: in steps.
+FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, const HeightPurpose& purpose);
 
 }  // namespace tetrakis::inline geometry

@@ -34,40 +34,41 @@ class FlatEncoding {
   RangeEncoder encoder_;
 };
 
-/// The sizes of areas, at their first samples.
-std::vector<uint32_t> sizesOf(const std::vector<uint32_t>& first) {
-  std::vector<uint32_t> sizes(first.size());
-  for (const uint32_t i : first) ++sizes[i];
-  return sizes;
-}
-
-/// Where areas of two levels touch, the smaller one gives way by a sample.
-void separate(const PlaneView<const int32_t>& heights, const std::vector<uint32_t>& first,
-              const std::vector<uint32_t>& sizes, std::vector<uint8_t>& flat) {
-  const auto part = [&](uint32_t i, uint32_t j) {
-    if ((flat[i] & flat[j]) == 0 || heights.data[i] == heights.data[j]) return;
-    flat[sizes[first[i]] <= sizes[first[j]] ? i : j] = 0;
-  };
-  for (uint32_t i = 0; i < flat.size(); ++i) {
-    if (i % heights.width > 0) part(i, i - 1);
-    if (i >= heights.width) part(i, i - heights.width);
-  }
-}
-
 }  // namespace
 
-FlatAreas findFlatAreas(const PlaneView<const int32_t>& heights, uint32_t least) {
+FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heights) {
   const Extent extent = heights.extent();
+  if (extent.samples() > GeometryLayers::kMostFlatSamples) return;
   const std::span<const int32_t> values = heights.values();
-  if (extent.samples() > GeometryLayers::kMostFlatSamples) return {};
-  const std::vector<uint32_t> first = firstSamples(extent, [&](uint32_t i, uint32_t j) {
+  first_ = firstSamples(extent, [&](uint32_t i, uint32_t j) {
     return values[i] == values[j] && heights.valid[i] && heights.valid[j];
   });
-  const std::vector<uint32_t> sizes = sizesOf(first);
-  std::vector<uint8_t> flat(values.size());
-  for (size_t i = 0; i < flat.size(); ++i) flat[i] = heights.valid[i] && sizes[first[i]] >= least;
-  separate(heights, first, sizes, flat);
-  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, extent));
+  sizes_.resize(first_.size());
+  for (size_t i = 0; i < first_.size(); ++i) sizes_[first_[i]] += heights.valid[i];
+}
+
+uint64_t FlatFinder::samplesOf(uint32_t least) const {
+  uint64_t sum = 0;
+  for (const uint32_t size : sizes_) sum += size >= least ? size : 0;
+  return sum;
+}
+
+FlatAreas FlatFinder::areas(uint32_t least) const {
+  assert(least > 0);
+  const std::span<const int32_t> values = heights_.values();
+  std::vector<uint8_t> flat(first_.size());
+  for (size_t i = 0; i < flat.size(); ++i) flat[i] = heights_.valid[i] && sizes_[first_[i]] >= least;
+  // Where areas of two levels touch, the smaller one gives way by a sample.
+  const auto part = [&](size_t i, size_t j) {
+    if ((flat[i] & flat[j]) == 0 || values[i] == values[j]) return;
+    flat[sizes_[first_[i]] <= sizes_[first_[j]] ? i : j] = 0;
+  };
+  for (size_t i = 0; i < flat.size(); ++i) {
+    if (i % heights_.width > 0) part(i, i - 1);
+    if (i >= heights_.width) part(i, i - heights_.width);
+  }
+  if (flat.empty()) return {};
+  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, heights_.extent()));
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
   for (size_t i = 0; i < values.size(); ++i) {
