@@ -27,10 +27,15 @@ void forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32_t
   std::vector<uint8_t> coded(band.width, 1);
   for (uint32_t y = 0; y < band.height; ++y) {
     const size_t line = size_t{band.planeRow(y)} * pyramid.plane().width;
-    for (uint32_t x = 0; x < band.width; ++x) {
-      const size_t sample = line + band.sampleColumn(x);
-      coded[x] = pyramid.valid()[sample] &&
-                 (pyramid.held().none() || pyramid.held().numbers[sample] == 0);
+    if (!pyramid.valid().all()) {
+      const uint8_t* const valid = pyramid.valid().from(line);
+      for (uint32_t x = 0; x < band.width; ++x) coded[x] = valid[band.sampleColumn(x)];
+    }
+    if (!pyramid.held().none()) {
+      const bool all = pyramid.valid().all();
+      const uint16_t* const numbers = pyramid.held().numbers.data() + line;
+      for (uint32_t x = 0; x < band.width; ++x)
+        coded[x] = static_cast<uint8_t>((all || coded[x] != 0) && numbers[band.sampleColumn(x)] == 0);
     }
     take(coefficients.subspan(pyramid.indexOf(band, y), band.width), coded);
   }
@@ -100,8 +105,7 @@ class BandCost {
 }  // namespace
 
 double PlaneCost::joint(double step) const {
-  const double square_of_bit = 2 * std::log(2.0) * step * step / 12;
-  return step == 0 ? bits : bits + squares / square_of_bit;
+  return step == 0 ? bits : bits + squares / (step * step / 3);
 }
 
 PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficients, double step) {

@@ -15,9 +15,9 @@ struct PlaneCost {
   double bits = 0;
   double squares = 0;  ///< squared error of the plane
 
-  /// One figure for both, in bits: what the error costs that a step leaves, at the exchange rate of
-  /// a uniform quantiser of that step, whose squared error of step^2 / 12 falls by a factor of 4
-  /// with each bit. step 0: nothing is left.
+  /// One figure for both, in bits: the error that a step leaves, at the exchange rate of its
+  /// bit-plane. A bit that refines a coefficient takes step^2 / 4 of squared error off, and one that
+  /// makes it significant about 0.4 step^2. step 0: nothing is left.
   double joint(double step) const;
 };
 

@@ -38,14 +38,19 @@ std::vector<uint32_t> firstSamples(Extent plane, const Alike& alike) {
     }
     return i;
   };
-  for (uint32_t i = 0; i < first.size(); ++i) {
-    const uint32_t x = i % plane.width;
-    if (x > 0 && alike(i, i - 1)) first[i] = find(i - 1);
-    if (i < plane.width || !alike(i, i - plane.width)) continue;
-    const uint32_t a = find(i), b = find(i - plane.width);
+  const auto join = [&](uint32_t i, uint32_t above) {
+    const uint32_t a = find(i), b = find(above);
     (a < b ? first[b] : first[a]) = a < b ? a : b;
+  };
+  uint32_t i = 0;
+  for (uint32_t y = 0; y < plane.height; ++y) {
+    for (uint32_t x = 0; x < plane.width; ++x, ++i) {
+      if (x > 0 && alike(i, i - 1)) first[i] = first[i - 1];
+      if (y > 0 && alike(i, i - plane.width) && first[i] != first[i - plane.width])
+        join(i, i - plane.width);
+    }
   }
-  for (uint32_t& i : first) i = first[i];
+  for (uint32_t& earlier : first) earlier = first[earlier];
   return first;
 }
 

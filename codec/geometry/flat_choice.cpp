@@ -5,7 +5,6 @@
 // do.
 #include "codec/geometry/flat_choice.hpp"
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -18,10 +17,17 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-constexpr std::array<uint32_t, 3> kLeast = {8, 64, 1024};  ///< samples of the areas tried
-/// It is not worth looking where areas of so many samples do not cover that share of the plane.
-constexpr uint32_t kLarge = 64;
+/// Least samples of the areas that are tried: first those of kMiddle, and then smaller ones too, or
+/// larger ones alone.
+constexpr uint32_t kSmall = 8, kMiddle = 64, kLarge = 1024;
+/// Nothing is tried where areas of kMiddle samples cover less than that share of the plane.
 constexpr uint64_t kLeastShare = 1000;
+/// Smaller areas are tried where the first take off so many times what they take.
+constexpr double kClearGain = 2;
+
+double bitsOf(const FlatLayer& flat) {
+  return 8 * static_cast<double>(flat.codeword.size());
+}
 
 /// Heights, transformed, and what they cost.
 class TriedPlane {
@@ -34,8 +40,13 @@ class TriedPlane {
     clearUnmarked(std::span(values_), heights.valid);
     forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, threads);
   }
-  double step(double bits) const { return stepFor(layout_, values_, bits); }
-  double bits(double step) const { return costOf(layout_, values_, step).joint(step); }
+  PlaneCost cost(double step) const { return costOf(layout_, values_, step); }
+  /// At which the coefficients cost at most so many bits.
+  double step(double bits) const {
+    double step = stepFor(layout_, values_, bits);
+    while (cost(step).bits > bits) step *= 2;
+    return step;
+  }
 
  private:
   static std::vector<int32_t> scaled(std::span<const int32_t> heights,
@@ -58,32 +69,54 @@ double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fractio
   return plane.step(8 * static_cast<double>(purpose.bytes));
 }
 
+/// Tries areas against what was best so far.
+class FlatTrials {
+ public:
+  FlatTrials(const PlaneView<const int32_t>& heights, const HeightPurpose& purpose)
+      : heights_(heights),
+        purpose_(purpose),
+        finder_(heights),
+        best_{{}, chooseWavelet(heights, purpose.range_bits, purpose.purpose)} {}
+
+  FlatChoice choose() {
+    if (finder_.samplesOf(kMiddle) * kLeastShare < heights_.extent().samples()) return best_;
+    const TriedPlane plain(heights_, {}, best_.wavelet, purpose_.threads);
+    step_ = stepOf(plain, purpose_, best_.wavelet.fraction_bits);
+    const double bits = plain.cost(step_).joint(step_);
+    bits_ = bits;
+    tryAreas(kMiddle);
+    const bool clear = bits - bits_ > kClearGain * bitsOf(best_.flat);
+    tryAreas(clear ? kSmall : kLarge);
+    return std::move(best_);
+  }
+
+ private:
+  void tryAreas(uint32_t least) {
+    FlatLayer flat{finder_.areas(least), {}};
+    if (flat.areas.empty()) return;
+    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), heights_.valid);
+    if (flat.codeword.size() >= purpose_.bytes) return;
+    if (!wavelet_)
+      wavelet_ = chooseWavelet(heights_, flat.areas.held(), purpose_.range_bits, purpose_.purpose);
+    const TriedPlane held(heights_, flat.areas, *wavelet_, purpose_.threads);
+    const double bits = held.cost(step_).joint(step_) + bitsOf(flat);
+    if (bits >= bits_) return;
+    bits_ = bits;
+    best_ = {std::move(flat), *wavelet_};
+  }
+
+  const PlaneView<const int32_t>& heights_;
+  const HeightPurpose& purpose_;
+  FlatFinder finder_;
+  FlatChoice best_;
+  double step_ = 0, bits_ = 0;
+  std::optional<WaveletHeader> wavelet_;  ///< that suits what areas leave
+};
+
 }  // namespace
 
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, const HeightPurpose& purpose) {
-  FlatChoice best{{}, chooseWavelet(heights, purpose.range_bits, purpose.purpose)};
-  const FlatFinder finder(heights);
-  const uint64_t samples = heights.extent().samples();
-  if (finder.samplesOf(kLarge) * kLeastShare < samples) return best;
-  const TriedPlane plain(heights, {}, best.wavelet, purpose.threads);
-  const double step = stepOf(plain, purpose, best.wavelet.fraction_bits);
-  double least_bits = plain.bits(step);
-  std::optional<WaveletHeader> wavelet;
-  for (const uint32_t least : kLeast) {
-    FlatLayer flat{finder.areas(least), {}};
-    if (flat.areas.empty()) continue;
-    flat.codeword = encodeFlatAreas(flat.areas, heights.extent(), heights.valid);
-    if (flat.codeword.size() >= purpose.bytes) continue;
-    if (!wavelet)
-      wavelet = chooseWavelet(heights, flat.areas.held(), purpose.range_bits, purpose.purpose);
-    const double bits = TriedPlane(heights, flat.areas, *wavelet, purpose.threads).bits(step) +
-                        8 * static_cast<double>(flat.codeword.size());
-    if (getenv("TKS_V")) fprintf(stderr, "least %u areas %zu bytes %zu: %.0f of %.0f step %g\n", least, flat.areas.levels.size(), flat.codeword.size(), bits/8, least_bits/8, step);
-    if (bits >= least_bits) continue;
-    least_bits = bits;
-    best = {std::move(flat), *wavelet};
-  }
-  return best;
+  return FlatTrials(heights, purpose).choose();
 }
 
 }  // namespace tetrakis::inline geometry

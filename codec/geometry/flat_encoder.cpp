@@ -57,22 +57,25 @@ FlatAreas FlatFinder::areas(uint32_t least) const {
   assert(least > 0);
   const std::span<const int32_t> values = heights_.values();
   std::vector<uint8_t> flat(first_.size());
-  for (size_t i = 0; i < flat.size(); ++i) flat[i] = heights_.valid[i] && sizes_[first_[i]] >= least;
+  for (size_t k = 0; k < flat.size(); ++k) flat[k] = heights_.valid[k] && sizes_[first_[k]] >= least;
   // Where areas of two levels touch, the smaller one gives way by a sample.
-  const auto part = [&](size_t i, size_t j) {
-    if ((flat[i] & flat[j]) == 0 || values[i] == values[j]) return;
-    flat[sizes_[first_[i]] <= sizes_[first_[j]] ? i : j] = 0;
+  const auto part = [&](size_t a, size_t b) {
+    if ((flat[a] & flat[b]) == 0 || values[a] == values[b]) return;
+    flat[sizes_[first_[a]] <= sizes_[first_[b]] ? a : b] = 0;
   };
-  for (size_t i = 0; i < flat.size(); ++i) {
-    if (i % heights_.width > 0) part(i, i - 1);
-    if (i >= heights_.width) part(i, i - heights_.width);
-  }
   if (flat.empty()) return {};
+  size_t i = 0;
+  for (uint32_t y = 0; y < heights_.height; ++y) {
+    for (uint32_t x = 0; x < heights_.width; ++x, ++i) {
+      if (x > 0) part(i, i - 1);
+      if (y > 0) part(i, i - heights_.width);
+    }
+  }
   NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, heights_.extent()));
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (areas.numbers[i] != 0) areas.levels[areas.numbers[i] - 1u] = values[i];
+  for (size_t k = 0; k < values.size(); ++k) {
+    if (areas.numbers[k] != 0) areas.levels[areas.numbers[k] - 1u] = values[k];
   }
   return areas;
 }
