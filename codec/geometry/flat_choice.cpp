@@ -25,8 +25,10 @@ constexpr uint64_t kLeastShare = 1000;
 /// Smaller areas are tried where the first take off so many times what they take.
 constexpr double kClearGain = 2;
 
+/// With what the header says of them.
 double bitsOf(const FlatLayer& flat) {
-  return 8 * static_cast<double>(flat.codeword.size());
+  constexpr size_t kHeaderBytes = 8;
+  return flat.codeword.empty() ? 0 : 8 * static_cast<double>(flat.codeword.size() + kHeaderBytes);
 }
 
 /// Heights, transformed, and what they cost.

@@ -92,8 +92,6 @@ TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
   EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
   EXPECT_EQ(chooseFlatAreas({lake, size.extent()}, purpose).flat.areas.levels,
             std::vector<int32_t>{17});
-  EXPECT_TRUE(
-      chooseFlatAreas({Plane(size.count(), 9), size.extent()}, purpose).flat.codeword.empty());
 }
 
 }  // namespace
