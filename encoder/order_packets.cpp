@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "base/length_unit.hpp"
 #include "codec/mesh/decimation.hpp"
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/screen_model.hpp"
@@ -17,15 +18,6 @@ namespace {
 
 AuditScope auditScope(const EncodeInputs& inputs, size_t samples) {
   return {samples, inputs.budgeted() ? inputs.options.bytes : UINT64_MAX};
-}
-
-double metresPerUnit(const char* unit) {
-  const std::string name = unit ? unit : "";
-  return name == "ft" || name == "us-ft" ? 0.3048
-         : name == "cm"                  ? 0.01
-         : name == "mm"                  ? 0.001
-         : name == "km"                  ? 1000
-                                         : 1;
 }
 
 /// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes
@@ -60,8 +52,8 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
                               const Texels* texture) {
   const QuantisedHeights& source = *heights.of;
   const double samples = heights.counted();
-  const double step =
-      source.steps.step * std::abs(source.samples->scale) * metresPerUnit(source.samples->unit);
+  const double metres = source.samples->unit ? metresPerUnit(source.samples->unit).value_or(1) : 1;
+  const double step = source.steps.step * std::abs(source.samples->scale) * metres;
   const double floor = meshFloor(source, inputs.options.triangles);
   const auto useful = [=](double squares) { return std::max(squares / samples, floor); };
   Pricing pricing{samples, useful};

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/length_unit.hpp"
 #include "tools/commands/encode_arguments.hpp"
 #include "tools/commands/output.hpp"
 #include "tools/commands/progress.hpp"
