@@ -14,21 +14,22 @@
 #include <span>
 #include <vector>
 
+#include "wavelet/joint_lifting.hpp"
 #include "wavelet/lifting_filter.hpp"
 #include "wavelet/pyramid.hpp"
 
 namespace tetrakis::inline wavelet {
 
-inline constexpr std::array<int, 2> kDoubledLevels = {3, 4};
-
 /// Which transform: stands in the stream header.
 struct WaveletSpec {
   static constexpr size_t kChoices = 3;
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
-  bool doubled = false;  ///< the low band is doubled after each of kDoubledLevels
-  int bits = 0;          ///< of a sample, fraction included
+  bool whole = false;      ///< samples have no fraction bits
+  int bits = 0;            ///< of a sample, fraction included
+  int first_doubled = 3;   ///< the low band is doubled after this level and the next; 0: after none
 
   static constexpr int kNarrowLevels = 3;
+  static constexpr int kJointBits = 20;
 
   /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
   /// and kOrthogonal multiplies their mean by 1.60 at every level.
@@ -40,8 +41,15 @@ struct WaveletSpec {
   }
   /// The low band is doubled after this level.
   bool doubles(int level) const {
-    return doubled &&
-           std::find(kDoubledLevels.begin(), kDoubledLevels.end(), level) != kDoubledLevels.end();
+    return whole && first_doubled > 0 && (level == first_doubled || level == first_doubled + 1);
+  }
+  /// The level lifts rows and columns jointly where it splits both and every sample exists.
+  bool joint(int level) const {
+    return whole && bits <= kJointBits && liftsJointly(filter(level));
+  }
+  /// Joint sums of this level are of 64 bits: they have kJointPlaces binary places.
+  bool jointlyWide(int level) const {
+    return level > kNarrowLevels || bits + kJointPlaces >= widestSamples(filter(level));
   }
 };
 
@@ -79,8 +87,5 @@ inline constexpr uint64_t kLiftingBytes = 8;
 
 /// Undoes one level of the transform of a block, in place.
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block);
-
-/// Undoes the doubling of a value of the low band.
-int32_t halved(int32_t value);
 
 }  // namespace tetrakis::inline wavelet

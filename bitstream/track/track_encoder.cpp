@@ -259,8 +259,10 @@ uint64_t bytesOf(std::span<const EncodedTrack> tracks) {
   return bytes;
 }
 
-bool allComplete(std::span<const EncodedTrack> tracks) {
-  return std::all_of(tracks.begin(), tracks.end(), [](const auto& t) { return t.complete; });
+uint64_t exactBytes(std::span<const EncodedTrack> tracks) {
+  const bool complete =
+      std::all_of(tracks.begin(), tracks.end(), [](const auto& t) { return t.complete; });
+  return bytesOf(tracks) + (complete ? 0 : 1);
 }
 
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,

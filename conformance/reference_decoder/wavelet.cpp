@@ -116,10 +116,6 @@ int multiples(int size, int step) {
   return (size - 1) / step + 1;
 }
 
-bool halves(const WaveletHeader& header, int level) {
-  return header.fractionBits == 0 && (level == 3 || level == 4);
-}
-
 /// FORMAT 7, "Held samples": the values of areas before the analysis of a level, and what its rows
 /// make of them.
 struct HeldValues {
@@ -148,7 +144,7 @@ HeldValues heldValues(const WaveletHeader& header, const std::vector<Subband>& s
         held.high.push_back(high);
       }
       if (hh->splitsY == l) value = statesOf(filter, exact, value).back();
-      if (halves(header, l)) value = wrap(2 * int64_t{value});
+      if (doublesLow(header, l)) value = wrap(2 * int64_t{value});
     }
   }
   return held;
@@ -158,15 +154,17 @@ HeldValues heldValues(const WaveletHeader& header, const std::vector<Subband>& s
 void synthesiseLevel(const WaveletHeader& header, const Subband& hh, const HeldValues& held,
                      Plane& plane) {
   const int lowX = 1 << hh.splitsX, lowY = 1 << hh.splitsY;
-  if (halves(header, hh.level)) {
+  // A side that was split at this level was split at every finer one.
+  const bool splitX = hh.splitsX == hh.level, splitY = hh.splitsY == hh.level;
+  const int stepX = splitX ? lowX / 2 : lowX, stepY = splitY ? lowY / 2 : lowY;
+  if (splitX && splitY && liftsJointly(header, hh.level, plane))
+    return synthesiseJointly(header, {hh.level, stepX, stepY}, plane);
+  if (doublesLow(header, hh.level)) {
     for (int y = 0; y < plane.height; y += lowY) {
       for (int x = 0; x < plane.width; x += lowX)
         plane.at(x, y) = wrap(int64_t{plane.at(x, y)} + 1) >> 1;
     }
   }
-  // A side that was split at this level was split at every finer one.
-  const bool splitX = hh.splitsX == hh.level, splitY = hh.splitsY == hh.level;
-  const int stepX = splitX ? lowX / 2 : lowX, stepY = splitY ? lowY / 2 : lowY;
   for (int x = 0; x < plane.width && splitY; x += stepX) {
     const bool high = splitX && x / stepX % 2 == 1;
     synthesisePlaces(header, hh.level, {x, 0, 0, stepY, multiples(plane.height, stepY)},
@@ -194,8 +192,13 @@ const Filter& filterOf(const WaveletHeader& header, int level) {
   return kFilters[filterNumber(header, level)];
 }
 
-int fractionOf(const WaveletHeader& header, int planes, bool complete) {
-  if (header.fractionBits > 0 || complete) return header.fractionBits;
+bool doublesLow(const WaveletHeader& header, int level) {
+  const int first = header.firstDoubled;
+  return header.fractionBits == 0 && first > 0 && (level == first || level == first + 1);
+}
+
+int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes) {
+  if (header.fractionBits > 0 || bytes >= header.roundedBytes) return header.fractionBits;
   return std::clamp(19 - planes, 0, 4);
 }
 
@@ -218,7 +221,8 @@ Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
     for (int i = 0; i < splits && filterNumber(header, l) == 2; ++i)
       weight = (weight * 847671299 + (1 << 29)) >> 30;
   }
-  const int d = header.fractionBits > 0 ? 0 : std::clamp(level - 2, 0, 2);
+  int d = 0;
+  for (int l = 1; l <= level; ++l) d += doublesLow(header, l);
   Plane image{multiples(plane.width, 1 << level), multiples(plane.height, 1 << level), {}};
   for (int y = 0; y < plane.height; y += 1 << level) {
     for (int x = 0; x < plane.width; x += 1 << level) {

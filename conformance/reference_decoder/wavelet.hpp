@@ -21,6 +21,9 @@ struct Filter {
 /// Of a level, from 1.
 const Filter& filterOf(const WaveletHeader& header, int level);
 
+/// FORMAT 7, "Doubling": the low band of a level is doubled.
+bool doublesLow(const WaveletHeader& header, int level);
+
 /// FORMAT 7, "Subbands" and "Places".
 struct Subband {
   int level;  ///< LL: the number of levels
@@ -40,7 +43,7 @@ std::vector<Subband> subbandsOf(int width, int height);
 int logNormOf(const WaveletHeader& header, const Subband& subband);
 
 /// FORMAT 7, "Fraction": f.
-int fractionOf(const WaveletHeader& header, int planes, bool complete);
+int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes);
 
 /// FORMAT 8.1, "Flat areas". Empty: there are none.
 struct Flat {
@@ -61,6 +64,14 @@ struct Plane {
   /// 0: it is not held; else 1 + its area.
   uint32_t areaOf(int x, int y) const { return flat.areas.empty() ? 0 : flat.areas.at(index(x, y)); }
 };
+
+/// FORMAT 7, "Joint lifting": one level, which splits both directions. The low band of the level
+/// before has its samples at multiples of the two steps.
+struct JointLevel {
+  int level, stepX, stepY;
+};
+bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane);
+void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane);
 
 /// The inverse transform, of the levels above the target alone, of values that lie at their places.
 /// Levels of flat areas are in units of 2^-f.

@@ -163,7 +163,7 @@ TEST(Windows, HoldWhatThePlaneHoldsThere) {
   for (const Size& size : kSizes) {
     const Plane heights = randomPlane(random, size.count(), -2000, 2000);
     for (const WaveletSpec& spec : allSpecs()) {
-      const int fraction_bits = spec.doubled ? 0 : 3, log2 = static_cast<int>(random() % 3);
+      const int fraction_bits = spec.whole ? 0 : 3, log2 = static_cast<int>(random() % 3);
       const bool voids = random() % 2 == 0;
       const auto shape = samples::kVoidShapes[random() % std::size(samples::kVoidShapes)];
       const auto valid =

@@ -172,7 +172,7 @@ TEST(MaskedWavelet, ALoneSampleStaysWhatItIs) {
       const Plane plane = forward(spec, samples, size, valid);
       for (const Subband& band : subbandsOf(size)) {
         const int low = band.orientation == Orientation::kLL ? band.level : band.level - 1;
-        const int doublings = spec.doubled ? (low >= 3) + (low >= 4) : 0;
+        const int doublings = spec.whole ? (low >= 3) + (low >= 4) : 0;
         forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
           ASSERT_EQ(plane[coefficient], sample == lone ? -4321 * (1 << doublings) : 0)
               << spec << ", level " << band.level;
