@@ -242,7 +242,8 @@ std::vector<VectorCase> drawnCases() {
 
 /// A complete stream with other fields of the wavelet than its encoder wrote.
 VectorCase waveletCase(const std::string& name, const std::string& purpose,
-                       const VectorCase& source, const std::function<void(WaveletHeader&)>& change) {
+                       const VectorCase& source,
+                       const std::function<void(WaveletHeader&)>& change) {
   const auto stream = encodeCase(source);
   if (!stream.ok()) return crafted(name, purpose, {0});
   ParsedHeader parsed = *readHeader(*stream);
@@ -268,7 +269,8 @@ std::vector<VectorCase> roundedCases() {
   VectorCase layers = waveletCase("rounded_layers_40x37",
                                   "bytes of validity are none of coefficients", voids, halved);
   for (VectorCase* each : {&half, &layers}) each->dense = true;
-  return {half, layers,
+  return {half,
+          layers,
           waveletCase("rounded_never_40x37", "a complete stream without roundings", flat,
                       [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 1 << 20; }),
           waveletCase("rounded_always_40x37", "the inverse rounds from the first byte on", flat,

@@ -160,7 +160,8 @@ Choice chooseAmong(const std::vector<Sample>& samples, int bits, Purpose purpose
     const double penalised = estimate * (lossless ? cutPenaltyOf(filters) : penaltyOf(filters));
     if (penalised < best.penalised) best = {header, estimate, penalised};
   }
-  if (lossless && best.bits < kFewBits * samplesIn(samples)) best.header.first_doubled = kEarlyDoubled;
+  if (lossless && best.bits < kFewBits * samplesIn(samples))
+    best.header.first_doubled = kEarlyDoubled;
   if (best.header.fraction_bits > 0) best.header.first_doubled = 0;
   return best;
 }

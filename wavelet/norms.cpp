@@ -118,7 +118,8 @@ int SynthesisNorms::fine(const Subband& band) const {
              (band.isHighY() ? high_ : low_)[static_cast<size_t>(band.splits_y)];
   // A detail band is made from the low band of the level before, LL is itself a low band.
   const int doubled_up_to = band.orientation == Orientation::kLL ? band.level : band.level - 1;
-  for (int level = 1; level <= doubled_up_to; ++level) norm -= spec_.doubles(level) ? kFineSteps : 0;
+  for (int level = 1; level <= doubled_up_to; ++level)
+    norm -= spec_.doubles(level) ? kFineSteps : 0;
   return norm;
 }
 

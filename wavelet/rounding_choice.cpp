@@ -94,8 +94,10 @@ double roundedBits(const PlaneView<const int32_t>& plane, const WaveletHeader& w
       sums[0] += squares[0];
       sums[1] += squares[1];
     }
-    if (sums[1] > sums[0]) first = 0;
-    else if (first == 0) first = tried;
+    if (sums[1] > sums[0])
+      first = 0;
+    else if (first == 0)
+      first = tried;
   }
   return first * kBitsPerTry;
 }

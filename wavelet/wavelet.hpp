@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transform is a reversible separable integer wavelet of a plane. Heights and the components of
-// a texture share it.
+// The transform is a reversible integer wavelet of a plane. Heights and the components of a texture
+// share it.
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
-// with fraction bits keep these errors below a step. In planes without them (lossless ones) the low
-// band is doubled after the levels of kDoubledLevels, so that rounding there costs half a step:
-// prefixes get better, and lossless streams 0.5 % (terrain) to 0.9 % (images) longer.
+// with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
+// coefficient once (wavelet/joint_lifting.hpp). The low bands of two levels are doubled besides, so
+// that coarser levels round half as much: prefixes get better, lossless streams a little longer.
+// docs/MEASUREMENTS.md says by how much.
 #pragma once
 
 #include <algorithm>

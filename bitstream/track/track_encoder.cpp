@@ -180,7 +180,7 @@ class TrackCoder {
   }
 
   int firstKey() const { return done() ? kNoKey : passes_->front().key; }
-  /// A track of zeros is complete without a byte: RegionHeader::whole_bytes tells the decoder that
+  /// A track of zeros is complete without a byte: WaveletHeader::rounded_bytes tells the decoder that
   /// none of its decisions is missing.
   bool done() const { return nothing_to_say_ || passes_->empty(); }
   uint64_t bytes() const { return io_.decidedBytes(); }

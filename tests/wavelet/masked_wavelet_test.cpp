@@ -125,6 +125,8 @@ TEST(MaskedWavelet, AMaskWithoutVoidsIsNoMask) {
   Random random(5);
   for (const WaveletSpec& spec : allSpecs()) {
     for (const int bits : {kNarrowBits, kWideBits}) {
+      // But with any mask rows and columns are lifted one after the other.
+      if (spec.whole && bits <= WaveletSpec::kJointBits) continue;
       for (const Size& size : kSizes) {
         const WaveletSpec exact = withBits(spec, bits);
         const std::vector<uint8_t> valid(size.count(), 1);
