@@ -98,13 +98,20 @@ class FlatTrials {
     if (flat.areas.empty()) return;
     flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), heights_.valid);
     if (flat.codeword.size() >= purpose_.bytes) return;
-    if (!wavelet_)
-      wavelet_ = chooseWavelet(heights_, flat.areas.held(), purpose_.range_bits, purpose_.purpose);
+    if (!wavelet_) wavelet_ = waveletBeside(flat.areas);
     const TriedPlane held(heights_, flat.areas, *wavelet_, purpose_.threads);
     const double bits = held.cost(step_).joint(step_) + bitsOf(flat);
     if (bits >= bits_) return;
     bits_ = bits;
     best_ = {std::move(flat), *wavelet_};
+  }
+
+  /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
+  WaveletHeader waveletBeside(const FlatAreas& areas) const {
+    WaveletHeader header =
+        chooseWavelet(heights_, areas.held(), purpose_.range_bits, purpose_.purpose);
+    if (header.first_doubled > 0) header.first_doubled = WaveletSpec().first_doubled;
+    return header;
   }
 
   const PlaneView<const int32_t>& heights_;
