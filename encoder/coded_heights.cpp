@@ -33,8 +33,8 @@ void joinAccount(const QuantisedHeights& heights, const HeightLayers& layers, En
   }
   if (opening > 0) {
     const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
-    const double unknown = track.points.front().distortion + voids * heights.validityWorth() +
-                           squaresOf(layers.flat);
+    const double unknown =
+        track.points.front().distortion + voids * heights.validityWorth() + squaresOf(layers.flat);
     track.points.insert(track.points.begin(), {0, unknown});
   }
   if (!layers.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
@@ -103,9 +103,9 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options) {
   const HeightSteps& steps = of->steps;
-  FlatChoice choice = chooseFlatAreas({steps.steps, extentOf(*of->samples), steps.valid},
-                                      {steps.range_bits, target.purpose, target.bytes,
-                                       target.mean_square, options.threads});
+  FlatChoice choice = chooseFlatAreas(
+      {steps.steps, extentOf(*of->samples), steps.valid},
+      {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads});
   HeightLayers layers{of->layers, of->corrections, choice.wavelet, std::move(choice.flat)};
   layers.layers.flat_bytes = layers.flat.codeword.size();
   layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());

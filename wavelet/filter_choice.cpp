@@ -172,8 +172,8 @@ WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Pur
   return chooseWavelet(std::span(&plane, 1), bits, purpose);
 }
 
-WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held, int bits,
-                            Purpose purpose) {
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                            int bits, Purpose purpose) {
   return chooseAmong(samplesOf(std::span(&plane, 1), held), bits, purpose).header;
 }
 

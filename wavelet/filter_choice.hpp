@@ -23,8 +23,8 @@ enum class Purpose : uint8_t {
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose);
 
 /// The same for a plane of which samples are held.
-WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held, int bits,
-                            Purpose purpose);
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                            int bits, Purpose purpose);
 
 /// Chooses the same filters for several planes of one size.
 WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,

@@ -35,7 +35,8 @@ void forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32_t
       const bool all = pyramid.valid().all();
       const uint16_t* const numbers = pyramid.held().numbers.data() + line;
       for (uint32_t x = 0; x < band.width; ++x)
-        coded[x] = static_cast<uint8_t>((all || coded[x] != 0) && numbers[band.sampleColumn(x)] == 0);
+        coded[x] =
+            static_cast<uint8_t>((all || coded[x] != 0) && numbers[band.sampleColumn(x)] == 0);
     }
     take(coefficients.subspan(pyramid.indexOf(band, y), band.width), coded);
   }
@@ -113,9 +114,8 @@ PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficient
   for (size_t i = 0; i < layout.subbands().size(); ++i) {
     const double weight = layout.energy(i);
     BandCost band(layout.subbands()[i].width, step / std::sqrt(weight), weight);
-    forEachRow(layout, i, coefficients, [&](const auto& row, const auto& coded) {
-      band.take(row, coded, cost);
-    });
+    forEachRow(layout, i, coefficients,
+               [&](const auto& row, const auto& coded) { band.take(row, coded, cost); });
     cost.bits += band.entropy();
   }
   return cost;

@@ -64,8 +64,7 @@ class LevelTransform {
            const HeldBlock* held) const {
     assert(existing.empty() || existing.size() == whole.extent.samples());
     const bool rows = low.width < whole.extent.width, columns = low.height < whole.extent.height;
-    if (joint_ && rows && columns && existing.empty() && held == nullptr)
-      return liftJointly(whole);
+    if (joint_ && rows && columns && existing.empty() && held == nullptr) return liftJointly(whole);
     std::optional<BlockMask> mask;
     if (!existing.empty()) mask = BlockMask{existing, whole.extent};
     const Block lows{whole.first, columns ? 2 * whole.pitch : whole.pitch, low};

@@ -25,9 +25,9 @@ namespace tetrakis::inline wavelet {
 struct WaveletSpec {
   static constexpr size_t kChoices = 3;
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
-  bool whole = false;      ///< samples have no fraction bits
-  int bits = 0;            ///< of a sample, fraction included
-  int first_doubled = 3;   ///< the low band is doubled after this level and the next; 0: after none
+  bool whole = false;                        ///< samples have no fraction bits
+  int bits = 0;                              ///< of a sample, fraction included
+  int first_doubled = 3;  ///< the low band is doubled after this level and the next; 0: after none
 
   static constexpr int kNarrowLevels = 3;
   static constexpr int kJointBits = 20;
@@ -45,9 +45,7 @@ struct WaveletSpec {
     return whole && first_doubled > 0 && (level == first_doubled || level == first_doubled + 1);
   }
   /// The level lifts rows and columns jointly where it splits both and every sample exists.
-  bool joint(int level) const {
-    return whole && bits <= kJointBits && liftsJointly(filter(level));
-  }
+  bool joint(int level) const { return whole && bits <= kJointBits && liftsJointly(filter(level)); }
   /// Joint sums of this level are of 64 bits: they have kJointPlaces binary places.
   bool jointlyWide(int level) const {
     return level > kNarrowLevels || bits + kJointPlaces >= widestSamples(filter(level));
@@ -76,9 +74,9 @@ class HeldBlock;
 
 /// A block of the low band that a level splits, which stands for itself.
 struct LevelBlock {
-  std::span<int32_t> values;      ///< the low half of a row first; low rows at even places
-  Extent extent, low;             ///< of the block and of its low part
-  std::vector<uint8_t> existing;  ///< Pyramid::splitMask() of the block; empty: all exist
+  std::span<int32_t> values;        ///< the low half of a row first; low rows at even places
+  Extent extent, low;               ///< of the block and of its low part
+  std::vector<uint8_t> existing;    ///< Pyramid::splitMask() of the block; empty: all exist
   const HeldBlock* held = nullptr;  ///< null: all samples are free
 };
 

@@ -160,11 +160,11 @@ Status checkRegions(const StreamHeader& header) {
 Status checkStored(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->stored()) return {};
   const bool one_track = header.geometry->regions.side_log2 == 0;
-  const bool plain =
-      header.layers.corrections == CorrectionKind::kNone && header.layers.table_bytes == 0 &&
-      header.layers.flat_bytes == 0;
+  const bool plain = header.layers.corrections == CorrectionKind::kNone &&
+                     header.layers.table_bytes == 0 && header.layers.flat_bytes == 0;
   if (one_track && plain) return {};
-  return {TKS_CORRUPT, "Corrupt stream: stored heights have regions, corrections, a table or flat areas."};
+  return {TKS_CORRUPT,
+          "Corrupt stream: stored heights have regions, corrections, a table or flat areas."};
 }
 
 Status checkNumbers(const StreamHeader& header) {

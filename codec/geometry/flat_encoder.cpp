@@ -57,7 +57,8 @@ FlatAreas FlatFinder::areas(uint32_t least) const {
   assert(least > 0);
   const std::span<const int32_t> values = heights_.values();
   std::vector<uint8_t> flat(first_.size());
-  for (size_t k = 0; k < flat.size(); ++k) flat[k] = heights_.valid[k] && sizes_[first_[k]] >= least;
+  for (size_t k = 0; k < flat.size(); ++k)
+    flat[k] = heights_.valid[k] && sizes_[first_[k]] >= least;
   // Where areas of two levels touch, the smaller one gives way by a sample.
   const auto part = [&](size_t a, size_t b) {
     if ((flat[a] & flat[b]) == 0 || values[a] == values[b]) return;

@@ -55,7 +55,8 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
     track.plan = layout.plan(parts, 0, 0, 0);
     layout.markAbsent(parts, track.plan);
     for (size_t k = 0; k < parts.size(); ++k) {
-      track.bands.push_back({layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit});
+      track.bands.push_back(
+          {layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit});
       if (!flat.empty()) clearAbsent(track.plan[k], track.bands[k].values);
     }
   });

@@ -13,9 +13,9 @@
 namespace tetrakis::inline geometry {
 
 struct CoefficientOptions {
-  uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
-  int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
-  uint32_t threads = 1;         ///< nothing depends on them
+  uint64_t limit = UINT64_MAX;      ///< bytes worth coding, of all tracks together
+  int region_log2 = 0;              ///< bitstream/track/regions.hpp; 0: one track
+  uint32_t threads = 1;             ///< nothing depends on them
   const FlatAreas* flat = nullptr;  ///< areas that are known, and not coded; null: there are none
 };
 

@@ -92,8 +92,8 @@ void putFlat(const Plane& whole, int level, Plane& image) {
 }
 
 Surface decodeSurface(const GeometryHeader& header,
-                      const std::vector<std::span<const uint8_t>>& coefficients,
-                      Plane known, int level) {
+                      const std::vector<std::span<const uint8_t>>& coefficients, Plane known,
+                      int level) {
   Surface surface;
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   surface.plane = std::move(known);

@@ -75,7 +75,8 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   if (kinds & 8) {
     layers.flatBytes = in.varint(1, INT64_MAX);
     layers.flatAreas = static_cast<uint32_t>(in.varint(1, 65535));
-    const bool small = geometry && uint64_t(geometry->width) * uint64_t(geometry->height) <= 1u << 31;
+    const bool small =
+        geometry && uint64_t(geometry->width) * uint64_t(geometry->height) <= 1u << 31;
     if (!small) in.fail(Outcome::kCorrupt);
   }
   if (layers.corrections > 0) layers.coefficientBytes = in.varint(0, INT64_MAX);

@@ -62,7 +62,9 @@ struct Plane {
   int32_t& at(int x, int y) { return values.at(index(x, y)); }
   bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
   /// 0: it is not held; else 1 + its area.
-  uint32_t areaOf(int x, int y) const { return flat.areas.empty() ? 0 : flat.areas.at(index(x, y)); }
+  uint32_t areaOf(int x, int y) const {
+    return flat.areas.empty() ? 0 : flat.areas.at(index(x, y));
+  }
 };
 
 /// FORMAT 7, "Joint lifting": one level, which splits both directions. The low band of the level

@@ -119,7 +119,8 @@ TEST(HeldWavelet, WindowsAreThoseOfThePlane) {
                           {-700, 300});
     const Pyramid pyramid(size.extent(), {}, plane.held());
     const Plane coefficients = coded(spec, pyramid, plane);
-    for (const Window& window : {Window{0, 0, 83, 70}, Window{31, 8, 20, 33}, Window{82, 69, 1, 1}}) {
+    for (const Window& window :
+         {Window{0, 0, 83, 70}, Window{31, 8, 20, 33}, Window{82, 69, 1, 1}}) {
       WindowSynthesis synthesis(spec, pyramid, window);
       synthesis.allocate();
       // Blocks hold the coefficients that a window needs; the first of them stands for itself.

@@ -55,8 +55,8 @@ TEST(FlatAreas, ComeBackAndNoPrefixShowsOthers) {
         ASSERT_EQ(decoded.levels, areas.levels) << size << ", " << shape;
         EXPECT_TRUE(decodeFlatAreas(codeword, size.extent(), valid, count + 1).empty());
         for (size_t bytes = 0; bytes < codeword.size(); bytes += 1 + codeword.size() / 20) {
-          const FlatAreas some = decodeFlatAreas(std::span(codeword).first(bytes), size.extent(),
-                                                 valid, count);
+          const FlatAreas some =
+              decodeFlatAreas(std::span(codeword).first(bytes), size.extent(), valid, count);
           ASSERT_TRUE(some.empty() || some.levels == areas.levels) << size << ", " << bytes;
         }
       }
