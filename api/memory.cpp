@@ -6,6 +6,7 @@
 
 #include "codec/geometry/value_table.hpp"
 #include "codec/mesh/budget_mesh.hpp"
+#include "codec/mesh/screen_weights.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/view_synthesis.hpp"
@@ -211,6 +212,25 @@ uint64_t voidMeshBytes(const Lattice& lattice, uint64_t triangles) {
   constexpr uint64_t kFitted = 32, kTriangle = 330;
   const uint64_t vertices = verticesOf(lattice);
   return kOnce + std::max(kDecimated * vertices, kFitted * vertices + kTriangle * triangles);
+}
+
+uint64_t screenMeshBytes(const tks_decoder& decoder, const Lattice& lattice, uint64_t triangles,
+                         uint64_t texels) {
+  // Choosing and fitting among all samples, of a triangle at its most; then turning edges.
+  constexpr uint64_t kFitted = 40, kFew = 560, kMany = 260;
+  const uint64_t samples = verticesOf(lattice);
+  const uint64_t base = uint64_t{2} * lattice.rootColumns() * lattice.rootRows();
+  const uint64_t all = std::clamp<uint64_t>(triangles, base, std::max(base, 2 * samples));
+  const uint64_t few = std::min(all, samples * 3 / 5);
+  const HeightsBytes heights(decoder, {});
+  const uint64_t decoding = decoder.heights ? 0 : heights.decoding();
+  const uint64_t kept = decoder.heights ? 0 : heights.kept();
+  const bool has_voids = decoder.parsed.header.layers.validity_bytes > 0;
+  const uint64_t mesh = has_voids ? voidMeshBytes(lattice, all)
+                                  : kOnce + kFitted * samples + kFew * few + kMany * (all - few);
+  const uint64_t turned = kFitted * samples + kMany * all;
+  const uint64_t weights = screenWeightsBytes(samples) + 2 * texels;
+  return std::max(decoding, kept + std::max(mesh, turned) + weights);
 }
 
 uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
