@@ -48,7 +48,7 @@ tks_encode_options inRegions(tks_encode_options options) {
 
 TEST(FlatWater, ComesBackWithAllTypes) {
   for (const tks_sample type : kTypes) {
-    const Flooded f = flooded(VoidShape::kCoast, type, 120, 90);
+    const Flooded f = flooded(VoidShape::kCoast, type, 60, 45);
     const Bytes stream = encode(&f.raster, nullptr, lossless());
     Stream decoded(stream);
     EXPECT_EQ(decoded.heights(), f.raster.data) << type;
