@@ -9,6 +9,10 @@
 
 namespace tetrakis::inline base {
 
+/// Metres between samples where nothing says how many: those of the global one-arc-second models.
+/// Encoders price height errors, and cameras stand, as if they were this far apart.
+inline constexpr double kUnknownSpacing = 30;
+
 /// Our name of a length ("m", "cm", "mm", "km", "ft", "us-ft") for another one of it ("metres",
 /// "US survey foot", "ftUS"), in upper or lower case; every other text as it is.
 std::string canonicalUnit(std::string_view unit);

@@ -33,15 +33,11 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
   return squares / heights.counted() / 16;
 }
 
-/// Texels that the texture moves per metre of height error. step: in metres. Terrain of unknown
-/// spacing is taken to be ten times as wide as it is high.
-double texelsPerMetre(const EncodeInputs& inputs, const QuantisedHeights& heights, double step,
+/// Texels that the texture moves per metre of height error.
+double texelsPerMetre(const EncodeInputs& inputs, const tks_heights& heights,
                       const Texels& texture) {
-  const tks_heights& samples = *heights.samples;
-  const double relief = std::exp2(heights.steps.range_bits) * step;
-  const double side = std::max(samples.width, samples.height) - 1;
-  const double spacing = samples.spacing_x > 0 ? samples.spacing_x : 10 * relief / side;
-  const double texel = spacing * (samples.width - 1) / texture.width;
+  const double spacing = heights.spacing_x > 0 ? heights.spacing_x : kUnknownSpacing;
+  const double texel = spacing * (heights.width - 1) / texture.width;
   const double parallax = inputs.options.parallax;
   return (parallax > 0 ? parallax : kDefaultParallax) / texel;
 }
@@ -59,7 +55,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
   Pricing pricing{samples, useful};
   std::optional<ScreenModel> model;
   if (texture != nullptr) {
-    model.emplace(*texture, texelsPerMetre(inputs, source, step, *texture));
+    model.emplace(*texture, texelsPerMetre(inputs, *source.samples, *texture));
     pricing.cost = [&](double squares) { return model->cost(useful(squares) * step * step); };
   }
   HeightsMemory memory;

@@ -90,7 +90,7 @@ typedef struct tks_heights {
   const void* data;
   double scale, offset;           /* 1 and 0 when samples are heights */
   double step;                    /* quantisation step in sample units; 0: chosen (exact if possible) */
-  double spacing_x, spacing_y;    /* metres per sample; 0: unknown */
+  double spacing_x, spacing_y;    /* metres per sample; 0: unknown, which pictures take for 30 */
   const char* unit;               /* UTF-8, NULL: unknown; e.g. "m" */
   const char* vertical_datum;     /* UTF-8, NULL: unknown; e.g. "EGM2008", "EPSG:5703" */
   const char* crs;                /* UTF-8 "EPSG:code", WKT or a name, NULL: unknown */

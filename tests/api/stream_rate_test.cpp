@@ -76,8 +76,10 @@ TEST(StreamRate, MoreBytesMeanLessError) {
     Stream stream(coded);
     const double h = squaredError(heights, stream.heights());
     const double t = squaredError(image, stream.texture());
-    EXPECT_LT(h, last_heights) << bytes;
-    EXPECT_LT(t, last_texture) << bytes;
+    // The picture may need the bytes in one of them alone.
+    EXPECT_LE(h, last_heights) << bytes;
+    EXPECT_LE(t, last_texture) << bytes;
+    EXPECT_TRUE(h < last_heights || t < last_texture) << bytes;
     last_heights = h;
     last_texture = t;
   }

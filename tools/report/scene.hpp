@@ -30,10 +30,7 @@ struct GroundFrame {
   double metres_per_unit = 1;
 };
 
-/// Metres per sample where a file does not say: that of the global one-arc-second models.
-inline constexpr double kDefaultSpacing = 30;
-
-/// The frame of a height field. Spacing 0 (unknown) becomes kDefaultSpacing, a unit that is no
+/// The frame of a height field. Spacing 0 (unknown) becomes kUnknownSpacing, a unit that is no
 /// length counts as metres.
 GroundFrame frameOf(const HeightFile& heights);
 GroundFrame frameOf(const tks_info& info);
