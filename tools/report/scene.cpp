@@ -70,12 +70,6 @@ void rasterizeTriangle(const Corner& a, const Corner& b, const Corner& c, Surfac
     }
 }
 
-GroundFrame knownFrame(GroundFrame frame) {
-  if (!(frame.spacing_x > 0)) frame.spacing_x = kDefaultSpacing;
-  if (!(frame.spacing_y > 0)) frame.spacing_y = kDefaultSpacing;
-  return frame;
-}
-
 }  // namespace
 
 GroundFrame frameOf(const HeightFile& heights) {

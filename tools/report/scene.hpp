@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tetrakis/tetrakis.hpp"
+#include "ground/frame.hpp"
 #include "tools/files/files.hpp"
 #include "tools/render/render.hpp"
 
@@ -20,21 +21,7 @@ struct Surface {
   std::vector<double> values;
 };
 
-/// How the sample grid lies in space. Column c, row r and height h, in the unit of the stream, are
-/// at ((c - (width - 1) / 2) * spacing_x,
-///     h * metres_per_unit,
-///     (r - (height - 1) / 2) * spacing_y).
-struct GroundFrame {
-  uint32_t width = 0, height = 0;
-  double spacing_x = 1, spacing_y = 1;  ///< metres
-  double metres_per_unit = 1;
-};
-
-/// Metres per sample where a file does not say: that of the global one-arc-second models.
-inline constexpr double kDefaultSpacing = 30;
-
-/// The frame of a height field. Spacing 0 (unknown) becomes kDefaultSpacing, a unit that is no
-/// length counts as metres.
+/// The frame of a height field (knownFrame()); a unit that is no length counts as metres.
 GroundFrame frameOf(const HeightFile& heights);
 GroundFrame frameOf(const tks_info& info);
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tools/files/stream.hpp"
-#include "tools/render/vec3.hpp"
+#include "ground/vec3.hpp"
 
 namespace tetrakis::tools {
 namespace {
