@@ -94,12 +94,14 @@ Result<Buffer> encodeTerrain(const tools::Reference& original, bool told) {
   tks_encode_options options = makeEncodeOptions();
   options.bytes = kMostBytes + 8192;  // for the header and heads
   options.regions = 1;
+  const auto cameras = tools::chooseCameras(
+      {"", "all"},
+      tools::boundsOf(tools::heightsOf(*original.heights), tools::frameOf(*original.heights)));
+  if (!cameras.ok()) return cameras.status();
+  const std::vector<tks_camera> those = tools::toldCameras(*cameras);
   if (told) {
-    const auto cameras = tools::chooseCameras(
-        {"", "all"},
-        tools::boundsOf(tools::heightsOf(*original.heights), tools::frameOf(*original.heights)));
-    if (!cameras.ok()) return cameras.status();
-    options.parallax = tools::parallaxOf(*cameras);
+    options.cameras = those.data();
+    options.camera_count = static_cast<uint32_t>(those.size());
   }
   Result<Buffer> stream = tetrakis::encode(&heights, &image, options);
   if (!stream) return stream.status();

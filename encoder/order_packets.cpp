@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/order_packets.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <optional>
-#include <string>
 
 #include "codec/mesh/decimation.hpp"
 #include "encoder/height_errors.hpp"
-#include "ratecontrol/screen_model.hpp"
 
 namespace tetrakis {
 
@@ -17,15 +12,6 @@ namespace {
 
 AuditScope auditScope(const EncodeInputs& inputs, size_t samples) {
   return {samples, inputs.budgeted() ? inputs.options.bytes : UINT64_MAX};
-}
-
-double metresPerUnit(const char* unit) {
-  const std::string name = unit ? unit : "";
-  return name == "ft" || name == "us-ft" ? 0.3048
-         : name == "cm"                  ? 0.01
-         : name == "mm"                  ? 0.001
-         : name == "km"                  ? 1000
-                                         : 1;
 }
 
 /// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes
@@ -41,35 +27,11 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
   return squares / heights.counted() / 16;
 }
 
-/// Texels that the texture moves per metre of height error. step: in metres. Terrain of unknown
-/// spacing is taken to be ten times as wide as it is high.
-double texelsPerMetre(const EncodeInputs& inputs, const QuantisedHeights& heights, double step,
-                      const Texels& texture) {
-  const tks_heights& samples = *heights.samples;
-  const double relief = std::exp2(heights.steps.range_bits) * step;
-  const double side = std::max(samples.width, samples.height) - 1;
-  const double spacing = samples.spacing_x > 0 ? samples.spacing_x : 10 * relief / side;
-  const double texel = spacing * (samples.width - 1) / texture.width;
-  const double parallax = inputs.options.parallax;
-  return (parallax > 0 ? parallax : kDefaultParallax) / texel;
-}
-
 }  // namespace
 
-ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights,
-                              const Texels* texture) {
+ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights) {
   const QuantisedHeights& source = *heights.of;
-  const double samples = heights.counted();
-  const double step =
-      source.steps.step * std::abs(source.samples->scale) * metresPerUnit(source.samples->unit);
-  const double floor = meshFloor(source, inputs.options.triangles);
-  const auto useful = [=](double squares) { return std::max(squares / samples, floor); };
-  Pricing pricing{samples, useful};
-  std::optional<ScreenModel> model;
-  if (texture != nullptr) {
-    model.emplace(*texture, texelsPerMetre(inputs, source, step, *texture));
-    pricing.cost = [&](double squares) { return model->cost(useful(squares) * step * step); };
-  }
+  const Pricing pricing{heights.counted(), meshFloor(source, inputs.options.triangles)};
   HeightsMemory memory;
   const auto measure = [&](uint64_t bytes) {
     return squaresOf(heights, prefixAfter(heights.rated(), {}, bytes), inputs.options.threads,
@@ -79,14 +41,13 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 }
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
-  const double samples = texture.counted();
   TextureMemory memory;
   const auto measure = [&](uint64_t bytes) {
     return squaresOf(texture, prefixAfter(texture.rated(), {}, bytes), inputs.options.threads,
                      &memory);
   };
   return curveOf(texture.rated(), auditScope(inputs, texture.of->texels.samples.size()), measure,
-                 {samples, [=](double squares) { return squares / samples; }});
+                 {texture.counted()});
 }
 
 }  // namespace tetrakis

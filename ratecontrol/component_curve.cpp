@@ -36,16 +36,28 @@ uint8_t statedQuality(double squares, const Pricing& pricing) {
   return qualityOf(std::sqrt(squares / pricing.samples));
 }
 
+double costOf(double squares, const Pricing& pricing) {
+  return std::max(squares / pricing.samples, pricing.floor);
+}
+
+/// points: of a hull.
+size_t openedAt(const std::vector<RatePoint>& points, uint64_t opening) {
+  size_t first = 0;
+  while (first + 1 < points.size() && points[first].bytes < opening) ++first;
+  return first;
+}
+
 /// points: of the only track, audited.
 ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> points,
                           const Pricing& pricing) {
   std::map<uint64_t, uint8_t> quality;
   for (RatePoint& point : points) {
     quality[point.bytes] = statedQuality(point.distortion, pricing);
-    point.distortion = pricing.cost(point.distortion);
+    point.distortion = costOf(point.distortion, pricing);
   }
   favour(points, coded.opening);
   ComponentCurve curve{lowerHull(points, kPacketGrowth), {}};
+  curve.opened = openedAt(curve.points, coded.opening);
   uint64_t begin = 0;
   for (size_t i = 1; i < curve.points.size(); ++i) {
     for (const RatePoint& end : packetEnds(points, curve.points[i - 1], curve.points[i])) {
@@ -62,9 +74,11 @@ ComponentCurve curveOfMany(const CodedTracks& coded, const Pricing& pricing) {
   OrderedTracks tracks = orderTracks(coded);
   for (size_t i = 0; i < tracks.packets.size(); ++i)
     tracks.packets[i].quality = statedQuality(tracks.points[i + 1].distortion, pricing);
-  for (RatePoint& point : tracks.points) point.distortion = pricing.cost(point.distortion);
+  for (RatePoint& point : tracks.points) point.distortion = costOf(point.distortion, pricing);
   favour(tracks.points, coded.opening);
-  return {lowerHull(tracks.points, 0), std::move(tracks.packets)};
+  ComponentCurve curve{lowerHull(tracks.points, 0), std::move(tracks.packets)};
+  curve.opened = openedAt(curve.points, coded.opening);
+  return curve;
 }
 
 }  // namespace

@@ -136,6 +136,17 @@ typedef enum tks_weights {
                             less, in colour differences much less; costs up to 1.2 dB of PSNR */
 } tks_weights;
 
+/* A pinhole camera that looks at the heights with their texture. In metres, x east, y up, z south;
+ * the origin is the middle of the heights at height 0. Where the spacing of the heights is unknown,
+ * samples are 30 metres apart. */
+typedef struct tks_camera {
+  const char* name;                /* UTF-8, for messages; NULL: its number, from 1 */
+  double eye[3], target[3], up[3]; /* up: not along the line of sight */
+  double fov_y;                    /* degrees from the lower to the upper edge, above 0, below 180 */
+  uint32_t width, height;          /* pixels, 1 to 8192 */
+  double weight;                   /* of its picture beside others, not negative, one above 0 */
+} tks_camera;
+
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
 typedef struct tks_encode_options {
   size_t size;       /* sizeof(tks_encode_options) */
@@ -147,8 +158,6 @@ typedef struct tks_encode_options {
   int lossless;      /* everything comes back bit for bit, floats by their bit patterns (NaN: see
                         tks_heights) */
   uint32_t triangles;/* meshes will be drawn with at most this many triangles; 0: no bound */
-  double parallax;   /* screen-space weight of heights: texture metres shifted per metre of height
-                        error (cotangent of the view's elevation); 0: the default oblique view */
   uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
   uint32_t regions;  /* side of the spatial regions by which windows can be decoded, in samples (of
                         either component): a power of two from 16 to 2^20; 1: none; 0: chosen, none
@@ -157,6 +166,11 @@ typedef struct tks_encode_options {
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;
+  const tks_camera* cameras; /* what viewers will see: bytes go where these pictures need them. With
+                                heights and texture alone; NULL: a mix of views from all sides, for a
+                                viewer of whom nothing is known. One that is below the ground, sees
+                                none of it or breaks the rules above: TKS_USAGE, with its name */
+  uint32_t camera_count;
 } tks_encode_options;
 
 /* Bytes allocated by the library; release with tks_free_buffer. */

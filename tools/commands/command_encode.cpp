@@ -22,10 +22,6 @@
 namespace tetrakis::tools {
 namespace {
 
-/// A camera straight above sees no parallax at all, but 0 would mean "the default view": use a
-/// millimetre a metre.
-constexpr double kLeastParallax = 1e-3;
-
 std::string voidNote(const HeightFile& heights) {
   const Surface surface = heightsOf(heights);
   const auto count = std::count_if(surface.values.begin(), surface.values.end(),
@@ -78,11 +74,12 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   return inputs;
 }
 
-Result<double> parallax(const EncodeArguments& arguments, const HeightFile& heights) {
-  const Result<std::vector<Camera>> cameras =
-      chooseCameras(arguments.cameras, boundsOf(heightsOf(heights), frameOf(heights)));
-  if (!cameras.ok()) return cameras.status();
-  return std::max(parallaxOf(*cameras), kLeastParallax);
+/// Those that are asked for; none: the library looks from all sides.
+Result<std::vector<Camera>> wantedCameras(const EncodeArguments& arguments,
+                                          const Reference& inputs) {
+  if (arguments.cameras.isDefault() || !inputs.heights) return std::vector<Camera>();
+  return chooseCameras(arguments.cameras,
+                       boundsOf(heightsOf(*inputs.heights), frameOf(*inputs.heights)));
 }
 
 /// As tks_encode_options says it; the library refuses sides that it does not take.
@@ -114,11 +111,6 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
     if (*bound == 0)
       return Status(TKS_USAGE, "--max-error must be positive; --lossless keeps everything");
     options.max_error = *bound;
-  }
-  if (!arguments.cameras.isDefault() && inputs.heights) {
-    const Result<double> seen = parallax(arguments, *inputs.heights);
-    if (!seen.ok()) return seen.status();
-    options.parallax = *seen;
   }
   return options;
 }
@@ -172,6 +164,11 @@ tks_image view(const ImageFile& file) {
 Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet) {
   Result<tks_encode_options> options = encodeOptions(arguments, inputs);
   if (!options.ok()) return options.status();
+  const Result<std::vector<Camera>> cameras = wantedCameras(arguments, inputs);
+  if (!cameras.ok()) return cameras.status();
+  const std::vector<tks_camera> told = toldCameras(*cameras);
+  options->cameras = told.data();
+  options->camera_count = static_cast<uint32_t>(told.size());
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;

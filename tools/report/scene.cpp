@@ -188,6 +188,22 @@ Bounds boundsOf(const Surface& heights, const GroundFrame& frame) {
   return {{-x, low * frame.metres_per_unit, -z}, {x, high * frame.metres_per_unit, z}};
 }
 
+std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras) {
+  std::vector<tks_camera> told;
+  for (const Camera& camera : cameras) {
+    tks_camera& c = told.emplace_back();
+    c.name = camera.name.c_str();
+    std::copy(camera.eye.begin(), camera.eye.end(), c.eye);
+    std::copy(camera.target.begin(), camera.target.end(), c.target);
+    std::copy(camera.up.begin(), camera.up.end(), c.up);
+    c.fov_y = camera.fov_y;
+    c.width = camera.width;
+    c.height = camera.height;
+    c.weight = camera.weight;
+  }
+  return told;
+}
+
 Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds) {
   if (!choice.file.empty()) return readCameras(choice.file);
   return presetCameras(choice.view.empty() ? "oblique" : choice.view, bounds);

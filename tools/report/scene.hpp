@@ -56,6 +56,9 @@ struct CameraChoice {
   std::string view;
   bool isDefault() const { return file.empty() && view.empty(); }
 };
+/// As encoders are told of them; the names are those of `cameras`, which outlive the result.
+std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras);
+
 Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds);
 
 }  // namespace tetrakis::tools

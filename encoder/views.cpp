@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/views.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "base/samples.hpp"
+#include "codec/geometry/voids.hpp"
+#include "encoder/height_errors.hpp"
+#include "ratecontrol/screen_points.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// Points of all pictures. Twice as many change the mean loss by less than 0.01 dB.
+constexpr size_t kPoints = 6144;
+
+double metresPerUnit(const char* unit) {
+  const std::string name = unit ? unit : "";
+  return name == "ft" || name == "us-ft" ? 0.3048
+         : name == "cm"                  ? 0.01
+         : name == "mm"                  ? 0.001
+         : name == "km"                  ? 1000
+                                         : 1;
+}
+
+/// samples: of the type and size of `like`. valid: as findVoids() has it.
+Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid) {
+  const double metres = metresPerUnit(like.unit);
+  Relief relief{knownFrame({like.width, like.height, like.spacing_x, like.spacing_y, metres}), {}};
+  relief.heights.resize(size_t{like.width} * like.height);
+  withSampleType(like.sample, [&](auto type) {
+    const auto* from = static_cast<const decltype(type)*>(samples);
+    for (size_t i = 0; i < relief.heights.size(); ++i) {
+      const double height = static_cast<double>(from[i]) * like.scale + like.offset;
+      const bool is_void = !valid.empty() && !valid[i];
+      relief.heights[i] = is_void ? std::numeric_limits<float>::quiet_NaN()
+                                  : static_cast<float>(height * metres);
+    }
+  });
+  return relief;
+}
+
+std::string nameOf(const tks_camera& camera, uint32_t index) {
+  const std::string number = std::to_string(index + 1);
+  return camera.name != nullptr && *camera.name != 0 ? camera.name : number;
+}
+
+std::vector<Camera> givenCameras(const tks_encode_options& options) {
+  std::vector<Camera> cameras;
+  for (uint32_t i = 0; i < options.camera_count; ++i) {
+    const tks_camera& given = options.cameras[i];
+    Camera camera;
+    camera.name = nameOf(given, i);
+    std::copy_n(given.eye, 3, camera.eye.begin());
+    std::copy_n(given.target, 3, camera.target.begin());
+    std::copy_n(given.up, 3, camera.up.begin());
+    camera.fov_y = given.fov_y;
+    camera.width = given.width;
+    camera.height = given.height;
+    camera.weight = given.weight;
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
+/// Those of the options, or for any viewer; none if the terrain has no bounds.
+std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& ground) {
+  if (inputs.options.camera_count > 0) return givenCameras(inputs.options);
+  const Result<std::vector<Camera>> cameras = unknownViewer(ground.bounds());
+  return cameras.ok() ? *cameras : std::vector<Camera>();
+}
+
+Status blames(const Camera& camera, const char* what) {
+  return {TKS_USAGE, "Camera '" + camera.name + "' " + what + "."};
+}
+
+/// Prefixes of a component that are looked at: points of its curve, from the opening on, so that
+/// each has `ratio` times the bytes of the one before. Beyond the budget one is enough.
+std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t budget) {
+  constexpr double kFirst = 48;  // bytes
+  const std::vector<RatePoint>& points = curve.points;
+  std::vector<size_t> nodes = {curve.opened};
+  double next = kFirst;
+  for (size_t i = curve.opened + 1; i < points.size(); ++i) {
+    const double bytes =
+        static_cast<double>(points[i].bytes) - static_cast<double>(points[curve.opened].bytes);
+    const bool last = i + 1 == points.size();
+    if (bytes < next && !last) continue;
+    const RatePoint& before = points[nodes.back()];
+    if (!(points[i].distortion > 0 && points[i].distortion < before.distortion)) continue;
+    nodes.push_back(i);
+    next = std::max(bytes, next) * ratio;
+    if (points[i].bytes >= budget) break;
+  }
+  return nodes;
+}
+
+std::vector<double> squaresAt(const ComponentCurve& curve, const std::vector<size_t>& nodes) {
+  std::vector<double> squares;
+  for (const size_t node : nodes) squares.push_back(curve.points[node].distortion);
+  return squares;
+}
+
+/// What decoders show of the inputs after the bytes of some nodes; calls must come with rising
+/// nodes, the last one for the original.
+class Decoded {
+ public:
+  Decoded(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
+          const Rated<CodedTexture>& texture)
+      : inputs_(inputs), heights_(heights), texture_(texture) {}
+
+  Relief reliefAt(size_t point) {
+    const CodedHeights& coded = heights_.coded;
+    const DecodedHeights shown = decodeHeights(
+        coded.header, coded.layers, prefixAfter(coded.rated(), heights_.curve.packets, bytesAt(heights_.curve, point)), {},
+        {inputs_.options.threads, &heights_memory_});
+    std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
+                                   shown.geometry.heights.size());
+    fromSteps(shown, coded.header, coded.layers, samples.data());
+    return reliefOf(*inputs_.heights, samples.data(), shown.geometry.valid);
+  }
+  Relief original() const {
+    return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
+  }
+
+  /// What so few bytes can show is shown by the coarser levels as well, in less time.
+  ScreenTexture textureAt(size_t point) {
+    const CodedTexture& coded = texture_.coded;
+    const Extent whole = coded.header.extent();
+    const uint64_t bytes = bytesAt(texture_.curve, point);
+    View view;
+    if (!coded.header.direct()) {
+      while (view.level < kMostLevels && view.extentIn(whole).samples() >> 2 >= kTexelsPerByte * bytes)
+        ++view.level;
+    }
+    const Codewords prefix = prefixAfter(coded.rated(), texture_.curve.packets, bytes);
+    TextureMemory* memory = view.level == 0 ? &texture_memory_ : nullptr;
+    const Texels shown =
+        decodeTexture(coded.header, prefix, view, {inputs_.options.threads, memory});
+    return {shown, whole, view.level};
+  }
+
+ private:
+  static constexpr uint64_t kTexelsPerByte = 64;
+  static constexpr int kMostLevels = 5;
+
+  static uint64_t bytesAt(const ComponentCurve& curve, size_t point) {
+    return curve.points[point].bytes;
+  }
+
+  const EncodeInputs& inputs_;
+  Rated<CodedHeights> heights_;
+  Rated<CodedTexture> texture_;
+  HeightsMemory heights_memory_;
+  TextureMemory texture_memory_;
+};
+
+/// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
+/// texture is looked at through all of them.
+std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
+                                   Decoded& decoded, const std::vector<size_t>& height_nodes,
+                                   const std::vector<size_t>& texture_nodes, const Texels& texels) {
+  const ScreenPoints points(cameras, kPoints);
+  std::vector<std::vector<SeenPoint>> seen;
+  for (const size_t node : height_nodes)
+    seen.push_back(points.seenOf(GroundRays(decoded.reliefAt(node)), texels.extent()));
+  seen.push_back(points.seenOf(ground, texels.extent()));
+  const size_t columns = texture_nodes.size() + 1;
+  std::vector<double> errors(seen.size() * columns);
+  const ScreenTexture whole(texels, texels.extent());
+  const std::vector<Colour> truth = points.coloursOf(seen.back(), whole);
+  for (size_t t = 0; t < columns; ++t) {
+    const auto look = [&](const ScreenTexture& texture) {
+      for (size_t g = 0; g < seen.size(); ++g) {
+        const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
+        errors[g * columns + t] = points.error({seen.back(), truth}, {seen[g], colours});
+      }
+    };
+    t < texture_nodes.size() ? look(decoded.textureAt(texture_nodes[t])) : look(whole);
+  }
+  return errors;
+}
+
+/// As if both errors were seen as large as they are at first, and added.
+PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
+  const auto first = [](const ComponentCurve& curve) {
+    const double square = curve.points[curve.opened].distortion;
+    return std::vector<double>{square > 0 ? square : 1};
+  };
+  return {{first(heights), first(texture)}, {2, 1, 1, 0}};
+}
+
+}  // namespace
+
+Status checkCameras(const EncodeInputs& inputs) {
+  const tks_encode_options& options = inputs.options;
+  if (options.camera_count == 0) return {};
+  const std::vector<Camera> cameras = givenCameras(options);
+  for (const Camera& camera : cameras)
+    if (Status status = checkCamera(camera); !status.ok()) return status;
+  if (std::all_of(cameras.begin(), cameras.end(), [](const Camera& c) { return c.weight == 0; }))
+    return {TKS_USAGE, "No camera has a weight above 0."};
+  if (inputs.heights == nullptr) return {};
+  const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
+  if (!valid.ok()) return valid.status();
+  const GroundRays ground(reliefOf(*inputs.heights, inputs.heights->data, *valid));
+  for (const Camera& camera : cameras) {
+    const auto height = ground.heightAt(camera.eye[0], camera.eye[2]);
+    if (height && camera.eye[1] < *height) return blames(camera, "is below the ground");
+  }
+  const ScreenPoints points(cameras, kPoints);
+  const std::vector<size_t> blind = points.blindCameras(points.seenOf(ground, {1, 1}));
+  return blind.empty() ? Status() : blames(cameras[blind.front()], "sees no ground");
+}
+
+PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
+                        const Rated<CodedTexture>& texture) {
+  constexpr double kHeightsRatio = 2.5, kTextureRatio = 4;
+  const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
+  Decoded decoded(inputs, heights, texture);
+  const GroundRays ground(decoded.original());
+  const std::vector<Camera> cameras = camerasOf(inputs, ground);
+  const auto height_nodes = nodesOf(heights.curve, kHeightsRatio, budget);
+  const auto texture_nodes = nodesOf(texture.curve, kTextureRatio, budget);
+  PairNodes nodes = {squaresAt(heights.curve, height_nodes),
+                     squaresAt(texture.curve, texture_nodes)};
+  const bool flat = nodes.heights.front() <= 0 || nodes.textures.front() <= 0;
+  if (cameras.empty() || flat) return unseen(heights.curve, texture.curve);
+  std::vector<double> errors = modelledErrors(cameras, ground, decoded, height_nodes, texture_nodes,
+                                              texture.coded.of->texels);
+  if (errors.front() <= 0) return unseen(heights.curve, texture.curve);
+  return {std::move(nodes), std::move(errors)};
+}
+
+}  // namespace tetrakis

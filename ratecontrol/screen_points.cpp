@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/screen_points.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "ground/sky.hpp"
+
+namespace tetrakis {
+
+namespace {
+
+/// The generalised golden ratio of the plane: places i * (1/g, 1/g^2), modulo 1, fill a square
+/// evenly, however many they are (M. Roberts 2018).
+constexpr double kGolden = 1.32471795724474602596;
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+}  // namespace
+
+ScreenPoints::ScreenPoints(const std::vector<Camera>& cameras, size_t count) {
+  double weights = 0;
+  for (const Camera& camera : cameras) weights += camera.weight;
+  assert(weights > 0);
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    if (cameras[i].weight == 0) continue;
+    const double share = cameras[i].weight / weights;
+    addCamera(cameras[i], i, static_cast<size_t>(std::ceil(share * static_cast<double>(count))));
+  }
+}
+
+void ScreenPoints::addCamera(const Camera& camera, size_t index, size_t count) {
+  const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
+  const double tan_y = std::tan(camera.fov_y * std::numbers::pi / 360);
+  const double pixel = 2 * tan_y / camera.height;
+  const size_t begin = points_.size();
+  for (size_t i = 0; i < count; ++i) {
+    const double at = static_cast<double>(i);
+    const double column = std::floor(fraction(0.5 + at / kGolden) * camera.width) + 0.5;
+    const double row = std::floor(fraction(0.5 + at / (kGolden * kGolden)) * camera.height) + 0.5;
+    Point point;
+    point.right = scale(axes.right, pixel);
+    point.down = scale(axes.up, -pixel);
+    point.ray.origin = camera.eye;
+    point.ray.direction = add(axes.forward, add(scale(point.right, column - camera.width / 2.0),
+                                                scale(point.down, row - camera.height / 2.0)));
+    const auto sky = skyAt(static_cast<uint32_t>(row), camera.height);
+    for (size_t c = 0; c < 3; ++c) point.sky[c] = static_cast<float>(sky[c]);
+    points_.push_back(point);
+  }
+  views_.push_back({index, begin, points_.size(), camera.weight});
+}
+
+std::vector<SeenPoint> ScreenPoints::seenOf(const GroundRays& ground, Extent texture) const {
+  const double columns = ground.frame().width - 1.0, rows = ground.frame().height - 1.0;
+  const auto seen_at = [&](const Point& point) {
+    SeenPoint seen;
+    const auto hit = ground.hit(point.ray);
+    if (!hit) return seen;
+    seen.ground = true;
+    seen.u = hit->column / columns;
+    seen.v = hit->row / rows;
+    // Along the plane of the triangle. One that is seen edge on is as wide as the texture at most.
+    const auto beside = [&](const Vec3& change, double& u, double& v) {
+      const Ray ray{point.ray.origin, add(point.ray.direction, change)};
+      const auto place = ground.onPlane(*hit, ray);
+      u = place ? std::clamp((*place)[0] / columns - seen.u, -1.0, 1.0) : 1;
+      v = place ? std::clamp((*place)[1] / rows - seen.v, -1.0, 1.0) : 1;
+    };
+    beside(point.right, seen.u_x, seen.v_x);
+    beside(point.down, seen.u_y, seen.v_y);
+    const double along_x = std::hypot(seen.u_x * texture.width, seen.v_x * texture.height);
+    const double along_y = std::hypot(seen.u_y * texture.width, seen.v_y * texture.height);
+    const double sample = std::max(along_x, along_y) / 2;  // two of them beside one another
+    seen.level = sample > 0 ? std::max(0.0, std::log2(sample)) : 0;
+    return seen;
+  };
+  std::vector<SeenPoint> seen;
+  seen.reserve(points_.size());
+  for (const Point& point : points_) seen.push_back(seen_at(point));
+  return seen;
+}
+
+std::vector<Colour> ScreenPoints::coloursOf(const std::vector<SeenPoint>& seen,
+                                            const ScreenTexture& texture) const {
+  assert(seen.size() == points_.size());
+  std::vector<Colour> colours(seen.size());
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const SeenPoint& s = seen[i];
+    if (!s.ground) {
+      colours[i] = points_[i].sky;
+      continue;
+    }
+    for (const double x : {-0.25, 0.25}) {
+      for (const double y : {-0.25, 0.25}) {
+        const Colour sample = texture.at(s.u + x * s.u_x + y * s.u_y,
+                                         s.v + x * s.v_x + y * s.v_y, s.level);
+        for (size_t c = 0; c < 3; ++c) colours[i][c] += sample[c] / 4;
+      }
+    }
+  }
+  return colours;
+}
+
+double ScreenPoints::error(const Pictures& a, const Pictures& b) const {
+  double sum = 0, weights = 0;
+  for (const View& view : views_) {
+    double squares = 0;
+    size_t covered = 0;
+    for (size_t i = view.begin; i < view.end; ++i) {
+      if (!a.seen[i].ground && !b.seen[i].ground) continue;
+      ++covered;
+      for (size_t c = 0; c < 3; ++c) {
+        const double difference = a.colours[i][c] - b.colours[i][c];
+        squares += difference * difference;
+      }
+    }
+    if (covered == 0) continue;
+    sum += view.weight * squares / (3 * static_cast<double>(covered));
+    weights += view.weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+std::vector<size_t> ScreenPoints::blindCameras(const std::vector<SeenPoint>& seen) const {
+  std::vector<size_t> blind;
+  for (const View& view : views_) {
+    const auto begin = seen.begin() + static_cast<ptrdiff_t>(view.begin);
+    const auto end = seen.begin() + static_cast<ptrdiff_t>(view.end);
+    if (std::none_of(begin, end, [](const SeenPoint& s) { return s.ground; }))
+      blind.push_back(view.camera);
+  }
+  return blind;
+}
+
+}  // namespace tetrakis

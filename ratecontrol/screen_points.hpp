@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The modelled engine of screen distortion (thesis 6.1 and 6.2): what cameras see of a terrain, at
+// some thousand points of their pictures. A ray finds the ground below a point, so hidden ground
+// counts nothing, near ground much, and a height error moves the texture as far as it does on the
+// screen; the size of a pixel on the ground says which levels of the texture are seen. Averages
+// over such points are the squared errors that a renderer would find, to some percent, and the
+// same points for all surfaces and textures make their differences much better than that.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "ground/camera.hpp"
+#include "ratecontrol/ground_rays.hpp"
+#include "ratecontrol/screen_texture.hpp"
+
+namespace tetrakis {
+
+/// The ground that a point shows.
+struct SeenPoint {
+  bool ground = false;                 ///< else it shows the sky
+  double u = 0, v = 0;                 ///< place in the texture, from 0 to 1
+  double u_x = 0, v_x = 0;             ///< what a pixel to the right changes
+  double u_y = 0, v_y = 0;             ///< what a pixel down changes
+  double level = 0;                    ///< of detail, as renderers choose it
+};
+
+class ScreenPoints {
+ public:
+  /// count: over all cameras, shared by their weights. At least one weight is positive.
+  ScreenPoints(const std::vector<Camera>& cameras, size_t count);
+
+  /// texture: its size in texels.
+  std::vector<SeenPoint> seenOf(const GroundRays& ground, Extent texture) const;
+
+  /// What each point looks like: means of four samples in a pixel.
+  std::vector<Colour> coloursOf(const std::vector<SeenPoint>& seen,
+                                const ScreenTexture& texture) const;
+
+  /// One picture of every camera.
+  struct Pictures {
+    const std::vector<SeenPoint>& seen;
+    const std::vector<Colour>& colours;
+  };
+
+  /// Squared error of a sample of R, G or B, over the points that either picture covers; the mean
+  /// over the cameras that see anything, by their weights. 0 if none does.
+  double error(const Pictures& a, const Pictures& b) const;
+
+  /// Places in the list of cameras of those that have a weight and see no ground.
+  std::vector<size_t> blindCameras(const std::vector<SeenPoint>& seen) const;
+
+ private:
+  struct Point {
+    Ray ray;
+    Vec3 right{}, down{};  ///< what a pixel changes of the direction
+    Colour sky{};
+  };
+  struct View {
+    size_t camera, begin, end;  ///< points
+    double weight;
+  };
+
+  void addCamera(const Camera& camera, size_t index, size_t count);
+
+  std::vector<Point> points_;
+  std::vector<View> views_;
+};
+
+}  // namespace tetrakis
