@@ -18,6 +18,7 @@
 #include "tetrakis/tetrakis.hpp"
 #include "tools/files/files.hpp"
 #include "tools/report/comparison.hpp"
+#include "tools/report/picture_judge.hpp"
 
 namespace tetrakis::bench {
 namespace {
@@ -29,8 +30,12 @@ struct Options {
   std::vector<std::string> folders, filters;
   uint32_t grid = 8;
   double spacing = 0;
+  bool rendered = false;
   std::string csv;
 };
+
+/// What the encoder knows of the judge.
+enum class Knows { kNothing, kCameras, kPictures };
 
 struct Terrain {
   std::string name;
@@ -87,8 +92,7 @@ tks_image viewOf(const tools::ImageFile& file) {
   return image;
 }
 
-/// told: the encoder is told the cameras of the judge.
-Result<Buffer> encodeTerrain(const tools::Reference& original, bool told) {
+Result<Buffer> encodeTerrain(const tools::Reference& original, Knows knows) {
   const tks_heights heights = viewOf(*original.heights);
   const tks_image image = viewOf(*original.image);
   tks_encode_options options = makeEncodeOptions();
@@ -99,9 +103,16 @@ Result<Buffer> encodeTerrain(const tools::Reference& original, bool told) {
       tools::boundsOf(tools::heightsOf(*original.heights), tools::frameOf(*original.heights)));
   if (!cameras.ok()) return cameras.status();
   const std::vector<tks_camera> those = tools::toldCameras(*cameras);
-  if (told) {
+  if (knows != Knows::kNothing) {
     options.cameras = those.data();
     options.camera_count = static_cast<uint32_t>(those.size());
+  }
+  std::optional<tools::PictureJudge> renderer;
+  if (knows == Knows::kPictures) {
+    auto judge = tools::PictureJudge::create(*original.heights, *original.image, *cameras);
+    if (!judge.ok()) return judge.status();
+    options.picture_error = &tools::PictureJudge::error;
+    options.picture_user = &renderer.emplace(std::move(*judge));
   }
   Result<Buffer> stream = tetrakis::encode(&heights, &image, options);
   if (!stream) return stream.status();
@@ -158,8 +169,8 @@ Result<Best> bestPair(Judge& judge, uint64_t bytes, std::vector<double> shares) 
     psnrs.push_back(*psnr);
   }
   for (int round = 0; round < kRefinements; ++round) {
-    const auto top = static_cast<size_t>(std::max_element(psnrs.begin(), psnrs.end()) -
-                                         psnrs.begin());
+    const auto top =
+        static_cast<size_t>(std::max_element(psnrs.begin(), psnrs.end()) - psnrs.begin());
     if (top == 0 || top + 1 == psnrs.size()) break;
     const double a = logit(shares[top - 1]), b = logit(shares[top]), c = logit(shares[top + 1]);
     const double left = (psnrs[top] - psnrs[top - 1]) / (b - a);
@@ -197,14 +208,17 @@ struct Order {
   SplitStream stream;
 };
 
-Result<std::vector<Order>> ordersOf(const Terrain& terrain) {
+Result<std::vector<Order>> ordersOf(const Terrain& terrain, bool rendered) {
+  std::vector<std::pair<const char*, Knows>> kinds = {{"default", Knows::kNothing},
+                                                      {"told", Knows::kCameras}};
+  if (rendered) kinds.push_back({"rendered", Knows::kPictures});
   std::vector<Order> orders;
-  for (const bool told : {false, true}) {
-    const Result<Buffer> stream = encodeTerrain(terrain.original, told);
+  for (const auto& [name, knows] : kinds) {
+    const Result<Buffer> stream = encodeTerrain(terrain.original, knows);
     if (!stream.ok()) return stream.status();
     Result<SplitStream> split = SplitStream::take(stream->bytes());
     if (!split.ok()) return split.status();
-    orders.push_back({told ? "told" : "default", std::move(*split)});
+    orders.push_back({name, std::move(*split)});
   }
   return orders;
 }
@@ -226,8 +240,7 @@ Status measureBytes(Judge& judge, const std::vector<Order>& orders, uint64_t byt
   }
   double least = std::numeric_limits<double>::infinity();
   for (int i = 1; i <= kFixed; ++i) {
-    const Result<double> psnr =
-        judge.screenPsnr(splitOf(bytes, i / 10.0, judge.tracks().most()));
+    const Result<double> psnr = judge.screenPsnr(splitOf(bytes, i / 10.0, judge.tracks().most()));
     if (!psnr.ok()) return psnr.status();
     const double loss = best->psnr - *psnr;
     losses[orders.size() + static_cast<size_t>(i) - 1].values.push_back(loss);
@@ -240,7 +253,7 @@ Status measureBytes(Judge& judge, const std::vector<Order>& orders, uint64_t byt
 
 Status measureTerrain(const Terrain& terrain, const Options& options,
                       std::vector<ResultRow>& rows) {
-  const Result<std::vector<Order>> orders = ordersOf(terrain);
+  const Result<std::vector<Order>> orders = ordersOf(terrain, options.rendered);
   if (!orders.ok()) return orders.status();
   Result<Judge> judge = judgeOf(terrain, orders->front().stream.cut({kMostBytes, kMostBytes}));
   if (!judge.ok()) return judge.status();
@@ -277,8 +290,9 @@ std::vector<std::filesystem::path> terrainsBelow(const Options& options) {
       const std::string path = entry.path().string();
       const bool wanted =
           options.filters.empty() ||
-          std::any_of(options.filters.begin(), options.filters.end(),
-                      [&](const std::string& text) { return path.find(text) != std::string::npos; });
+          std::any_of(options.filters.begin(), options.filters.end(), [&](const std::string& text) {
+            return path.find(text) != std::string::npos;
+          });
       if (wanted && entry.path().filename() == "height.tif" &&
           std::filesystem::exists(entry.path().parent_path() / "texture.png"))
         found.push_back(entry.path().parent_path());
@@ -319,6 +333,7 @@ int main(int argc, char** argv) {
                    options.grid, 2, 200);
   arguments.positive({"--spacing", "Metres per sample, instead of what the files say"},
                      options.spacing);
+  arguments.flag({"--rendered", "Also the order of `encode --engine rendered`"}, options.rendered);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
   const tetrakis::Status status = run(options);

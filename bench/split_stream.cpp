@@ -48,8 +48,7 @@ std::vector<uint8_t> SplitStream::cut(const Split& split) const {
   const std::array<uint64_t, kComponents> wanted = {split.heights, split.texture};
   for (size_t c = 0; c < kComponents; ++c) {
     const uint64_t bytes = std::min<uint64_t>(wanted[c], codewords[c].front().size());
-    if (bytes > 0)
-      packets.push_back({static_cast<Component>(c), false, kUnstated, 0, bytes, {}});
+    if (bytes > 0) packets.push_back({static_cast<Component>(c), false, kUnstated, 0, bytes, {}});
   }
   const std::vector<uint8_t> payload = multiplex(packets, codewords, UINT64_MAX >> 1);
   StreamHeader header = header_;

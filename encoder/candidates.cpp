@@ -33,15 +33,16 @@ Candidates withCurves(const EncodeInputs& inputs, Candidates candidates) {
   if (heights.coded && !heights.curve) heights.curve = curveOfHeights(inputs, *heights.coded);
   if (texture.coded && !texture.curve) texture.curve = curveOfTexture(inputs, *texture.coded);
   if (heights.coded && texture.coded && !errors)
-    errors = std::make_shared<const PairErrors>(pairErrorsOf(
-        inputs, {*heights.coded, *heights.curve}, {*texture.coded, *texture.curve}));
+    errors = std::make_shared<const PairErrors>(
+        pairErrorsOf(inputs, {*heights.coded, *heights.curve}, {*texture.coded, *texture.curve}));
   return candidates;
 }
 
 Selection orderPackets(const Candidates& candidates) {
   const auto& [heights, texture, errors] = candidates;
   assert(!heights.coded == !heights.curve && !texture.coded == !texture.curve);
-  if (!errors) return {heights.coded, texture.coded, (heights.coded ? heights.curve : texture.curve)->packets};
+  if (!errors)
+    return {heights.coded, texture.coded, (heights.coded ? heights.curve : texture.curve)->packets};
   return {heights.coded, texture.coded, allocate({*heights.curve, *texture.curve}, *errors)};
 }
 

@@ -40,8 +40,8 @@ Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<
     for (size_t i = 0; i < relief.heights.size(); ++i) {
       const double height = static_cast<double>(from[i]) * like.scale + like.offset;
       const bool is_void = !valid.empty() && !valid[i];
-      relief.heights[i] = is_void ? std::numeric_limits<float>::quiet_NaN()
-                                  : static_cast<float>(height * metres);
+      relief.heights[i] =
+          is_void ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height * metres);
     }
   });
   return relief;
@@ -82,7 +82,8 @@ Status blames(const Camera& camera, const char* what) {
 }
 
 /// Prefixes of a component that are looked at: points of its curve, from the opening on, so that
-/// each has `ratio` times the bytes of the one before. Beyond the budget one is enough.
+/// each has `ratio` times the bytes of the one before. Those that take a third of the budget say
+/// enough of what is left.
 std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t budget) {
   constexpr double kFirst = 48;  // bytes
   const std::vector<RatePoint>& points = curve.points;
@@ -97,10 +98,16 @@ std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t 
     if (!(points[i].distortion > 0 && points[i].distortion < before.distortion)) continue;
     nodes.push_back(i);
     next = std::max(bytes, next) * ratio;
-    if (points[i].bytes >= budget) break;
+    if (points[i].bytes >= budget / 3) break;
   }
   return nodes;
 }
+
+/// The pairs that are looked at: points of either curve.
+struct Nodes {
+  std::vector<size_t> heights, textures;
+  std::vector<double> square_metres;  ///< errors of the heights
+};
 
 std::vector<double> squaresAt(const ComponentCurve& curve, const std::vector<size_t>& nodes) {
   std::vector<double> squares;
@@ -116,15 +123,24 @@ class Decoded {
           const Rated<CodedTexture>& texture)
       : inputs_(inputs), heights_(heights), texture_(texture) {}
 
-  Relief reliefAt(size_t point) {
+  struct Samples {
+    std::vector<std::byte> data;  ///< of the type of the inputs
+    std::vector<uint8_t> valid;   ///< empty: all are
+  };
+  Samples heightsAt(size_t point) {
     const CodedHeights& coded = heights_.coded;
-    const DecodedHeights shown = decodeHeights(
-        coded.header, coded.layers, prefixAfter(coded.rated(), heights_.curve.packets, bytesAt(heights_.curve, point)), {},
-        {inputs_.options.threads, &heights_memory_});
+    const uint64_t bytes = heights_.curve.points[point].bytes;
+    const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
+    DecodedHeights shown = decodeHeights(coded.header, coded.layers, prefix, {},
+                                         {inputs_.options.threads, &heights_memory_});
     std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
                                    shown.geometry.heights.size());
     fromSteps(shown, coded.header, coded.layers, samples.data());
-    return reliefOf(*inputs_.heights, samples.data(), shown.geometry.valid);
+    return {std::move(samples), std::move(shown.geometry.valid)};
+  }
+  Relief reliefAt(size_t point) {
+    const Samples samples = heightsAt(point);
+    return reliefOf(*inputs_.heights, samples.data.data(), samples.valid);
   }
   Relief original() const {
     return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
@@ -134,26 +150,25 @@ class Decoded {
   ScreenTexture textureAt(size_t point) {
     const CodedTexture& coded = texture_.coded;
     const Extent whole = coded.header.extent();
-    const uint64_t bytes = bytesAt(texture_.curve, point);
+    const uint64_t bytes = texture_.curve.points[point].bytes;
     View view;
     if (!coded.header.direct()) {
-      while (view.level < kMostLevels && view.extentIn(whole).samples() >> 2 >= kTexelsPerByte * bytes)
-        ++view.level;
+      const uint64_t enough = kTexelsPerByte * bytes;
+      while (view.level < kMostLevels && view.extentIn(whole).samples() / 4 >= enough) ++view.level;
     }
+    return {texelsAt(point, view), whole, view.level};
+  }
+  Texels texelsAt(size_t point, const View& view) {
+    const CodedTexture& coded = texture_.coded;
+    const uint64_t bytes = texture_.curve.points[point].bytes;
     const Codewords prefix = prefixAfter(coded.rated(), texture_.curve.packets, bytes);
     TextureMemory* memory = view.level == 0 ? &texture_memory_ : nullptr;
-    const Texels shown =
-        decodeTexture(coded.header, prefix, view, {inputs_.options.threads, memory});
-    return {shown, whole, view.level};
+    return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, memory});
   }
 
  private:
-  static constexpr uint64_t kTexelsPerByte = 64;
+  static constexpr uint64_t kTexelsPerByte = 16;
   static constexpr int kMostLevels = 5;
-
-  static uint64_t bytesAt(const ComponentCurve& curve, size_t point) {
-    return curve.points[point].bytes;
-  }
 
   const EncodeInputs& inputs_;
   Rated<CodedHeights> heights_;
@@ -162,28 +177,83 @@ class Decoded {
   TextureMemory texture_memory_;
 };
 
+/// Those of outlines, of the surfaces before the original, which is the last.
+std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenTexture& texture,
+                                  const std::vector<std::vector<SeenPoint>>& seen,
+                                  const std::vector<double>& squares) {
+  std::vector<std::vector<Colour>> colours;
+  std::vector<ScreenPoints::Pictures> pictures;
+  colours.reserve(seen.size());
+  for (const auto& surface : seen) {
+    colours.push_back(points.coloursOf(surface, texture));
+    pictures.push_back({surface, colours.back()});
+  }
+  const ScreenPoints::Pictures truth = pictures.back();
+  pictures.pop_back();
+  std::vector<double> errors = points.errorsOfOutlines(truth, pictures, squares);
+  errors.push_back(0);
+  return errors;
+}
+
 /// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
 /// texture is looked at through all of them.
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
-                                   Decoded& decoded, const std::vector<size_t>& height_nodes,
-                                   const std::vector<size_t>& texture_nodes, const Texels& texels) {
+                                   Decoded& decoded, const Nodes& nodes, const Texels& texels) {
   const ScreenPoints points(cameras, kPoints);
   std::vector<std::vector<SeenPoint>> seen;
-  for (const size_t node : height_nodes)
+  for (const size_t node : nodes.heights)
     seen.push_back(points.seenOf(GroundRays(decoded.reliefAt(node)), texels.extent()));
   seen.push_back(points.seenOf(ground, texels.extent()));
-  const size_t columns = texture_nodes.size() + 1;
+  const size_t columns = nodes.textures.size() + 1;
   std::vector<double> errors(seen.size() * columns);
   const ScreenTexture whole(texels, texels.extent());
   const std::vector<Colour> truth = points.coloursOf(seen.back(), whole);
+  const std::vector<double> outlines = outlineErrors(points, whole, seen, nodes.square_metres);
   for (size_t t = 0; t < columns; ++t) {
     const auto look = [&](const ScreenTexture& texture) {
       for (size_t g = 0; g < seen.size(); ++g) {
         const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
-        errors[g * columns + t] = points.error({seen.back(), truth}, {seen[g], colours});
+        errors[g * columns + t] =
+            points.errorInside({seen.back(), truth}, {seen[g], colours}) + outlines[g];
       }
     };
-    t < texture_nodes.size() ? look(decoded.textureAt(texture_nodes[t])) : look(whole);
+    t + 1 < columns ? look(decoded.textureAt(nodes.textures[t])) : look(whole);
+  }
+  return errors;
+}
+
+std::vector<std::byte> bytesOfTexels(const Texels& texels, tks_sample sample) {
+  std::vector<std::byte> bytes(texels.samples.size() * tks_sample_bytes(sample));
+  withSampleType(sample, [&](auto type) {
+    auto* to = reinterpret_cast<decltype(type)*>(bytes.data());
+    std::transform(texels.samples.begin(), texels.samples.end(), to,
+                   [](uint16_t v) { return static_cast<decltype(type)>(v); });
+  });
+  return bytes;
+}
+
+/// Errors of all pairs of nodes by the caller's renderer; none if it failed.
+std::vector<double> renderedErrors(const EncodeInputs& inputs, Decoded& decoded,
+                                   const Nodes& nodes) {
+  const tks_encode_options& options = inputs.options;
+  std::vector<Decoded::Samples> surfaces;
+  for (const size_t node : nodes.heights) surfaces.push_back(decoded.heightsAt(node));
+  const size_t rows = nodes.heights.size() + 1, columns = nodes.textures.size() + 1;
+  std::vector<double> errors(rows * columns);
+  for (size_t t = 0; t < columns; ++t) {
+    std::vector<std::byte> texels;
+    if (t + 1 < columns)
+      texels = bytesOfTexels(decoded.texelsAt(nodes.textures[t], {}), inputs.image->sample);
+    for (size_t g = 0; g < rows; ++g) {
+      if (g + 1 == rows && t + 1 == columns) continue;  // the originals themselves
+      const void* heights = g + 1 < rows ? surfaces[g].data.data() : inputs.heights->data;
+      const void* texture = t + 1 < columns ? texels.data() : inputs.image->data;
+      double squares = 0, values = 0;
+      const int failed =
+          options.picture_error(options.picture_user, heights, texture, &squares, &values);
+      if (failed != 0 || !(squares >= 0) || !(values > 0)) return {};
+      errors[g * columns + t] = squares / values;
+    }
   }
   return errors;
 }
@@ -227,16 +297,27 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   Decoded decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
-  const auto height_nodes = nodesOf(heights.curve, kHeightsRatio, budget);
-  const auto texture_nodes = nodesOf(texture.curve, kTextureRatio, budget);
-  PairNodes nodes = {squaresAt(heights.curve, height_nodes),
-                     squaresAt(texture.curve, texture_nodes)};
-  const bool flat = nodes.heights.front() <= 0 || nodes.textures.front() <= 0;
-  if (cameras.empty() || flat) return unseen(heights.curve, texture.curve);
-  std::vector<double> errors = modelledErrors(cameras, ground, decoded, height_nodes, texture_nodes,
-                                              texture.coded.of->texels);
-  if (errors.front() <= 0) return unseen(heights.curve, texture.curve);
-  return {std::move(nodes), std::move(errors)};
+  const CodedHeights& coded = heights.coded;
+  const double metres =
+      coded.of->steps.step * coded.of->samples->scale * metresPerUnit(coded.of->samples->unit);
+  Nodes nodes = {nodesOf(heights.curve, kHeightsRatio, budget),
+                 nodesOf(texture.curve, kTextureRatio, budget),
+                 {}};
+  PairNodes squares = {squaresAt(heights.curve, nodes.heights),
+                       squaresAt(texture.curve, nodes.textures)};
+  for (const double square : squares.heights)
+    nodes.square_metres.push_back(square * metres * metres);
+  const bool exact = squares.heights.front() <= 0 || squares.textures.front() <= 0;
+  if (exact) return unseen(heights.curve, texture.curve);
+  std::vector<double> errors;
+  if (inputs.options.picture_error != nullptr) {
+    Decoded for_renderer(inputs, heights, texture);
+    errors = renderedErrors(inputs, for_renderer, nodes);
+  }
+  if (errors.empty() && !cameras.empty())
+    errors = modelledErrors(cameras, ground, decoded, nodes, texture.coded.of->texels);
+  if (errors.empty() || errors.front() <= 0) return unseen(heights.curve, texture.curve);
+  return {std::move(squares), std::move(errors)};
 }
 
 }  // namespace tetrakis

@@ -113,8 +113,8 @@ std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, co
     const double hit_c = path.at(0, t), hit_r = path.at(2, t);
     if (!p.half.holds(hit_c - column, hit_r - row)) continue;
     soonest = t;
-    first = GroundHit{hit_c, hit_r, p.at - p.slope_c * column - p.slope_r * row, p.slope_c,
-                      p.slope_r};
+    first = GroundHit{hit_c,     hit_r,    t, p.at - p.slope_c * column - p.slope_r * row,
+                      p.slope_c, p.slope_r};
   }
   return first;
 }
@@ -130,8 +130,7 @@ std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
       if (path.origin[axis] < low || path.origin[axis] > last[axis]) return {};
       continue;
     }
-    const auto [in, out] =
-        std::minmax(path.reaches(axis, low), path.reaches(axis, last[axis]));
+    const auto [in, out] = std::minmax({path.reaches(axis, low), path.reaches(axis, last[axis])});
     t = std::max(t, in);
     end = std::min(end, out);
   }
@@ -162,8 +161,8 @@ std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
         --level;
         continue;
       }
-      if (const auto found = hitInCell(static_cast<uint32_t>(column), static_cast<uint32_t>(row),
-                                       path, t, leave))
+      if (const auto found =
+              hitInCell(static_cast<uint32_t>(column), static_cast<uint32_t>(row), path, t, leave))
         return found;
     }
     if (leave >= end) return {};
@@ -183,10 +182,10 @@ std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
 std::optional<std::array<double, 2>> GroundRays::onPlane(const GroundHit& plane,
                                                          const Ray& ray) const {
   const Path path(ray, relief_.frame);
-  const double above = path.origin[1] - (plane.at + plane.slope_c * path.origin[0] +
-                                         plane.slope_r * path.origin[2]);
-  const double fall = path.direction[1] - plane.slope_c * path.direction[0] -
-                      plane.slope_r * path.direction[2];
+  const double above =
+      path.origin[1] - (plane.at + plane.slope_c * path.origin[0] + plane.slope_r * path.origin[2]);
+  const double fall =
+      path.direction[1] - plane.slope_c * path.direction[0] - plane.slope_r * path.direction[2];
   const double t = -above / fall;
   if (!std::isfinite(t) || t <= 0) return {};
   return std::array<double, 2>{path.at(0, t), path.at(2, t)};

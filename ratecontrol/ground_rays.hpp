@@ -27,6 +27,7 @@ struct Ray {
 /// A point of the ground and the plane of its triangle: height = at + slope_c c + slope_r r.
 struct GroundHit {
   double column = 0, row = 0;
+  double far = 0;  ///< in lengths of the ray's direction
   double at = 0, slope_c = 0, slope_r = 0;
 };
 

@@ -27,8 +27,8 @@ PairErrors::PairErrors(PairNodes nodes, std::vector<double> errors)
 PairErrors::Place PairErrors::placeOf(const std::vector<double>& nodes, double square) {
   if (square >= nodes.front()) return {};
   // The last node that is not below.
-  const auto next = std::find_if(nodes.begin(), nodes.end(),
-                                 [&](double node) { return node < square; });
+  const auto next =
+      std::find_if(nodes.begin(), nodes.end(), [&](double node) { return node < square; });
   const auto node = static_cast<size_t>(next - nodes.begin()) - 1;
   if (next == nodes.end()) return {node, 1 - square / nodes[node], true};
   return {node, std::log(nodes[node] / square) / std::log(nodes[node] / *next), false};

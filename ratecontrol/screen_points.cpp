@@ -20,6 +20,12 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
+double squaresBetween(const Colour& a, const Colour& b) {
+  double squares = 0;
+  for (size_t c = 0; c < 3; ++c) squares += double{a[c] - b[c]} * double{a[c] - b[c]};
+  return squares;
+}
+
 }  // namespace
 
 ScreenPoints::ScreenPoints(const std::vector<Camera>& cameras, size_t count) {
@@ -64,6 +70,7 @@ std::vector<SeenPoint> ScreenPoints::seenOf(const GroundRays& ground, Extent tex
     seen.ground = true;
     seen.u = hit->column / columns;
     seen.v = hit->row / rows;
+    seen.metres = hit->far * length(point.down);
     // Along the plane of the triangle. One that is seen edge on is as wide as the texture at most.
     const auto beside = [&](const Vec3& change, double& u, double& v) {
       const Ray ray{point.ray.origin, add(point.ray.direction, change)};
@@ -95,35 +102,76 @@ std::vector<Colour> ScreenPoints::coloursOf(const std::vector<SeenPoint>& seen,
       colours[i] = points_[i].sky;
       continue;
     }
-    for (const double x : {-0.25, 0.25}) {
-      for (const double y : {-0.25, 0.25}) {
-        const Colour sample = texture.at(s.u + x * s.u_x + y * s.u_y,
-                                         s.v + x * s.v_x + y * s.v_y, s.level);
-        for (size_t c = 0; c < 3; ++c) colours[i][c] += sample[c] / 4;
-      }
-    }
+    // Two samples along the longer side of the pixel; across it one is as wide already.
+    const bool across = s.u_x * s.u_x + s.v_x * s.v_x >= s.u_y * s.u_y + s.v_y * s.v_y;
+    const double u = (across ? s.u_x : s.u_y) / 4, v = (across ? s.v_x : s.v_y) / 4;
+    const Colour one = texture.at(s.u - u, s.v - v, s.level);
+    const Colour other = texture.at(s.u + u, s.v + v, s.level);
+    for (size_t c = 0; c < 3; ++c) colours[i][c] = (one[c] + other[c]) / 2;
   }
   return colours;
 }
 
-double ScreenPoints::error(const Pictures& a, const Pictures& b) const {
+double ScreenPoints::errorInside(const Pictures& truth, const Pictures& other) const {
   double sum = 0, weights = 0;
   for (const View& view : views_) {
     double squares = 0;
     size_t covered = 0;
     for (size_t i = view.begin; i < view.end; ++i) {
-      if (!a.seen[i].ground && !b.seen[i].ground) continue;
-      ++covered;
-      for (size_t c = 0; c < 3; ++c) {
-        const double difference = a.colours[i][c] - b.colours[i][c];
-        squares += difference * difference;
-      }
+      const bool both = truth.seen[i].ground && other.seen[i].ground;
+      covered += truth.seen[i].ground || other.seen[i].ground;
+      if (both) squares += squaresBetween(truth.colours[i], other.colours[i]);
     }
     if (covered == 0) continue;
     sum += view.weight * squares / (3 * static_cast<double>(covered));
     weights += view.weight;
   }
   return weights > 0 ? sum / weights : 0;
+}
+
+ScreenPoints::Outline ScreenPoints::outlineOf(const View& view, const Pictures& a,
+                                              const Pictures& b) const {
+  Outline outline;
+  size_t covered = 0;
+  for (size_t i = view.begin; i < view.end; ++i) {
+    const SeenPoint &p = a.seen[i], &q = b.seen[i];
+    covered += p.ground || q.ground;
+    if (p.ground == q.ground) continue;
+    outline.error += squaresBetween(a.colours[i], b.colours[i]);
+    outline.metres += (p.ground ? p : q).metres;
+    ++outline.count;
+  }
+  if (covered > 0) outline.error /= 3 * static_cast<double>(covered);
+  return outline;
+}
+
+std::vector<double> ScreenPoints::errorsOfOutlines(const Pictures& truth,
+                                                   const std::vector<Pictures>& others,
+                                                   const std::vector<double>& squares) const {
+  assert(others.size() == squares.size());
+  constexpr size_t kCoarser = 3;
+  std::vector<double> errors(others.size());
+  double weights = 0;
+  for (const View& view : views_) weights += view.weight;
+  for (const View& view : views_) {
+    std::vector<Outline> outlines;
+    for (size_t g = 0; g < others.size(); ++g) {
+      outlines.push_back(outlineOf(view, truth, others[g]));
+      double error = 0, shifts = 0, metres = 0, count = 0;
+      for (size_t k = g < kCoarser ? 0 : g - kCoarser; k <= g; ++k) {
+        error += outlines[k].error;
+        shifts += std::sqrt(squares[k]);
+        metres += outlines[k].metres;
+        count += static_cast<double>(outlines[k].count);
+      }
+      if (!(error > 0 && metres > 0)) continue;
+      const double shift = std::sqrt(squares[g]) * count / metres;  // pixels
+      const double edge = shift < 1 ? shift - shift * shift / 3 : 1 - 1 / (3 * shift);
+      const double smoothed = (1 + 3 * edge) / 4;
+      errors[g] += view.weight / weights * smoothed * error / shifts * std::sqrt(squares[g]);
+    }
+  }
+  return errors;
 }
 
 std::vector<size_t> ScreenPoints::blindCameras(const std::vector<SeenPoint>& seen) const {

@@ -19,11 +19,12 @@ namespace tetrakis {
 
 /// The ground that a point shows.
 struct SeenPoint {
-  bool ground = false;                 ///< else it shows the sky
-  double u = 0, v = 0;                 ///< place in the texture, from 0 to 1
-  double u_x = 0, v_x = 0;             ///< what a pixel to the right changes
-  double u_y = 0, v_y = 0;             ///< what a pixel down changes
-  double level = 0;                    ///< of detail, as renderers choose it
+  bool ground = false;      ///< else it shows the sky
+  double u = 0, v = 0;      ///< place in the texture, from 0 to 1
+  double u_x = 0, v_x = 0;  ///< what a pixel to the right changes
+  double u_y = 0, v_y = 0;  ///< what a pixel down changes
+  double level = 0;         ///< of detail, as renderers choose it
+  double metres = 0;        ///< that a pixel is high and wide there
 };
 
 class ScreenPoints {
@@ -44,9 +45,18 @@ class ScreenPoints {
     const std::vector<Colour>& colours;
   };
 
-  /// Squared error of a sample of R, G or B, over the points that either picture covers; the mean
-  /// over the cameras that see anything, by their weights. 0 if none does.
-  double error(const Pictures& a, const Pictures& b) const;
+  /// Squared error of a sample of R, G or B where both pictures show ground, over the points that
+  /// either covers; the mean over the cameras that see anything, by their weights. 0 if none does.
+  double errorInside(const Pictures& truth, const Pictures& other) const;
+
+  /// The same where one picture shows ground and the other one sky, for surfaces whose squared
+  /// errors, in square metres, fall. Such errors are large and few points see them. But what an
+  /// outline covers is in proportion to its shift, so to the error of the heights: those of coarser
+  /// surfaces say what finer ones cover. Pixels smooth a shift s of less than a pixel: an edge
+  /// then errs by s^2 - s^3 / 3 pixels, by s - 1 / 3 beyond; but as they are means of 2 x 2
+  /// samples, of which one makes a sixteenth, by s / 4 at least.
+  std::vector<double> errorsOfOutlines(const Pictures& truth, const std::vector<Pictures>& others,
+                                       const std::vector<double>& squares) const;
 
   /// Places in the list of cameras of those that have a weight and see no ground.
   std::vector<size_t> blindCameras(const std::vector<SeenPoint>& seen) const;
@@ -61,6 +71,14 @@ class ScreenPoints {
     size_t camera, begin, end;  ///< points
     double weight;
   };
+
+  /// Of the points of one view where one picture alone shows ground.
+  struct Outline {
+    double error = 0;   ///< as far as it belongs to the error of the view
+    double metres = 0;  ///< of a pixel, summed
+    size_t count = 0;
+  };
+  Outline outlineOf(const View& view, const Pictures& a, const Pictures& b) const;
 
   void addCamera(const Camera& camera, size_t index, size_t count);
 

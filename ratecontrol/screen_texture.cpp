@@ -63,7 +63,8 @@ void ScreenTexture::addBilinear(size_t halvings, double u, double v, float weigh
   const size_t south = std::min<size_t>(north + 1, level.height - 1);
   const auto fx = static_cast<float>(x - static_cast<double>(west));
   const auto fy = static_cast<float>(y - static_cast<double>(north));
-  const uint8_t* rows[2] = {&level.rgb[3 * north * level.width], &level.rgb[3 * south * level.width]};
+  const uint8_t* rows[2] = {&level.rgb[3 * north * level.width],
+                            &level.rgb[3 * south * level.width]};
   const float along[2] = {weight * (1 - fy), weight * fy};
   for (size_t j = 0; j < 2; ++j) {
     const uint8_t *a = rows[j] + 3 * west, *b = rows[j] + 3 * east;

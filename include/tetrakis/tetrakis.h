@@ -147,6 +147,13 @@ typedef struct tks_camera {
   double weight;                   /* of its picture beside others, not negative, one above 0 */
 } tks_camera;
 
+/* How far a picture of decoded samples is from that of the original ones. heights: samples as in
+ * tks_heights.data; texels: as in tks_image.data. Writes the squared error, summed over pixels and
+ * over R, G and B of 0 to 255 each, and of how many such values it is the sum. Returns 0, anything
+ * else if it cannot draw: then the encoder does without pictures. */
+typedef int (*tks_picture_error)(void* user, const void* heights, const void* texels,
+                                 double* squares, double* values);
+
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
 typedef struct tks_encode_options {
   size_t size;       /* sizeof(tks_encode_options) */
@@ -171,6 +178,10 @@ typedef struct tks_encode_options {
                                 viewer of whom nothing is known. One that is below the ground, sees
                                 none of it or breaks the rules above: TKS_USAGE, with its name */
   uint32_t camera_count;
+  tks_picture_error picture_error; /* a renderer that judges about 70 pairs of heights and textures
+                                      in the place of the encoder's own model of the cameras; NULL:
+                                      none */
+  void* picture_user;
 } tks_encode_options;
 
 /* Bytes allocated by the library; release with tks_free_buffer. */

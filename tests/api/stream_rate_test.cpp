@@ -203,15 +203,59 @@ TEST(StreamRate, ThreadsAndRepetitionChangeNothing) {
   }
 }
 
-/// The screen-space weight moves bytes from one track to the other.
-TEST(StreamRate, ParallaxShiftsBytesToHeights) {
+/// Seen at a flat angle, heights matter more than from above, where they still matter.
+TEST(StreamRate, CamerasShareTheBytes) {
   const Raster heights = terrain(), image = photograph();
-  const auto geometryBytes = [&](double parallax) {
+  const auto geometryBytes = [&](double up, double back) {
+    tks_camera camera = {"one", {0, up, back}, {0, 0, 0}, {0, 1, -0.01}, 40, 768, 512, 1};
     tks_encode_options options = budget(8000);
-    options.parallax = parallax;
+    options.cameras = &camera;
+    options.camera_count = 1;
     return Stream(encode(&heights, &image, options)).info().geometry_bytes;
   };
-  EXPECT_LT(geometryBytes(0.05), geometryBytes(5));
+  const uint64_t above = geometryBytes(1e5, 1), aside = geometryBytes(3e4, 6e4);
+  EXPECT_LT(above, aside);
+  EXPECT_GT(above, 0u);
+}
+
+/// The encoder asks a renderer for pairs of samples as the caller gave them, and shares the bytes by
+/// what it says.
+TEST(StreamRate, RenderersShareTheBytes) {
+  const Raster heights = terrain(), image = photograph();
+  struct Taste {
+    double heights, texels;
+    const Raster *surface, *photo;
+    size_t asked = 0;
+
+    /// Of samples of type T.
+    template <class T>
+    static double squares(const Raster& raster, const void* shown) {
+      double sum = 0;
+      for (size_t i = 0; i < raster.data.size() / sizeof(T); ++i) {
+        const double error = double{static_cast<const T*>(shown)[i]} -
+                             reinterpret_cast<const T*>(raster.data.data())[i];
+        sum += error * error;
+      }
+      return sum;
+    }
+  };
+  const auto geometryBytes = [&](Taste taste) {
+    tks_encode_options options = budget(8000);
+    options.picture_user = &taste;
+    options.picture_error = [](void* user, const void* h, const void* t, double* sum, double* n) {
+      auto& likes = *static_cast<Taste*>(user);
+      ++likes.asked;
+      *sum = likes.heights * Taste::squares<uint16_t>(*likes.surface, h) +
+             likes.texels * Taste::squares<uint8_t>(*likes.photo, t);
+      *n = 1;
+      return 0;
+    };
+    const Bytes stream = encode(&heights, &image, options);
+    EXPECT_GT(taste.asked, 4u);
+    EXPECT_LE(taste.asked, 90u);
+    return Stream(stream).info().geometry_bytes;
+  };
+  EXPECT_LT(geometryBytes({1e-4, 1, &heights, &image}), geometryBytes({100, 1, &heights, &image}));
 }
 
 TEST(StreamRate, ProgressRisesFromZeroToOne) {

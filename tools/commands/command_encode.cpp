@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "tools/commands/encode_arguments.hpp"
@@ -17,6 +18,7 @@
 #include "tools/files/memory_limit.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
+#include "tools/report/picture_judge.hpp"
 #include "tools/report/report.hpp"
 
 namespace tetrakis::tools {
@@ -77,9 +79,22 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
 /// Those that are asked for; none: the library looks from all sides.
 Result<std::vector<Camera>> wantedCameras(const EncodeArguments& arguments,
                                           const Reference& inputs) {
-  if (arguments.cameras.isDefault() || !inputs.heights) return std::vector<Camera>();
-  return chooseCameras(arguments.cameras,
-                       boundsOf(heightsOf(*inputs.heights), frameOf(*inputs.heights)));
+  const bool rendered = arguments.engine == "rendered";
+  if (!inputs.heights || (arguments.cameras.isDefault() && !rendered)) return std::vector<Camera>();
+  const Bounds bounds = boundsOf(heightsOf(*inputs.heights), frameOf(*inputs.heights));
+  if (arguments.cameras.isDefault()) return unknownViewer(bounds);
+  return chooseCameras(arguments.cameras, bounds);
+}
+
+/// The renderer that looks at the pictures; nothing: the library models them, or there are none.
+Result<std::optional<PictureJudge>> wantedJudge(const EncodeArguments& arguments,
+                                                const Reference& inputs,
+                                                const std::vector<Camera>& cameras) {
+  if (arguments.engine != "rendered" || !inputs.heights || !inputs.image)
+    return std::optional<PictureJudge>();
+  Result<PictureJudge> judge = PictureJudge::create(*inputs.heights, *inputs.image, cameras);
+  if (!judge.ok()) return judge.status();
+  return std::optional<PictureJudge>(std::move(*judge));
 }
 
 /// As tks_encode_options says it; the library refuses sides that it does not take.
@@ -169,6 +184,12 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   const std::vector<tks_camera> told = toldCameras(*cameras);
   options->cameras = told.data();
   options->camera_count = static_cast<uint32_t>(told.size());
+  Result<std::optional<PictureJudge>> judge = wantedJudge(arguments, inputs, *cameras);
+  if (!judge.ok()) return judge.status();
+  if (judge->has_value()) {
+    options->picture_error = &PictureJudge::error;
+    options->picture_user = &**judge;
+  }
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;

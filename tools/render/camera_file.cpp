@@ -4,8 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tools/render/render.hpp"
 #include "ground/vec3.hpp"
+#include "tools/render/render.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "tetrakis/tetrakis.hpp"
 #include "ground/frame.hpp"
+#include "tetrakis/tetrakis.hpp"
 #include "tools/files/files.hpp"
 #include "tools/render/render.hpp"
 

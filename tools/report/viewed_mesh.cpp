@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "tools/files/stream.hpp"
 #include "ground/vec3.hpp"
+#include "tools/files/stream.hpp"
 
 namespace tetrakis::tools {
 namespace {
