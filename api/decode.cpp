@@ -10,7 +10,7 @@
 #include "texture_wavelet/texture_decoder.hpp"
 #include "wavelet/pyramid.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 Status wrongSize(uint64_t wanted, uint64_t given) {
   return {TKS_USAGE, "The output takes " + std::to_string(wanted) + " bytes, the buffer has " +
@@ -180,7 +180,7 @@ Status setLevels(tks_decoder& decoder, uint32_t heights, uint32_t texture) {
 
 }  // namespace
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api
 
 size_t tks_sample_bytes(tks_sample sample) {
   if (sample < TKS_U8 || sample > TKS_F32) return 0;

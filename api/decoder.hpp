@@ -25,7 +25,7 @@ struct tks_decoder {
   std::string message;
 };
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 /// Returns the heights of the decoder's level, which are decoded once. TKS_USAGE if the stream
 /// holds none.
@@ -67,4 +67,4 @@ tks_status keeping(tks_decoder* decoder, F&& f) {
   return status.code();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

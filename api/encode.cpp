@@ -14,7 +14,7 @@
 #include "api/sized.hpp"
 #include "encoder/encode_stream.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 namespace {
 
@@ -140,7 +140,7 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
 
 }  // namespace
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api
 
 tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,

@@ -9,7 +9,7 @@
 #include "api/decoder.hpp"
 #include "api/sized.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 namespace {
 
@@ -149,7 +149,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
 
 }  // namespace
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
   constexpr size_t kVersions = offsetof(tks_info, header_bytes);

@@ -11,7 +11,7 @@
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 namespace {
 
@@ -220,4 +220,4 @@ uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   return request.part == TKS_PART_VALIDITY ? heights.validity() : heights.decoding();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

@@ -13,7 +13,7 @@
 #include "base/describe_bytes.hpp"
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 /// What a call is asked for.
 struct MemoryRequest {
@@ -41,4 +41,4 @@ Status checkBytes(const tks_decoder& decoder, const MemoryRequest& request, uint
 /// take more than the limit. Heights that the decoder keeps and the call does not need give way.
 Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t beside = 0);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

@@ -7,7 +7,7 @@
 
 #include "api/memory.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 namespace {
 
@@ -74,7 +74,7 @@ Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t 
   return check();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api
 
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes) {

@@ -10,7 +10,7 @@
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/void_mesh.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 namespace {
 
@@ -142,7 +142,7 @@ Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangl
 
 }  // namespace
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api
 
 tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                            tks_mesh* out) {

@@ -14,7 +14,7 @@ struct tks_mesh_tree {
   tetrakis::MapBox box;
 };
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 namespace {
 
 Status decodeTree(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
@@ -40,7 +40,7 @@ Status viewMesh(const tks_mesh_tree& tree, const double* clip, tks_mesh& out) {
 }
 
 }  // namespace
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api
 
 tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                                 tks_mesh_tree** out) {

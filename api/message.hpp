@@ -8,7 +8,7 @@
 
 #include "base/status.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 /// Copies the sentence, cut to fit, and hands the code on.
 inline tks_status report(const Status& status, char* message, size_t message_size) {
@@ -30,4 +30,4 @@ Status guarded(F&& f) {
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

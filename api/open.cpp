@@ -8,7 +8,7 @@
 #include "api/message.hpp"
 #include "api/sized.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 namespace {
 
@@ -76,7 +76,7 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
 
 }  // namespace
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api
 
 tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
                     char* message, size_t message_size) {

@@ -11,7 +11,7 @@
 #include "base/samples.hpp"
 #include "codec/geometry/voids.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 namespace {
 
@@ -114,4 +114,4 @@ Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const 
   return image != nullptr && lossless ? proveTexture(opened, *image) : Status();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

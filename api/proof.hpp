@@ -8,7 +8,7 @@
 #include "base/status.hpp"
 #include "tetrakis/tetrakis.h"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 /// Decodes the finished stream through the public interface and compares: a budget, a largest
 /// error, and every bit where the target or the stream says lossless. heights and image (null:
@@ -17,4 +17,4 @@ namespace tetrakis {
 Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const tks_image* image,
              const tks_encode_options& options);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

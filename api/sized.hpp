@@ -10,7 +10,7 @@
 
 #include "base/status.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 /// No struct is ever as large: a greater size was never set.
 inline constexpr size_t kMostStructBytes = 4096;
@@ -48,4 +48,4 @@ void giveSized(const T& full, T& out) {
   out.size = size;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

@@ -10,7 +10,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/lattice_mesh.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 /// inserted: the closed set of lattice vertices that `mesh` is made of. heights: in the unit, one
 /// for each vertex of `mesh`; NaN where it is void (codec/mesh/void_mesh.hpp).
@@ -28,4 +28,4 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
 /// Copies into arrays that tks_free_mesh releases. Throws std::bad_alloc; `out` can then be freed.
 void copyMesh(const LatticeMesh& mesh, std::span<const float> heights, tks_mesh& out);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

@@ -10,7 +10,7 @@
 #include "codec/geometry/height_steps.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry) {
   const GeometryHeader& g = *header.geometry;
@@ -84,4 +84,4 @@ void writeUnsentTexels(const TextureHeader& header, void* out, size_t count) {
   });
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

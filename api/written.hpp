@@ -8,7 +8,7 @@
 #include "api/decoder.hpp"
 #include "base/texels.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline api {
 
 /// out: as many samples of the stream's type, or floats, as there are decoded heights.
 void writeHeights(const tks_decoder& decoder, const DecodedHeights& decoded, void* out);
@@ -22,4 +22,4 @@ void writeUnsentHeights(const tks_decoder& decoder, void* out, size_t count);
 void writeUnsentSurface(const tks_decoder& decoder, float* out, size_t count);
 void writeUnsentTexels(const TextureHeader& header, void* out, size_t count);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline api

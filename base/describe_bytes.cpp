@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 std::string describeBytes(uint64_t bytes) {
   constexpr std::array<const char*, 5> kUnits = {"bytes", "KiB", "MiB", "GiB", "TiB"};
@@ -17,4 +17,4 @@ std::string describeBytes(uint64_t bytes) {
   return text.data();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

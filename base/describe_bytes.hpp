@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 /// Returns an amount with its unit, such as "21.5 GiB".
 std::string describeBytes(uint64_t bytes);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

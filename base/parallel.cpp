@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 namespace {
 
@@ -60,4 +60,4 @@ void parallelFor(uint32_t threads, size_t count, const std::function<void(size_t
   queue.rethrow();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 /// Calls work(i) once for every i < count, on at most `threads` threads (0 counts as 1), the
 /// caller's among them. Calls must not write what another one touches. Throws what a call throws
@@ -14,4 +14,4 @@ namespace tetrakis {
 /// work.
 void parallelFor(uint32_t threads, size_t count, const std::function<void(size_t)>& work);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

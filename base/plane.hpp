@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 /// The size of a plane, in samples.
 struct Extent {
@@ -82,4 +82,4 @@ void clearUnmarked(std::span<T> values, Mask mask) {
   for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<T>(values[i] * marks[i]);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

@@ -6,7 +6,7 @@
 
 #include "tetrakis/tetrakis.h"
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 /// Calls f(T{}) with the type that `sample` names. Unknown values are refused before this point.
 template <class F>
@@ -30,4 +30,4 @@ auto withSampleType(tks_sample sample, F&& f) {
   return f(float{});
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

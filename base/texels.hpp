@@ -7,7 +7,7 @@
 
 #include "base/plane.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 /// There are width * height * channels samples, interleaved, row by row. They have 8 or 16 bits and
 /// lie in [0, 2^bits). 1 channel is grey, 2 are grey and alpha, 3 are RGB, 4 are RGBA.
@@ -21,4 +21,4 @@ struct Texels {
   uint16_t most() const { return static_cast<uint16_t>((1u << bits) - 1); }
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

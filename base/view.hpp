@@ -12,7 +12,7 @@
 
 #include "base/plane.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 /// A rectangle of samples, which lies inside a plane and holds at least one sample.
 struct Window {
@@ -72,4 +72,4 @@ std::vector<T> cut(std::span<const T> values, Extent plane, const View& view) {
   return shown;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

@@ -10,7 +10,7 @@
 #include <new>
 #include <type_traits>
 
-namespace tetrakis {
+namespace tetrakis::inline base {
 
 template <class T>
 class ZeroedArray {
@@ -51,4 +51,4 @@ class ZeroedArray {
   std::unique_ptr<T[], Free> data_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline base

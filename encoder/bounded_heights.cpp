@@ -15,7 +15,7 @@
 #include "encoder/candidate.hpp"
 #include "encoder/height_errors.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -170,4 +170,4 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   return exactly();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -17,10 +17,10 @@
 #include "encoder/coded_heights.hpp"
 #include "encoder/inputs.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// of: from quantiseHeights(inputs). inputs: with a max_error.
 std::shared_ptr<const CodedHeights> codeBoundedHeights(
     const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -15,7 +15,7 @@
 #include "ratecontrol/component_curve.hpp"
 #include "ratecontrol/target.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// Coded: CodedHeights or CodedTexture.
 template <class Coded>
@@ -43,4 +43,4 @@ Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates) {
   return std::move(*best);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

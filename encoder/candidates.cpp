@@ -13,7 +13,7 @@
 #include "ratecontrol/allocation.hpp"
 #include "texture_wavelet/stored_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -86,4 +86,4 @@ TextureCandidate storedIfShorter(TextureCandidate texture) {
   return shorter ? candidateOf(storeTexture(texture.coded->of)) : std::move(texture);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

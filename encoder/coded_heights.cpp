@@ -7,7 +7,7 @@
 #include "codec/geometry/stored_heights.hpp"
 #include "encoder/height_errors.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -112,4 +112,4 @@ CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
   return stored;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -14,7 +14,7 @@
 #include "ratecontrol/coded_tracks.hpp"
 #include "wavelet/filter_choice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 struct CodedHeights {
   std::shared_ptr<const QuantisedHeights> of;
@@ -64,4 +64,4 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose pur
 /// corrections. The header keeps its base and step. threads: nothing depends on them.
 CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

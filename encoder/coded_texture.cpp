@@ -9,7 +9,7 @@
 #include "texture_wavelet/stored_encoder.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -69,4 +69,4 @@ bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const 
          worstMeanSquare(texture.of->texels.most(), inputs.options.psnr);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -15,7 +15,7 @@
 #include "texture_wavelet/texture_decoder.hpp"
 #include "texture_wavelet/texture_source.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 struct CodedTexture {
   std::shared_ptr<const TextureSource> of;
@@ -49,4 +49,4 @@ double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t 
 /// Whether such a prefix reaches the PSNR of the options.
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

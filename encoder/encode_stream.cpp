@@ -14,7 +14,7 @@
 #include "encoder/views.hpp"
 #include "encoder/write_stream.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -85,4 +85,4 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& inputs) {
   return stream;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

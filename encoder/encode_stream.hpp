@@ -9,10 +9,10 @@
 #include "base/status.hpp"
 #include "encoder/inputs.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// The finished stream. inputs: have passed the checks of the C interface. TKS_USAGE: what is asked
 /// for is not possible, or the caller stopped.
 Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& inputs);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

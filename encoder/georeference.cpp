@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -45,4 +45,4 @@ Georeference georeferenceOf(const tks_heights* heights, const tks_image* image) 
   return out;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

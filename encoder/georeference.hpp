@@ -5,9 +5,9 @@
 #include "bitstream/stream/georeference.hpp"
 #include "tetrakis/tetrakis.h"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// Either may be null. A texture in the reference system of the heights has none of its own.
 Georeference georeferenceOf(const tks_heights* heights, const tks_image* image);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -9,7 +9,7 @@
 
 #include "base/samples.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -70,4 +70,4 @@ SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix
   });
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -9,7 +9,7 @@
 #include "codec/geometry/height_layers.hpp"
 #include "encoder/coded_heights.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// Sum of squared errors of the samples, in steps, voids that are not known among them. prefix: of
 /// the codeword of each track. memory: of calls for fewer bytes of a component with one track.
@@ -22,4 +22,4 @@ struct SampleErrors {
 };
 SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -7,7 +7,7 @@
 
 #include "bitstream/track/regions.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -72,4 +72,4 @@ Status reportProgress(const tks_encode_options& options, double done) {
   return {TKS_USAGE, "Encoding was stopped by the caller."};
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

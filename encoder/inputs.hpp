@@ -12,7 +12,7 @@
 #include "texture_wavelet/texture_source.hpp"
 #include "wavelet/filter_choice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// The caller's heights, image and options, which outlive this. Exactly one of bytes, psnr,
 /// max_error and lossless is set.
@@ -39,4 +39,4 @@ double worstMeanSquare(double peak, double psnr);
 /// done: from 0 to 1. TKS_USAGE if the caller wants no more.
 Status reportProgress(const tks_encode_options& options, double done);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

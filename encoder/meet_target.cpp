@@ -13,7 +13,7 @@
 #include "ratecontrol/allocation.hpp"
 #include "ratecontrol/target.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -154,4 +154,4 @@ Result<Selection> meetTarget(const EncodeInputs& inputs,
   return selection;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -6,7 +6,7 @@
 #include "codec/mesh/decimation.hpp"
 #include "encoder/height_errors.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -50,4 +50,4 @@ ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& te
                  {texture.counted()});
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

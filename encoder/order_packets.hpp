@@ -8,10 +8,10 @@
 #include "encoder/inputs.hpp"
 #include "ratecontrol/component_curve.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights);
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

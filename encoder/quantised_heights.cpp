@@ -10,7 +10,7 @@
 #include "codec/geometry/value_table_encoder.hpp"
 #include "lattice/validity_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -130,4 +130,4 @@ GeometryHeader headerOf(const QuantisedHeights& heights) {
   return header;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

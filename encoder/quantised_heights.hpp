@@ -13,7 +13,7 @@
 #include "codec/geometry/height_steps.hpp"
 #include "encoder/inputs.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 struct QuantisedHeights {
   static constexpr double kSomething = 1e-200;  ///< -0 for 0 is no distance, but not exact
@@ -57,4 +57,4 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
 /// What the header says of the heights before their coefficients are coded.
 GeometryHeader headerOf(const QuantisedHeights& heights);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -10,7 +10,7 @@
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 struct Selection {
   std::shared_ptr<const CodedHeights> heights;  ///< null: there are none
@@ -18,4 +18,4 @@ struct Selection {
   std::vector<Packet> packets;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

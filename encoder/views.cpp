@@ -9,30 +9,27 @@
 #include <string>
 #include <utility>
 
+#include "base/length_unit.hpp"
 #include "base/samples.hpp"
 #include "codec/geometry/voids.hpp"
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/screen_points.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
 /// Points of all pictures. Twice as many change the mean loss by less than 0.01 dB.
 constexpr size_t kPoints = 6144;
 
-double metresPerUnit(const char* unit) {
-  const std::string name = unit ? unit : "";
-  return name == "ft" || name == "us-ft" ? 0.3048
-         : name == "cm"                  ? 0.01
-         : name == "mm"                  ? 0.001
-         : name == "km"                  ? 1000
-                                         : 1;
+/// A unit that is no length counts as metres.
+double metresIn(const char* unit) {
+  return unit != nullptr ? metresPerUnit(unit).value_or(1) : 1;
 }
 
 /// samples: of the type and size of `like`. valid: as findVoids() has it.
 Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid) {
-  const double metres = metresPerUnit(like.unit);
+  const double metres = metresIn(like.unit);
   Relief relief{knownFrame({like.width, like.height, like.spacing_x, like.spacing_y, metres}), {}};
   relief.heights.resize(size_t{like.width} * like.height);
   withSampleType(like.sample, [&](auto type) {
@@ -299,7 +296,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
   const CodedHeights& coded = heights.coded;
   const double metres =
-      coded.of->steps.step * coded.of->samples->scale * metresPerUnit(coded.of->samples->unit);
+      coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
   Nodes nodes = {nodesOf(heights.curve, kHeightsRatio, budget),
                  nodesOf(texture.curve, kTextureRatio, budget),
                  {}};
@@ -320,4 +317,4 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   return {std::move(squares), std::move(errors)};
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

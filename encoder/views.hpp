@@ -13,7 +13,7 @@
 #include "ratecontrol/component_curve.hpp"
 #include "ratecontrol/pair_errors.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// TKS_USAGE with a sentence that names the camera, if one of the options is none
 /// (checkCamera()), is below the ground, or sees none of it; or if all weights are 0.
@@ -30,4 +30,4 @@ struct Rated {
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

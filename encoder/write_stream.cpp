@@ -10,7 +10,7 @@
 #include "encoder/georeference.hpp"
 #include "ratecontrol/target.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 namespace {
 
@@ -100,4 +100,4 @@ Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selec
   return stream;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -9,7 +9,7 @@
 #include "encoder/inputs.hpp"
 #include "encoder/selection.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline encoder {
 
 /// All samples come back, header and all within the budget.
 bool isLossless(const EncodeInputs& inputs, const Selection& selection);
@@ -17,4 +17,4 @@ bool isLossless(const EncodeInputs& inputs, const Selection& selection);
 /// TKS_USAGE: the budget is too small for the header.
 Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selection& selection);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline encoder

@@ -5,7 +5,7 @@
 
 #include "ground/vec3.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ground {
 
 namespace {
 
@@ -38,4 +38,4 @@ Status checkCamera(const Camera& camera) {
   return fault ? Status(TKS_USAGE, "Camera '" + camera.name + "' " + fault + ".") : Status();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ground

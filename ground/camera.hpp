@@ -10,7 +10,7 @@
 #include "base/status.hpp"
 #include "ground/frame.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ground {
 
 /// A pinhole camera in the axes of GroundFrame (metres, y up). fov_y in degrees.
 struct Camera {
@@ -38,4 +38,4 @@ Status checkCamera(const Camera& camera);
 
 inline constexpr uint32_t kLargestPicture = 8192;  ///< pixels a side
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ground

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace tetrakis {
+namespace tetrakis::inline ground {
 
 /// Metres per sample where nothing is known: that of the global one-arc-second models.
 inline constexpr double kDefaultSpacing = 30;
@@ -35,4 +35,4 @@ struct Bounds {
   std::array<double, 3> low{}, high{};
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ground

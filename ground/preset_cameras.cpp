@@ -8,7 +8,7 @@
 #include "ground/camera.hpp"
 #include "ground/vec3.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ground {
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
@@ -245,4 +245,4 @@ Result<std::vector<Camera>> unknownViewer(const Bounds& given) {
   return cameras;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ground

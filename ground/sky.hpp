@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace tetrakis {
+namespace tetrakis::inline ground {
 
 /// The sky of a picture in R, G and B, from the top row to the bottom row.
 inline std::array<uint32_t, 3> skyAt(uint32_t row, uint32_t rows) {
@@ -16,4 +16,4 @@ inline std::array<uint32_t, 3> skyAt(uint32_t row, uint32_t rows) {
   return sky;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ground

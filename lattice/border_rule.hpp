@@ -18,7 +18,7 @@
 #include <cassert>
 #include <cstdint>
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 enum class LevelKind : uint8_t { kRoots, kCentres, kMidpoints };
 enum class BorderRule : uint8_t { kClipped, kOverhanging };
@@ -52,4 +52,4 @@ inline uint32_t multiplesAlong(BorderRule rule, uint32_t size, uint32_t step) {
   return rule == BorderRule::kOverhanging ? (size - 2) / step + 2 : (size - 1) / step + 1;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

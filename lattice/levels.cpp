@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::vector<Level> levelsOf(uint32_t width, uint32_t height, int mip) {
   return levels;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

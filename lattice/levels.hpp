@@ -22,7 +22,7 @@
 
 #include "lattice/border_rule.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 /// Vertices of one level, in rows.
 struct Level {
@@ -47,4 +47,4 @@ struct Level {
 /// vertex, in the order of the whole grid.
 std::vector<Level> levelsOf(uint32_t width, uint32_t height, int mip = 0);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

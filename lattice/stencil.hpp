@@ -10,7 +10,7 @@
 
 #include "lattice/levels.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 struct Stencil {
   static constexpr std::array<int, 2> kRingSize = {4, 8};
@@ -53,4 +53,4 @@ inline Stencil stencilOf(LevelKind kind, uint32_t step, uint32_t width) {
   return stencil;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

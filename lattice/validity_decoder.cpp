@@ -4,7 +4,7 @@
 #include "bitstream/coder/range_decoder.hpp"
 #include "lattice/validity_pass.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 namespace {
 
@@ -27,4 +27,4 @@ std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent pl
   return valid;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

@@ -8,11 +8,11 @@
 
 #include "base/plane.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 /// Returns one byte for each sample of the plane, row by row, which is 1 where the sample is valid
 /// and 0 where it is void. codeword: any prefix of a validity codeword; an empty one says that
 /// every sample is valid. Safe on any bytes.
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent plane);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

@@ -6,7 +6,7 @@
 #include "bitstream/coder/range_encoder.hpp"
 #include "lattice/validity_pass.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 namespace {
 
@@ -37,4 +37,4 @@ std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid) {
   return codeword;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

@@ -7,10 +7,10 @@
 
 #include "base/plane.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 /// Returns the codeword of a mask, which has one byte or more. valid: 1 where a sample is valid, 0
 /// where it is void. The whole codeword gives the mask back whatever bytes follow it.
 std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

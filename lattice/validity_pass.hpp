@@ -25,7 +25,7 @@
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline lattice {
 
 /// Runs over all vertices once. Io is the encoder's or the decoder's side of a decision:
 ///   bool bit(AdaptiveBit&, size_t sample)   the sample is valid
@@ -148,4 +148,4 @@ class ValidityPass {
   Models centres_, midpoints_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline lattice

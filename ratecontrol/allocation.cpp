@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
   return joined;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -13,7 +13,7 @@
 #include "ratecontrol/component_curve.hpp"
 #include "ratecontrol/pair_errors.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// Within a component the order of its packets. Equal slopes: geometry first. A slope is the
 /// steepest of those to points further on: where heights are still so coarse that the next packet
@@ -26,4 +26,4 @@ std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curv
 /// than two steps of stated quality (1.5 dB). Packets that count only when whole stay as they are.
 std::vector<Packet> joinNeighbours(std::span<const Packet> packets);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

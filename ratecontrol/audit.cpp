@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
   return falling(corrected);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

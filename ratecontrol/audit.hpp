@@ -9,7 +9,7 @@
 
 #include "bitstream/track/track_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// Squared error of the decoded samples for a prefix of that many bytes, in the units of the
 /// points. Asked for rising bytes.
@@ -36,4 +36,4 @@ inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
 inline constexpr uint64_t kSmallSamples = uint64_t{1} << 14;
 inline constexpr size_t kLargeMeasurements = 3;
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 Codewords codewordsOf(std::span<const EncodedTrack> tracks) {
   Codewords codewords;
@@ -30,4 +30,4 @@ Codewords prefixAfter(const CodedTracks& coded, std::span<const Packet> packets,
   return cut;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

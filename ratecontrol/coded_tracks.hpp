@@ -9,7 +9,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 struct CodedTracks {
   Component component = Component::kGeometry;
@@ -25,4 +25,4 @@ Codewords codewordsOf(std::span<const EncodedTrack> tracks);
 /// packets. packets: all of the component's in their order; others among them are skipped.
 Codewords prefixAfter(const CodedTracks& coded, std::span<const Packet> packets, uint64_t bytes);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

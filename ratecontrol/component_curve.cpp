@@ -11,7 +11,7 @@
 #include "ratecontrol/hull.hpp"
 #include "ratecontrol/track_order.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -122,4 +122,4 @@ ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope, const 
   return curveOfOne(coded, audit(coded.tracks.front(), scope, measure), pricing);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

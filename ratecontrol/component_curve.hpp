@@ -13,7 +13,7 @@
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/coded_tracks.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// One component as the allocation sees it: its packets in their order, and the hull of its mean
 /// squared errors, whose points lie at ends of packets.
@@ -34,4 +34,4 @@ struct Pricing {
 ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope, const Measure& measure,
                        const Pricing& pricing);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -199,4 +199,4 @@ std::optional<double> GroundRays::heightAt(double x, double z) const {
   return found->at + found->slope_c * found->column + found->slope_r * found->row;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -11,7 +11,7 @@
 #include "ground/frame.hpp"
 #include "ground/vec3.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// Heights in metres, row by row; NaN: void.
 struct Relief {
@@ -62,4 +62,4 @@ class GroundRays {
   Bounds bounds_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RateP
   return ends;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

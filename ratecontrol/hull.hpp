@@ -9,7 +9,7 @@
 
 #include "bitstream/track/track_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// Hull vertices from the first to the last point, at least `growth` times the bytes so far (and
 /// kLeastPacket) apart so that packet heads stay cheap.
@@ -23,4 +23,4 @@ inline constexpr uint64_t kLeastPacket = 24;
 std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RatePoint& from,
                                   const RatePoint& to);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -44,4 +44,4 @@ double PairErrors::at(const Place& heights, const Place& texture) const {
   return heights.rest == 0 ? from : between(heights, from, along(heights.node + 1));
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// Squared errors of the nodes of a grid, in their own samples: falling, positive. The original, of
 /// error 0, is the node behind the last.
@@ -47,4 +47,4 @@ class PairErrors {
   std::vector<double> errors_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -8,7 +8,7 @@
 
 #include "ground/sky.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -185,4 +185,4 @@ std::vector<size_t> ScreenPoints::blindCameras(const std::vector<SeenPoint>& see
   return blind;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

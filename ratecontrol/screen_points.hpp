@@ -15,7 +15,7 @@
 #include "ratecontrol/ground_rays.hpp"
 #include "ratecontrol/screen_texture.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 /// The ground that a point shows.
 struct SeenPoint {
@@ -86,4 +86,4 @@ class ScreenPoints {
   std::vector<View> views_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
     : whole_(whole), first_(first) {
@@ -85,4 +85,4 @@ Colour ScreenTexture::at(double u, double v, double level) const {
   return sum;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -9,7 +9,7 @@
 
 #include "base/texels.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 using Colour = std::array<float, 3>;  ///< of 0 to 255
 
@@ -36,4 +36,4 @@ class ScreenTexture {
   std::vector<Level> levels_;  ///< each half as wide as the one before
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

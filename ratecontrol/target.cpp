@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -110,4 +110,4 @@ std::array<double, kComponents> statedWithin(std::span<const Packet> packets, ui
   return rmse;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -6,7 +6,7 @@
 
 #include "ratecontrol/hull.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 namespace {
 
@@ -86,4 +86,4 @@ OrderedTracks orderTracks(const CodedTracks& coded) {
   return order;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -10,7 +10,7 @@
 #include "bitstream/track/track_encoder.hpp"
 #include "ratecontrol/coded_tracks.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline ratecontrol {
 
 struct OrderedTracks {
   std::vector<Packet> packets;  ///< their quality is not set
@@ -21,4 +21,4 @@ struct OrderedTracks {
 /// The opening comes first and the closing last, whatever their slopes.
 OrderedTracks orderTracks(const CodedTracks& coded);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline ratecontrol

@@ -8,7 +8,7 @@
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/stored_texture.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 uint64_t storedBytes(const Texels& texels) {
   return texels.samples.size() * static_cast<uint64_t>(texels.bits / 8);
@@ -37,4 +37,4 @@ EncodedTexture storeTexture(const Texels& texels) {
   return encoded;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

@@ -5,7 +5,7 @@
 #include "base/texels.hpp"
 #include "bitstream/stream/encoded_texture.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 /// Bytes that storing takes.
 uint64_t storedBytes(const Texels& texels);
@@ -13,4 +13,4 @@ uint64_t storedBytes(const Texels& texels);
 /// One track, lossless.
 EncodedTexture storeTexture(const Texels& texels);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

@@ -3,7 +3,7 @@
 
 #include "bitstream/coder/byte_planes.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
                            int level) {
@@ -23,4 +23,4 @@ Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t>
   return texels;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

@@ -8,11 +8,11 @@
 #include "base/texels.hpp"
 #include "bitstream/stream/header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 /// Returns the texels at multiples of 2^level. codeword: any prefix of the track of a texture with
 /// header.stored. Safe on any bytes. A sample that has no byte yet is half of the largest.
 Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
                            int level);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

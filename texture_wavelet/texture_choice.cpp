@@ -16,7 +16,7 @@
 #include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/stored_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 namespace {
 
@@ -137,4 +137,4 @@ EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, Textu
                                                   : std::move(encoded);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

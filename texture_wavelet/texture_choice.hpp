@@ -5,10 +5,10 @@
 
 #include "texture_wavelet/texture_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 /// By wavelet; or drawn, or stored, in one track where that is better. Complete tracks without
 /// fraction bits that hide nothing are lossless.
 EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, TextureOptions options);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

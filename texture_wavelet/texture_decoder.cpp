@@ -15,7 +15,7 @@
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 namespace {
 
@@ -143,4 +143,4 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, co
   return texels;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

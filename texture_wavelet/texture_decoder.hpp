@@ -12,7 +12,7 @@
 #include "texture_wavelet/texture_opening.hpp"
 #include "wavelet/region_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 /// What one call of decodeTexture() leaves to the next, whose only track is longer by some bytes
 /// and begins at the same address. It is empty before the first call.
@@ -28,4 +28,4 @@ struct TextureMemory {
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view = {},
                      const DecodeContext<TextureMemory>& context = {});
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

@@ -17,7 +17,7 @@
 #include "texture_wavelet/visual_weights.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 namespace {
 
@@ -218,4 +218,4 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   return encoded;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

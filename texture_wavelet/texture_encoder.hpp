@@ -9,7 +9,7 @@
 #include "texture_wavelet/texture_source.hpp"
 #include "wavelet/filter_choice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 /// An alpha that has nothing but 0 and the largest value becomes a cut-out: a mask ahead of
 /// everything in the first track. Colours that it hides are coded for Purpose::kLossless alone.
@@ -22,4 +22,4 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
                                const TextureOptions& options, Mask photograph = {},
                                const TextureHeader* like = nullptr);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

@@ -7,7 +7,7 @@
 
 #include "lattice/validity_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::shared_ptr<const TextureOpening> takeOpening(const TextureHeader& header,
   return opening;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

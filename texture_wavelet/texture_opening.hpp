@@ -12,7 +12,7 @@
 #include "bitstream/stream/header.hpp"
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 struct TextureOpening {
   std::vector<uint8_t> seen;  ///< of all texels, 1 where alpha is not 0; empty: not a cut-out
@@ -29,4 +29,4 @@ std::shared_ptr<const TextureOpening> takeOpening(const TextureHeader& header,
                                                   std::shared_ptr<const TextureOpening>* memory,
                                                   std::span<const uint8_t>& codeword);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

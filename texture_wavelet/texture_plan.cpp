@@ -5,7 +5,7 @@
 
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 namespace {
 
@@ -62,4 +62,4 @@ ColourTransform colourOf(const TextureHeader& header) {
   return transform;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

@@ -10,7 +10,7 @@
 #include "texture_wavelet/colour/colour.hpp"
 #include "wavelet/band_plan.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 class TexturePlan {
  public:
@@ -39,4 +39,4 @@ class TexturePlan {
 /// Returns the component transform that a header describes.
 ColourTransform colourOf(const TextureHeader& header);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

@@ -11,7 +11,7 @@
 #include "base/texels.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 struct TextureSource {
   /// Any image is a source.
@@ -34,4 +34,4 @@ struct TextureOptions {
   double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

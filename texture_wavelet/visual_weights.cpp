@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 namespace {
 
@@ -57,4 +57,4 @@ BandWeights visualWeights(uint32_t components) {
   return weights;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

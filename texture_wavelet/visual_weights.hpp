@@ -6,9 +6,9 @@
 
 #include "bitstream/stream/header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline texture {
 
 /// components: 1 to 4, the last of an even number being alpha, which is weighted like the first.
 BandWeights visualWeights(uint32_t components);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline texture

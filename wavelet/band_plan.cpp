@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -111,4 +111,4 @@ std::vector<int32_t> PlaneLayout::gather(std::span<const int32_t> plane,
   return values;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

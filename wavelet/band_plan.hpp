@@ -12,7 +12,7 @@
 #include "wavelet/norms.hpp"
 #include "wavelet/pyramid.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// The classes of contexts that the bands of one plane use: levels 1, 2, 3, all coarser levels, LL.
 inline constexpr uint32_t kPlaneModels = 5;
@@ -59,4 +59,4 @@ class PlaneLayout {
   SynthesisNorms norms_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -16,7 +16,7 @@
 #include "wavelet/typical_parts.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -154,4 +154,4 @@ double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
   return chooseAmong(samples, bits, Purpose::kLossless).bits * whole;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

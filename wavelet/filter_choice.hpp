@@ -9,7 +9,7 @@
 #include "base/plane.hpp"
 #include "bitstream/stream/header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// What a plane is coded for.
 enum class Purpose : uint8_t {
@@ -28,4 +28,4 @@ WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, in
 /// About how many bits the coefficients of a plane take that is coded to the last bit.
 double losslessBits(const PlaneView<const int32_t>& plane, int bits);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

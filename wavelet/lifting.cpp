@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wavelet/lifting.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 void liftColumns(const Rows<int32_t>& rows, FilterId id, Direction direction, bool wide) {
   const int shift = liftingFilter(id).shift;
@@ -30,4 +30,4 @@ void RowLifting::synthesise(int32_t* row, uint32_t length, FilterId id, bool wid
   halves_.putTogether(row);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -12,7 +12,7 @@
 
 #include "wavelet/lifting_steps.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// Lifts all columns of a set of rows at once, in place: low rows stay at even indices, high ones
 /// at odd indices.
@@ -32,4 +32,4 @@ class RowLifting {
   Halves<int32_t> halves_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

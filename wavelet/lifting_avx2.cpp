@@ -17,7 +17,7 @@
 
 #define TETRAKIS_AVX2 __attribute__((target("avx2")))
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -118,16 +118,16 @@ size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const Lif
   return whole;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet
 
 #else
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 size_t liftStepVectors(int32_t*, const LiftingSources&, const LiftingRule&, size_t) {
   return 0;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet
 
 #endif

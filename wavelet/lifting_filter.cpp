@@ -5,7 +5,7 @@
 // costs nothing.
 #include "wavelet/lifting_filter.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -61,4 +61,4 @@ int widestSamples(FilterId id) {
   return id == FilterId::kOrthogonal ? 15 : 20;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <span>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// Which filter of the menu. The numbers stand in stream headers.
 enum class FilterId : uint8_t { kShort = 0, kSixTap = 1, kOrthogonal = 2, kLong = 3 };
@@ -44,4 +44,4 @@ uint32_t synthesisReach(FilterId id);
 /// Samples of more bits need 64-bit sums.
 int widestSamples(FilterId id);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -67,4 +67,4 @@ void liftStepScalar(int32_t* target, const LiftingSources& sources, const Liftin
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

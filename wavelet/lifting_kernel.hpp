@@ -9,7 +9,7 @@
 
 #include "wavelet/lifting_filter.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 enum class Direction : uint8_t { kAnalysis, kSynthesis };
 
@@ -44,4 +44,4 @@ void liftStepScalar(int32_t* target, const LiftingSources& sources, const Liftin
 size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                        size_t count);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

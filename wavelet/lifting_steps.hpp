@@ -11,7 +11,7 @@
 
 #include "wavelet/lifting_kernel.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// Where the mirror image of place p lies in a signal of n >= 2 samples.
 inline ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
@@ -140,4 +140,4 @@ class Halves {
   ptrdiff_t lows_ = 0, highs_ = 0;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -5,7 +5,7 @@
 #include <array>
 #include <numeric>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -117,4 +117,4 @@ void MaskedRowLifting::synthesise(int32_t* row, const uint8_t* valid, uint32_t l
   values_.putTogether(row);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

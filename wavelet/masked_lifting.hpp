@@ -16,7 +16,7 @@
 
 #include "wavelet/lifting_steps.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// One step of many signals at once: through liftStep(), and of the targets that are void or have a
 /// void neighbour once more by themselves.
@@ -62,4 +62,4 @@ class MaskedRowLifting {
   MaskedStep step_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

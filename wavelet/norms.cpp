@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -127,4 +127,4 @@ double SynthesisNorms::energy(const Subband& band) const {
   return std::exp2(2.0 * fine(band) / kFineSteps);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -7,7 +7,7 @@
 
 #include "wavelet/wavelet.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// The norms of a transform. It is separable, so a band's norm is the product of two norms of the
 /// one-dimensional synthesis, over the factor of two for each doubling of the low band. Integer
@@ -33,4 +33,4 @@ class SynthesisNorms {
   Table low_{}, high_{};  ///< kFineSteps log2 of the norm after so many splits
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -5,7 +5,7 @@
 
 #include "bitstream/track/reconstruction.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 PlaneSynthesis::PlaneSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, int level)
     : spec_(spec), pyramid_(&pyramid), level_(level) {
@@ -58,4 +58,4 @@ void PlaneSynthesis::normalise() {
   for (int32_t& v : values_) v = static_cast<int32_t>((v * weight + half) >> shift);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

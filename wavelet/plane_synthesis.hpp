@@ -15,7 +15,7 @@
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// The functions are those of ViewSynthesis (wavelet/view_synthesis.hpp), which says what they do.
 class PlaneSynthesis {
@@ -64,4 +64,4 @@ size_t thin(const Pyramid& pyramid, int level, std::span<T> low) {
   return wanted.samples();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

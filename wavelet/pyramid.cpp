@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::vector<uint8_t> Pyramid::splitMask(int level, const Window& block) const {
   return mask;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

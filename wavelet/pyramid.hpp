@@ -21,7 +21,7 @@
 #include "base/view.hpp"
 #include "bitstream/track/band.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// A side of so many samples or fewer is not split. HL or LH, and HH, are empty then.
 inline constexpr uint32_t kSmallestSide = 4;
@@ -103,4 +103,4 @@ inline int coarsestLevel(Extent plane) {
   return Pyramid(plane).levels();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -7,7 +7,7 @@
 #include "base/parallel.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -69,4 +69,4 @@ int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const 
   return bits;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -15,7 +15,7 @@
 #include "bitstream/track/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// What one call of a decoder leaves to the next, whose only track is longer by some bytes and
 /// begins at the same address. It is empty before the first call.
@@ -55,4 +55,4 @@ struct RegionDecoder {
   int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

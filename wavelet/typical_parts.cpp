@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::vector<Window> typicalParts(Extent plane, uint32_t side) {
   return parts;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -7,7 +7,7 @@
 
 #include "base/view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// Returns the parts that stand for a plane where trying all of it would take too long: the whole
 /// plane if neither side is above 256. Otherwise there is a part in the middle of each field of a
@@ -15,4 +15,4 @@ namespace tetrakis {
 /// or a lawn.
 std::vector<Window> typicalParts(Extent plane, uint32_t side = 96);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

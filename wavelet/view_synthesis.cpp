@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 void keepNeeded(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
                 std::vector<BandPlan>& bands) {
@@ -17,4 +17,4 @@ void keepNeeded(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
   if (!any) bands.clear();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

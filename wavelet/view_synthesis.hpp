@@ -15,7 +15,7 @@
 #include "wavelet/plane_synthesis.hpp"
 #include "wavelet/window_synthesis.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 class ViewSynthesis {
  public:
@@ -79,4 +79,4 @@ class ViewSynthesis {
 void keepNeeded(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
                 std::vector<BandPlan>& bands);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -11,7 +11,7 @@
 #include "wavelet/lifting.hpp"
 #include "wavelet/masked_lifting.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 namespace {
 
@@ -172,4 +172,4 @@ void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, ui
   inverseWavelet(spec, Pyramid(plane.extent(), plane.valid), 0, plane.values(), threads);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

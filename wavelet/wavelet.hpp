@@ -17,7 +17,7 @@
 #include "wavelet/lifting_filter.hpp"
 #include "wavelet/pyramid.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 inline constexpr std::array<int, 2> kDoubledLevels = {3, 4};
 
@@ -75,4 +75,4 @@ void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block);
 /// Undoes the doubling of a value of the low band.
 int32_t halved(int32_t value);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

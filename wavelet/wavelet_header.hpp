@@ -7,7 +7,7 @@
 #include "bitstream/stream/header.hpp"
 #include "wavelet/wavelet.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 inline WaveletSpec specOf(const WaveletHeader& header) {
   WaveletSpec spec;
@@ -26,4 +26,4 @@ inline int outputFractionBits(const WaveletHeader& header, int bit_planes, bool 
   return std::clamp(19 - bit_planes, 0, 4);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

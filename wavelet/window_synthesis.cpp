@@ -7,7 +7,7 @@
 
 #include "bitstream/track/reconstruction.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// A sample needs the places within the filter's reach; what the block's own ends do to the filter
 /// stays outside of `needed`. Where the block ends with the plane both are mirrored alike.
@@ -145,4 +145,4 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t) {
   return low;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

@@ -13,7 +13,7 @@
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline wavelet {
 
 /// The functions are those of ViewSynthesis (wavelet/view_synthesis.hpp), which says what they do.
 class WindowSynthesis {
@@ -79,4 +79,4 @@ class WindowSynthesis {
   std::vector<int32_t> ll_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline wavelet

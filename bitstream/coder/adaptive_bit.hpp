@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace tetrakis {
+namespace tetrakis::inline coder {
 
 /// Share of the n-th decision in the mean of an AdaptiveBit: 1 / (n + 2), in units of 2^-15.
 inline constexpr auto kDecisionShare = [] {
@@ -49,4 +49,4 @@ class AdaptiveBit {
   uint16_t seen_ = 0;  ///< decisions so far, up to kLimit
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline coder

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline coder {
 
 std::vector<uint8_t> toBytePlanes(std::span<const uint32_t> words, int bytes) {
   assert(bytes >= 1 && bytes <= 4);
@@ -24,4 +24,4 @@ uint32_t BytePlanes::operator[](size_t word) const {
   return shift < 0 ? value : value | uint32_t{0x80} << shift;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline coder

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline coder {
 
 /// words: the lower `bytes` bytes of each count. Takes words.size() * bytes.
 std::vector<uint8_t> toBytePlanes(std::span<const uint32_t> words, int bytes);
@@ -31,4 +31,4 @@ class BytePlanes {
   int bytes_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline coder

@@ -11,7 +11,7 @@
 
 #include "bitstream/coder/adaptive_bit.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline coder {
 
 /// Safe on any input; reads at most bytes.size() bytes; stops for good at the first undecided bit.
 class RangeDecoder {
@@ -163,4 +163,4 @@ class RangeDecoder::Plenty {
   uint32_t code_, range_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline coder

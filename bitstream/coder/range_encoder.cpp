@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline coder {
 
 void RangeEncoder::shiftLow() {
   const bool carry = (low_ >> 32) != 0;
@@ -42,4 +42,4 @@ std::vector<uint8_t> RangeEncoder::finish() {
   return std::move(bytes_);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline coder

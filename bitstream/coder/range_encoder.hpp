@@ -10,7 +10,7 @@
 
 #include "bitstream/coder/adaptive_bit.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline coder {
 
 class RangeEncoder {
  public:
@@ -60,4 +60,4 @@ class RangeEncoder {
   std::vector<uint8_t> bytes_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline coder

@@ -8,7 +8,7 @@
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 struct EncodedTexture {
   TextureHeader header;
@@ -16,4 +16,4 @@ struct EncodedTexture {
   std::vector<EncodedTrack> tracks;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

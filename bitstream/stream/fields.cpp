@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/stream/fields.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 void FieldReader::fail(const std::string& name, const std::string& why) {
   if (!ok()) return;
@@ -32,4 +32,4 @@ uint64_t FieldReader::take() {
   return 0;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

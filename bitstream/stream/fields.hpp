@@ -12,7 +12,7 @@
 
 #include "base/status.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 /// Appends fields to a byte string.
 class FieldWriter {
@@ -117,4 +117,4 @@ class FieldReader {
   Status status_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 namespace {
 
@@ -45,4 +45,4 @@ GeoTransform atLevel(const GeoTransform& t, int level) {
   return level_transform;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

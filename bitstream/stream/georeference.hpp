@@ -10,7 +10,7 @@
 
 #include "base/status.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 /// Column c and row r, (0, 0) the outer corner of the first sample, are at x = [0] + c [1] + r [2],
 /// y = [3] + c [4] + r [5]: the order of GDAL.
@@ -119,4 +119,4 @@ struct Georeference {
   }
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

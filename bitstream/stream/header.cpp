@@ -7,7 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 namespace {
 
@@ -302,4 +302,4 @@ Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
   return parsed;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

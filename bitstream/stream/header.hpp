@@ -18,7 +18,7 @@
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/regions.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 inline constexpr std::array<uint8_t, 4> kMagic = {'T', 'K', 'S', 0x1a};
 inline constexpr uint8_t kFormatVersion = 1;
@@ -290,4 +290,4 @@ struct ParsedHeader {
 /// TKS_UNSUPPORTED.
 Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

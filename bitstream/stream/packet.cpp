@@ -7,7 +7,7 @@
 
 #include "bitstream/stream/fields.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 namespace {
 
@@ -137,4 +137,4 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
   return out;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

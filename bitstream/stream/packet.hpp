@@ -21,7 +21,7 @@
 
 #include "base/status.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline stream {
 
 /// What a stream holds: heights (the geometry), a texture, or both. A component is coded in one
 /// track, or in several if it has regions.
@@ -97,4 +97,4 @@ Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origi
 Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
                                   const TrackCounts& counts, uint64_t packets = 0);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline stream

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 Band::Band(const BandShape& band_shape, Orientation band_orientation,
            std::span<const uint32_t> absent_cells)
@@ -37,4 +37,4 @@ void Band::clearVisited() {
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

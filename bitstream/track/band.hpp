@@ -14,7 +14,7 @@
 
 #include "base/zeroed_array.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 /// Direction of a band's detail; LL has none.
 enum class Orientation : uint8_t { kLL, kHL, kLH, kHH };
@@ -128,4 +128,4 @@ struct Band {
   ZeroedArray<uint8_t> block_nonzero;  ///< the block holds a significant coefficient
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

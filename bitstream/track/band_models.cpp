@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 namespace {
 
@@ -50,4 +50,4 @@ BandModels::BandModels() : band(kBand) {
   start(block, kBlock);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

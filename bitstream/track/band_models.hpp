@@ -10,7 +10,7 @@
 
 #include "bitstream/coder/adaptive_bit.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 struct BandModels {
   static constexpr int kLocal = 11;  ///< classes of the neighbours' magnitude sum
@@ -43,4 +43,4 @@ inline constexpr auto kLocalClass = [] {
   return table;
 }();
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

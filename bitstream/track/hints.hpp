@@ -11,7 +11,7 @@
 
 #include "bitstream/track/band.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 /// The bands that hint at the magnitudes of another; null where there is none.
 struct HintBands {
@@ -60,4 +60,4 @@ class RowHints {
   std::array<const uint32_t*, 2> siblings_{};
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

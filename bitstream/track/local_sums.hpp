@@ -12,7 +12,7 @@
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/band_models.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 /// Of 32 coefficients of a row; passes add to them what they learn, at most 2 each. The last one is
 /// never used, only added to.
@@ -39,4 +39,4 @@ void localSums(const Band& band, size_t first, LocalSums& sums) {
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 namespace {
 
@@ -82,4 +82,4 @@ void PassQueue::pop(const Band& band) {
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

@@ -9,7 +9,7 @@
 
 #include "bitstream/track/track.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 struct Pass {
   uint16_t band;
@@ -45,4 +45,4 @@ class PassQueue {
   size_t needed_ = 0;               ///< needed bands with passes left
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

@@ -38,7 +38,7 @@
 #include "bitstream/track/hints.hpp"
 #include "bitstream/track/local_sums.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 enum class PassKind : uint8_t { kLikely = 0, kRest = 1, kRefine = 2 };
 
@@ -313,4 +313,4 @@ class PlanePass {
   int plane_ = 0;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

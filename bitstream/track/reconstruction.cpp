@@ -6,7 +6,7 @@
 
 #include "bitstream/track/local_sums.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 namespace {
 
@@ -98,4 +98,4 @@ void Reconstruction::insignificant(size_t first, uint32_t columns, uint32_t visi
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

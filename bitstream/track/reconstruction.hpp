@@ -12,7 +12,7 @@
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/band_models.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 /// Reads the coefficients of a band.
 class Reconstruction {
@@ -55,4 +55,4 @@ inline uint32_t typicalMagnitude(uint32_t magnitude, int plane) {
   return magnitude == 0 ? 0 : magnitude + (((uint32_t{1} << plane) * 7) >> 4);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

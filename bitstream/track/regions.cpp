@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 namespace {
 
@@ -86,4 +86,4 @@ uint64_t regionCount(uint32_t width, uint32_t height, int side_log2) {
   return count;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

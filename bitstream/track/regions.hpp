@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 inline constexpr int kRegionLevels = 3;
 inline constexpr int kLeastRegionLog2 = 4;  ///< smallest side 2^s; above kRegionLevels
@@ -39,4 +39,4 @@ std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log
 /// How many regionsOf() are.
 uint64_t regionCount(uint32_t width, uint32_t height, int side_log2);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

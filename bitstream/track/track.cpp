@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 bool BandPlan::vacant() const {
   if (shape.empty() || absent.empty()) return shape.empty();
@@ -27,4 +27,4 @@ TrackState::TrackState(const std::vector<BandPlan>& plan, int planes) {
   models.resize(classes);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

@@ -10,7 +10,7 @@
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/plane_pass.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 /// One band of a track, as its owner (codec/, texture_wavelet/) describes it.
 struct BandPlan {
@@ -53,4 +53,4 @@ struct TrackState {
   bool complete = false;  ///< every pass asked for has been decoded: those bands are exact
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

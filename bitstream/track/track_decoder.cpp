@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 namespace {
 
@@ -97,4 +97,4 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   return state_;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

@@ -12,7 +12,7 @@
 #include "bitstream/track/pass_queue.hpp"
 #include "bitstream/track/track.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 /// Runs the passes of `plan` over `codeword`, up to the last one of a band that is needed, until
 /// its bytes decide nothing more. Bands that are not needed are decoded as far as they come before
@@ -43,4 +43,4 @@ class GrowingTrack {
   std::optional<BandModels> models_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

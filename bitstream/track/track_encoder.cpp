@@ -14,7 +14,7 @@
 #include "bitstream/track/pass_queue.hpp"
 #include "bitstream/track/reconstruction.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 namespace {
 
@@ -287,4 +287,4 @@ std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
   return tracks;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

@@ -10,7 +10,7 @@
 
 #include "bitstream/track/track.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline track {
 
 /// A point of a track's operational rate-distortion curve: the state a decoder reaches when it has
 /// the first `bytes` bytes of the codeword.
@@ -67,4 +67,4 @@ struct TrackOptions {
 std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
                                        const TrackOptions& options);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline track

@@ -10,7 +10,7 @@
 #include "wavelet/filter_choice.hpp"
 #include "wavelet/typical_parts.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -104,4 +104,4 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   return {!correct, correct, cut.mean_square};
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -9,7 +9,7 @@
 #include "bitstream/stream/header.hpp"
 #include "codec/geometry/height_steps.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 struct BoundWays {
   bool round = true;    ///< to multiples of 2 * largest + 1 steps, coded to the last bit
@@ -25,4 +25,4 @@ struct BoundWays {
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
                     int32_t largest);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -6,7 +6,7 @@
 
 #include "codec/geometry/corrections_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 int32_t nearestMultiple(int64_t q, int64_t largest) {
   const int64_t unit = 2 * largest + 1, shifted = q + largest;
@@ -64,4 +64,4 @@ uint64_t CorrectedCut::best() const {
   return best;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

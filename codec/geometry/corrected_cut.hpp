@@ -10,7 +10,7 @@
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// The multiple of 2 * largest + 1 nearest to q.
 int32_t nearestMultiple(int64_t q, int64_t largest);
@@ -49,4 +49,4 @@ class CorrectedCut {
 /// The RMSE, over the largest error, that cuts usually leave where the bytes are fewest.
 inline constexpr double kUsualCut = 0.45;
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -3,7 +3,7 @@
 
 #include "bitstream/coder/range_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -30,4 +30,4 @@ std::vector<int32_t> decodeCorrections(std::span<const uint8_t> codeword,
   return corrections;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

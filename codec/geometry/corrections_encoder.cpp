@@ -5,7 +5,7 @@
 
 #include "bitstream/coder/range_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
   return io.finish();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

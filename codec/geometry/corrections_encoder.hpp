@@ -8,10 +8,10 @@
 
 #include "codec/geometry/corrections_pass.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// Returns the codeword of one correction for each sample. Those of void samples are not coded.
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
                                        const CorrectionHints& hints);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

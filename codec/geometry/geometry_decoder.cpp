@@ -12,7 +12,7 @@
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded) {
   return steps;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

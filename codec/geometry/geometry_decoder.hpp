@@ -10,7 +10,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "wavelet/region_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// What a view shows of decoded heights, row by row.
 struct DecodedGeometry {
@@ -45,4 +45,4 @@ inline int32_t wholeStep(int32_t height, int fraction_bits) {
 /// Returns all heights in whole steps.
 std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

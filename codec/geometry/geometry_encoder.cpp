@@ -9,7 +9,7 @@
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
                                              const WaveletHeader& wavelet,
@@ -38,4 +38,4 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   return encodeTracks(tracks, {options.limit, options.threads});
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

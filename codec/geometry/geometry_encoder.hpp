@@ -9,7 +9,7 @@
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 struct CoefficientOptions {
   uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
@@ -23,4 +23,4 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
                                              const WaveletHeader& wavelet,
                                              const CoefficientOptions& options);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

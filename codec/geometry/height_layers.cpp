@@ -12,7 +12,7 @@
 #include "codec/geometry/value_table_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -149,4 +149,4 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
   return decoded;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

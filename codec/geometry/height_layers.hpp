@@ -10,7 +10,7 @@
 #include "bitstream/stream/header.hpp"
 #include "codec/geometry/geometry_decoder.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 struct DecodedHeights {
   DecodedGeometry geometry;          ///< corrections of steps are applied
@@ -40,4 +40,4 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
 /// vertex and its four neighbours are significant.
 std::vector<uint8_t> activityHints(const DecodedGeometry& geometry);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -11,7 +11,7 @@
 #include "codec/geometry/restore.hpp"
 #include "codec/geometry/sample_order.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -177,4 +177,4 @@ double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
   });
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

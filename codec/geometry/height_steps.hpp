@@ -14,7 +14,7 @@
 #include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/value_table.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// Returns the size of a height field of the C interface.
 inline Extent extentOf(const tks_heights& heights) {
@@ -82,4 +82,4 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps,
 double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
                         const std::vector<uint8_t>& valid, const HeightSteps& scale, double most);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

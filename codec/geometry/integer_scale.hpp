@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// Of integer samples of up to 16 bits with a whole base and step: base + q * step is a
 /// whole number that doubles hold exactly, so that 32-bit integers do as well once q is kept where
@@ -42,4 +42,4 @@ class IntegerScale {
   int32_t base_, step_, least_, most_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -8,7 +8,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// base + q * step as the nearest sample of its type; integers saturate at their type's range.
 template <class T>
@@ -23,4 +23,4 @@ T restore(double base, double step, int32_t q) {
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// Integers are themselves; the sign and magnitude of a float become two's complement, -0 below 0.
 template <class T>
@@ -49,4 +49,4 @@ uint8_t openBits(T sample, double step) {
   return static_cast<uint8_t>(std::clamp(std::ilogb(step) - spacingExponent(sample), 0, 31));
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -17,7 +17,7 @@
 #include "codec/geometry/value_choice.hpp"
 #include "codec/geometry/voids.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -254,4 +254,4 @@ Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs) 
   return fewerBits(heights, std::move(*result));
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

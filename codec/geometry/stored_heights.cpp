@@ -11,7 +11,7 @@
 #include "codec/geometry/restore.hpp"
 #include "codec/geometry/sample_order.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::vector<uint8_t> storeSamples(const tks_heights& heights, Mask valid) {
   return toBytePlanes(words, static_cast<int>(tks_sample_bytes(heights.sample)));
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -11,7 +11,7 @@
 #include "codec/geometry/height_layers.hpp"
 #include "tetrakis/tetrakis.h"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// Returns the samples at multiples of 2^level. Their steps are those nearest to the samples, and
 /// corrections restore the samples. A sample that has no byte yet is that of step 0. bytes: any
@@ -25,4 +25,4 @@ uint64_t storedBytes(const tks_heights& heights, size_t valid_samples);
 /// Returns the codeword of the valid samples.
 std::vector<uint8_t> storeSamples(const tks_heights& heights, Mask valid);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

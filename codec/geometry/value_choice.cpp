@@ -16,7 +16,7 @@
 #include "codec/geometry/value_table_encoder.hpp"
 #include "wavelet/filter_choice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -238,4 +238,4 @@ HeightSteps fewerBits(const tks_heights& heights, HeightSteps multiples) {
   return table ? std::move(*table) : std::move(multiples);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

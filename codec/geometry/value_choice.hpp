@@ -5,11 +5,11 @@
 #include "codec/geometry/height_steps.hpp"
 #include "tetrakis/tetrakis.h"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// multiples: the steps that toSteps() has found for the heights, with corrections behind them
 /// where they are not exact. Returns these, or the numbers of values in a table. A few rare values
 /// may be missing in the table: then it is not exact, and corrections restore their samples.
 HeightSteps fewerBits(const tks_heights& heights, HeightSteps multiples);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -9,7 +9,7 @@
 #include "codec/geometry/restore.hpp"
 #include "codec/geometry/sample_order.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -60,4 +60,4 @@ void applyTable(const ValueTable& table, const GeometryHeader& header, DecodedHe
   geometry.quiet_levels = 0;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -15,7 +15,7 @@
 
 #include "bitstream/stream/header.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 struct DecodedHeights;
 
@@ -46,4 +46,4 @@ std::vector<DrawnValue> drawnValues(const ValueTable& table, const GeometryHeade
 /// Turns numbers of values into heights between steps, with a correction for each sample.
 void applyTable(const ValueTable& table, const GeometryHeader& header, DecodedHeights& decoded);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

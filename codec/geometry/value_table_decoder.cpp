@@ -4,7 +4,7 @@
 #include "bitstream/coder/range_decoder.hpp"
 #include "codec/geometry/value_table_pass.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -29,4 +29,4 @@ ValueTable decodeValueTable(std::span<const uint8_t> codeword, uint32_t values) 
   return table;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

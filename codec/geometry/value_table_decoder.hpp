@@ -7,10 +7,10 @@
 
 #include "codec/geometry/value_table.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// codeword: any prefix of it. Empty unless all of the values are known. values: how many there
 /// are. Safe on any bytes; takes memory for that many words and no more.
 ValueTable decodeValueTable(std::span<const uint8_t> codeword, uint32_t values);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -4,7 +4,7 @@
 #include "bitstream/coder/range_encoder.hpp"
 #include "codec/geometry/value_table_pass.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -34,4 +34,4 @@ std::vector<uint8_t> encodeValueTable(const ValueTable& table) {
   return io.finish();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -7,8 +7,8 @@
 
 #include "codec/geometry/value_table.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 std::vector<uint8_t> encodeValueTable(const ValueTable& table);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -17,7 +17,7 @@
 
 #include "bitstream/coder/adaptive_bit.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// Io is the encoder's or the decoder's side of a decision, of which the encoder knows the answer:
 ///   bool decide(AdaptiveBit&, bool answer)   bool even(bool answer)   at even odds
@@ -92,4 +92,4 @@ class ValueTablePass {
   std::array<std::array<AdaptiveBit, 1u << kModelledBits>, kWordBits + 1> high_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -8,7 +8,7 @@
 
 #include "base/samples.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 namespace {
 
@@ -58,4 +58,4 @@ SampleRange rangeOf(const tks_heights& heights, Mask valid) {
   });
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

@@ -9,7 +9,7 @@
 #include "base/status.hpp"
 #include "tetrakis/tetrakis.h"
 
-namespace tetrakis {
+namespace tetrakis::inline geometry {
 
 /// Returns one byte for each sample, which is 1 where the sample is valid and 0 where it is void,
 /// or nothing if all samples are valid. A sample is void if it equals heights.nodata (and there is
@@ -22,4 +22,4 @@ struct SampleRange {
 };
 SampleRange rangeOf(const tks_heights& heights, Mask valid);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline geometry

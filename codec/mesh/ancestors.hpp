@@ -21,7 +21,7 @@
 
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// A set of vertices of one level within a window of 8 x 8 cells. Cell (0, 0) of the window is cell
 /// (left, top) of the level.
@@ -277,4 +277,4 @@ bool AncestorSums<Delta>::rise(size_t pair, Waiting& amount, bool own, Visit& vi
   return true;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -8,7 +8,7 @@
 
 #include "codec/mesh/fitted_heights.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 namespace {
 
@@ -69,4 +69,4 @@ Result<BudgetMesh> budgetMesh(const Lattice& lattice, KnownSurface known, uint32
   return fitted;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

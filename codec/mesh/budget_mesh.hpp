@@ -18,7 +18,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/lattice_mesh.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// The mip level of the heights from which budgetMesh() makes a mesh of at most max_triangles > 0
 /// triangles. lattice: that of the whole surface.
@@ -43,4 +43,4 @@ struct BudgetMesh {
 /// FittedSequence::makeFor().
 Result<BudgetMesh> budgetMesh(const Lattice& lattice, KnownSurface known, uint32_t max_triangles);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

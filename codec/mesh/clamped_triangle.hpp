@@ -7,7 +7,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/surface_view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Sum of weighted squared residuals against the plane through the corners, shared as in
 /// moments.hpp. The corners are samples; the triangle has an area.
@@ -17,4 +17,4 @@ double clampedEnergy(const SurfaceView& surface, const std::array<GridPoint, 3>&
 double clampedError(const SurfaceView& surface, const std::array<GridPoint, 3>& corners,
                     GridPoint sample);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

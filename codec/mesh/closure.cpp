@@ -13,7 +13,7 @@
 #include "codec/mesh/closure_flow.hpp"
 #include "codec/mesh/gains.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -257,4 +257,4 @@ void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains
                    [&](VertexId v, VertexId w) { return slopeOf(v) > slopeOf(w); });
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -18,7 +18,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/surface_view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Returns for each vertex the slope lambda, in squared height steps a triangle, at which it enters
 /// the best mesh: {v : slope > lambda} is closed and minimises D + lambda R for every lambda that
@@ -49,4 +49,4 @@ std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId
 void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
                         std::span<VertexId> order);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 ClosureFlow::ClosureFlow(std::vector<Arcs> parents)
     : parents_(std::move(parents)),
@@ -154,4 +154,4 @@ std::vector<size_t> ClosureFlow::split(std::span<uint32_t> part) {
   return ends;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

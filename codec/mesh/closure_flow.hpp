@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Loans along the arcs of the parent graph. They are kept from one problem to the next, which then
 /// starts close to its solution. Every vertex belongs to one part; arcs between parts do not exist.
@@ -68,4 +68,4 @@ class ClosureFlow {
   size_t relabels_ = 0;  ///< since the last label()
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

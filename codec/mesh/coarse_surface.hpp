@@ -9,7 +9,7 @@
 
 #include "codec/mesh/surface_view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 struct CoarseSurface {
   uint32_t width = 0, height = 0;
@@ -36,4 +36,4 @@ CoarseSurface ofMipLevel(std::span<const int32_t> level, uint32_t whole_width,
 uint32_t wholeSample(uint32_t sample, uint32_t coarse_width, uint32_t whole_width,
                      uint32_t whole_height, uint32_t k);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -8,7 +8,7 @@
 
 #include "codec/mesh/octagon.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 /// Vertices of a level in one row, and where they lie in units of the step of RowSums.
@@ -110,4 +110,4 @@ std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
   return domains;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

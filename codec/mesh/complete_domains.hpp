@@ -8,11 +8,11 @@
 #include "codec/mesh/vertex_costs.hpp"
 #include "codec/mesh/worth.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Returns u(M_v) of every vertex v while no vertex is removed. gains: one for each vertex; their
 /// sums are exact in any order (gains.hpp).
 std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
                                          const VertexCosts& costs);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -9,7 +9,7 @@
 #include "codec/mesh/gains.hpp"
 #include "codec/mesh/general_decimation.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 /// Greedy steps cost most where few triangles are left, up to 0.2 dB below 500; there the best
@@ -69,4 +69,4 @@ Result<MeshSequence> decimate(const SurfaceView& surface) {
   return MeshSequence(std::move(*lattice), std::move(order), gains);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -12,7 +12,7 @@
 #include "codec/mesh/lattice_mesh.hpp"
 #include "codec/mesh/surface_view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// The progressive order of all vertices of a surface.
 class MeshSequence {
@@ -49,4 +49,4 @@ class MeshSequence {
 /// finite.
 Result<MeshSequence> decimate(const SurfaceView& surface);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

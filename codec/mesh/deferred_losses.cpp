@@ -7,7 +7,7 @@
 
 #include "codec/mesh/octagon.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 /// 3 rows of 8 cells as 9 bits.
@@ -116,4 +116,4 @@ Worth DeferredLosses::sumOfRow(size_t x, size_t y, const std::vector<uint32_t>& 
   return sum;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -14,7 +14,7 @@
 #include "codec/mesh/ancestors.hpp"
 #include "codec/mesh/worth.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 class DeferredLosses {
  public:
@@ -51,4 +51,4 @@ class DeferredLosses {
   std::array<Kind, 4> kinds_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

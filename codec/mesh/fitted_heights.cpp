@@ -15,7 +15,7 @@
 #include "codec/mesh/gains.hpp"
 #include "codec/mesh/saturated_order.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 namespace {
 
@@ -132,4 +132,4 @@ FittedMesh fitMesh(const Lattice& lattice, const WeightedSurface& surface,
   return result;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

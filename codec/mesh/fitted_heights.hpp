@@ -17,7 +17,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/lattice_mesh.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 struct FittedMesh {
   LatticeMesh mesh;
@@ -61,4 +61,4 @@ class FittedSequence {
   std::vector<VertexId> order_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -9,7 +9,7 @@
 #include "codec/mesh/triangle.hpp"
 #include "codec/mesh/triangle_samples.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 struct FittedCorner {
@@ -267,4 +267,4 @@ std::vector<double> FittedMoments::gains(std::span<const VertexId> vertices) con
   return gains;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

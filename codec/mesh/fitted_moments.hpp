@@ -18,7 +18,7 @@
 #include "codec/mesh/moments.hpp"
 #include "codec/mesh/surface_view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// A surface whose samples may be unknown. Where known[i] is 0, sample i does not count in fits,
 /// whatever its weight in the view. Where `known` is empty, all samples are known.
@@ -73,4 +73,4 @@ class FittedMoments {
   bool full_ = true;  ///< all leaves are of full resolution, empty, and not stored
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

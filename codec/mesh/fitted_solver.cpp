@@ -7,7 +7,7 @@
 #include <cassert>
 #include <limits>
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 class NormalEquations {
@@ -116,4 +116,4 @@ void fitHeights(FittedMoments& mesh) {
   mesh.correct(equations.samples(), solve(equations));
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

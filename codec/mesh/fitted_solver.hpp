@@ -13,10 +13,10 @@
 
 #include "codec/mesh/fitted_moments.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Moves the heights of a coarsened mesh to the least squares. A vertex whose own sample has no
 /// weight stays where it is as far as no other sample says more. The same bits with every compiler.
 void fitHeights(FittedMoments& mesh);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

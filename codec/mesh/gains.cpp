@@ -11,7 +11,7 @@
 #include "codec/mesh/moments.hpp"
 #include "codec/mesh/triangle.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 struct HeightCorner {
@@ -164,4 +164,4 @@ std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surfa
   return GainBuilder(lattice, surface).build();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -13,7 +13,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/surface_view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// TKS_USAGE for weights that are not one for each sample, or negative or not finite.
 Status checkWeights(const SurfaceView& surface);
@@ -24,4 +24,4 @@ Status checkWeights(const SurfaceView& surface);
 /// depends on rounding. The surface must have the size of the lattice and pass checkWeights().
 std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surface);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -9,7 +9,7 @@
 
 #include "codec/mesh/slope_queue.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 double sumOfPositive(const std::vector<double>& gains) {
@@ -70,4 +70,4 @@ std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const 
   return Decimator(gains, costs, prompt_levels).run();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

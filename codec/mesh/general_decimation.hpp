@@ -10,11 +10,11 @@
 #include "codec/mesh/merging_domains.hpp"
 #include "codec/mesh/vertex_costs.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Returns all vertices, those removed last first. gains: one for each vertex (gains.hpp).
 /// prompt_levels (merging_domains.hpp) changes the time that decimation takes, but not the order.
 std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,
                                         uint32_t prompt_levels = MergingDomains::kPromptLevels);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 constexpr BorderRule kRule = BorderRule::kOverhanging;
 }
@@ -54,4 +54,4 @@ void Lattice::addLevel(Plan plan) {
   levels_.push_back(plan);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

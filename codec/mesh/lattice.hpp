@@ -33,7 +33,7 @@
 #include "base/status.hpp"
 #include "lattice/border_rule.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Lattice vertices other than roots, level after level from coarse to fine: parents before
 /// children.
@@ -251,4 +251,4 @@ void Lattice::forEachVertex(Visit&& visit) const {
     }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

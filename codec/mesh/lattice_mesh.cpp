@@ -9,7 +9,7 @@
 
 #include "codec/mesh/triangle.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 constexpr uint32_t kAbsent = std::numeric_limits<uint32_t>::max();
@@ -151,4 +151,4 @@ LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks) {
   return meshOf(lattice, codedVertices(lattice, marks));
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

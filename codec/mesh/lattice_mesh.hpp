@@ -8,7 +8,7 @@
 
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// A mesh that covers the grid. `vertices` are samples (row * width + column): first the roots, row
 /// by row, then the inserted vertices in their order; no sample comes twice. `triangles` are three
@@ -38,4 +38,4 @@ std::vector<VertexId> codedVertices(const Lattice& lattice, std::span<const uint
 /// Returns the mesh of codedVertices().
 LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

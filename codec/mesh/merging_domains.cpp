@@ -7,7 +7,7 @@
 
 #include "codec/mesh/complete_domains.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 MergingDomains::MergingDomains(const std::vector<double>& gains, const VertexCosts& costs,
                                uint32_t prompt_levels)
@@ -93,4 +93,4 @@ void MergingDomains::deferPart(const AncestorWindow& squares, const AncestorWind
   if (taken.cells != 0) deferred_.takeBack(taken, part);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -15,7 +15,7 @@
 #include "codec/mesh/vertex_costs.hpp"
 #include "codec/mesh/worth.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 class MergingDomains {
  public:
@@ -159,4 +159,4 @@ template <class OnFall>
     onFall(a);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

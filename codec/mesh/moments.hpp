@@ -22,7 +22,7 @@
 // weight is 1 over the number of full-resolution triangles that meet there, for each such triangle.
 #pragma once
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// The moments of samples against the plane of one triangle (a, b, apex).
 struct TriangleMoments {
@@ -86,4 +86,4 @@ inline TriangleMoments mergeFinest(const CornerWeights& weight, double delta) {
   return t;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -19,7 +19,7 @@
 
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 struct Octagon {
   int64_t x, y;  ///< X, Y
@@ -39,4 +39,4 @@ struct Octagon {
   int64_t reach(int64_t dy) const { return std::min(x, y - (dy < 0 ? -dy : dy)); }
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

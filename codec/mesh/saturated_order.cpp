@@ -7,7 +7,7 @@
 
 #include "codec/mesh/slope_queue.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const VertexCosts& costs,
                                      uint64_t most) {
@@ -37,4 +37,4 @@ std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const Ve
   return vertices;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -9,7 +9,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/vertex_costs.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Sorts vertices by saturated slopes (Ohlberger and Rumpf 1999): the saturated slope of a vertex
 /// is the greatest among its own and those of its descendants. Returns vertices in falling order of
@@ -18,4 +18,4 @@ namespace tetrakis {
 std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const VertexCosts& costs,
                                      uint64_t most);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

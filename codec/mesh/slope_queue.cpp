@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 namespace {
 
 constexpr uint32_t kPowers = 56;
@@ -124,4 +124,4 @@ bool SlopeQueue::isFirst(const Candidate& candidate) const {
          (heap_.empty() || candidate <= heap_.front());
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -20,7 +20,7 @@
 
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// A vertex and a slope. Candidates are ordered by slope; among equal slopes the coarser vertex
 /// comes first, because its merging domain holds the finer ones.
@@ -109,4 +109,4 @@ void SlopeQueue::openNextBucket(PushAgain& pushAgain) {
   sortOpened();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// heights: width * height values, row by row; any int32. Sizes from 2 x 2.
 struct SurfaceView {
@@ -19,4 +19,4 @@ struct SurfaceView {
   }
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

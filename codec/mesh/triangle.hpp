@@ -14,7 +14,7 @@
 
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 template <class Corner>
 struct LatticeTriangle {
@@ -59,4 +59,4 @@ void forEachRootTriangle(const Lattice& lattice, MakeCorner&& makeCorner, Visit&
   });
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

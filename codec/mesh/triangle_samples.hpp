@@ -11,7 +11,7 @@
 
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 class TriangleSamples {
  public:
@@ -75,4 +75,4 @@ class TriangleSamples {
   uint32_t left_, right_, top_, bottom_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -8,7 +8,7 @@
 
 #include "codec/mesh/lattice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// The cost of each vertex: the triangles that it adds, or an amount in any other unit, such as
 /// coded bits. The lattice and the given amounts must outlive this object.
@@ -31,4 +31,4 @@ class VertexCosts {
   std::span<const uint32_t> given_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

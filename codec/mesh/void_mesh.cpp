@@ -10,7 +10,7 @@
 #include "codec/mesh/decimation.hpp"
 #include "codec/mesh/fitted_solver.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 namespace {
 
@@ -108,4 +108,4 @@ void leaveOutVoids(LatticeMesh& mesh, std::vector<float>& heights) {
   mesh.triangles.resize(end);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

@@ -11,7 +11,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/lattice_mesh.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Inserted vertices, and the height of each vertex of their mesh in the steps of the decoder.
 struct FittedVertices {
@@ -33,4 +33,4 @@ Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const Weighte
 /// keep their order. heights: one for each vertex.
 void leaveOutVoids(LatticeMesh& mesh, std::vector<float>& heights);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

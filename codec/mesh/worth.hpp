@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace tetrakis {
+namespace tetrakis::inline mesh {
 
 /// Returns the slope lambda of thesis 5.2.2. A domain that frees no triangles gets the slope
 /// -infinity (it is removed first) if its removal does not increase the error, and +infinity
@@ -53,4 +53,4 @@ struct DomainWorth {
   }
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mesh

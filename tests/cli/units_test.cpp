@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/length_unit.hpp"
+
 namespace tetrakis::tools {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <type_traits>
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 namespace {
 
 /// What one shear does: the plane it changes and the two it reads.
@@ -162,4 +162,4 @@ std::array<double, 3> componentEnergies(const ColourTransform& transform, int le
   return energies;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 inline constexpr int kShearFractionBits = 7;
 inline constexpr std::array<std::array<uint8_t, 3>, 6> kChannelOrders = {
@@ -75,4 +75,4 @@ Matrix3 colourMatrix(const ColourTransform& transform, int level = 1);
 /// a level's coefficients.
 std::array<double, 3> componentEnergies(const ColourTransform& transform, int level = 1);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

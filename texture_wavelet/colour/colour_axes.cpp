@@ -13,7 +13,7 @@
 #include <cmath>
 #include <utility>
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 namespace {
 
 Matrix3 fixedRotation() {
@@ -127,4 +127,4 @@ ColourAxes fitAxes(std::span<const int32_t* const> planes, Extent extent, Purpos
   return axes;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -10,7 +10,7 @@
 #include "texture_wavelet/colour/colour_details.hpp"
 #include "wavelet/filter_choice.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 /// Axes of colour that need the fewest bits: rows of rotations, luma first.
 struct ColourAxes {
@@ -22,4 +22,4 @@ struct ColourAxes {
 /// Of 3 or more planes of that extent.
 ColourAxes fitAxes(std::span<const int32_t* const> planes, Extent extent, Purpose purpose);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

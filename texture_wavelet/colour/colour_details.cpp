@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 namespace {
 
@@ -100,4 +100,4 @@ double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details
   return details.weight * (bits + std::log2(product));
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

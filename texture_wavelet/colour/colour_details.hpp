@@ -10,7 +10,7 @@
 
 #include "base/plane.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 using Colour = std::array<float, 3>;
 
@@ -34,4 +34,4 @@ double typicalStep(std::span<const ColourDetails> details);
 /// Estimated bits of all coefficients along one axis, a unit vector: log2(1 + |c| / step) each.
 double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -10,7 +10,7 @@
 #include "texture_wavelet/colour/colour_axes.hpp"
 #include "texture_wavelet/colour/colour_level_fit.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 namespace {
 
 /// A choice of shears for a rotation: the order of the channels, and whether c1 is row 2.
@@ -80,4 +80,4 @@ ColourTransform fitColour(std::span<const int32_t* const> planes, Extent extent)
   return turnLevels(other, axes, step) < least ? other : best;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -8,7 +8,7 @@
 #include "base/plane.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 /// Centres every plane on its mean and fits the shears of RGB to the image. planes: 1 to 4 planes
 /// of that many samples of at most 16 bits, as in forwardColour.
@@ -21,4 +21,4 @@ ColourTransform centred(std::span<const int32_t* const> planes, size_t count);
 /// orthogonal matrix), row 0 first, rows 1 and 2 in either order, by the smallest shears possible.
 void setRotation(ColourTransform& transform, const Matrix3& rotation);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 namespace {
 
@@ -99,4 +99,4 @@ double turnLevels(ColourTransform& transform, const ColourAxes& axes, double ste
   return least;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

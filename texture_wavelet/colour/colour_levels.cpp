@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 void forwardColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
                          std::span<int32_t* const> planes) {
@@ -34,4 +34,4 @@ void inverseColourLevels(const ColourTransform& transform, const Pyramid& pyrami
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -10,7 +10,7 @@
 #include "texture_wavelet/colour/colour.hpp"
 #include "wavelet/view_synthesis.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 /// Turns the components of every level, in place. planes: the coefficients of 3 or more transformed
 /// planes of that pyramid. Fewer planes are left alone.
@@ -22,4 +22,4 @@ void forwardColourLevels(const ColourTransform& transform, const Pyramid& pyrami
 void inverseColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
                          std::span<ViewSynthesis> planes);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

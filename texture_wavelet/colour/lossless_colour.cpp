@@ -11,7 +11,7 @@
 #include "texture_wavelet/colour/colour_level_fit.hpp"
 #include "wavelet/typical_parts.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 namespace {
 
@@ -89,4 +89,4 @@ ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Ext
   return best;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -8,7 +8,7 @@
 #include "base/plane.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline colour {
 
 /// A rotation that packs the energy is best at low rates; the last bits are noise, which it spreads
 /// over all components. Takes the cheapest, by the residuals of a gradient predictor, of the
@@ -16,4 +16,4 @@ namespace tetrakis {
 /// none. planes: 1 to 4 planes of that extent, as in fitColour.
 ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Extent extent);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline colour

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 using DrawnColour = std::array<uint16_t, 4>;  ///< one value for each channel, the others 0
 
@@ -37,4 +37,4 @@ class DrawnColours {
   std::vector<DrawnColour> colours_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

@@ -8,7 +8,7 @@
 #include "texture_wavelet/drawn/drawn_fill.hpp"
 #include "texture_wavelet/drawn/drawn_pass.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 namespace {
 
@@ -60,4 +60,4 @@ DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t>
   return overlay;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

@@ -10,7 +10,7 @@
 #include "bitstream/stream/header.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 /// Decodes the texels at multiples of 2^level alone. codeword: any prefix of the track of a texture
 /// with header.drawn(). Safe on any bytes.
@@ -25,4 +25,4 @@ struct DrawnOverlay {
 /// codeword: any prefix of that of a texture's overlay. Safe on any bytes.
 DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t> codeword);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

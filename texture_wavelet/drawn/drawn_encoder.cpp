@@ -12,7 +12,7 @@
 #include "texture_wavelet/drawn/drawn_pass.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph) {
   return io.finish();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

@@ -10,7 +10,7 @@
 #include "base/texels.hpp"
 #include "bitstream/stream/encoded_texture.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 /// Lossless, whole. Nothing if there are more than kMostColours colours, or if fewer than half of
 /// the texels are like the one before or above them: that is no drawing.
@@ -20,4 +20,4 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels);
 /// of those. There are fewer than kMostColours colours.
 std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

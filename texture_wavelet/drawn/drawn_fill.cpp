@@ -9,7 +9,7 @@
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 namespace {
 
@@ -97,4 +97,4 @@ void fillDrawn(std::span<const Level> levels, std::span<const ColourIndex> indic
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

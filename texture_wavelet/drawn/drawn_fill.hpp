@@ -8,7 +8,7 @@
 #include "lattice/levels.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 /// The middle of the range in every channel.
 DrawnColour greyOf(const Texels& format);
@@ -19,4 +19,4 @@ DrawnColour greyOf(const Texels& format);
 void fillDrawn(std::span<const Level> levels, std::span<const ColourIndex> indices,
                const DrawnColours& colours, Texels& texels);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

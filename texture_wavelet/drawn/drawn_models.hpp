@@ -11,7 +11,7 @@
 #include "bitstream/coder/adaptive_bit.hpp"
 #include "texture_wavelet/drawn/drawn_neighbours.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 /// Models of one decision, from the most special to the most general. The first that has experience
 /// is asked, or the last; all learn.
@@ -78,4 +78,4 @@ class DrawnModels {
   std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> counts_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

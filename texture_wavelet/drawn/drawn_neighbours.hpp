@@ -19,7 +19,7 @@
 #include "lattice/stencil.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 /// A colour among the neighbours.
 struct ColourCandidate {
@@ -154,4 +154,4 @@ class Neighbourhood {
   int count_ = 0;  ///< roots have no neighbours
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

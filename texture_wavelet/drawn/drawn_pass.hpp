@@ -23,7 +23,7 @@
 #include "texture_wavelet/drawn/drawn_models.hpp"
 #include "texture_wavelet/drawn/drawn_neighbours.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline drawn {
 
 /// Runs over all vertices once. Io is the encoder's or the decoder's side of a decision; `ours` is
 /// what the encoder knows of it and the decoder ignores:
@@ -143,4 +143,4 @@ class DrawnPass {
   DrawnModels models_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline drawn

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <span>
 
-namespace tetrakis {
+namespace tetrakis::inline mask {
 
 std::vector<uint8_t> cutoutOf(const Texels& texels) {
   std::vector<uint8_t> seen;
@@ -61,4 +61,4 @@ double countedSquares(const Texels& original, const Texels& decoded, Mask seen) 
   return static_cast<double>(squares);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mask

@@ -8,7 +8,7 @@
 
 #include "base/texels.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mask {
 
 /// Returns one byte for each texel, which is 1 where alpha has the largest value and 0 where it is
 /// 0; or nothing if alpha has any other value, or the largest one everywhere.
@@ -25,4 +25,4 @@ uint64_t countedSamples(const Texels& texels, Mask seen);
 /// shape.
 double countedSquares(const Texels& original, const Texels& decoded, Mask seen);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mask

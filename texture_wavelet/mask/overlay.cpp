@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-namespace tetrakis {
+namespace tetrakis::inline mask {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::vector<uint8_t> photographOf(const Texels& texels, Mask seen) {
   return photograph;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mask

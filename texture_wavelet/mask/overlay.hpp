@@ -8,7 +8,7 @@
 
 #include "base/texels.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline mask {
 
 /// Returns one byte for each texel, which is 1 if it belongs to the photograph and 0 if it belongs
 /// to the overlay; or nothing if no overlay is worth trying. Each colour of an overlay fills at
@@ -16,4 +16,4 @@ namespace tetrakis {
 /// colours matter; an overlay need not draw the others.
 std::vector<uint8_t> photographOf(const Texels& texels, Mask seen = {});
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline mask

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/length_unit.hpp"
 #include "tools/commands/encode_arguments.hpp"
 #include "tools/commands/output.hpp"
 #include "tools/commands/progress.hpp"

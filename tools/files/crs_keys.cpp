@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/length_unit.hpp"
 #include "tools/files/proj_objects.hpp"
-#include "tools/files/units.hpp"
 
 namespace tetrakis::tools {
 namespace {

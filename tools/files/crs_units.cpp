@@ -7,9 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/length_unit.hpp"
 #include "tools/files/proj_objects.hpp"
 #include "tools/files/tiff.hpp"
-#include "tools/files/units.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "base/length_unit.hpp"
 #include "tools/files/crs_units.hpp"
-#include "tools/files/units.hpp"
 
 namespace tetrakis::tools {
 namespace {

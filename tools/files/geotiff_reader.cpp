@@ -7,12 +7,12 @@
 #include <pugixml.hpp>
 #include <vector>
 
+#include "base/length_unit.hpp"
 #include "tools/files/crs_keys.hpp"
 #include "tools/files/geo_tags.hpp"
 #include "tools/files/geo_units.hpp"
 #include "tools/files/ground_spacing.hpp"
 #include "tools/files/tiff.hpp"
-#include "tools/files/units.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lengths as people type them. Foot definitions: international yard and pound agreement of 1959.
 #include "tools/files/units.hpp"
 
 #include <algorithm>
@@ -8,38 +7,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/length_unit.hpp"
+
 namespace tetrakis::tools {
 namespace {
 
-struct NamedLength {
-  std::string_view name;
-  double metres;
-};
-
-constexpr NamedLength kLengths[] = {{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
-                                    {"km", 1000}, {"ft", 0.3048}, {"us-ft", 1200.0 / 3937}};
-
-struct OtherName {
-  std::string_view name, ours;
-};
-
-/// Lower case, words apart by blanks.
-constexpr OtherName kOtherNames[] = {{"metre", "m"},
-                                     {"meter", "m"},
-                                     {"metres", "m"},
-                                     {"meters", "m"},
-                                     {"centimetre", "cm"},
-                                     {"millimetre", "mm"},
-                                     {"kilometre", "km"},
-                                     {"foot", "ft"},
-                                     {"feet", "ft"},
-                                     {"international foot", "ft"},
-                                     {"international feet", "ft"},
-                                     {"us-ft", "us-ft"},
-                                     {"ftus", "us-ft"},
-                                     {"foot us", "us-ft"},
-                                     {"us survey foot", "us-ft"},
-                                     {"us survey feet", "us-ft"}};
 constexpr std::string_view kSuffixes[] = {"m", "cm", "mm", "km", "ft", "us-ft"};
 
 /// Reads a finite number and moves `text` behind it.
@@ -58,32 +30,6 @@ bool isSuffix(std::string_view text) {
 }
 
 }  // namespace
-
-std::string canonicalUnit(const std::string& unit) {
-  std::string plain = unit;
-  std::transform(plain.begin(), plain.end(), plain.begin(), [](unsigned char c) {
-    return c == '_' ? ' ' : static_cast<char>(std::tolower(c));
-  });
-  for (const OtherName& other : kOtherNames)
-    if (plain == other.name) return std::string(other.ours);
-  return unit;
-}
-
-std::optional<double> metresPerUnit(const std::string& unit) {
-  if (unit.empty()) return 1;
-  const std::string ours = canonicalUnit(unit);
-  for (const NamedLength& length : kLengths)
-    if (ours == length.name) return length.metres;
-  return std::nullopt;
-}
-
-std::string lengthName(double metres) {
-  constexpr double kRelative = 1e-9;  // feet and survey feet differ by 2e-6
-  for (const NamedLength& length : kLengths)
-    if (std::abs(metres - length.metres) <= kRelative * length.metres)
-      return std::string(length.name);
-  return "";
-}
 
 Result<double> parseLength(const std::string& text, const std::string& unit) {
   std::string_view rest = text;

@@ -3,23 +3,11 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 
 #include "base/status.hpp"
 
 namespace tetrakis::tools {
-
-/// Our name of a length ("m", "cm", "mm", "km", "ft", "us-ft") for another one of it ("metres",
-/// "US survey foot", "ftUS"), in upper or lower case; every other text as it is.
-std::string canonicalUnit(const std::string& unit);
-
-/// Metres in one `unit`, by any of its names. An unknown unit ("") is taken for metres; nothing if
-/// the unit is no length.
-std::optional<double> metresPerUnit(const std::string& unit);
-
-/// Our name of the unit that is so many metres long; "" if it has none.
-std::string lengthName(double metres);
 
 /// A non-negative number with an optional suffix m, cm, mm, km, ft or us-ft, converted to `unit`.
 /// Without a suffix the number is in `unit` already. TKS_USAGE if `text` is no such length, or if

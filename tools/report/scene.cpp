@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "tools/files/units.hpp"
+#include "base/length_unit.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -13,7 +13,7 @@
 #include "codec/mesh/quadtree/traversal.hpp"
 #include "codec/mesh/quadtree/view_raster.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 /// A corner of a triangle: its place on the lattice, before clamping, and its vertex number. Where
 /// the vertex is hidden, the number is that of the vertex that it falls onto.
@@ -177,4 +177,4 @@ void FanTriangles::addFan(const Traversal& node, const Ring& corners, Visit& vis
   descend(kSouthEast, 3, {centre, sides[kSouthSide], corners[kSouthEast], sides[kEastSide]});
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

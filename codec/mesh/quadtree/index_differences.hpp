@@ -15,7 +15,7 @@
 
 #include "codec/mesh/quadtree/location_code.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 constexpr int64_t powerOfFour(uint32_t exponent) {
   return int64_t{1} << 2 * exponent;
@@ -95,4 +95,4 @@ class IndexDifferences {
   std::array<Border, kLevels> borders_{};
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

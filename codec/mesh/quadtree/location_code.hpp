@@ -19,7 +19,7 @@
 #include <cassert>
 #include <cstdint>
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 /// A node by its place: `column`, `row` count the nodes of `level` over the whole forest from the
 /// north-west.
@@ -90,4 +90,4 @@ struct QuadtreeShape {
   }
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

@@ -7,7 +7,7 @@
 
 #include "codec/mesh/quadtree/fan_triangles.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 namespace {
 
 size_t rootCount(const Lattice& lattice) {
@@ -133,4 +133,4 @@ ViewMesh MeshTree::whole() const {
   return view(corners);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

@@ -22,7 +22,7 @@
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
 #include "codec/mesh/quadtree/view_raster.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 /// A part of a mesh. vertices: those of its triangles, in the order of the tree (parents before
 /// children). heights: one for each vertex.
@@ -58,4 +58,4 @@ QuadtreeShape quadtreeShapeOf(const Lattice& lattice);
 /// Where the quadtree of the lattice stores a vertex.
 QuadtreePlace placeOf(const Lattice& lattice, Site v);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

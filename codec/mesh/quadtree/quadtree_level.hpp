@@ -27,7 +27,7 @@
 #include <limits>
 #include <vector>
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 inline constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
 
@@ -230,4 +230,4 @@ class LevelCursor {
   Tile tile_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

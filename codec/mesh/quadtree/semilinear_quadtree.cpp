@@ -7,7 +7,7 @@
 #include <cassert>
 #include <numeric>
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 namespace {
 
 using Entry = SemilinearQuadtree::Entry;
@@ -122,4 +122,4 @@ size_t SemilinearQuadtree::bytes() const {
   return bytes;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

@@ -22,7 +22,7 @@
 #include "codec/mesh/quadtree/location_code.hpp"
 #include "codec/mesh/quadtree/quadtree_level.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 enum NodeVertex : uint32_t { kCentre = 0, kNorth = 1, kWest = 2 };
 
@@ -111,4 +111,4 @@ void SemilinearQuadtree::forEachVertex(Visit&& visit) const {
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

@@ -10,7 +10,7 @@
 
 #include "codec/mesh/quadtree/index_differences.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 /// A node that moves through a forest by steps. `differences` must outlive it.
 class Traversal {
@@ -67,4 +67,4 @@ class Traversal {
   uint32_t node_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

@@ -8,7 +8,7 @@
 
 #include "codec/mesh/quadtree/view_raster.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 namespace {
 
 /// a x + b y + c h + d >= 0.
@@ -82,4 +82,4 @@ std::vector<MapPoint> viewFootprint(const std::array<double, 16>& clip, const Ma
   return polygon;
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 namespace {
 
 constexpr double kSlack = 1e-6;  ///< samples: more than the corners of a footprint are rounded by
@@ -60,4 +60,4 @@ void ViewRaster::addEdge(MapPoint p, MapPoint q, Rows& rows, const QuadtreeShape
   }
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

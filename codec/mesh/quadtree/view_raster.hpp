@@ -15,7 +15,7 @@
 
 #include "codec/mesh/quadtree/location_code.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline quadtree {
 
 /// A place on the map, in samples.
 struct MapPoint {
@@ -77,4 +77,4 @@ class ViewRaster {
   std::vector<Rows> levels_;
 };
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline quadtree

@@ -10,7 +10,7 @@
 #include "codec/mesh/study/leaf_order.hpp"
 #include "codec/mesh/study/local_errors.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 namespace {
 
 Status check(const Lattice& lattice, const SurfaceView& surface, std::span<const uint32_t> costs) {
@@ -52,4 +52,4 @@ Result<MeshSequence> decimate(const SurfaceView& surface, const DecimationOption
   return MeshSequence(std::move(*lattice), std::move(order), gains);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study

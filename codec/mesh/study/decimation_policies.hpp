@@ -8,7 +8,7 @@
 
 #include "codec/mesh/decimation.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 
 /// How the next vertex is chosen.
 enum class MeshPolicy {
@@ -30,4 +30,4 @@ struct DecimationOptions {
 /// to 2^32 or more.
 Result<MeshSequence> decimate(const SurfaceView& surface, const DecimationOptions& options);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study

@@ -11,7 +11,7 @@
 #include "codec/mesh/slope_queue.hpp"
 #include "codec/mesh/worth.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 namespace {
 
 using Ready = std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>>;
@@ -72,4 +72,4 @@ std::vector<VertexId> refinement(const std::vector<double>& errors, const Vertex
       [&](Site site, auto&& visit) { lattice.forEachChild(site, visit); });
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study

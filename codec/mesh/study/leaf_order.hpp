@@ -8,7 +8,7 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/vertex_costs.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 
 /// Restricted decimation: from full resolution down, each step removes the vertex of least slope
 /// among those without remaining descendants (|M_v| = 1). All vertices, those removed last first.
@@ -20,4 +20,4 @@ std::vector<VertexId> restrictedDecimation(const std::vector<double>& errors,
 /// parents are there; what costs nothing first. All vertices, in this order.
 std::vector<VertexId> refinement(const std::vector<double>& errors, const VertexCosts& costs);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study

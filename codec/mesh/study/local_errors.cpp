@@ -8,7 +8,7 @@
 #include "codec/mesh/clamped_triangle.hpp"
 #include "codec/mesh/triangle.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 namespace {
 
 struct Corner {
@@ -66,4 +66,4 @@ std::vector<double> localErrors(const Lattice& lattice, const SurfaceView& surfa
   return LocalErrors(lattice, surface).build();
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study

@@ -7,10 +7,10 @@
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/surface_view.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 
 /// Of every vertex, the squared error of its own sample, times its weight, in a mesh that has the
 /// vertex's parents and not the vertex; 0 for hidden ones. The surface has the lattice's size.
 std::vector<double> localErrors(const Lattice& lattice, const SurfaceView& surface);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study

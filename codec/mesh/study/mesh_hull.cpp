@@ -8,7 +8,7 @@
 
 #include "codec/mesh/gains.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains) {
   std::vector<VertexId> vertices(lattice.vertexCount());
@@ -60,4 +60,4 @@ Result<MeshSequence> decimateOptimally(const SurfaceView& surface) {
   return MeshSequence(lattice, std::move(order), gains);
 }
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study

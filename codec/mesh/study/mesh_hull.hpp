@@ -10,7 +10,7 @@
 #include "codec/mesh/closure.hpp"
 #include "codec/mesh/decimation.hpp"
 
-namespace tetrakis {
+namespace tetrakis::inline study {
 
 /// The slopes of closureSlopes() for the set of all lattice vertices.
 std::vector<double> closureSlopes(const Lattice& lattice, std::span<const double> gains);
@@ -38,4 +38,4 @@ class MeshHull {
 /// Like decimate(), but through every corner of the hull; between corners in greedy order.
 Result<MeshSequence> decimateOptimally(const SurfaceView& surface);
 
-}  // namespace tetrakis
+}  // namespace tetrakis::inline study
