@@ -150,8 +150,9 @@ class Decoded {
     const uint64_t bytes = texture_.curve.points[point].bytes;
     View view;
     if (!coded.header.direct()) {
-      const uint64_t enough = kTexelsPerByte * bytes;
-      while (view.level < kMostLevels && view.extentIn(whole).samples() / 4 >= enough) ++view.level;
+      const uint64_t enough = std::max(kTexelsPerByte * bytes, kLeastTexels);
+      while (view.extentIn(whole).samples() / 4 >= enough && isCommon(whole, view.level + 1))
+        ++view.level;
     }
     return {texelsAt(point, view), whole, view.level};
   }
@@ -164,8 +165,12 @@ class Decoded {
   }
 
  private:
-  static constexpr uint64_t kTexelsPerByte = 16;
-  static constexpr int kMostLevels = 5;
+  static constexpr uint64_t kTexelsPerByte = 16, kLeastTexels = 4096;
+
+  /// A level that every wavelet has.
+  static bool isCommon(Extent whole, int level) {
+    return std::min(whole.width, whole.height) >> level >= 32;
+  }
 
   const EncodeInputs& inputs_;
   Rated<CodedHeights> heights_;
