@@ -78,11 +78,11 @@ Status blames(const Camera& camera, const char* what) {
   return {TKS_USAGE, "Camera '" + camera.name + "' " + what + "."};
 }
 
-/// Prefixes of a component that are looked at: points of its curve, from the opening on, so that
-/// each has `ratio` times the bytes of the one before. Those that take a third of the budget say
-/// enough of what is left.
+/// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
+/// `ratio` times the bytes of the one before, up to the first beyond the budget. Tracks are coded
+/// to twice the budget: with a ratio of 2 the nodes that matter to it do not depend on it.
 std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t budget) {
-  constexpr double kFirst = 48;  // bytes
+  constexpr double kFirst = 64;  // bytes
   const std::vector<RatePoint>& points = curve.points;
   std::vector<size_t> nodes = {curve.opened};
   double next = kFirst;
@@ -95,7 +95,7 @@ std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t 
     if (!(points[i].distortion > 0 && points[i].distortion < before.distortion)) continue;
     nodes.push_back(i);
     next = std::max(bytes, next) * ratio;
-    if (points[i].bytes >= budget / 3) break;
+    if (points[i].bytes >= budget) break;
   }
   return nodes;
 }
@@ -294,7 +294,8 @@ Status checkCameras(const EncodeInputs& inputs) {
 
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture) {
-  constexpr double kHeightsRatio = 2.5, kTextureRatio = 4;
+  // Pictures that are drawn take long: fewer of them.
+  const double ratio = inputs.options.picture_error != nullptr ? 4 : 2;
   const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
   Decoded decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
@@ -302,9 +303,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   const CodedHeights& coded = heights.coded;
   const double metres =
       coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
-  Nodes nodes = {nodesOf(heights.curve, kHeightsRatio, budget),
-                 nodesOf(texture.curve, kTextureRatio, budget),
-                 {}};
+  Nodes nodes = {nodesOf(heights.curve, ratio, budget), nodesOf(texture.curve, ratio, budget), {}};
   PairNodes squares = {squaresAt(heights.curve, nodes.heights),
                        squaresAt(texture.curve, nodes.textures)};
   for (const double square : squares.heights)
