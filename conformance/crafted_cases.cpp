@@ -204,21 +204,20 @@ std::vector<VectorCase> drawnCases() {
                   streamOf(over, noise(700, 32)))};
 }
 
-/// A complete stream of regions with another whole_bytes than its encoder wrote.
-VectorCase wholeBytesCase(const std::string& name, const std::string& purpose,
-                          const VectorCase& source,
-                          const std::function<uint64_t(uint64_t)>& change) {
+/// A complete stream with other fields of the wavelet than its encoder wrote.
+VectorCase waveletCase(const std::string& name, const std::string& purpose,
+                       const VectorCase& source,
+                       const std::function<void(WaveletHeader&)>& change) {
   const auto stream = encodeCase(source);
   if (!stream.ok()) return crafted(name, purpose, {0});
   ParsedHeader parsed = *readHeader(*stream);
-  RegionHeader& regions = parsed.header.geometry->regions;
-  regions.whole_bytes = change(regions.whole_bytes);
+  change(parsed.header.geometry->wavelet);
   Bytes bytes = writeHeader(parsed.header);
   bytes.insert(bytes.end(), stream->begin() + static_cast<ptrdiff_t>(parsed.bytes), stream->end());
   return crafted(name, purpose, std::move(bytes));
 }
 
-std::vector<VectorCase> wholeBytesCases() {
+std::vector<VectorCase> roundedCases() {
   VectorCase flat, voids;
   flat.name = voids.name = "regions";
   flat.options.size = voids.options.size = sizeof(tks_encode_options);
@@ -228,16 +227,26 @@ std::vector<VectorCase> wholeBytesCases() {
   voids.heights = flat.heights;
   voids.voids = samples::VoidShape::kSpeckle;
   voids.nodata = -128;
-  VectorCase half =
-      wholeBytesCase("whole_bytes_half_40x37", "regions count as whole from half of their bytes on",
-                     flat, [](uint64_t bytes) { return bytes / 2; });
-  VectorCase layers =
-      wholeBytesCase("whole_bytes_layers_40x37", "bytes of validity are none of coefficients",
-                     voids, [](uint64_t bytes) { return bytes / 2; });
+  const auto halved = [](WaveletHeader& wavelet) { wavelet.rounded_bytes /= 2; };
+  VectorCase half = waveletCase("rounded_half_40x37",
+                                "regions round from half of the encoder's bytes on", flat, halved);
+  VectorCase layers = waveletCase("rounded_layers_40x37",
+                                  "bytes of validity are none of coefficients", voids, halved);
   for (VectorCase* each : {&half, &layers}) each->dense = true;
-  return {half, layers,
-          wholeBytesCase("whole_bytes_never_40x37", "regions that are never whole", flat,
-                         [](uint64_t) { return 0; })};
+  return {half,
+          layers,
+          waveletCase("rounded_never_40x37", "a complete stream without roundings", flat,
+                      [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 1 << 20; }),
+          waveletCase("rounded_always_40x37", "the inverse rounds from the first byte on", flat,
+                      [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 0; }),
+          waveletCase("doubled_0_40x37", "no low band is doubled", flat,
+                      [](WaveletHeader& wavelet) { wavelet.first_doubled = 0; }),
+          waveletCase("doubled_1_40x37", "levels 1 and 2 are doubled", flat,
+                      [](WaveletHeader& wavelet) { wavelet.first_doubled = 1; }),
+          waveletCase("joint_17_bits_40x37", "joint sums of 64 bits", flat,
+                      [](WaveletHeader& wavelet) { wavelet.bits = 17; }),
+          waveletCase("joint_not_40x37", "21 bits: rows, then columns, and doubled", flat,
+                      [](WaveletHeader& wavelet) { wavelet.bits = 21; })};
 }
 
 std::vector<VectorCase> shearCases() {
@@ -250,7 +259,7 @@ std::vector<VectorCase> shearCases() {
 std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = {weightCase(3, 2), weightCase(4, 8)};
   for (const auto& cases : {wideCases(), tableCases(), correctionCases(), nodataCases(),
-                            shearCases(), drawnCases(), wholeBytesCases()})
+                            shearCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

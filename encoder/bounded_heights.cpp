@@ -98,13 +98,15 @@ CodedHeights correct(const Bound& bound, int32_t largest, std::optional<double> 
   const QuantisedHeights& heights = *bound.of;
   const EncodedTrack whole =
       std::move(codeCoefficients(heights, bound.wavelet, bound.options).front());
+  WaveletHeader wavelet = bound.wavelet;
+  wavelet.rounded_bytes = exactBytes(std::span(&whole, 1));
   GeometryHeader header = headerOf(heights);
-  header.wavelet = bound.wavelet;
+  header.wavelet = wavelet;
   header.planes = static_cast<uint8_t>(whole.planes);
   const CorrectedCut cut_of(heights.steps, header, whole, largest);
   const uint64_t bytes = mean_square ? cut_of.bytesFor(*mean_square) : cut_of.best();
   const Corrected corrected = cut_of.correct(bytes);
-  HeightLayers layers{heights.layers, corrected.codeword, bound.wavelet};
+  HeightLayers layers{heights.layers, corrected.codeword, wavelet};
   if (!corrected.codeword.empty()) {
     layers.layers.corrections = CorrectionKind::kSteps;
     layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);

@@ -6,6 +6,7 @@
 
 #include "codec/geometry/stored_heights.hpp"
 #include "encoder/height_errors.hpp"
+#include "wavelet/rounding_choice.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -73,8 +74,6 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
   coded.header.wavelet = wavelet;
   coded.header.planes = static_cast<uint8_t>(coded.tracks.front().planes);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  if (region_log2 > 0 && allComplete(coded.tracks))
-    coded.header.regions.whole_bytes = bytesOf(coded.tracks);
   EncodedTrack& track = coded.tracks.front();
   std::vector<uint8_t>& codeword = track.codeword;
   if (!corrections.empty()) coded.layers.coefficient_bytes = codeword.size();
@@ -88,8 +87,13 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
 
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
                          const CoefficientOptions& options) {
-  const HeightLayers layers{of->layers, of->corrections, chooseHeightFilters(*of, purpose)};
+  HeightLayers layers{of->layers, of->corrections, chooseHeightFilters(*of, purpose)};
   std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, options);
+  if (layers.wavelet.fraction_bits == 0) {
+    const PlaneView<const int32_t> plane(of->steps.steps, extentOf(*of->samples), of->steps.valid);
+    const double missing = roundedBits(plane, layers.wavelet) * of->counted();
+    layers.wavelet.rounded_bytes = roundedBytes(coefficients, missing);
+  }
   return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
 }
 

@@ -15,6 +15,7 @@
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "texture_wavelet/visual_weights.hpp"
+#include "wavelet/rounding_choice.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline texture {
@@ -118,12 +119,6 @@ Fit fitAndTransform(const Texels& texels, Purpose purpose, Mask coded, const Tex
   return {colour, transformColours(colour, purpose, texels, coded, planes)};
 }
 
-/// What the header says of tracks that are complete.
-uint64_t wholeBytes(const EncodedTexture& encoded) {
-  const bool told = encoded.header.regions.side_log2 > 0 && allComplete(encoded.tracks);
-  return told ? bytesOf(encoded.tracks) : 0;
-}
-
 void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track) {
   if (opening.empty()) return;
   track.codeword.insert(track.codeword.begin(), opening.begin(), opening.end());
@@ -211,9 +206,15 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   header.alpha_bytes = mask.size();
   header.overlay_bytes = overlay.size();
   const uint64_t counted = countedSamples(texels, source.counted(hidden));
+  double missing = 0;  // by the first component, which holds most of the bits
+  if (wavelet.fraction_bits == 0) {
+    missing = roundedBits({planes.front(), texels.extent(), coded}, wavelet) *
+              static_cast<double>(texels.extent().samples() * planes.size());
+  }
   encoded.tracks = encodePlanes(header, colour, coded, untilReached(options, counted), planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
-  header.regions.whole_bytes = wholeBytes(encoded);
+  if (wavelet.fraction_bits == 0)
+    header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, missing);
   prependOpening(texels, overlay, mask, encoded.tracks.front());
   return encoded;
 }

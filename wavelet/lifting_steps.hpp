@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -19,6 +20,20 @@ inline ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
   const ptrdiff_t period = 2 * (n - 1);
   p = ((p % period) + period) % period;
   return std::min(p, period - p);
+}
+
+/// Doubles values of a low band.
+inline void doubleValues(std::span<int32_t> values) {
+  for (int32_t& v : values) v = static_cast<int32_t>(static_cast<uint32_t>(v) << 1);
+}
+
+/// Undoes the doubling of a value of a low band; what is odd is rounded up.
+inline int32_t halved(int32_t value) {
+  return static_cast<int32_t>(static_cast<uint32_t>(value) + 1) >> 1;
+}
+
+inline void halveValues(std::span<int32_t> values) {
+  for (int32_t& v : values) v = halved(v);
 }
 
 /// Rows of equal length at equal distances.
@@ -104,6 +119,12 @@ class Halves {
   void copyTo(T* row) {
     std::copy_n(low(), lows_, row);
     std::copy_n(high(), highs_, row + lows_);
+  }
+
+  /// Room for what a step of a signal of that length reads, and how many values that are.
+  std::span<T> room(bool predicts, uint32_t length) {
+    setLength(length);
+    return {predicts ? low() : high(), static_cast<size_t>(predicts ? lows_ : highs_)};
   }
 
   /// What a step changes that predicts or updates, and what it reads.

@@ -104,7 +104,7 @@ int measure(const WaveletSpec& spec, bool high, int splits) {
 
 }  // namespace
 
-SynthesisNorms::SynthesisNorms(const WaveletSpec& spec, int levels) : doubled_(spec.doubled) {
+SynthesisNorms::SynthesisNorms(const WaveletSpec& spec, int levels) : spec_(spec) {
   for (int i = 1; i <= levels; ++i) {
     const auto at = static_cast<size_t>(i);
     const bool measured = i <= kMeasuredLevels;
@@ -116,10 +116,10 @@ SynthesisNorms::SynthesisNorms(const WaveletSpec& spec, int levels) : doubled_(s
 int SynthesisNorms::fine(const Subband& band) const {
   int norm = (band.isHighX() ? high_ : low_)[static_cast<size_t>(band.splits_x)] +
              (band.isHighY() ? high_ : low_)[static_cast<size_t>(band.splits_y)];
-  if (!doubled_) return norm;
   // A detail band is made from the low band of the level before, LL is itself a low band.
   const int doubled_up_to = band.orientation == Orientation::kLL ? band.level : band.level - 1;
-  for (int level : kDoubledLevels) norm -= level <= doubled_up_to ? kFineSteps : 0;
+  for (int level = 1; level <= doubled_up_to; ++level)
+    norm -= spec_.doubles(level) ? kFineSteps : 0;
   return norm;
 }
 

@@ -29,7 +29,7 @@ class SynthesisNorms {
 
   int fine(const Subband& band) const;
 
-  bool doubled_;
+  WaveletSpec spec_;
   Table low_{}, high_{};  ///< kFineSteps log2 of the norm after so many splits
 };
 

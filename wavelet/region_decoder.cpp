@@ -11,12 +11,10 @@ namespace tetrakis::inline wavelet {
 
 namespace {
 
-/// Every decision is there: said by the number of bytes, because a window does not decode all
-/// tracks.
-bool isWhole(const RegionHeader& regions, const Codewords& codewords) {
+uint64_t bytesOf(const Codewords& codewords) {
   uint64_t bytes = 0;
   for (const auto& codeword : codewords) bytes += codeword.size();
-  return regions.whole_bytes > 0 && bytes >= regions.whole_bytes;
+  return bytes;
 }
 
 }  // namespace
@@ -43,28 +41,25 @@ bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
 
 int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const {
   assert(!codewords.empty());
-  if (nothingKnown(codewords)) {
-    const bool complete = !PassQueue(plan_of(0), bit_planes).needed();
-    return outputFractionBits(wavelet, bit_planes, complete);
-  }
+  // Windows do not decode all tracks, so that only the bytes say how much is known.
+  const int bits = outputFractionBits(wavelet, bit_planes, bytesOf(codewords));
+  const int more_bits = bits - wavelet.fraction_bits;
+  if (nothingKnown(codewords)) return bits;
   if (regions.side_log2 == 0) {
-    const auto taken = [&](const TrackState& state) {
-      const int bits = outputFractionBits(wavelet, bit_planes, state.complete);
-      take(0, state, bits - wavelet.fraction_bits);
-      return bits;
-    };
     // The plan is known when its masks are, which come first.
     TrackMemory* memory = context.memory;
-    if (memory == nullptr) return taken(decodeTrack(plan_of(0), bit_planes, codewords.front()));
+    if (memory == nullptr) {
+      take(0, decodeTrack(plan_of(0), bit_planes, codewords.front()), more_bits);
+      return bits;
+    }
     if (!*memory) memory->emplace(plan_of(0), bit_planes);
-    return taken((*memory)->decode(codewords.front()));
+    take(0, (*memory)->decode(codewords.front()), more_bits);
+    return bits;
   }
-  const int bits = outputFractionBits(wavelet, bit_planes, isWhole(regions, codewords));
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
     if (codewords[i].empty() || bit_planes == 0) return;
     const std::vector<BandPlan> plan = plan_of(i);
-    if (plan.empty()) return;
-    take(i, decodeTrack(plan, bit_planes, codewords[i]), bits - wavelet.fraction_bits);
+    if (!plan.empty()) take(i, decodeTrack(plan, bit_planes, codewords[i]), more_bits);
   });
   return bits;
 }

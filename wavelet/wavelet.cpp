@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "wavelet/joint_lifting.hpp"
 #include "wavelet/lifting.hpp"
 #include "wavelet/masked_lifting.hpp"
 
@@ -24,18 +25,6 @@ struct Block {
   Rows<int32_t> rows() const { return {first, pitch, extent.height, extent.width}; }
   std::span<int32_t> row(uint32_t y) const { return {first + y * pitch, extent.width}; }
 };
-
-void doubleValues(const Block& low) {
-  for (uint32_t y = 0; y < low.extent.height; ++y) {
-    for (int32_t& v : low.row(y)) v = static_cast<int32_t>(static_cast<uint32_t>(v) << 1);
-  }
-}
-
-void halveValues(const Block& low) {
-  for (uint32_t y = 0; y < low.extent.height; ++y) {
-    for (int32_t& v : low.row(y)) v = halved(v);
-  }
-}
 
 /// The low band of a level where it lies in the values of the low band of a finer level.
 Block blockOf(const Pyramid& pyramid, int level, int finer, std::span<int32_t> values) {
@@ -56,32 +45,51 @@ struct BlockMask {
   }
 };
 
-/// One level of the transform: rows, then columns; backwards the other way round.
+/// One level of the transform: rows and columns jointly, or rows, then columns; backwards the other
+/// way round.
 class LevelTransform {
  public:
   LevelTransform(const WaveletSpec& spec, int level, Direction direction, uint32_t threads)
       : id_(spec.filter(level)),
         direction_(direction),
+        doubles_(spec.doubles(level)),
         wide_(spec.wide(level)),
+        joint_(spec.joint(level)),
+        jointly_wide_(spec.jointlyWide(level)),
         threads_(threads) {}
 
   /// existing: one byte for each value of the block; empty: all exist.
   void run(const Block& whole, Extent low, std::span<const uint8_t> existing) const {
     assert(existing.empty() || existing.size() == whole.extent.samples());
     const bool rows = low.width < whole.extent.width, columns = low.height < whole.extent.height;
+    if (joint_ && rows && columns && existing.empty()) return liftJointly(whole);
     std::optional<BlockMask> mask;
     if (!existing.empty()) mask = BlockMask{existing, whole.extent};
+    const Block lows{whole.first, columns ? 2 * whole.pitch : whole.pitch, low};
+    if (doubles_ && !analyses()) forEachRow(lows, halveValues);
     if (rows && analyses()) liftRows(whole, mask);
     if (columns) liftColumns(whole, mask);
     if (rows && !analyses()) liftRows(whole, mask);
+    if (doubles_ && analyses()) forEachRow(lows, doubleValues);
   }
 
  private:
   /// Rows or columns that a thread takes at a time.
   static constexpr uint32_t kChunk = 256;
 
+  static void forEachRow(const Block& block, void (*change)(std::span<int32_t>)) {
+    for (uint32_t y = 0; y < block.extent.height; ++y) change(block.row(y));
+  }
   bool analyses() const { return direction_ == Direction::kAnalysis; }
 
+  void liftJointly(const Block& whole) const {
+    const JointBlock block{whole.first, whole.pitch, whole.extent, doubles_};
+    for (const JointStep step : JointLifting::steps(direction_)) {
+      inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
+        JointLifting(block, id_, direction_, jointly_wide_).run(step, begin, end);
+      });
+    }
+  }
   void liftRows(const Block& whole, const std::optional<BlockMask>& mask) const {
     const uint32_t width = whole.extent.width;
     inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
@@ -123,7 +131,7 @@ class LevelTransform {
 
   FilterId id_;
   Direction direction_;
-  bool wide_;
+  bool doubles_, wide_, joint_, jointly_wide_;
   uint32_t threads_;
 };
 
@@ -136,10 +144,6 @@ std::vector<uint8_t> maskOf(const Pyramid& pyramid, int level) {
 
 }  // namespace
 
-int32_t halved(int32_t value) {
-  return static_cast<int32_t>(static_cast<uint32_t>(value) + 1) >> 1;
-}
-
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block) {
   assert(block.values.size() == block.extent.samples());
   LevelTransform(spec, level, Direction::kSynthesis, 1)
@@ -149,22 +153,18 @@ void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block) {
 void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads) {
   const Pyramid pyramid(plane.extent(), plane.valid);
   for (int level = 1; level <= pyramid.levels(); ++level) {
-    const Block whole = blockOf(pyramid, level - 1, 0, plane.values()),
-                low = blockOf(pyramid, level, 0, plane.values());
     LevelTransform(spec, level, Direction::kAnalysis, threads)
-        .run(whole, low.extent, maskOf(pyramid, level));
-    if (spec.doubles(level)) doubleValues(low);
+        .run(blockOf(pyramid, level - 1, 0, plane.values()), pyramid.low(level).extent,
+             maskOf(pyramid, level));
   }
 }
 
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
                     std::span<int32_t> values, uint32_t threads) {
   for (int split = pyramid.levels(); split > level; --split) {
-    const Block whole = blockOf(pyramid, split - 1, level, values),
-                low = blockOf(pyramid, split, level, values);
-    if (spec.doubles(split)) halveValues(low);
     LevelTransform(spec, split, Direction::kSynthesis, threads)
-        .run(whole, low.extent, maskOf(pyramid, split));
+        .run(blockOf(pyramid, split - 1, level, values), pyramid.low(split).extent,
+             maskOf(pyramid, split));
   }
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transform is a reversible separable integer wavelet of a plane. Heights and the components of
-// a texture share it.
+// The transform is a reversible integer wavelet of a plane. Heights and the components of a texture
+// share it.
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
-// with fraction bits keep these errors below a step. In planes without them (lossless ones) the low
-// band is doubled after the levels of kDoubledLevels, so that rounding there costs half a step:
-// prefixes get better, and lossless streams 0.5 % (terrain) to 0.9 % (images) longer.
+// with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
+// coefficient once (wavelet/joint_lifting.hpp). The low bands of two levels are doubled besides, so
+// that coarser levels round half as much: prefixes get better, lossless streams a little longer.
+// docs/MEASUREMENTS.md says by how much.
 #pragma once
 
 #include <algorithm>
@@ -14,21 +15,22 @@
 #include <span>
 #include <vector>
 
+#include "wavelet/joint_lifting.hpp"
 #include "wavelet/lifting_filter.hpp"
 #include "wavelet/pyramid.hpp"
 
 namespace tetrakis::inline wavelet {
 
-inline constexpr std::array<int, 2> kDoubledLevels = {3, 4};
-
 /// Which transform: stands in the stream header.
 struct WaveletSpec {
   static constexpr size_t kChoices = 3;
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
-  bool doubled = false;  ///< the low band is doubled after each of kDoubledLevels
-  int bits = 0;          ///< of a sample, fraction included
+  bool whole = false;      ///< samples have no fraction bits
+  int bits = 0;            ///< of a sample, fraction included
+  int first_doubled = 3;   ///< the low band is doubled after this level and the next; 0: after none
 
   static constexpr int kNarrowLevels = 3;
+  static constexpr int kJointBits = 20;
 
   /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
   /// and kOrthogonal multiplies their mean by 1.60 at every level.
@@ -40,8 +42,15 @@ struct WaveletSpec {
   }
   /// The low band is doubled after this level.
   bool doubles(int level) const {
-    return doubled &&
-           std::find(kDoubledLevels.begin(), kDoubledLevels.end(), level) != kDoubledLevels.end();
+    return whole && first_doubled > 0 && (level == first_doubled || level == first_doubled + 1);
+  }
+  /// The level lifts rows and columns jointly where it splits both and every sample exists.
+  bool joint(int level) const {
+    return whole && bits <= kJointBits && liftsJointly(filter(level));
+  }
+  /// Joint sums of this level are of 64 bits: they have kJointPlaces binary places.
+  bool jointlyWide(int level) const {
+    return level > kNarrowLevels || bits + kJointPlaces >= widestSamples(filter(level));
   }
 };
 
@@ -71,8 +80,5 @@ inline constexpr uint64_t kLiftingBytes = 8;
 
 /// Undoes one level of the transform of a block, in place.
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block);
-
-/// Undoes the doubling of a value of the low band.
-int32_t halved(int32_t value);
 
 }  // namespace tetrakis::inline wavelet

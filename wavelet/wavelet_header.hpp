@@ -13,17 +13,24 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   WaveletSpec spec;
   std::transform(header.filters.begin(), header.filters.end(), spec.filters.begin(),
                  [](uint8_t id) { return static_cast<FilterId>(id); });
-  spec.doubled = header.fraction_bits == 0;
+  spec.whole = header.fraction_bits == 0;
   spec.bits = header.bits;
+  spec.first_doubled = header.first_doubled;
   return spec;
 }
 
-/// Returns how many binary places the coefficients of a track get when they are reconstructed:
-/// those of the header, or, if it has none and the track is incomplete, as many as fit, so that the
-/// inverse transform adds no rounding noise of its own.
-inline int outputFractionBits(const WaveletHeader& header, int bit_planes, bool complete) {
-  if (header.fraction_bits > 0 || complete) return header.fraction_bits;
+/// The binary places of coefficients of samples without fraction bits in an inverse that does not
+/// round: as many as fit.
+inline int unroundedBits(int bit_planes) {
   return std::clamp(19 - bit_planes, 0, 4);
+}
+
+/// Returns how many binary places the coefficients get when they are reconstructed: those of the
+/// header, or, if it has none and so much is unknown that roundings would add to it, as many as fit.
+/// bytes: of the coefficients, in all tracks together.
+inline int outputFractionBits(const WaveletHeader& header, int bit_planes, uint64_t bytes) {
+  const bool rounds = header.fraction_bits > 0 || bytes >= header.rounded_bytes;
+  return rounds ? header.fraction_bits : unroundedBits(bit_planes);
 }
 
 }  // namespace tetrakis::inline wavelet

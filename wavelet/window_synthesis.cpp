@@ -115,10 +115,7 @@ void WindowSynthesis::copyLow(const std::vector<int32_t>& low, int number) {
   const size_t pitch = level.y.split() ? 2 * width : width;
   assert(low.size() == columns * level.y.low.size());
   for (size_t row = 0; row < level.y.low.size(); ++row) {
-    int32_t* out = level.values.data() + row * pitch;
-    std::copy_n(low.data() + row * columns, columns, out);
-    if (!spec_.doubles(number)) continue;
-    for (size_t i = 0; i < columns; ++i) out[i] = halved(out[i]);
+    std::copy_n(low.data() + row * columns, columns, level.values.data() + row * pitch);
   }
 }
 

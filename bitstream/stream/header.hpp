@@ -33,19 +33,27 @@ struct WaveletHeader {
   std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
   uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
   uint8_t bits = 0;                  ///< of a sample with its fraction: how wide sums must be
+  /// Without fraction bits: the low band is doubled after this level and the next; 0: never.
+  uint8_t first_doubled = 0;
+  /// Without fraction bits: the inverse rounds if the coefficients have so many bytes, of all
+  /// tracks together.
+  uint64_t rounded_bytes = 0;
 
   template <class V>
   void visit(V& v) {
     for (uint8_t& filter : filters) v.u8("filter", filter, 0, 3);
     v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
     v.u8("sample_bits", bits, 0, 32);
+    if (fraction_bits > 0) return;
+    v.u8("first_doubled", first_doubled, 0, kMostDoubled);
+    v.varint("rounded_bytes", rounded_bytes, 0, UINT64_MAX >> 1);
   }
+  static constexpr uint8_t kMostDoubled = 4;
 };
 
 /// Spatial regions of a component: bitstream/track/regions.hpp.
 struct RegionHeader {
-  uint8_t side_log2 = 0;     ///< of the regions of the finest levels; 0: one region
-  uint64_t whole_bytes = 0;  ///< bytes of coefficients in all tracks when complete; 0: never sent
+  uint8_t side_log2 = 0;  ///< of the regions of the finest levels; 0: one region
 
   bool isDefault() const { return *this == RegionHeader{}; }
   bool operator==(const RegionHeader&) const = default;
@@ -53,7 +61,6 @@ struct RegionHeader {
   template <class V>
   void visit(V& v) {
     v.u8("region_log2", side_log2, 0, kMostRegionLog2);
-    if (side_log2 > 0) v.varint("whole_bytes", whole_bytes, 0, UINT64_MAX >> 1);
   }
 };
 

@@ -55,11 +55,12 @@ void Reconstruction::row(uint32_t row, int32_t* values) const {
   }
 }
 
-/// sixtyfourths / 64 * 2^plane in output units, rounded towards zero.
+/// sixtyfourths / 64 of the open interval in output units, rounded towards zero. It reaches from the
+/// least integer in it to the greatest.
 int32_t Reconstruction::fraction(int sixtyfourths, int plane) const {
   const auto magnitude = static_cast<uint64_t>(sixtyfourths < 0 ? -sixtyfourths : sixtyfourths);
-  const auto value =
-      static_cast<int32_t>(static_cast<uint32_t>((magnitude << (plane + fraction_bits_)) >> 6));
+  const uint64_t interval = ((uint64_t{1} << plane) - 1) << fraction_bits_;
+  const auto value = static_cast<int32_t>(static_cast<uint32_t>((magnitude * interval) >> 6));
   return sixtyfourths < 0 ? -value : value;
 }
 

@@ -180,7 +180,7 @@ class TrackCoder {
   }
 
   int firstKey() const { return done() ? kNoKey : passes_->front().key; }
-  /// A track of zeros is complete without a byte: RegionHeader::whole_bytes tells the decoder that
+  /// A track of zeros is complete without a byte: WaveletHeader::rounded_bytes tells the decoder that
   /// none of its decisions is missing.
   bool done() const { return nothing_to_say_ || passes_->empty(); }
   uint64_t bytes() const { return io_.decidedBytes(); }
@@ -259,8 +259,10 @@ uint64_t bytesOf(std::span<const EncodedTrack> tracks) {
   return bytes;
 }
 
-bool allComplete(std::span<const EncodedTrack> tracks) {
-  return std::all_of(tracks.begin(), tracks.end(), [](const auto& t) { return t.complete; });
+uint64_t exactBytes(std::span<const EncodedTrack> tracks) {
+  const bool complete =
+      std::all_of(tracks.begin(), tracks.end(), [](const auto& t) { return t.complete; });
+  return bytesOf(tracks) + (complete ? 0 : 1);
 }
 
 EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,

@@ -23,9 +23,10 @@ SignWeights weightsOf(Orientation orientation) {
   return orientation == kHH ? SignWeights{-3, -3, 1} : SignWeights{-8, 3, -1};
 }
 
-/// sixtyfourths / 64 * 2^exponent, rounded down.
-int64_t fraction(uint64_t sixtyfourths, int exponent) {
-  return static_cast<int64_t>((sixtyfourths << exponent) >> 6);
+/// sixtyfourths / 64 * (2^plane - 1) * 2^e, rounded down.
+int64_t fraction(uint64_t sixtyfourths, int plane, int e) {
+  const uint64_t interval = (uint64_t{1} << plane) - 1;
+  return static_cast<int64_t>((sixtyfourths * (interval << e)) >> 6);
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ int32_t Band::value(int r, int a, int e) const {
   const Neighbours n = neighboursOf(r, a);
   if (c.magnitude > 0) {
     int64_t size = int64_t{c.magnitude} << e;
-    if (c.plane > 0) size += fraction(kCentroids[activity(n, c.plane)], c.plane + e);
+    if (c.plane > 0) size += fraction(kCentroids[activity(n, c.plane)], c.plane, e);
     return static_cast<int32_t>(c.sign * size);
   }
   if (c.plane == 0) return 0;
@@ -78,7 +79,7 @@ int32_t Band::value(int r, int a, int e) const {
   int t = w.along * (n.along[0].sign + n.along[1].sign) +
           w.across * (n.across[0].sign + n.across[1].sign);
   for (const Coefficient& far : n.far) t += w.far * far.sign;
-  const int64_t size = fraction(static_cast<uint64_t>(std::abs(t)), c.plane + e);
+  const int64_t size = fraction(static_cast<uint64_t>(std::abs(t)), c.plane, e);
   return static_cast<int32_t>(t < 0 ? -size : size);
 }
 

@@ -88,7 +88,6 @@ Surface decodeSurface(const GeometryHeader& header,
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   surface.plane = {header.width, header.height, {}, std::move(valid)};
   surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
-  bool counted = true;
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     const size_t track = surface.parts.size();
     surface.parts.push_back(partsOf(subbands, region));
@@ -96,10 +95,9 @@ Surface decodeSurface(const GeometryHeader& header,
     bands = bandsOf(header.wavelet, surface.parts.back(), 0);
     markAbsent(surface.parts.back(), surface.plane, bands);
     dropFiner(surface.parts.back(), level, bands);
-    counted &= decodeTrack(coefficients[track], header.planes, bands);
+    decodeTrack(coefficients[track], header.planes, bands);
   }
-  const bool complete = isComplete(header.regions, coefficients, counted);
-  surface.f = fractionOf(header.wavelet, header.planes, complete);
+  surface.f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients));
   for (size_t i = 0; i < surface.parts.size(); ++i) {
     place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
           surface.plane);

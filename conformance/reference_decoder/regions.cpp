@@ -106,12 +106,10 @@ void dropFiner(const std::vector<Part>& parts, int level, std::span<Band> bands)
   }
 }
 
-bool isComplete(const RegionHeader& header, const std::vector<std::span<const uint8_t>>& codewords,
-                bool counted) {
-  if (header.log2 == 0) return counted;
+uint64_t bytesOf(const std::vector<std::span<const uint8_t>>& codewords) {
   uint64_t bytes = 0;
   for (const auto& codeword : codewords) bytes += codeword.size();
-  return header.wholeBytes > 0 && bytes >= header.wholeBytes;
+  return bytes;
 }
 
 void place(std::span<const Band> bands, const std::vector<Part>& parts, int e, Plane& plane) {

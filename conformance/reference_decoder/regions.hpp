@@ -41,10 +41,8 @@ void markAbsent(const std::vector<Part>& parts, const Plane& plane, std::span<Ba
 /// FORMAT 7.1: marks the bands that a level does not need.
 void dropFiner(const std::vector<Part>& parts, int level, std::span<Band> bands);
 
-/// FORMAT 7, "Fraction": whether no decision is missing. counted: every decision of the only track
-/// did.
-bool isComplete(const RegionHeader& header, const std::vector<std::span<const uint8_t>>& codewords,
-                bool counted);
+/// Of all tracks together.
+uint64_t bytesOf(const std::vector<std::span<const uint8_t>>& codewords);
 
 /// Puts the values of bands, in units of 2^-e, to their places.
 void place(std::span<const Band> bands, const std::vector<Part>& parts, int e, Plane& plane);

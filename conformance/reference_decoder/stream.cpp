@@ -29,6 +29,9 @@ WaveletHeader readWavelet(Reader& in) {
   for (int& filter : w.filters) filter = in.u8(0, 3);
   w.fractionBits = in.u8(0, 8);
   w.sampleBits = in.u8(0, 32);
+  if (w.fractionBits > 0) return w;
+  w.firstDoubled = in.u8(0, 4);
+  w.roundedBytes = in.varint(0, INT64_MAX);
   return w;
 }
 
@@ -127,7 +130,6 @@ TextureHeader readTexture(Reader& in) {
 RegionHeader readRegions(Reader& in) {
   RegionHeader regions;
   regions.log2 = in.u8(0, 20);
-  if (regions.log2 > 0) regions.wholeBytes = in.varint(0, INT64_MAX);
   if (regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
   return regions;
 }

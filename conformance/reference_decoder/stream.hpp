@@ -18,13 +18,13 @@ enum SampleType { kU8, kI8, kU16, kI16, kU32, kI32, kF32 };
 /// FORMAT 2, table Wavelet.
 struct WaveletHeader {
   std::array<int, 3> filters = {};
-  int fractionBits = 0, sampleBits = 0;
+  int fractionBits = 0, sampleBits = 0, firstDoubled = 0;
+  uint64_t roundedBytes = 0;
 };
 
 /// FORMAT 2, table Regions.
 struct RegionHeader {
   int log2 = 0;
-  uint64_t wholeBytes = 0;
 };
 
 struct GeometryHeader {

@@ -92,7 +92,7 @@ int logNormOf(const WaveletHeader& header, const Subband& subband) {
   int norm = normOf(header, subband.highInX(), subband.splitsX) +
              normOf(header, subband.highInY(), subband.splitsY);
   const int last = subband.orientation == kLL ? subband.level : subband.level - 1;
-  if (header.fractionBits == 0) norm -= 256 * ((last >= 3) + (last >= 4));
+  for (int level = 1; level <= last; ++level) norm -= doublesLow(header, level) ? 256 : 0;
   return (norm + 8) >> 4;
 }
 

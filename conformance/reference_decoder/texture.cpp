@@ -129,7 +129,6 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   }
   std::vector<std::vector<Part>> parts;
   std::vector<std::vector<Band>> bands;
-  bool counted = true;
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     parts.push_back(partsOf(subbands, region));
     bands.push_back(bandsOfAll(header, parts.back()));
@@ -139,10 +138,9 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
       markAbsent(parts.back(), coded, own);
       dropFiner(parts.back(), level, own);
     }
-    counted &= decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
+    decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
   }
-  const bool complete = isComplete(header.regions, coefficients, counted);
-  const int f = fractionOf(header.wavelet, header.planes, complete);
+  const int f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients));
   std::vector<Plane> planes;
   for (int c = 0; c < header.components; ++c) {
     Plane plane{header.width, header.height, {}};

@@ -269,7 +269,7 @@ class TrackDecoder {
 
 }  // namespace
 
-bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band>& bands) {
+void decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band>& bands) {
   for (Band& band : bands) {
     for (Coefficient& c : band.coefficients) c.plane = planes;
   }
@@ -277,10 +277,9 @@ bool decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band
   PassOrder passes(planes, bands);
   while (passes.neededPending()) {
     const Pass pass = passes.next();
-    if (!decoder.run(pass)) return false;
+    if (!decoder.run(pass)) return;
     passes.hasRun(pass);
   }
-  return true;
 }
 
 }  // namespace tetrakis::reference

@@ -92,15 +92,17 @@ int multiples(int size, int step) {
 /// FORMAT 7, "Inverse transform", one level. hh: the subband that is high in both directions.
 void synthesiseLevel(const WaveletHeader& header, const Subband& hh, Plane& plane) {
   const int lowX = 1 << hh.splitsX, lowY = 1 << hh.splitsY;
-  if (header.fractionBits == 0 && (hh.level == 3 || hh.level == 4)) {
+  // A side that was split at this level was split at every finer one.
+  const bool splitX = hh.splitsX == hh.level, splitY = hh.splitsY == hh.level;
+  const int stepX = splitX ? lowX / 2 : lowX, stepY = splitY ? lowY / 2 : lowY;
+  if (splitX && splitY && liftsJointly(header, hh.level, plane))
+    return synthesiseJointly(header, {hh.level, stepX, stepY}, plane);
+  if (doublesLow(header, hh.level)) {
     for (int y = 0; y < plane.height; y += lowY) {
       for (int x = 0; x < plane.width; x += lowX)
         plane.at(x, y) = wrap(int64_t{plane.at(x, y)} + 1) >> 1;
     }
   }
-  // A side that was split at this level was split at every finer one.
-  const bool splitX = hh.splitsX == hh.level, splitY = hh.splitsY == hh.level;
-  const int stepX = splitX ? lowX / 2 : lowX, stepY = splitY ? lowY / 2 : lowY;
   for (int x = 0; x < plane.width && splitY; x += stepX)
     synthesisePlaces(header, hh.level, {x, 0, 0, stepY, multiples(plane.height, stepY)}, plane);
   for (int y = 0; y < plane.height && splitX; y += stepY)
@@ -123,8 +125,13 @@ const Filter& filterOf(const WaveletHeader& header, int level) {
   return kFilters[filterNumber(header, level)];
 }
 
-int fractionOf(const WaveletHeader& header, int planes, bool complete) {
-  if (header.fractionBits > 0 || complete) return header.fractionBits;
+bool doublesLow(const WaveletHeader& header, int level) {
+  const int first = header.firstDoubled;
+  return header.fractionBits == 0 && first > 0 && (level == first || level == first + 1);
+}
+
+int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes) {
+  if (header.fractionBits > 0 || bytes >= header.roundedBytes) return header.fractionBits;
   return std::clamp(19 - planes, 0, 4);
 }
 
@@ -147,7 +154,8 @@ Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
     for (int i = 0; i < splits && filterNumber(header, l) == 2; ++i)
       weight = (weight * 847671299 + (1 << 29)) >> 30;
   }
-  const int d = header.fractionBits > 0 ? 0 : std::clamp(level - 2, 0, 2);
+  int d = 0;
+  for (int l = 1; l <= level; ++l) d += doublesLow(header, l);
   Plane image{multiples(plane.width, 1 << level), multiples(plane.height, 1 << level), {}};
   for (int y = 0; y < plane.height; y += 1 << level) {
     for (int x = 0; x < plane.width; x += 1 << level) {

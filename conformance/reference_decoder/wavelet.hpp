@@ -21,6 +21,9 @@ struct Filter {
 /// Of a level, from 1.
 const Filter& filterOf(const WaveletHeader& header, int level);
 
+/// FORMAT 7, "Doubling": the low band of a level is doubled.
+bool doublesLow(const WaveletHeader& header, int level);
+
 /// FORMAT 7, "Subbands" and "Places".
 struct Subband {
   int level;  ///< LL: the number of levels
@@ -40,7 +43,7 @@ std::vector<Subband> subbandsOf(int width, int height);
 int logNormOf(const WaveletHeader& header, const Subband& subband);
 
 /// FORMAT 7, "Fraction": f.
-int fractionOf(const WaveletHeader& header, int planes, bool complete);
+int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes);
 
 /// One value for each sample, row by row.
 struct Plane {
@@ -52,6 +55,14 @@ struct Plane {
   int32_t& at(int x, int y) { return values.at(index(x, y)); }
   bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
 };
+
+/// FORMAT 7, "Joint lifting": one level, which splits both directions. The low band of the level
+/// before has its samples at multiples of the two steps.
+struct JointLevel {
+  int level, stepX, stepY;
+};
+bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane);
+void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane);
 
 /// The inverse transform, of the levels above the target alone, of values that lie at their places.
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,

@@ -119,13 +119,15 @@ Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, in
     coded.header.wavelet.filters[i] = static_cast<uint8_t>(spec.filters[i]);
   coded.header.wavelet.fraction_bits = static_cast<uint8_t>(fraction_bits);
   coded.header.wavelet.bits = static_cast<uint8_t>(12 + fraction_bits);
+  coded.header.wavelet.first_doubled =
+      static_cast<uint8_t>(fraction_bits > 0 ? 0 : spec.first_doubled);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
   const std::vector<EncodedTrack> tracks = encodeCoefficients(
       {heights, size.extent(), valid}, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
   coded.header.planes = static_cast<uint8_t>(tracks.front().planes);
   for (const EncodedTrack& track : tracks) {
     coded.codewords.push_back(track.codeword);
-    coded.header.regions.whole_bytes += region_log2 > 0 ? track.codeword.size() : 0;
+    coded.header.wavelet.rounded_bytes += fraction_bits > 0 ? 0 : track.codeword.size();
   }
   return coded;
 }
@@ -163,7 +165,7 @@ TEST(Windows, HoldWhatThePlaneHoldsThere) {
   for (const Size& size : kSizes) {
     const Plane heights = randomPlane(random, size.count(), -2000, 2000);
     for (const WaveletSpec& spec : allSpecs()) {
-      const int fraction_bits = spec.doubled ? 0 : 3, log2 = static_cast<int>(random() % 3);
+      const int fraction_bits = spec.whole ? 0 : 3, log2 = static_cast<int>(random() % 3);
       const bool voids = random() % 2 == 0;
       const auto shape = samples::kVoidShapes[random() % std::size(samples::kVoidShapes)];
       const auto valid =

@@ -19,7 +19,7 @@ inline std::ostream& operator<<(std::ostream& out, Orientation orientation) {
 
 inline std::ostream& operator<<(std::ostream& out, const WaveletSpec& spec) {
   for (const FilterId id : spec.filters) out << static_cast<int>(id);
-  return out << (spec.doubled ? " doubled" : "") << ", " << spec.bits << " bits";
+  return out << (spec.whole ? " doubled" : "") << ", " << spec.bits << " bits";
 }
 
 namespace test {

@@ -125,6 +125,8 @@ TEST(MaskedWavelet, AMaskWithoutVoidsIsNoMask) {
   Random random(5);
   for (const WaveletSpec& spec : allSpecs()) {
     for (const int bits : {kNarrowBits, kWideBits}) {
+      // But with any mask rows and columns are lifted one after the other.
+      if (spec.whole && bits <= WaveletSpec::kJointBits) continue;
       for (const Size& size : kSizes) {
         const WaveletSpec exact = withBits(spec, bits);
         const std::vector<uint8_t> valid(size.count(), 1);
@@ -172,7 +174,7 @@ TEST(MaskedWavelet, ALoneSampleStaysWhatItIs) {
       const Plane plane = forward(spec, samples, size, valid);
       for (const Subband& band : subbandsOf(size)) {
         const int low = band.orientation == Orientation::kLL ? band.level : band.level - 1;
-        const int doublings = spec.doubled ? (low >= 3) + (low >= 4) : 0;
+        const int doublings = spec.whole ? (low >= 3) + (low >= 4) : 0;
         forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {
           ASSERT_EQ(plane[coefficient], sample == lone ? -4321 * (1 << doublings) : 0)
               << spec << ", level " << band.level;

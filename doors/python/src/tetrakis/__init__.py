@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tetrakis: heights and textures of terrain in one stream that may be cut after any byte.
+
+    stream = tetrakis.encode(heights, texture, bytes=65536)
+    with tetrakis.open(stream) as terrain:
+        coarse = terrain.heights(bytes=4096)
+        vertices, triangles, uv = terrain.mesh(triangles=5000)
+"""
+
+from ._encode import encode
+from ._errors import (
+    Status,
+    TksCorruptError,
+    TksError,
+    TksLimitError,
+    TksMemoryError,
+    TksMismatchError,
+    TksTruncatedError,
+    TksUnsupportedError,
+    TksUsageError,
+)
+from ._info import Info
+from ._stream import Mesh, Stream, open, truncate
+from ._tks import tks_check, tks_decode, tks_encode, tks_version
+from ._version import __version__
+
+__all__ = [
+    "Info",
+    "Mesh",
+    "Status",
+    "Stream",
+    "TksCorruptError",
+    "TksError",
+    "TksLimitError",
+    "TksMemoryError",
+    "TksMismatchError",
+    "TksTruncatedError",
+    "TksUnsupportedError",
+    "TksUsageError",
+    "__version__",
+    "encode",
+    "open",
+    "tks_check",
+    "tks_decode",
+    "tks_encode",
+    "tks_version",
+    "truncate",
+]

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One decoder of the C interface, for one call."""
+
+from __future__ import annotations
+
+import builtins
+import ctypes
+from typing import Any, Optional, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _info
+from . import _library as c
+from . import _values as values
+from ._errors import Status, error
+
+
+class Decoder:
+    """Owns a tks_decoder over `data`, which it keeps alive."""
+
+    def __init__(self, data: builtins.bytes, limits: c.Limits, threads: int = 1) -> None:
+        self._data = data
+        self._handle = ctypes.c_void_p()
+        message = ctypes.create_string_buffer(1024)
+        status = c.lib.tks_open(data, len(data), limits, self._handle, message, len(message))
+        if status != Status.OK:
+            raise error(status, message.value.decode("utf-8", "replace"))
+        self.check(c.lib.tks_set_threads(self._handle, threads))
+
+    def __enter__(self) -> "Decoder":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        c.lib.tks_close(self._handle)
+        self._handle = ctypes.c_void_p()
+
+    def check(self, status: int) -> None:
+        if status != Status.OK:
+            sentence = c.lib.tks_message(self._handle).decode("utf-8", "replace")
+            raise error(status, sentence)
+
+    def info(self) -> _info.Info:
+        raw = c.StreamInfo(size=ctypes.sizeof(c.StreamInfo))
+        self.check(c.lib.tks_get_info(self._handle, raw))
+        return _info.from_struct(raw)  # its texts are copied while the decoder is there
+
+    def set_levels(self, heights: int, texture: int) -> None:
+        self.check(c.lib.tks_set_levels(self._handle, heights, texture))
+
+    def _allow(self, part: int, window: Optional[c.Window], beside: int) -> None:
+        """Refused here, a stream that claims too much costs no array."""
+        self.check(c.lib.tks_check_memory(self._handle, part, window, 0, beside, None))
+
+    def _decode(
+        self,
+        call: Tuple[str, int],
+        window: Optional[c.Window],
+        target: Tuple[Tuple[int, ...], np.dtype],
+        out: Optional[NDArray[Any]],
+    ) -> NDArray[Any]:
+        """Calls tks_decode_<what>[_window] for `call` = (what, part); `target` is the shape and
+        type of all that the level holds."""
+        (what, part), (shape, dtype) = call, target
+        if window is not None:
+            shape = (window.height, window.width, *shape[2:])
+        count = int(np.prod(shape, dtype=object))
+        self._allow(part, window, 0 if out is not None else count * dtype.itemsize)
+        array = values.output(out, shape, dtype)
+        # Surfaces are counted in floats, all else in bytes.
+        size = count if what == "surface" else array.nbytes
+        if window is None:
+            function = getattr(c.lib, f"tks_decode_{what}")
+            self.check(function(self._handle, array.ctypes.data, size))
+        else:
+            function = getattr(c.lib, f"tks_decode_{what}_window")
+            self.check(function(self._handle, window, array.ctypes.data, size))
+        return array
+
+    def heights(
+        self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
+    ) -> NDArray[Any]:
+        call = ("heights", c.PART_HEIGHTS)
+        return self._decode(call, window, (info.shape or (0, 0), info.dtype or np.dtype("u1")), out)
+
+    def surface(
+        self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
+    ) -> NDArray[Any]:
+        call = ("surface", c.PART_HEIGHTS)
+        return self._decode(call, window, (info.shape or (0, 0), np.dtype("f4")), out)
+
+    def validity(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
+        """The C interface has no window of it: all of the level, cut. What it says of such a window
+        of heights holds here as well."""
+        if window is not None:
+            self._allow(c.PART_HEIGHTS, window, 0)
+        call = ("validity", c.PART_VALIDITY)
+        valid = self._decode(call, None, (info.shape or (0, 0), np.dtype("u1")), None).view(bool)
+        if window is None:
+            return valid
+        rows = slice(window.y, window.y + window.height)
+        return valid[rows, window.x : window.x + window.width]
+
+    def texture(
+        self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
+    ) -> NDArray[Any]:
+        call = ("texture", c.PART_TEXTURE)
+        target = (info.texture_shape or (0, 0), info.texture_dtype or np.dtype("u1"))
+        return self._decode(call, window, target, out)
+
+    def verify(self) -> None:
+        self.check(c.lib.tks_verify(self._handle))
+
+    def mesh(
+        self, triangles: int, view: Optional[NDArray[Any]]
+    ) -> Tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+        """Grid indices and heights of the vertices, and (n, 3) corners."""
+        raw = c.Mesh()
+        if view is None:
+            self.check(c.lib.tks_decode_mesh(self._handle, c.MESH_BUDGET, triangles, raw))
+        else:
+            self._view(triangles, view, raw)
+        try:
+            return (
+                _copied(raw.grid_index, raw.vertex_count, "u4"),
+                _copied(raw.height, raw.vertex_count, "f4"),
+                _copied(raw.triangles, 3 * raw.triangle_count, "u4").reshape(-1, 3),
+            )
+        finally:
+            c.lib.tks_free_mesh(raw)
+
+    def _view(self, triangles: int, view: NDArray[Any], raw: c.Mesh) -> None:
+        tree = ctypes.c_void_p()
+        self.check(c.lib.tks_decode_mesh_tree(self._handle, c.MESH_BUDGET, triangles, tree))
+        try:
+            matrix = (ctypes.c_double * 16)(*view.ravel())
+            status = c.lib.tks_view_mesh(tree, matrix, raw)
+        finally:
+            c.lib.tks_free_mesh_tree(tree)
+        if status != Status.OK:
+            raise error(status, "The view must be a 4 x 4 matrix of finite numbers.")
+
+
+def _copied(pointer: Any, count: int, dtype: str) -> NDArray[Any]:
+    """A copy of the library's memory; an empty array may have no address."""
+    if count == 0:
+        return np.empty(0, dtype)
+    return np.ctypeslib.as_array(pointer, (count,)).astype(dtype)

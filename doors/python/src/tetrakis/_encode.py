@@ -1,0 +1,276 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From arrays to a stream."""
+
+from __future__ import annotations
+
+import builtins
+import ctypes
+from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _library as c
+from . import _values as values
+from ._errors import Status, TksUsageError, error
+
+Progress = Callable[[float], Any]
+
+
+def _unused_value(valid: NDArray[Any], fill_value: Any) -> int:
+    """An integer of the array's type that none of the valid samples has."""
+    limits = np.iinfo(valid.dtype)
+    for value in (int(fill_value), limits.min, limits.max):
+        if limits.min <= value <= limits.max and not (valid == value).any():
+            return value
+    used = np.unique(valid).astype(np.int64)
+    gaps = np.flatnonzero(np.diff(used) > 1)
+    if not gaps.size:
+        raise TksUsageError(
+            f"Every value of {valid.dtype} is a height, so none is left for masked samples: "
+            "convert to a wider type."
+        )
+    return int(used[gaps[0]]) + 1
+
+
+def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArray[Any], Any]:
+    """Heights whose masked samples are voids, and the nodata value to declare. Those of floats are
+    NaN, which come back as whatever nodata is declared."""
+    data = np.ma.getdata(heights)
+    mask = np.ma.getmaskarray(heights)
+    if not mask.any():
+        return data, nodata
+    if data.dtype.kind == "f":
+        return np.where(mask, data.dtype.type(np.nan), data), nodata
+    if data.dtype.kind not in "iu":
+        return data, nodata  # refused later, by its type
+    if nodata is None:
+        nodata = _unused_value(data[~mask], heights.fill_value)
+    limits = np.iinfo(data.dtype)
+    if nodata != int(nodata) or not limits.min <= nodata <= limits.max:
+        raise TksUsageError(f"Masked samples of {data.dtype} cannot become the nodata {nodata}.")
+    return np.where(mask, data.dtype.type(int(nodata)), data), nodata
+
+
+def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
+    """The struct, and the samples that it points to: they must live as long."""
+    nodata = place["nodata"]
+    if isinstance(array, np.ma.MaskedArray):
+        array, nodata = _filled(array, nodata)
+    data = values.samples(np.asarray(array), "Heights")
+    if data.ndim != 2:
+        raise TksUsageError(f"Heights are (rows, columns), not an array of shape {data.shape}.")
+    spacing = place["spacing"]
+    spacing_x, spacing_y = spacing if np.ndim(spacing) else (spacing, spacing)
+    transform, has_transform = values.geotransform(place["geotransform"], "geotransform")
+    return c.Heights(
+        size=ctypes.sizeof(c.Heights),
+        width=values.unsigned(data.shape[1], "The width"),
+        height=values.unsigned(data.shape[0], "The height"),
+        sample=values.SAMPLES.index(data.dtype),
+        data=data.ctypes.data,
+        scale=values.real(place["scale"], "scale"),
+        offset=values.real(place["offset"], "offset"),
+        step=values.real(place["step"] or 0, "step"),
+        spacing_x=values.real(spacing_x or 0, "spacing"),
+        spacing_y=values.real(spacing_y or 0, "spacing"),
+        unit=values.text(place["unit"], "unit"),
+        vertical_datum=values.text(place["vertical_datum"], "vertical_datum"),
+        crs=values.text(place["crs"], "crs"),
+        has_nodata=nodata is not None,
+        nodata=values.real(0 if nodata is None else nodata, "nodata"),
+        geotransform=transform,
+        has_geotransform=has_transform,
+        registration=values.choice(place["registration"], c.REGISTRATIONS, "registration"),
+        description=values.text(place["description"], "description"),
+        geo_keys=values.text(place["geo_keys"], "geo_keys"),
+    ), data
+
+
+def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
+    """The struct, and the texels that it points to: they must live as long."""
+    if isinstance(array, np.ma.MaskedArray) and np.ma.getmaskarray(array).any():
+        raise TksUsageError("A texture has no masked texels: give an alpha of 0 as last channel.")
+    data = values.samples(np.asarray(array), "A texture", (np.dtype("u1"), np.dtype("u2")))
+    if data.ndim == 2:
+        data = data[..., np.newaxis]
+    if data.ndim != 3 or not 1 <= data.shape[2] <= 4:
+        raise TksUsageError(
+            "A texture is (rows, columns) or (rows, columns, channels) of 1 to 4 channels, "
+            f"not an array of shape {data.shape}."
+        )
+    transform, has_transform = values.geotransform(place["geotransform"], "texture_geotransform")
+    return c.Image(
+        size=ctypes.sizeof(c.Image),
+        width=values.unsigned(data.shape[1], "The width"),
+        height=values.unsigned(data.shape[0], "The height"),
+        channels=data.shape[2],
+        sample=values.SAMPLES.index(data.dtype),
+        data=data.ctypes.data,
+        geotransform=transform,
+        has_geotransform=has_transform,
+        registration=values.choice(place["registration"], c.REGISTRATIONS, "texture_registration"),
+        crs=values.text(place["crs"], "texture_crs"),
+        geo_keys=values.text(place["geo_keys"], "texture_geo_keys"),
+    ), data
+
+
+def _set_target(options: c.EncodeOptions, target: dict) -> None:
+    """Exactly one target; lossless where none is named."""
+    named = [name for name, value in target.items() if value is not None and value is not False]
+    if len(named) > 1:
+        raise TksUsageError(f"Give one target, not {' and '.join(named)} together.")
+    if not named and target["lossless"] is False:
+        raise TksUsageError("A stream that is not lossless takes bytes, psnr or max_error.")
+    name = named[0] if named else "lossless"
+    if name == "bytes":
+        options.bytes = values.unsigned(target[name], name, 64)
+    elif name == "lossless":
+        options.lossless = 1
+    else:
+        setattr(options, name, values.real(target[name], name))
+    if not getattr(options, name):
+        raise TksUsageError(f"The target {name} must be greater than 0.")
+
+
+def _watched(progress: Optional[Progress], raised: List[BaseException]) -> Any:
+    """A C callback. An exception cannot cross C: it is kept in `raised` and stops the encoder."""
+    if progress is None:
+        return c.PROGRESS()
+
+    def call(_user: Any, done: float) -> int:
+        try:
+            return 1 if progress(done) else 0
+        except BaseException as exception:
+            raised.append(exception)
+            return 1
+
+    return c.PROGRESS(call)
+
+
+def _run(heights: Any, image: Any, options: c.EncodeOptions) -> builtins.bytes:
+    buffer = c.Buffer()
+    message = ctypes.create_string_buffer(1024)
+    status = c.lib.tks_encode(heights, image, options, buffer, message, len(message))
+    if status != Status.OK:
+        raise error(status, message.value.decode("utf-8", "replace"))
+    try:
+        return builtins.bytes((ctypes.c_char * buffer.size).from_address(buffer.data))
+    finally:
+        c.lib.tks_free_buffer(buffer)
+
+
+def encode(
+    heights: Optional[ArrayLike] = None,
+    texture: Optional[ArrayLike] = None,
+    *,
+    bytes: Optional[int] = None,
+    psnr: Optional[float] = None,
+    max_error: Optional[float] = None,
+    lossless: Optional[bool] = None,
+    nodata: Optional[float] = None,
+    unit: Optional[str] = None,
+    spacing: Union[float, Tuple[float, float], None] = None,
+    scale: float = 1.0,
+    offset: float = 0.0,
+    step: Optional[float] = None,
+    crs: Optional[str] = None,
+    geotransform: Optional[Sequence[float]] = None,
+    registration: Optional[str] = None,
+    vertical_datum: Optional[str] = None,
+    description: Optional[str] = None,
+    geo_keys: Optional[str] = None,
+    texture_crs: Optional[str] = None,
+    texture_geotransform: Optional[Sequence[float]] = None,
+    texture_registration: Optional[str] = None,
+    texture_geo_keys: Optional[str] = None,
+    triangles: Optional[int] = None,
+    parallax: Optional[float] = None,
+    weights: str = "psnr",
+    regions: Optional[int] = None,
+    index: bool = False,
+    threads: int = 1,
+    progress: Optional[Progress] = None,
+) -> builtins.bytes:
+    """Codes heights, a texture, or both over the same ground, into one stream.
+
+    Every prefix of the stream that holds its header (some 100 bytes) is a stream as well.
+
+    Arrays
+        heights: (rows, columns), from 2 x 2, of uint8, int8, uint16, int16, uint32, int32 or
+            float32; any strides and byte order. A sample v is the height ``v * scale + offset`` in
+            `unit`. NaN, samples equal to `nodata`, and masked samples of a masked array are voids.
+            Integers with a mask and without `nodata` are given a nodata value that no sample has.
+        texture: (rows, columns) grey, or (rows, columns, channels) of 1 to 4 channels (grey, grey
+            and alpha, RGB, RGBA), of uint8 or uint16.
+        Neither may be written to while this function runs: it releases the GIL.
+
+    Targets: one of them; without any, lossless
+        bytes: the stream takes at most so many bytes.
+        psnr: heights and texture each reach so many dB (peak of heights: their range).
+        max_error: every height is within this distance, in `unit`; guaranteed.
+        lossless: every bit comes back (of NaN: a quiet NaN, or `nodata`).
+
+    What the samples are, kept in every prefix
+        unit: of heights, such as "m". vertical_datum: such as "EPSG:5703".
+        spacing: metres from one sample to the next, one number or (x, y).
+        step: quantisation step in sample units; chosen unless given.
+        crs: "EPSG:32611", WKT, or a name. geotransform: six numbers in the order of GDAL and in
+            units of the CRS. registration: "area" or "point". texture_...: likewise for a texture
+            whose place is not that of the heights, or that comes without heights.
+        description, geo_keys: as tks_heights in tetrakis.h has them.
+
+    How it is coded
+        triangles: meshes will have at most so many. parallax: metres that the texture shifts per
+            metre of height error. weights: "psnr", or "visual" for the eye.
+        regions: side in samples of the regions by which windows decode, a power of two from 16;
+            1: none; chosen unless given. index: write where every packet lies.
+        threads: how many may work; the bytes never depend on it.
+        progress: called with a number from 0 to 1, from the threads that work; true stops. What it
+            raises, `encode` raises.
+
+    Raises :class:`TksUsageError` (also a ValueError) for what makes no sense, and other
+    :class:`TksError` with their stable `code`.
+    """
+    raised: List[BaseException] = []
+    options = c.EncodeOptions(
+        size=ctypes.sizeof(c.EncodeOptions),
+        triangles=values.unsigned(triangles, "triangles"),
+        parallax=values.real(parallax or 0, "parallax"),
+        threads=values.unsigned(threads, "threads"),
+        regions=values.unsigned(regions, "regions"),
+        index=bool(index),
+        weights=values.choice(weights, c.WEIGHTS, "weights"),
+        progress=_watched(progress, raised),
+    )
+    target = dict(bytes=bytes, psnr=psnr, max_error=max_error, lossless=lossless)
+    _set_target(options, target)
+    place = dict(
+        nodata=nodata,
+        unit=unit,
+        spacing=spacing,
+        scale=scale,
+        offset=offset,
+        step=step,
+        crs=crs,
+        geotransform=geotransform,
+        registration=registration,
+        vertical_datum=vertical_datum,
+        description=description,
+        geo_keys=geo_keys,
+    )
+    texture_place = dict(
+        crs=texture_crs,
+        geotransform=texture_geotransform,
+        registration=texture_registration,
+        geo_keys=texture_geo_keys,
+    )
+    # The arrays' second names keep copies alive until the call is over.
+    height_field, _samples = (None, None) if heights is None else _heights_struct(heights, place)
+    image, _texels = (None, None) if texture is None else _image_struct(texture, texture_place)
+    try:
+        return _run(height_field, image, options)
+    except TksUsageError:
+        if raised:
+            raise raised[0] from None
+        raise

@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The C interface by ctypes: structs, prototypes and the shared library.
+
+Names and order of fields are those of include/tetrakis/tetrakis.h; tests/test_header.py has a C
+compiler say where each field lies and compares. ctypes releases the GIL during every call.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import (
+    CFUNCTYPE,
+    POINTER,
+    c_char_p,
+    c_double,
+    c_float,
+    c_int,
+    c_size_t,
+    c_uint32,
+    c_uint64,
+    c_void_p,
+)
+from pathlib import Path
+
+PROGRESS = CFUNCTYPE(c_int, c_void_p, c_double)
+GEOTRANSFORM = c_double * 6
+
+REGISTRATIONS = (None, "area", "point")
+WEIGHTS = ("psnr", "visual")
+
+PART_HEIGHTS, PART_VALIDITY, PART_TEXTURE = 0, 1, 2
+MESH_BUDGET = 1
+
+
+class Heights(ctypes.Structure):
+    """tks_heights."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("sample", c_int),
+        ("data", c_void_p),
+        ("scale", c_double),
+        ("offset", c_double),
+        ("step", c_double),
+        ("spacing_x", c_double),
+        ("spacing_y", c_double),
+        ("unit", c_char_p),
+        ("vertical_datum", c_char_p),
+        ("crs", c_char_p),
+        ("has_nodata", c_int),
+        ("nodata", c_double),
+        ("geotransform", GEOTRANSFORM),
+        ("has_geotransform", c_int),
+        ("registration", c_int),
+        ("description", c_char_p),
+        ("geo_keys", c_char_p),
+    ]
+
+
+class Image(ctypes.Structure):
+    """tks_image."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("channels", c_uint32),
+        ("sample", c_int),
+        ("data", c_void_p),
+        ("geotransform", GEOTRANSFORM),
+        ("has_geotransform", c_int),
+        ("registration", c_int),
+        ("crs", c_char_p),
+        ("geo_keys", c_char_p),
+    ]
+
+
+class EncodeOptions(ctypes.Structure):
+    """tks_encode_options."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("bytes", c_uint64),
+        ("psnr", c_double),
+        ("max_error", c_double),
+        ("lossless", c_int),
+        ("triangles", c_uint32),
+        ("parallax", c_double),
+        ("threads", c_uint32),
+        ("regions", c_uint32),
+        ("index", c_int),
+        ("weights", c_int),
+        ("progress", PROGRESS),
+        ("user", c_void_p),
+    ]
+
+
+class Buffer(ctypes.Structure):
+    """tks_buffer."""
+
+    _fields_ = [("data", c_void_p), ("size", c_size_t)]
+
+
+class Limits(ctypes.Structure):
+    """tks_limits."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("max_samples", c_uint64),
+        ("max_texels", c_uint64),
+        ("max_memory", c_uint64),
+    ]
+
+
+class StreamInfo(ctypes.Structure):
+    """tks_info."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("format_version", c_uint32),
+        ("profile", c_uint32),
+        ("level", c_uint32),
+        ("header_bytes", c_uint64),
+        ("stream_bytes", c_uint64),
+        ("available_bytes", c_uint64),
+        ("packets", c_uint64),
+        ("geometry_bytes", c_uint64),
+        ("texture_bytes", c_uint64),
+        ("has_heights", c_int),
+        ("has_texture", c_int),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("coarsest_level", c_uint32),
+        ("sample", c_int),
+        ("scale", c_double),
+        ("offset", c_double),
+        ("step", c_double),
+        ("base", c_double),
+        ("spacing_x", c_double),
+        ("spacing_y", c_double),
+        ("exact_steps", c_int),
+        ("lossless", c_int),
+        ("has_voids", c_int),
+        ("has_nodata", c_int),
+        ("nodata", c_double),
+        ("max_error", c_double),
+        ("triangles", c_uint32),
+        ("regions", c_uint32),
+        ("texture_regions", c_uint32),
+        ("texture_width", c_uint32),
+        ("texture_height", c_uint32),
+        ("texture_channels", c_uint32),
+        ("texture_coarsest_level", c_uint32),
+        ("texture_cutout", c_int),
+        ("texture_drawn", c_int),
+        ("texture_sample", c_int),
+        ("heights_rmse", c_double),
+        ("texture_psnr", c_double),
+        ("unit", c_char_p),
+        ("vertical_datum", c_char_p),
+        ("crs", c_char_p),
+        ("heights_stored", c_int),
+        ("has_geotransform", c_int),
+        ("geotransform", GEOTRANSFORM),
+        ("registration", c_int),
+        ("description", c_char_p),
+        ("geo_keys", c_char_p),
+        ("texture_has_geotransform", c_int),
+        ("texture_geotransform", GEOTRANSFORM),
+        ("texture_registration", c_int),
+        ("texture_crs", c_char_p),
+        ("texture_geo_keys", c_char_p),
+    ]
+
+
+class Window(ctypes.Structure):
+    """tks_window."""
+
+    _fields_ = [("x", c_uint32), ("y", c_uint32), ("width", c_uint32), ("height", c_uint32)]
+
+
+class Mesh(ctypes.Structure):
+    """tks_mesh."""
+
+    _fields_ = [
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("grid_index", POINTER(c_uint32)),
+        ("height", POINTER(c_float)),
+        ("triangles", POINTER(c_uint32)),
+    ]
+
+
+STRUCTS = {
+    "tks_heights": Heights,
+    "tks_image": Image,
+    "tks_encode_options": EncodeOptions,
+    "tks_buffer": Buffer,
+    "tks_limits": Limits,
+    "tks_info": StreamInfo,
+    "tks_window": Window,
+    "tks_mesh": Mesh,
+}
+
+# Handles (tks_decoder*, tks_mesh_tree*) and arrays are addresses: c_void_p.
+PROTOTYPES = {
+    "tks_free_buffer": (None, [POINTER(Buffer)]),
+    "tks_encode": (
+        c_int,
+        [
+            POINTER(Heights),
+            POINTER(Image),
+            POINTER(EncodeOptions),
+            POINTER(Buffer),
+            c_char_p,
+            c_size_t,
+        ],
+    ),
+    "tks_open": (
+        c_int,
+        [c_char_p, c_size_t, POINTER(Limits), POINTER(c_void_p), c_char_p, c_size_t],
+    ),
+    "tks_close": (None, [c_void_p]),
+    "tks_message": (c_char_p, [c_void_p]),
+    "tks_get_info": (c_int, [c_void_p, POINTER(StreamInfo)]),
+    "tks_set_levels": (c_int, [c_void_p, c_uint32, c_uint32]),
+    "tks_set_threads": (c_int, [c_void_p, c_uint32]),
+    "tks_decode_heights": (c_int, [c_void_p, c_void_p, c_size_t]),
+    "tks_decode_surface": (c_int, [c_void_p, c_void_p, c_size_t]),
+    "tks_decode_validity": (c_int, [c_void_p, c_void_p, c_size_t]),
+    "tks_decode_texture": (c_int, [c_void_p, c_void_p, c_size_t]),
+    "tks_decode_heights_window": (c_int, [c_void_p, POINTER(Window), c_void_p, c_size_t]),
+    "tks_decode_surface_window": (c_int, [c_void_p, POINTER(Window), c_void_p, c_size_t]),
+    "tks_decode_texture_window": (c_int, [c_void_p, POINTER(Window), c_void_p, c_size_t]),
+    "tks_check_memory": (
+        c_int,
+        [c_void_p, c_int, POINTER(Window), c_uint32, c_uint64, POINTER(c_uint64)],
+    ),
+    "tks_verify": (c_int, [c_void_p]),
+    "tks_decode_mesh": (c_int, [c_void_p, c_int, c_uint32, POINTER(Mesh)]),
+    "tks_free_mesh": (None, [POINTER(Mesh)]),
+    "tks_decode_mesh_tree": (c_int, [c_void_p, c_int, c_uint32, POINTER(c_void_p)]),
+    "tks_view_mesh": (c_int, [c_void_p, POINTER(c_double), POINTER(Mesh)]),
+    "tks_free_mesh_tree": (None, [c_void_p]),
+}
+
+
+def _load() -> ctypes.CDLL:
+    """The library inside the wheel; packages of a distribution have the system's instead."""
+    inside = Path(__file__).with_name("libtetrakis.so")
+    library = ctypes.CDLL(str(inside) if inside.exists() else "libtetrakis.so.0")
+    for name, (result, arguments) in PROTOTYPES.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
+    return library
+
+
+lib = _load()

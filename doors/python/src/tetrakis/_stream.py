@@ -1,0 +1,326 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From a stream to arrays and meshes."""
+
+from __future__ import annotations
+
+import builtins
+import ctypes
+import os
+from typing import Any, BinaryIO, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _library as c
+from . import _values as values
+from ._decoder import Decoder
+from ._errors import TksUsageError
+from ._info import GeoTransform, Info
+
+BytesLike = Union[builtins.bytes, bytearray, memoryview]
+Source = Union[str, "os.PathLike[str]", BytesLike, BinaryIO]
+
+
+class Mesh(NamedTuple):
+    """A conforming mesh; unpacks as ``vertices, triangles, uv``."""
+
+    vertices: NDArray[Any]
+    """float64 (n, 3): x, y and the height in `Info.unit`."""
+    triangles: NDArray[Any]
+    """uint32 (m, 3): places in `vertices`, counter-clockwise seen from above."""
+    uv: NDArray[Any]
+    """float32 (n, 2): place in the texture; (0, 0) is where its first row and column begin."""
+
+
+def open(
+    source: Source,
+    *,
+    bytes: Optional[int] = None,
+    threads: int = 1,
+    max_samples: Optional[int] = None,
+    max_texels: Optional[int] = None,
+    max_memory: Optional[int] = None,
+) -> "Stream":
+    """Opens a stream, or any prefix of one that holds its header.
+
+    source: a path, the bytes themselves, or a file open for reading bytes (of fsspec, say).
+    bytes: read no more than so many; the rest is not fetched.
+    threads: how many one call may use. What is decoded never depends on it.
+    max_samples, max_texels (2^28 each unless given), max_memory (bytes; 8 GiB unless given): what
+        goes beyond raises :class:`TksLimitError` before anything is allocated.
+
+    Safe on any bytes: raises :class:`TksCorruptError`, :class:`TksTruncatedError` (the sentence
+    says how many bytes the header takes), :class:`TksUnsupportedError`, :class:`TksLimitError`, or
+    the OSError of a file that cannot be read.
+    """
+    limits = c.Limits(
+        size=ctypes.sizeof(c.Limits),
+        max_samples=values.unsigned(max_samples, "max_samples", 64),
+        max_texels=values.unsigned(max_texels, "max_texels", 64),
+        max_memory=values.unsigned(max_memory, "max_memory", 64),
+    )
+    threads = values.unsigned(threads, "threads")
+    return Stream(_read(source, bytes), limits, threads)
+
+
+def truncate(stream: BytesLike, bytes: int) -> builtins.bytes:
+    """The first `bytes` bytes of a stream (all of it, if it has no more), which are a stream too:
+    about the best that so few bytes can hold. Raises :class:`TksTruncatedError` if they do not hold
+    the header; the sentence says how many do."""
+    cut = _read(stream, bytes)
+    with Decoder(cut, c.Limits(size=ctypes.sizeof(c.Limits), max_samples=2**63, max_texels=2**63)):
+        return cut
+
+
+def _read(source: Any, limit: Optional[int]) -> builtins.bytes:
+    """Up to `limit` bytes. What could change under the decoder is copied."""
+    count = -1 if limit is None else values.unsigned(limit, "bytes", 63)
+    if isinstance(source, (str, os.PathLike)):
+        with builtins.open(source, "rb") as file:
+            return file.read(count)
+    if hasattr(source, "read"):
+        data = source.read(count)
+        if not isinstance(data, builtins.bytes):
+            raise TksUsageError("The file must be open for reading bytes (mode 'rb').")
+        return data
+    if isinstance(source, builtins.bytes):
+        return source if count < 0 else source[:count]
+    try:
+        view = memoryview(source).cast("B")
+    except TypeError:
+        kind = type(source).__name__
+        raise TksUsageError(f"A stream is a path, bytes or a file, not {kind}.") from None
+    return builtins.bytes(view if count < 0 else view[:count])
+
+
+class Stream:
+    """An open stream. Made by :func:`tetrakis.open`; closes with ``with`` or :meth:`close`.
+
+    Each method decodes anew and keeps nothing, so any number of threads may use one stream: they
+    run side by side, since decoding releases the GIL.
+    """
+
+    def __init__(self, data: builtins.bytes, limits: c.Limits, threads: int) -> None:
+        self._data: Optional[builtins.bytes] = data
+        self._limits = limits
+        self._threads = threads
+        self._info = self.describe()
+
+    def __enter__(self) -> "Stream":
+        self._prefix(None)
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        info = self._info
+        parts = [
+            f"{name} {' x '.join(map(str, shape))} {dtype}"
+            for name, shape, dtype in (
+                ("heights", info.shape, info.dtype),
+                ("texture", info.texture_shape, info.texture_dtype),
+            )
+            if shape
+        ]
+        parts.append(f"{info.available_bytes} of {info.stream_bytes} bytes")
+        return f"<tetrakis.Stream: {', '.join(parts)}{', closed' if self.closed else ''}>"
+
+    def close(self) -> None:
+        """Lets go of the bytes. Calls of other threads that have begun go on to their end."""
+        self._data = None
+
+    @property
+    def closed(self) -> bool:
+        return self._data is None
+
+    @property
+    def info(self) -> Info:
+        """What the stream says of itself at level 0, as an :class:`Info`."""
+        self._prefix(None)
+        return self._info
+
+    def describe(
+        self, level: int = 0, texture_level: int = 0, bytes: Optional[int] = None
+    ) -> Info:
+        """`info` of mip levels, or of the first `bytes` bytes."""
+        with self._decoder(level, texture_level, bytes) as decoder:
+            return decoder.info()
+
+    def heights(
+        self,
+        level: int = 0,
+        window: Optional[values.WindowLike] = None,
+        bytes: Optional[int] = None,
+        *,
+        masked: bool = False,
+        out: Optional[NDArray[Any]] = None,
+    ) -> NDArray[Any]:
+        """Samples of the heights: (rows, columns) of `info.dtype`.
+
+        level: 1/2^level of the resolution, up to `info.coarsest_level`.
+        window: (x, y, width, height) in samples of level 0, or slices: ``numpy.s_[0:64, 32:96]``.
+            The same samples as without it; in streams with regions much faster.
+        bytes: decodes a prefix of so many bytes.
+        masked: gives a masked array whose mask is True at voids; otherwise these are `info.nodata`,
+            or NaN without one.
+        out: an array in C order to write to, of the right shape and type.
+        """
+        with self._decoder(level, 0, bytes) as decoder:
+            info = decoder.info()
+            part = values.window(window, info.shape or (0, 0))
+            samples = decoder.heights(info, part, out)
+            if not masked:
+                return samples
+            return _masked(samples, decoder.validity(info, part), info)
+
+    def surface(
+        self,
+        level: int = 0,
+        window: Optional[values.WindowLike] = None,
+        bytes: Optional[int] = None,
+        *,
+        out: Optional[NDArray[Any]] = None,
+    ) -> NDArray[Any]:
+        """Heights in `info.unit` (scale and offset are applied): float32 (rows, columns), voids
+        NaN. Prefixes may say more than whole samples can show, so this is what to draw.
+        Arguments are those of :meth:`heights`."""
+        with self._decoder(level, 0, bytes) as decoder:
+            info = decoder.info()
+            return decoder.surface(info, values.window(window, info.shape or (0, 0)), out)
+
+    def validity(
+        self,
+        level: int = 0,
+        window: Optional[values.WindowLike] = None,
+        bytes: Optional[int] = None,
+    ) -> NDArray[Any]:
+        """bool (rows, columns): True where a sample is a height, False where it is void.
+        Arguments are those of :meth:`heights`."""
+        with self._decoder(level, 0, bytes) as decoder:
+            info = decoder.info()
+            return decoder.validity(info, values.window(window, info.shape or (0, 0)))
+
+    def texture(
+        self,
+        level: int = 0,
+        window: Optional[values.WindowLike] = None,
+        bytes: Optional[int] = None,
+        *,
+        out: Optional[NDArray[Any]] = None,
+    ) -> NDArray[Any]:
+        """Texels: (rows, columns) of a grey texture, else (rows, columns, channels), of
+        `info.texture_dtype`. Arguments are those of :meth:`heights`, counted in texels."""
+        with self._decoder(0, level, bytes) as decoder:
+            info = decoder.info()
+            return decoder.texture(info, values.window(window, info.texture_shape or (0, 0)), out)
+
+    def mesh(
+        self,
+        triangles: Optional[int] = None,
+        view: Optional[ArrayLike] = None,
+        bytes: Optional[int] = None,
+        *,
+        coordinates: str = "local",
+    ) -> Mesh:
+        """The best mesh of at most `triangles` triangles; without a number, all samples.
+
+        view: a 4 x 4 matrix that takes (column, row, height, 1) to clip coordinates: only what a
+            camera with it may see.
+        bytes: of a prefix of so many bytes.
+        coordinates: of the vertices. "local": x = column * spacing, y = -row * spacing in metres,
+            or in samples where the spacing is unknown. "crs": x and y by `info.geotransform`, at
+            the middle of samples, in units of the CRS. The third is the height in `info.unit`.
+
+        Few triangles of a large stream decode only the levels that they can show. No triangle
+        touches a void; where all samples are void the mesh is empty.
+        """
+        count = values.unsigned(triangles, "triangles")
+        if triangles is not None and count == 0:
+            raise TksUsageError("A mesh takes one triangle or more; None means all samples.")
+        values.choice(coordinates, ("local", "crs"), "coordinates")
+        matrix = None if view is None else _matrix(view)
+        with self._decoder(0, 0, bytes) as decoder:
+            info = decoder.info()
+            if coordinates == "crs" and info.shape and info.geotransform is None:
+                raise TksUsageError("The stream does not say where its heights lie.")
+            places, heights, corners = decoder.mesh(count, matrix)
+        rows, columns = np.divmod(places.astype(np.int64), (info.shape or (0, 0))[1])
+        transform = info.geotransform if coordinates == "crs" else None
+        x, y, mirrored = _ground(info, columns, rows, transform)
+        vertices = np.stack([x, y, heights.astype(np.float64)], axis=1)
+        if mirrored:
+            corners = np.ascontiguousarray(corners[:, ::-1])
+        return Mesh(vertices, corners, _uv(info, columns, rows))
+
+    def verify(self) -> None:
+        """Checks the syntax of the whole stream. Raises :class:`TksTruncatedError` if it is a
+        prefix, :class:`TksCorruptError` if it is damaged."""
+        with self._decoder(0, 0, None) as decoder:
+            decoder.verify()
+
+    def _prefix(self, count: Optional[int]) -> builtins.bytes:
+        data = self._data
+        if data is None:
+            raise TksUsageError("The stream is closed.")
+        return data if count is None else data[: values.unsigned(count, "bytes", 63)]
+
+    def _decoder(self, level: int, texture_level: int, count: Optional[int]) -> Decoder:
+        decoder = Decoder(self._prefix(count), self._limits, self._threads)
+        try:
+            decoder.set_levels(
+                values.unsigned(level, "level"), values.unsigned(texture_level, "level")
+            )
+        except BaseException:
+            decoder.__exit__()
+            raise
+        return decoder
+
+
+def _masked(samples: NDArray[Any], valid: NDArray[Any], info: Info) -> np.ma.MaskedArray:
+    fill = None
+    if info.nodata is not None:
+        kept = np.array([info.nodata]).astype(samples.dtype)[0]
+        fill = kept if kept == info.nodata else None
+    return np.ma.MaskedArray(samples, mask=~valid, fill_value=fill)
+
+
+def _matrix(view: ArrayLike) -> NDArray[Any]:
+    matrix = np.asarray(view, np.float64)
+    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+        raise TksUsageError("A view is a 4 x 4 matrix of finite numbers.")
+    return matrix
+
+
+def _at(transform: GeoTransform, columns: Any, rows: Any) -> Tuple[Any, Any]:
+    t = transform
+    return t[0] + columns * t[1] + rows * t[2], t[3] + columns * t[4] + rows * t[5]
+
+
+def _ground(
+    info: Info, columns: NDArray[Any], rows: NDArray[Any], transform: Optional[GeoTransform]
+) -> Tuple[NDArray[Any], NDArray[Any], bool]:
+    """x, y, and whether they lie as in a mirror: rows usually run against y."""
+    if transform is None:
+        spacing_x, spacing_y = info.spacing or (1.0, 1.0)
+        return columns * spacing_x, 0.0 - rows * spacing_y, False
+    t = transform
+    x, y = _at(t, columns + 0.5, rows + 0.5)
+    return x, y, t[1] * t[5] - t[2] * t[4] > 0
+
+
+def _uv(info: Info, columns: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
+    """By both geotransforms where heights and texture have one in the same CRS. Otherwise the first
+    and last samples lie on the texture's borders, as in the meshes of the command line."""
+    height, width = info.shape or (0, 0)
+    u, v = columns / (width - 1), rows / (height - 1)
+    ground, t = info.geotransform, info.texture_geotransform
+    if ground and t and info.texture_shape and info.texture_crs == info.crs:
+        determinant = t[1] * t[5] - t[2] * t[4]
+        if determinant != 0:
+            x, y = _at(ground, columns + 0.5, rows + 0.5)
+            x, y = x - t[0], y - t[3]
+            u = (x * t[5] - y * t[2]) / determinant / info.texture_shape[1]
+            v = (y * t[1] - x * t[4]) / determinant / info.texture_shape[0]
+    uv: NDArray[Any] = np.stack([u, v], axis=1).astype(np.float32)
+    return uv

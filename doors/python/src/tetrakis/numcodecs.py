@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The codec of chunks for Zarr 2 and whatever else uses numcodecs; needs numcodecs.
+
+Found by its entry point, so arrays open without an import::
+
+    zarr.array(heights, chunks=(512, 512), compressor=tetrakis.numcodecs.Tetrakis(max_error=0.1))
+"""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+from numcodecs.abc import Codec
+from numcodecs.compat import ensure_bytes, ndarray_copy
+from numcodecs.registry import register_codec
+
+from . import _chunk
+
+
+class Tetrakis(Codec):
+    """Chunks of (rows, columns) as heights, of (rows, columns, channels) as textures; axes of
+    length 1 in front do not count. Lossless unless `bytes` (of a chunk), `psnr` (dB) or `max_error`
+    (in units of the samples) is given; samples equal to `nodata` are voids."""
+
+    codec_id = "tetrakis"
+
+    def __init__(
+        self,
+        bytes: Optional[int] = None,
+        psnr: Optional[float] = None,
+        max_error: Optional[float] = None,
+        nodata: Optional[float] = None,
+    ) -> None:
+        self.bytes = bytes
+        self.psnr = psnr
+        self.max_error = max_error
+        self.nodata = nodata
+
+    def encode(self, buf: Any) -> Any:
+        options = _chunk.configuration(self.bytes, self.psnr, self.max_error, self.nodata)
+        return _chunk.to_stream(np.asarray(buf), options)
+
+    def decode(self, buf: Any, out: Any = None) -> Any:
+        return ndarray_copy(_chunk.from_stream(ensure_bytes(buf)), out)
+
+
+register_codec(Tetrakis)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The example runs, and what README.md and docstrings show works."""
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import REPOSITORY, photograph, terrain
+
+import tetrakis
+
+DOOR = REPOSITORY / "doors" / "python"
+
+
+def test_the_example_draws_a_curve(tmp_path):
+    pytest.importorskip("matplotlib")
+    output = tmp_path / "curve.png"
+    heights = tmp_path / "heights.npy"
+    np.save(heights, terrain())
+    example = DOOR / "examples" / "rate_distortion.py"
+    run = [sys.executable, example, heights, "-o", output]
+    printed = subprocess.run(run, check=True, capture_output=True, text=True).stdout
+    assert output.read_bytes().startswith(b"\x89PNG") and "dB" in printed
+
+
+def test_what_the_readme_shows_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("heights.npy", terrain(64, 64))
+    np.save("texture.npy", photograph(64, 64))
+    names = {}
+    blocks = re.findall(r"```python\n(.*?)```", (DOOR / "README.md").read_text(), re.S)
+    assert len(blocks) >= 3
+    for block in blocks:
+        if "zarr" in block:
+            pytest.importorskip("zarr")
+        exec(block, names)
+
+
+def test_all_that_is_public_is_described():
+    for name in tetrakis.__all__:
+        thing = getattr(tetrakis, name)
+        if name != "__version__":
+            assert thing.__doc__, name
+    for name in vars(tetrakis.Stream):
+        if not name.startswith("_"):
+            assert getattr(tetrakis.Stream, name).__doc__ or name == "closed", name

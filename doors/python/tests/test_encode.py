@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arrays go in whatever their type and strides, and come back; what makes no sense is refused."""
+
+import numpy as np
+import pytest
+from conftest import SAMPLES, photograph, terrain
+
+import tetrakis
+
+
+def back(stream, **options):
+    with tetrakis.open(stream) as terrain:
+        return terrain.heights(**options)
+
+
+@pytest.mark.parametrize("dtype", SAMPLES)
+@pytest.mark.parametrize("shape", [(2, 2), (2, 37), (31, 2), (40, 33)])
+def test_heights_come_back(dtype, shape):
+    heights = terrain(*shape, dtype)
+    decoded = back(tetrakis.encode(heights))
+    assert decoded.dtype == heights.dtype
+    np.testing.assert_array_equal(decoded, heights)
+
+
+@pytest.mark.parametrize("dtype", ["u1", "u2"])
+@pytest.mark.parametrize("channels", [1, 2, 3, 4])
+def test_texels_come_back(dtype, channels):
+    texture = photograph(33, 20, channels, dtype)
+    with tetrakis.open(tetrakis.encode(texture=texture)) as stream:
+        np.testing.assert_array_equal(stream.texture(), texture)
+        assert stream.info.texture_shape == texture.shape
+        assert stream.info.shape is None and stream.info.dtype is None
+
+
+@pytest.mark.parametrize("dtype", SAMPLES)
+def test_wild_bits_come_back(dtype):
+    bits = np.random.default_rng(7).integers(0, 256, (9, 13, 4), np.uint8)
+    heights = np.ascontiguousarray(bits[..., : np.dtype(dtype).itemsize]).view(dtype)[..., 0]
+    if dtype == "f4":
+        heights = np.where(np.isfinite(heights), heights, np.float32(-0.0))
+    decoded = back(tetrakis.encode(heights))
+    np.testing.assert_array_equal(decoded.view("u1"), np.ascontiguousarray(heights).view("u1"))
+
+
+def test_any_strides_and_byte_order_give_the_same_stream(heights):
+    stream = tetrakis.encode(heights)
+    wide = np.zeros((heights.shape[0] * 2, heights.shape[1] * 3), "f4")
+    wide[::2, ::3] = heights
+    read_only = heights.copy()
+    read_only.flags.writeable = False
+    flipped = heights[::-1, ::-1].copy()[::-1, ::-1]
+    variants = [wide[::2, ::3], np.asfortranarray(heights), flipped, read_only]
+    variants += [heights.astype(">f4")]
+    for variant in variants:
+        assert tetrakis.encode(variant) == stream
+
+
+def test_targets(heights):
+    assert len(tetrakis.encode(heights, bytes=900)) <= 900
+    bounded = back(tetrakis.encode(heights, max_error=0.5))
+    assert np.abs(bounded - heights).max() <= 0.5
+    close = back(tetrakis.encode(heights, psnr=50))
+    rmse = np.sqrt(np.mean((close.astype("f8") - heights) ** 2))
+    assert 20 * np.log10(np.ptp(heights) / rmse) >= 50
+    assert tetrakis.encode(heights, lossless=True) == tetrakis.encode(heights)
+
+
+def test_threads_do_not_change_the_bytes(heights, texture):
+    options = dict(bytes=3000, regions=16)
+    one = tetrakis.encode(heights, texture, **options)
+    assert tetrakis.encode(heights, texture, threads=3, **options) == one
+
+
+def test_nan_and_nodata_are_voids(heights):
+    holed = heights.copy()
+    holed[5:20, 30:40] = np.nan
+    stream = tetrakis.encode(holed)
+    np.testing.assert_array_equal(back(stream), holed)
+    declared = back(tetrakis.encode(holed, nodata=-9999))
+    np.testing.assert_array_equal(declared == -9999, np.isnan(holed))
+    with tetrakis.open(stream) as opened:
+        np.testing.assert_array_equal(opened.validity(), ~np.isnan(holed))
+        np.testing.assert_array_equal(np.isnan(opened.surface()), np.isnan(holed))
+        assert opened.info.has_voids and opened.info.nodata is None
+
+
+@pytest.mark.parametrize("dtype", SAMPLES)
+def test_masked_arrays_come_back(dtype):
+    heights = np.ma.MaskedArray(terrain(dtype=dtype))
+    heights[:, 40:] = np.ma.masked
+    heights[3, 4] = np.ma.masked
+    decoded = back(tetrakis.encode(heights), masked=True)
+    assert decoded.dtype == heights.dtype
+    np.testing.assert_array_equal(np.ma.getmaskarray(decoded), np.ma.getmaskarray(heights))
+    np.testing.assert_array_equal(decoded.compressed(), heights.compressed())
+
+
+def test_masked_integers_get_a_nodata_that_is_free():
+    values = np.arange(256, dtype="u1").reshape(16, 16)
+    full = np.ma.MaskedArray(np.vstack([values, values]), mask=False)
+    full.mask[:16] = values == 77
+    full.mask[16:] = values == 77
+    stream = tetrakis.encode(full)
+    with tetrakis.open(stream) as opened:
+        assert opened.info.nodata == 77
+        assert (opened.heights(masked=True).mask == full.mask).all()
+    full.mask[:16] = False
+    with pytest.raises(tetrakis.TksUsageError, match="wider type"):
+        tetrakis.encode(full)
+    with pytest.raises(tetrakis.TksUsageError, match="cannot become the nodata"):
+        tetrakis.encode(full, nodata=-1)
+    assert tetrakis.encode(np.ma.MaskedArray(values)) == tetrakis.encode(values)
+
+
+def test_place_comes_back(stream):
+    with tetrakis.open(stream[:3000]) as opened:
+        info = opened.info
+        assert info.geotransform == (4e5, 10, 0, 3.8e6, 0, -10)
+        assert (info.crs, info.unit, info.spacing) == ("EPSG:32611", "m", (10, 10))
+        assert info.registration == "area"
+        assert opened.describe(level=1).spacing == (20, 20)
+    rotated = (5.0, 2.0, 1.0, 7.0, -1.0, 2.0)
+    image = tetrakis.encode(
+        texture=photograph(),
+        texture_geotransform=rotated,
+        texture_crs="my grid",
+        texture_registration="point",
+    )
+    with tetrakis.open(image) as opened:
+        assert opened.info.texture_geotransform == rotated
+        assert opened.info.texture_crs == "my grid"
+        assert opened.info.texture_registration == "point"
+
+
+def test_scale_and_text_come_back(heights):
+    stream = tetrakis.encode(
+        terrain(dtype="i2") // 2,
+        scale=0.1,
+        offset=5,
+        unit="ft",
+        vertical_datum="EPSG:5703",
+        description="höhe",
+        nodata=-32768,
+        spacing=(2, 3),
+    )
+    with tetrakis.open(stream) as opened:
+        info = opened.info
+        assert (info.scale, info.offset, info.nodata) == (0.1, 5, -32768)
+        assert (info.unit, info.vertical_datum, info.description) == ("ft", "EPSG:5703", "höhe")
+        assert info.spacing == (2, 3)
+        np.testing.assert_allclose(opened.surface(), opened.heights() * 0.1 + 5, rtol=1e-5)
+
+
+REFUSED = [
+    (dict(heights=np.zeros((4, 4), bool)), "bool"),
+    (dict(heights=np.zeros((4, 4))), "float64"),
+    (dict(heights=np.zeros((4, 4), "i8")), "int64"),
+    (dict(heights=np.zeros((4, 4), "f2")), "float16"),
+    (dict(heights=np.zeros((4, 4), "c8")), "complex64"),
+    (dict(heights=np.zeros((4, 4), "M8[s]")), "datetime64"),
+    (dict(heights=np.array([["a", "b"]])), "<U1"),
+    (dict(heights=[[None, 1], [2, 3]]), "object"),
+    (dict(heights=np.ma.masked_all((4, 4), bool)), "bool"),
+    (dict(heights=np.zeros(4, "f4")), "rows, columns"),
+    (dict(heights=np.zeros((2, 4, 4), "f4")), "rows, columns"),
+    (dict(heights=np.zeros((1, 9), "f4")), "each side"),
+    (dict(heights=np.zeros((0, 9), "f4")), "each side"),
+    (dict(heights=np.full((4, 4), np.inf, "f4")), "infinite"),
+    (dict(texture=np.zeros((4, 4), "f4")), "uint8, uint16"),
+    (dict(texture=np.zeros((4, 4, 5), "u1")), "1 to 4 channels"),
+    (dict(texture=np.ma.masked_all((4, 4, 3), "u1")), "alpha"),
+    (dict(), "."),
+    (dict(heights=np.zeros((4, 4), "f4"), bytes=1000, psnr=40), "bytes and psnr"),
+    (dict(heights=np.zeros((4, 4), "f4"), lossless=True, psnr=40), "psnr and lossless"),
+    (dict(heights=np.zeros((4, 4), "f4"), lossless=False), "not lossless"),
+    (dict(heights=np.zeros((4, 4), "f4"), bytes=0), "greater than 0"),
+    (dict(heights=np.zeros((4, 4), "f4"), bytes=-5), "between 0 and"),
+    (dict(heights=np.zeros((4, 4), "f4"), bytes="64k"), "integer"),
+    (dict(heights=np.zeros((4, 4), "f4"), psnr="high"), "number"),
+    (dict(heights=np.zeros((4, 4), "f4"), psnr=-3), "."),
+    (dict(heights=np.zeros((4, 4), "f4"), max_error=float("nan")), "."),
+    (dict(heights=np.zeros((4, 4), "f4"), triangles=2**32), "between 0 and"),
+    (dict(heights=np.zeros((4, 4), "f4"), regions=33), "."),
+    (dict(heights=np.zeros((4, 4), "f4"), unit="a\0b"), "NUL"),
+    (dict(heights=np.zeros((4, 4), "f4"), crs=32611), "text"),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=(1, 2)), "6 numbers"),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=(1, 2, 3, 4, 5, 1e200)), "."),
+    (dict(heights=np.zeros((4, 4), "f4"), registration="pixel"), "one of"),
+    (dict(heights=np.zeros((4, 4), "f4"), weights="none"), "one of"),
+    (dict(heights=np.zeros((4, 4), "f4"), nodata="x"), "number"),
+]
+
+
+@pytest.mark.parametrize("arguments, words", REFUSED)
+def test_what_makes_no_sense_is_refused(arguments, words):
+    with pytest.raises(tetrakis.TksUsageError, match=words) as raised:
+        tetrakis.encode(**arguments)
+    assert raised.value.code == tetrakis.Status.USAGE
+    assert isinstance(raised.value, ValueError) and str(raised.value).endswith((".", ")."))
+
+
+def test_progress_reports_and_stops(heights):
+    seen = []
+    tetrakis.encode(heights, bytes=2000, progress=seen.append)
+    assert seen and seen == sorted(seen) and 0 <= seen[0] and seen[-1] <= 1
+    with pytest.raises(tetrakis.TksUsageError):
+        tetrakis.encode(heights, bytes=2000, progress=lambda done: True)
+
+    def interrupted(_done):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        tetrakis.encode(heights, bytes=2000, progress=interrupted)

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders choose here from where on decoders round while they invert the transform of a lossless
+// stream (docs/FORMAT.md, section 7). Near the last bit rounding takes the roundings of the encoder
+// back; before, it adds errors of its own.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/track/track_encoder.hpp"
+
+namespace tetrakis::inline wavelet {
+
+/// The bits per sample that may be missing for the inverse to be better with roundings than
+/// without. Measured on typical parts of the plane. wavelet: without fraction bits.
+double roundedBits(const PlaneView<const int32_t>& plane, const WaveletHeader& wavelet);
+
+/// What the header says of it. missing_bits: of the whole component. Tracks that are not complete
+/// are never rounded.
+uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double missing_bits);
+
+}  // namespace tetrakis::inline wavelet
