@@ -87,7 +87,6 @@ class EncodeOptions(ctypes.Structure):
         ("max_error", c_double),
         ("lossless", c_int),
         ("triangles", c_uint32),
-        ("parallax", c_double),
         ("threads", c_uint32),
         ("regions", c_uint32),
         ("index", c_int),
