@@ -6,6 +6,7 @@
 
 #include "codec/geometry/value_table.hpp"
 #include "codec/mesh/budget_mesh.hpp"
+#include "codec/mesh/screen_weights.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/view_synthesis.hpp"
@@ -66,6 +67,7 @@ class HeightsBytes {
         view_(view),
         shown_(area(view.extentIn(header_.extent()))),
         voids_(layers_.validity_bytes > 0),
+        flat_(layers_.flat_bytes > 0),
         table_(layers_.table_bytes > 0),
         corrected_(header_.stored() ||
                    (view.level == 0 && layers_.corrections != CorrectionKind::kNone)) {}
@@ -86,9 +88,10 @@ class HeightsBytes {
     const uint64_t marks = view_.window ? 0 : low();
     const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
     const uint64_t corrections = corrected_ ? low() * (kValue + 1) + kRow * header_.width : 0;
-    const uint64_t state = stateBytes(decoder_, header_, 1, voids_, Component::kGeometry);
-    return kOnce + trackBytes(header_) + planes.coefficients + marks + masks +
-           std::max({state, planes.work, corrections + tableBytes()});
+    const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
+    const uint64_t surface = planes.coefficients + marks + masks + flatBytes() +
+                             std::max({state, planes.work, corrections + tableBytes()});
+    return kOnce + trackBytes(header_) + std::max(surface, flatOpeningBytes());
   }
 
   uint64_t validity() const { return kOnce + (voids_ ? area(header_) + shown_ : 0); }
@@ -100,6 +103,17 @@ class HeightsBytes {
     const uint64_t samples = view_.window ? shown_ : low();
     return table_ ? layers_.table_values * kEntry + samples * kValue : 0;
   }
+  /// The number of each sample, and of each area its level and what levels of the transform make of
+  /// it.
+  uint64_t flatBytes() const {
+    constexpr uint64_t kArea = sizeof(int32_t) * (2 * kMaxLevels + 24);
+    return flat_ ? area(header_) * sizeof(uint16_t) + layers_.flat_areas * kArea : 0;
+  }
+  /// Validity, the mask, the first sample of each area and their numbers.
+  uint64_t flatOpeningBytes() const {
+    constexpr uint64_t kSample = 1 + sizeof(uint32_t) + sizeof(uint16_t);
+    return flat_ ? area(header_) * (kSample + (voids_ ? 1 : 0)) : 0;
+  }
   uint64_t low() const { return area(Pyramid(header_.extent()).low(view_.level).extent); }
 
   const tks_decoder& decoder_;
@@ -108,6 +122,7 @@ class HeightsBytes {
   const View view_;
   uint64_t shown_;  ///< samples of the view
   bool voids_;
+  bool flat_;
   bool table_;
   bool corrected_;  ///< corrections, of steps or of samples, are decoded
 };
@@ -197,6 +212,25 @@ uint64_t voidMeshBytes(const Lattice& lattice, uint64_t triangles) {
   constexpr uint64_t kFitted = 32, kTriangle = 330;
   const uint64_t vertices = verticesOf(lattice);
   return kOnce + std::max(kDecimated * vertices, kFitted * vertices + kTriangle * triangles);
+}
+
+uint64_t screenMeshBytes(const tks_decoder& decoder, const Lattice& lattice, uint64_t triangles,
+                         uint64_t texels) {
+  // Choosing and fitting among all samples, of a triangle at its most; then turning edges.
+  constexpr uint64_t kFitted = 40, kFew = 560, kMany = 260;
+  const uint64_t samples = verticesOf(lattice);
+  const uint64_t base = uint64_t{2} * lattice.rootColumns() * lattice.rootRows();
+  const uint64_t all = std::clamp<uint64_t>(triangles, base, std::max(base, 2 * samples));
+  const uint64_t few = std::min(all, samples * 3 / 5);
+  const HeightsBytes heights(decoder, {});
+  const uint64_t decoding = decoder.heights ? 0 : heights.decoding();
+  const uint64_t kept = decoder.heights ? 0 : heights.kept();
+  const bool has_voids = decoder.parsed.header.layers.validity_bytes > 0;
+  const uint64_t mesh = has_voids ? voidMeshBytes(lattice, all)
+                                  : kOnce + kFitted * samples + kFew * few + kMany * (all - few);
+  const uint64_t turned = kFitted * samples + kMany * all;
+  const uint64_t weights = screenWeightsBytes(samples) + 2 * texels;
+  return std::max(decoding, kept + std::max(mesh, turned) + weights);
 }
 
 uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {

@@ -30,6 +30,11 @@ uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request);
 /// the budget; those in voids are beside it, and judged when they are known.
 uint64_t voidMeshBytes(const Lattice& lattice, uint64_t triangles);
 
+/// What tks_decode_screen_mesh allocates at its peak, at most, for a texture of so many texels.
+/// triangles: those in voids included.
+uint64_t screenMeshBytes(const tks_decoder& decoder, const Lattice& lattice, uint64_t triangles,
+                         uint64_t texels);
+
 /// Bytes that a decoder of a payload allocates for what it keeps of that.
 uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bitstream/coder/range_encoder.hpp"
+#include "codec/geometry/flat_encoder.hpp"
 #include "conformance/crafted_streams.hpp"
 #include "lattice/levels.hpp"
 #include "texture_wavelet/drawn/drawn_pass.hpp"
@@ -66,6 +67,41 @@ std::vector<VectorCase> tableCases() {
           noiseTable("noise_table_unknown_28x23",
                      "noise: the bytes of the table do not decide all of its values", TKS_I32,
                      1 << 20, 77)};
+}
+
+/// Flat areas of any shape and any level, and noise for coefficients.
+VectorCase flatNoise(const std::string& name, const std::string& purpose, StreamHeader header,
+                     samples::VoidShape shape, uint32_t seed) {
+  const Extent extent = header.geometry->extent();
+  std::vector<uint8_t> flat = samples::validity(shape, extent.width, extent.height);
+  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, extent));
+  FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
+  for (uint32_t i = 0; i < numbered.count; ++i)
+    areas.levels[i] = static_cast<int32_t>(samples::hash(i % 11, seed, 43) >> (i % 5 * 5));
+  Bytes codeword = encodeFlatAreas(areas, extent, {});
+  header.layers.flat_bytes = codeword.size();
+  header.layers.flat_areas = numbered.count;
+  append(codeword, noise(2000, seed, 3));
+  return crafted(name, purpose, streamOf(header, codeword));
+}
+
+std::vector<VectorCase> flatCases() {
+  using samples::VoidShape;
+  StreamHeader wrong = heightsHeader(30, 30, TKS_I16, 12);
+  wrong.layers.flat_bytes = 60;
+  wrong.layers.flat_areas = 3;
+  StreamHeader deep = heightsHeader(40, 51, TKS_F32, 20);
+  deep.geometry->wavelet.fraction_bits = 4;
+  deep.geometry->wavelet.filters = {2, 2, 2};
+  return {flatNoise("noise_flat_i32_70x40", "noise beside flat areas of any level",
+                    heightsHeader(70, 40, TKS_I32, 30), VoidShape::kSpeckle, 81),
+          flatNoise("noise_flat_fraction_40x51",
+                    "noise beside flat areas, with fraction bits and the filter of four steps",
+                    deep, VoidShape::kCoast, 84),
+          flatNoise("noise_flat_long_3x90", "noise beside flat areas; one side is split",
+                    heightsHeader(3, 90, TKS_I16, 14), VoidShape::kChecker, 87),
+          crafted("noise_flat_none_30x30", "noise: other flat areas than are announced",
+                  streamOf(wrong, noise(900, 90)))};
 }
 
 std::vector<VectorCase> correctionCases() {
@@ -258,8 +294,8 @@ std::vector<VectorCase> shearCases() {
 
 std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = {weightCase(3, 2), weightCase(4, 8)};
-  for (const auto& cases : {wideCases(), tableCases(), correctionCases(), nodataCases(),
-                            shearCases(), drawnCases(), roundedCases()})
+  for (const auto& cases : {wideCases(), tableCases(), flatCases(), correctionCases(),
+                            nodataCases(), shearCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

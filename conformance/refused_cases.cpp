@@ -61,6 +61,15 @@ std::vector<VectorCase> refusedHeaders() {
   refuse("max_error", "a largest error of NaN",
          [](StreamHeader& h) { h.geometry->max_error = kNaN; });
   refuse("planes", "32 bit-planes of heights", [](StreamHeader& h) { h.geometry->planes = 32; });
+  refuse("stored_flat", "stored heights with flat areas", [](StreamHeader& h) {
+    h.geometry->planes = GeometryHeader::kStoredPlanes;
+    h.layers.flat_bytes = 5;
+    h.layers.flat_areas = 1;
+  });
+  refuse("flat_areas", "more flat areas than there may be", [](StreamHeader& h) {
+    h.layers.flat_bytes = 5;
+    h.layers.flat_areas = 65536;
+  });
   refuse("stored_regions", "stored heights in regions", [](StreamHeader& h) {
     h.geometry->planes = GeometryHeader::kStoredPlanes;
     h.geometry->regions.side_log2 = 4;

@@ -83,6 +83,11 @@ VectorCase withVoids(VectorCase vector_case, samples::VoidShape shape, double no
   return vector_case;
 }
 
+VectorCase withWater(VectorCase vector_case, samples::VoidShape shape) {
+  vector_case.water = shape;
+  return vector_case;
+}
+
 VectorCase drawnOver(VectorCase vector_case, samples::VoidShape shape) {
   vector_case.overlay = shape;
   return vector_case;
@@ -367,6 +372,30 @@ std::vector<VectorCase> sparseCases() {
   };
 }
 
+/// Flat areas.
+std::vector<VectorCase> waterCases() {
+  using samples::VoidShape;
+  VectorCase tenths =
+      heightsCase("water_corrected_f32_96x80", "flat areas beside corrections of samples",
+                  {Pattern::kRidges, 96, 80, 1, TKS_F32}, lossless());
+  tenths.thirds = true;
+  return {
+      withWater(heightsCase("water_i16_120x90", "flat areas, lossless",
+                            {Pattern::kRidges, 120, 90, 1, TKS_I16}, lossless()),
+                VoidShape::kCoast),
+      withWater(heightsCase("water_budget_u16_128x101", "flat areas with fraction bits",
+                            {Pattern::kRidges, 128, 101, 1, TKS_U16}, budget(8000)),
+                VoidShape::kHalf),
+      withVoids(withWater(heightsCase("water_voids_i16_100x100", "flat areas beside voids",
+                                      {Pattern::kRidges, 100, 100, 1, TKS_I16}, lossless()),
+                          VoidShape::kHalf),
+                VoidShape::kCoast, -32768),
+      withWater(heightsCase("water_regions_i32_150x130", "flat areas, in regions",
+                            {Pattern::kRidges, 150, 130, 1, TKS_I32}, inRegions(lossless(), 16)),
+                VoidShape::kCoast),
+      withWater(tenths, VoidShape::kCoast)};
+}
+
 /// The part of the header that says where things lie.
 std::vector<VectorCase> placedCases() {
   VectorCase joint = heightsCase("placed_joint_20x15_40x31", "georeference of heights and texture",
@@ -401,7 +430,12 @@ samples::Raster surfaceOf(const VectorCase& vector_case) {
   withSampleType(surface.sample, [&](auto sample) {
     for (size_t i = 0; i < valid.size(); ++i) {
       std::byte* at = surface.data.data() + i * sizeof sample;
-      std::memcpy(&sample, at, sizeof sample);
+      const bool left = 2 * (i % width) < width;
+      const bool wet = vector_case.water && samples::isVoid(*vector_case.water, width, height,
+                                                            static_cast<uint32_t>(i % width),
+                                                            static_cast<uint32_t>(i / width));
+      std::memcpy(&sample, wet ? surface.data.data() + (left ? 0 : width - 1) * sizeof sample : at,
+                  sizeof sample);
       if (vector_case.thirds) sample = static_cast<decltype(sample)>(sample / 3);
       if constexpr (std::is_floating_point_v<decltype(sample)>)
         sample = std::ldexp(sample, vector_case.exponent);
@@ -449,6 +483,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
+  for (VectorCase& next : waterCases()) all.push_back(std::move(next));
   for (VectorCase& next : placedCases()) all.push_back(std::move(next));
   for (VectorCase& next : craftedCases()) all.push_back(std::move(next));
   for (VectorCase& next : unusualAndRefusedCases()) all.push_back(std::move(next));

@@ -12,18 +12,32 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Moves the account of the coefficients to behind the mask and the table, and lets it end with the corrections.
-void joinAccount(const QuantisedHeights& heights, bool corrected, EncodedTrack& track) {
+/// Squared error, in steps, of flat areas that are not known.
+double squaresOf(const FlatLayer& flat) {
+  double squares = 0;
+  for (const uint16_t number : flat.areas.numbers) {
+    if (number == 0) continue;
+    const double level = flat.areas.levels[number - 1u];
+    squares += level * level;
+  }
+  return squares;
+}
+
+/// Moves the account of the coefficients to behind the opening, and lets it end with the
+/// corrections.
+void joinAccount(const QuantisedHeights& heights, const HeightLayers& layers, EncodedTrack& track) {
+  const uint64_t opening = layers.layers.openingBytes();
   for (RatePoint& point : track.points) {
-    point.bytes += heights.layers.openingBytes();
+    point.bytes += opening;
     point.distortion += heights.left;
   }
-  if (heights.layers.openingBytes() > 0) {
+  if (opening > 0) {
     const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
-    const double unknown = track.points.front().distortion + voids * heights.validityWorth();
+    const double unknown =
+        track.points.front().distortion + voids * heights.validityWorth() + squaresOf(layers.flat);
     track.points.insert(track.points.begin(), {0, unknown});
   }
-  if (corrected) track.points.push_back({track.codeword.size(), 0});
+  if (!layers.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
 }
 
 /// An account with a point for the mask and for each plane of bytes.
@@ -68,7 +82,7 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
                         std::vector<EncodedTrack> coefficients, int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
   const QuantisedHeights& heights = *of;
-  const auto& [all_layers, corrections, wavelet] = layers;
+  const auto& [all_layers, corrections, wavelet, flat] = layers;
   CodedHeights coded{std::move(of),           headerOf(heights),  all_layers,
                      std::move(coefficients), corrections.size(), heights.left};
   coded.header.wavelet = wavelet;
@@ -77,18 +91,27 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
   EncodedTrack& track = coded.tracks.front();
   std::vector<uint8_t>& codeword = track.codeword;
   if (!corrections.empty()) coded.layers.coefficient_bytes = codeword.size();
+  codeword.insert(codeword.begin(), flat.codeword.begin(), flat.codeword.end());
   codeword.insert(codeword.begin(), heights.table.begin(), heights.table.end());
   codeword.insert(codeword.begin(), heights.validity.begin(), heights.validity.end());
   codeword.insert(codeword.end(), corrections.begin(), corrections.end());
-  joinAccount(heights, !corrections.empty(), track);
+  joinAccount(heights, layers, track);
   assert(track.points.back().bytes == codeword.size() && !coded.header.stored());
   return coded;
 }
 
-CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options) {
-  HeightLayers layers{of->layers, of->corrections, chooseHeightFilters(*of, purpose)};
-  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, options);
+  const HeightSteps& steps = of->steps;
+  FlatChoice choice = chooseFlatAreas(
+      {steps.steps, extentOf(*of->samples), steps.valid},
+      {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads});
+  HeightLayers layers{of->layers, of->corrections, choice.wavelet, std::move(choice.flat)};
+  layers.layers.flat_bytes = layers.flat.codeword.size();
+  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());
+  CoefficientOptions beside = options;
+  if (!layers.flat.areas.empty()) beside.flat = &layers.flat.areas;
+  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, beside);
   if (layers.wavelet.fraction_bits == 0) {
     const PlaneView<const int32_t> plane(of->steps.steps, extentOf(*of->samples), of->steps.valid);
     const double missing = roundedBits(plane, layers.wavelet) * of->counted();
@@ -106,6 +129,7 @@ CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
   stored.layers.corrections = CorrectionKind::kNone;
   stored.layers.coefficient_bytes = 0;
   stored.layers.table_bytes = stored.layers.table_values = 0;
+  stored.layers.flat_bytes = stored.layers.flat_areas = 0;
   const QuantisedHeights& heights = *stored.of;
   EncodedTrack& track = stored.tracks.emplace_back();
   track.codeword = heights.validity;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/geometry/flat_choice.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/quantised_heights.hpp"
 #include "ratecontrol/coded_tracks.hpp"
@@ -20,8 +21,8 @@ struct CodedHeights {
   std::shared_ptr<const QuantisedHeights> of;
   GeometryHeader header;  ///< without max_error
   GeometryLayers layers;
-  /// The first holds the codewords of validity and table, coefficients, corrections; others
-  /// coefficients alone.
+  /// The first holds the codewords of validity, table and flat areas, coefficients, corrections;
+  /// others coefficients alone.
   std::vector<EncodedTrack> tracks;
   uint64_t closing = 0;  ///< bytes of corrections
   double left = 0;       ///< QuantisedHeights::left, or what stored samples leave
@@ -41,6 +42,7 @@ struct HeightLayers {
   GeometryLayers layers;
   std::span<const uint8_t> corrections;  ///< codeword
   WaveletHeader wavelet;
+  FlatLayer flat = {};
 };
 
 /// The filters that suit the heights.
@@ -51,13 +53,22 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            const CoefficientOptions& options);
 
-/// Validity and table before the coefficients of the first track, corrections behind them. region_log2: what
-/// the coefficients were coded with.
+/// Validity, table and flat areas before the coefficients of the first track, corrections behind
+/// them. region_log2: what the coefficients were coded with.
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
                         std::vector<EncodedTrack> coefficients, int region_log2);
 
-/// All of this, with the corrections that the heights come with.
-CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, Purpose purpose,
+/// What coefficients are coded for.
+struct HeightTarget {
+  Purpose purpose;
+  uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
+  double mean_square = 0;       ///< > 0: the error that is wanted, in squared steps
+
+  HeightTarget(Purpose of) : purpose(of) {}
+};
+
+/// All of this, with the corrections that the heights come with, and flat areas that pay.
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options);
 
 /// The same heights with their samples written as they are, in the place of coefficients and

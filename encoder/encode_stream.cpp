@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "codec/geometry/voids.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
@@ -25,8 +26,17 @@ using Texture = std::shared_ptr<const CodedTexture>;
 Heights codeHeightsForTarget(const EncodeInputs& inputs,
                              const std::shared_ptr<const QuantisedHeights>& of) {
   if (inputs.options.max_error > 0) return codeBoundedHeights(inputs, of);
-  const Purpose purpose = of->restored() ? Purpose::kLossless : purposeOf(inputs);
-  return std::make_shared<const CodedHeights>(codeHeights(of, purpose, heightOptions(inputs)));
+  HeightTarget target(of->restored() ? Purpose::kLossless : purposeOf(inputs));
+  // What a texture leaves of a budget is not known yet; most of it is the texture's.
+  constexpr uint64_t kShareBesideTexture = 4;
+  if (inputs.budgeted())
+    target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
+  if (inputs.options.psnr > 0) {
+    const SampleRange range = rangeOf(*inputs.heights, of->steps.valid);
+    target.mean_square = worstMeanSquare(range.high - range.low, inputs.options.psnr) /
+                         (of->steps.step * of->steps.step);
+  }
+  return std::make_shared<const CodedHeights>(codeHeights(of, target, heightOptions(inputs)));
 }
 
 Texture codeTextureForTarget(const EncodeInputs& inputs,

@@ -31,8 +31,8 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
 
 }  // namespace
 
-PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid)
-    : pyramid_(plane, valid), norms_(spec, pyramid_.levels()) {}
+PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid, HeldSamples held)
+    : pyramid_(plane, valid, held), norms_(spec, pyramid_.levels()) {}
 
 std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region) {
   std::vector<BandPart> parts;
@@ -78,7 +78,11 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
 
 void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
   const Mask valid = pyramid_.valid();
-  if (valid.all()) return;
+  const HeldSamples held = pyramid_.held();
+  if (valid.all() && held.none()) return;
+  const auto isAbsent = [&](size_t sample) {
+    return !valid[sample] || (!held.none() && held.numbers[sample] != 0);
+  };
   assert(bands.size() == parts.size());
   for (size_t i = 0; i < bands.size(); ++i) {
     const BandPart& part = parts[i];
@@ -87,11 +91,10 @@ void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan
     bands[i].absent.assign(shape.wordCells(), 0);
     for (uint32_t row = 0; row < part.rows; ++row) {
       const size_t line = size_t{subband.planeRow(part.row + row)} * pyramid_.plane().width;
-      const uint8_t* samples = valid.from(line);
       for (uint32_t first = 0; first < part.columns; first += 32) {
         uint32_t word = 0;
         for (uint32_t k = 0; k < std::min(32u, part.columns - first); ++k)
-          word |= uint32_t{samples[subband.sampleColumn(part.column + first + k)] == 0} << k;
+          word |= uint32_t{isAbsent(line + subband.sampleColumn(part.column + first + k))} << k;
         bands[i].absent[shape.word(row, first / 32)] = word;
       }
     }

@@ -45,12 +45,16 @@ struct Sample {
   Extent extent;
   std::vector<int32_t> values;
   std::vector<uint8_t> valid;  // empty: all
+  std::vector<uint16_t> held;  // empty: none
+  std::span<const int32_t> levels;
 };
 
-Sample sampleOf(const PlaneView<const int32_t>& plane, const Window& part) {
+Sample sampleOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                const Window& part) {
   const View view{0, part};
   Sample sample{part.extent(), cut(std::span<const int32_t>(plane.values()), plane.extent(), view),
-                cut(plane.valid.bytes(), plane.extent(), view)};
+                cut(plane.valid.bytes(), plane.extent(), view),
+                cut(held.numbers, plane.extent(), view), held.values};
   clearUnmarked(std::span(sample.values), sample.valid);
   return sample;
 }
@@ -60,11 +64,13 @@ Sample sampleOf(const PlaneView<const int32_t>& plane, const Window& part) {
 void appendDetails(const Sample& sample, const WaveletHeader& header, bool plain,
                    std::vector<float>& details) {
   const WaveletSpec spec = specOf(header);
-  std::vector<int32_t> plane = sample.values;
-  for (int32_t& v : plane)
-    v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
-  forwardWavelet(spec, {plane, sample.extent, sample.valid});
-  const PlaneLayout layout(spec, sample.extent);
+  std::vector<int32_t> plane = sample.values, levels(sample.levels.begin(), sample.levels.end());
+  for (std::vector<int32_t>* values : {&plane, &levels}) {
+    for (int32_t& v : *values)
+      v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
+  }
+  const PlaneLayout layout(spec, sample.extent, sample.valid, {sample.held, levels});
+  forwardWavelet(spec, layout.pyramid(), plane);
   for (size_t i = 1; i < layout.subbands().size(); ++i) {
     const Subband& band = layout.subbands()[i];
     const auto norm = static_cast<float>(plain ? 1 : std::sqrt(layout.energy(i)));
@@ -125,11 +131,13 @@ struct Choice {
   double bits = 0, penalised = std::numeric_limits<double>::infinity();
 };
 
-std::vector<Sample> samplesOf(std::span<const PlaneView<const int32_t>> planes) {
+std::vector<Sample> samplesOf(std::span<const PlaneView<const int32_t>> planes,
+                              const HeldSamples& held = {}) {
   assert(!planes.empty());
   std::vector<Sample> samples;
   for (const Window& part : typicalParts(planes.front().extent())) {
-    for (const PlaneView<const int32_t>& plane : planes) samples.push_back(sampleOf(plane, part));
+    for (const PlaneView<const int32_t>& plane : planes)
+      samples.push_back(sampleOf(plane, held, part));
   }
   return samples;
 }
@@ -162,6 +170,11 @@ Choice chooseAmong(const std::vector<Sample>& samples, int bits, Purpose purpose
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose) {
   return chooseWavelet(std::span(&plane, 1), bits, purpose);
+}
+
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                            int bits, Purpose purpose) {
+  return chooseAmong(samplesOf(std::span(&plane, 1), held), bits, purpose).header;
 }
 
 WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,

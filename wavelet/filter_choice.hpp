@@ -8,6 +8,7 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/header.hpp"
+#include "wavelet/held_samples.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -20,6 +21,10 @@ enum class Purpose : uint8_t {
 /// Chooses the filters of a plane whose samples have `bits` bits. They are tried on typical parts
 /// of the plane, and compared by an estimate of the bits that their coefficients take.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose);
+
+/// The same for a plane of which samples are held.
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                            int bits, Purpose purpose);
 
 /// Chooses the same filters for several planes of one size.
 WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,

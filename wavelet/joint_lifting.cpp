@@ -71,7 +71,8 @@ void JointLifting::centres(uint32_t row) {
 
 /// b += [Px a + Uy d]
 void JointLifting::rightSides(uint32_t row) {
-  std::ranges::copy(half(row, false), halves_.room(true, block_.extent.width).begin());
+  const auto low = half(row, false);
+  std::copy(low.begin(), low.end(), halves_.room(true, block_.extent.width).begin());
   sums_.assign(half(row, true).size(), 0);
   addRow(true, 0);
   addColumns({row, true, false}, Direction::kAnalysis, sums_);
@@ -80,7 +81,8 @@ void JointLifting::rightSides(uint32_t row) {
 
 /// c += [Py a + Ux d]
 void JointLifting::lowerSides(uint32_t row) {
-  std::ranges::copy(half(row, true), halves_.room(false, block_.extent.width).begin());
+  const auto high = half(row, true);
+  std::copy(high.begin(), high.end(), halves_.room(false, block_.extent.width).begin());
   sums_.assign(half(row, false).size(), 0);
   addRow(false, 0);
   addColumns({row, false, true}, Direction::kAnalysis, sums_);

@@ -22,9 +22,11 @@ LowBand split(const LowBand& whole) {
 
 }  // namespace
 
-Pyramid::Pyramid(Extent plane, Mask valid) : valid_(valid), lows_{{plane, 0, 0}} {
+Pyramid::Pyramid(Extent plane, Mask valid, HeldSamples held)
+    : valid_(valid), held_(held), lows_{{plane, 0, 0}} {
   assert(plane.samples() > 0);
   assert(valid.all() || valid.bytes().size() == plane.samples());
+  assert(held.none() || held.numbers.size() == plane.samples());
   while (std::max(lows_.back().extent.width, lows_.back().extent.height) > kSmallestSide)
     lows_.push_back(split(lows_.back()));
   assert(levels() <= kMaxLevels);

@@ -20,6 +20,7 @@
 #include "base/plane.hpp"
 #include "base/view.hpp"
 #include "bitstream/track/band.hpp"
+#include "wavelet/held_samples.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -59,11 +60,13 @@ struct LowBand {
 
 class Pyramid {
  public:
-  /// The mask marks the samples of the plane that exist; its bytes outlive the pyramid.
-  explicit Pyramid(Extent plane, Mask valid = {});
+  /// The mask marks the samples of the plane that exist; its bytes, and what is held, outlive the
+  /// pyramid.
+  explicit Pyramid(Extent plane, Mask valid = {}, HeldSamples held = {});
 
   Extent plane() const { return lows_.front().extent; }
   Mask valid() const { return valid_; }
+  HeldSamples held() const { return held_; }
 
   /// The number of levels, which is also the number of the coarsest one. 0 for the smallest planes.
   int levels() const { return static_cast<int>(lows_.size()) - 1; }
@@ -94,6 +97,7 @@ class Pyramid {
   void addSubbands(int level);
 
   Mask valid_;
+  HeldSamples held_;
   std::vector<LowBand> lows_;
   std::vector<Subband> subbands_;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "wavelet/held_lifting.hpp"
 #include "wavelet/joint_lifting.hpp"
 #include "wavelet/lifting.hpp"
 #include "wavelet/masked_lifting.hpp"
@@ -58,18 +59,26 @@ class LevelTransform {
         jointly_wide_(spec.jointlyWide(level)),
         threads_(threads) {}
 
-  /// existing: one byte for each value of the block; empty: all exist.
-  void run(const Block& whole, Extent low, std::span<const uint8_t> existing) const {
+  /// existing: one byte for each value of the block; empty: all exist. held: null: all are free.
+  void run(const Block& whole, Extent low, std::span<const uint8_t> existing,
+           const HeldBlock* held) const {
     assert(existing.empty() || existing.size() == whole.extent.samples());
     const bool rows = low.width < whole.extent.width, columns = low.height < whole.extent.height;
-    if (joint_ && rows && columns && existing.empty()) return liftJointly(whole);
+    if (joint_ && rows && columns && existing.empty() && held == nullptr) return liftJointly(whole);
     std::optional<BlockMask> mask;
     if (!existing.empty()) mask = BlockMask{existing, whole.extent};
     const Block lows{whole.first, columns ? 2 * whole.pitch : whole.pitch, low};
     if (doubles_ && !analyses()) forEachRow(lows, halveValues);
-    if (rows && analyses()) liftRows(whole, mask);
-    if (columns) liftColumns(whole, mask);
-    if (rows && !analyses()) liftRows(whole, mask);
+    if (held != nullptr) {
+      if (!analyses()) holdCoefficients(whole, low, *held);
+      if (rows && analyses()) liftHeldRows(whole, mask, *held);
+      if (columns) liftHeldColumns(whole, low, mask, *held);
+      if (rows && !analyses()) liftHeldRows(whole, mask, *held);
+    } else {
+      if (rows && analyses()) liftRows(whole, mask);
+      if (columns) liftColumns(whole, mask);
+      if (rows && !analyses()) liftRows(whole, mask);
+    }
     if (doubles_ && analyses()) forEachRow(lows, doubleValues);
   }
 
@@ -121,6 +130,38 @@ class LevelTransform {
       }
     });
   }
+
+  LiftedSignals signals() const { return {id_, direction_, wide_}; }
+
+  /// Where held samples lie is what the analysis leaves there, which is not coded.
+  void holdCoefficients(const Block& whole, Extent low, const HeldBlock& held) const {
+    const bool columns = low.height < whole.extent.height;
+    for (uint32_t y = 0; y < whole.extent.height; ++y) {
+      const bool high_y = columns && y % 2 == 1;
+      const std::span<int32_t> row = whole.row(y);
+      hold(held.line(y, false), held.states().after(false, high_y), row.first(low.width));
+      if (!held.splitsRows()) continue;
+      hold(held.line(y, true), held.states().after(true, high_y), row.subspan(low.width));
+    }
+  }
+  void liftHeldRows(const Block& whole, const std::optional<BlockMask>& mask,
+                    const HeldBlock& held) const {
+    inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
+      HeldRowLifting lifting(whole.extent.width);
+      for (uint32_t y = begin; y < end; ++y)
+        lifting.lift(whole.row(y), mask ? mask->row(y) : nullptr, held, y, signals());
+    });
+  }
+  void liftHeldColumns(const Block& whole, Extent low, const std::optional<BlockMask>& mask,
+                       const HeldBlock& held) const {
+    const Rows<int32_t> rows = whole.rows();
+    inChunks(rows.width, [&](uint32_t begin, uint32_t end) {
+      const Rows<int32_t> part{rows.first + begin, rows.pitch, rows.count, end - begin};
+      const auto valid = mask ? mask->columns(begin, end) : Rows<const uint8_t>{};
+      tetrakis::liftHeldColumns(part, mask ? &valid : nullptr, {&held, begin, low.width},
+                                signals());
+    });
+  }
   void inChunks(uint32_t count, const std::function<void(uint32_t, uint32_t)>& lift) const {
     const uint32_t chunk = threads_ > 1 ? kChunk : count;
     parallelFor(threads_, (count + chunk - 1) / chunk, [&](size_t i) {
@@ -135,11 +176,38 @@ class LevelTransform {
   uint32_t threads_;
 };
 
+/// All that a level splits.
+Window wholeOf(const Pyramid& pyramid, int level) {
+  const Extent whole = pyramid.low(level - 1).extent;
+  return {0, 0, whole.width, whole.height};
+}
+
 /// The mask of all that a level splits; empty where all of it exists.
 std::vector<uint8_t> maskOf(const Pyramid& pyramid, int level) {
   if (pyramid.valid().all()) return {};
-  const Extent whole = pyramid.low(level - 1).extent;
-  return pyramid.splitMask(level - 1, {0, 0, whole.width, whole.height});
+  return pyramid.splitMask(level - 1, wholeOf(pyramid, level));
+}
+
+/// Which level of which pyramid; the ladder is there if something is held.
+struct LevelOf {
+  const Pyramid& pyramid;
+  int level;
+  const std::optional<HeldLadder>& ladder;
+};
+
+/// One level of a plane, or of the low band of a level, as a whole.
+void runLevel(const LevelTransform& transform, const Block& whole, const LevelOf& of) {
+  const auto& [pyramid, level, ladder] = of;
+  const Extent low = pyramid.low(level).extent;
+  if (!ladder) return transform.run(whole, low, maskOf(pyramid, level), nullptr);
+  const HeldLevel states = ladder->level(level);
+  const HeldBlock held(pyramid, states, level, wholeOf(pyramid, level));
+  transform.run(whole, low, maskOf(pyramid, level), &held);
+}
+
+std::optional<HeldLadder> ladderOf(const WaveletSpec& spec, const Pyramid& pyramid) {
+  if (pyramid.held().none()) return {};
+  return HeldLadder(spec, pyramid);
 }
 
 }  // namespace
@@ -147,24 +215,29 @@ std::vector<uint8_t> maskOf(const Pyramid& pyramid, int level) {
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block) {
   assert(block.values.size() == block.extent.samples());
   LevelTransform(spec, level, Direction::kSynthesis, 1)
-      .run({block.values.data(), block.extent.width, block.extent}, block.low, block.existing);
+      .run({block.values.data(), block.extent.width, block.extent}, block.low, block.existing,
+           block.held);
+}
+
+void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
+                    uint32_t threads) {
+  const std::optional<HeldLadder> ladder = ladderOf(spec, pyramid);
+  for (int level = 1; level <= pyramid.levels(); ++level) {
+    runLevel(LevelTransform(spec, level, Direction::kAnalysis, threads),
+             blockOf(pyramid, level - 1, 0, values), {pyramid, level, ladder});
+  }
 }
 
 void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads) {
-  const Pyramid pyramid(plane.extent(), plane.valid);
-  for (int level = 1; level <= pyramid.levels(); ++level) {
-    LevelTransform(spec, level, Direction::kAnalysis, threads)
-        .run(blockOf(pyramid, level - 1, 0, plane.values()), pyramid.low(level).extent,
-             maskOf(pyramid, level));
-  }
+  forwardWavelet(spec, Pyramid(plane.extent(), plane.valid), plane.values(), threads);
 }
 
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
                     std::span<int32_t> values, uint32_t threads) {
+  const std::optional<HeldLadder> ladder = ladderOf(spec, pyramid);
   for (int split = pyramid.levels(); split > level; --split) {
-    LevelTransform(spec, split, Direction::kSynthesis, threads)
-        .run(blockOf(pyramid, split - 1, level, values), pyramid.low(split).extent,
-             maskOf(pyramid, split));
+    runLevel(LevelTransform(spec, split, Direction::kSynthesis, threads),
+             blockOf(pyramid, split - 1, level, values), {pyramid, split, ladder});
   }
 }
 

@@ -25,9 +25,9 @@ namespace tetrakis::inline wavelet {
 struct WaveletSpec {
   static constexpr size_t kChoices = 3;
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
-  bool whole = false;      ///< samples have no fraction bits
-  int bits = 0;            ///< of a sample, fraction included
-  int first_doubled = 3;   ///< the low band is doubled after this level and the next; 0: after none
+  bool whole = false;                        ///< samples have no fraction bits
+  int bits = 0;                              ///< of a sample, fraction included
+  int first_doubled = 3;  ///< the low band is doubled after this level and the next; 0: after none
 
   static constexpr int kNarrowLevels = 3;
   static constexpr int kJointBits = 20;
@@ -45,9 +45,7 @@ struct WaveletSpec {
     return whole && first_doubled > 0 && (level == first_doubled || level == first_doubled + 1);
   }
   /// The level lifts rows and columns jointly where it splits both and every sample exists.
-  bool joint(int level) const {
-    return whole && bits <= kJointBits && liftsJointly(filter(level));
-  }
+  bool joint(int level) const { return whole && bits <= kJointBits && liftsJointly(filter(level)); }
   /// Joint sums of this level are of 64 bits: they have kJointPlaces binary places.
   bool jointlyWide(int level) const {
     return level > kNarrowLevels || bits + kJointPlaces >= widestSamples(filter(level));
@@ -59,19 +57,27 @@ struct WaveletSpec {
 /// exist are left alone.
 void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
+/// The same for the plane of a pyramid, which knows what is held: held samples have their values,
+/// and the places of their coefficients may be anything afterwards.
+void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
+                    uint32_t threads = 1);
+
 /// Turns coefficients into samples, in place. Defined for all values.
 void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
 /// The same for the low band of a level, which is a plane of its own: undoes the coarser levels
-/// alone. low: the values of that low band.
+/// alone. low: the values of that low band. Where samples are held any values will do.
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
                     std::span<int32_t> low, uint32_t threads);
 
+class HeldBlock;
+
 /// A block of the low band that a level splits, which stands for itself.
 struct LevelBlock {
-  std::span<int32_t> values;      ///< the low half of a row first; low rows at even places
-  Extent extent, low;             ///< of the block and of its low part
-  std::vector<uint8_t> existing;  ///< Pyramid::splitMask() of the block; empty: all exist
+  std::span<int32_t> values;        ///< the low half of a row first; low rows at even places
+  Extent extent, low;               ///< of the block and of its low part
+  std::vector<uint8_t> existing;    ///< Pyramid::splitMask() of the block; empty: all exist
+  const HeldBlock* held = nullptr;  ///< null: all samples are free
 };
 
 /// The bytes that lifting takes for each value of a row or a column, on each thread: both halves of

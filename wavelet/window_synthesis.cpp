@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 
 #include "bitstream/track/reconstruction.hpp"
+#include "wavelet/held_lifting.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -126,12 +128,18 @@ std::vector<uint8_t> WindowSynthesis::maskOf(int level) const {
 
 std::vector<int32_t> WindowSynthesis::run(uint32_t) {
   std::vector<int32_t> low = std::move(ll_);
+  std::optional<HeldLadder> ladder;
+  if (!pyramid_->held().none()) ladder.emplace(spec_, *pyramid_);
   for (int number = pyramid_->levels(); number >= 1; --number) {
     Level& level = levels_[static_cast<size_t>(number - 1)];
     copyLow(low, number);
     const Window block = level.block();
+    const HeldLevel states = ladder ? ladder->level(number) : HeldLevel{};
+    std::optional<HeldBlock> held;
+    if (ladder) held.emplace(*pyramid_, states, number, block);
     inverseLevel(spec_, number,
-                 {level.values, block.extent(), level.low().extent(), maskOf(number)});
+                 {level.values, block.extent(), level.low().extent(), maskOf(number),
+                  held ? &*held : nullptr});
     // What the next finer level wants of it, or the window.
     Window wanted = number > 1 ? at(number - 1).low() : window_;
     wanted.x -= block.x;

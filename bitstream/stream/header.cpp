@@ -131,6 +131,10 @@ Status checkLayers(const StreamHeader& header) {
       (layers.table_bytes > 0 && layers.corrections == CorrectionKind::kSteps)) {
     return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
   }
+  if (layers.flat_bytes > 0 &&
+      header.geometry->extent().samples() > GeometryLayers::kMostFlatSamples) {
+    return {TKS_CORRUPT, "Corrupt stream: so large a height field has no flat areas."};
+  }
   const bool integer = header.geometry->sample != TKS_F32;
   if (integer && layers.validity_bytes > 0 &&
       !(layers.has_nodata && holds(header.geometry->sample, layers.nodata))) {
@@ -156,10 +160,11 @@ Status checkRegions(const StreamHeader& header) {
 Status checkStored(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->stored()) return {};
   const bool one_track = header.geometry->regions.side_log2 == 0;
-  const bool plain =
-      header.layers.corrections == CorrectionKind::kNone && header.layers.table_bytes == 0;
+  const bool plain = header.layers.corrections == CorrectionKind::kNone &&
+                     header.layers.table_bytes == 0 && header.layers.flat_bytes == 0;
   if (one_track && plain) return {};
-  return {TKS_CORRUPT, "Corrupt stream: stored heights have regions, corrections or a table."};
+  return {TKS_CORRUPT,
+          "Corrupt stream: stored heights have regions, corrections, a table or flat areas."};
 }
 
 Status checkNumbers(const StreamHeader& header) {

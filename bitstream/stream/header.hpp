@@ -104,11 +104,13 @@ struct GeometryHeader {
 
 /// What a geometry track holds besides coefficients, which then lie between the two:
 ///
-///   validity codeword | table of values | coefficients | corrections
+///   validity codeword | table of values | flat areas | coefficients | corrections
 struct GeometryLayers {
   uint64_t validity_bytes = 0;  ///< 0: every sample is valid
   uint64_t table_bytes = 0;     ///< 0: steps are multiples; else they count the values of a table
   uint32_t table_values = 0;    ///< with a table only: how many it has
+  uint64_t flat_bytes = 0;      ///< 0: there are no flat areas
+  uint32_t flat_areas = 0;      ///< with flat areas only: how many there are
   uint8_t has_nodata = 0;       ///< voids have the sample value `nodata`; else NaN (f32 only)
   double nodata = 0;
   CorrectionKind corrections = CorrectionKind::kNone;
@@ -123,13 +125,18 @@ struct GeometryLayers {
     v.varint("validity_bytes", validity_bytes, 0, UINT64_MAX >> 1);
     v.u8("has_nodata", has_nodata, 0, 1);
     if (has_nodata) v.f64("nodata", nodata);
-    auto kinds = static_cast<uint8_t>(static_cast<uint8_t>(corrections) +
-                                      (table_bytes > 0 ? kWithTable : 0));
-    v.u8("corrections", kinds, 0, kWithTable + 2);
+    auto kinds = static_cast<uint8_t>(static_cast<uint8_t>(corrections) |
+                                      (table_bytes > 0 ? kWithTable : 0) |
+                                      (flat_bytes > 0 ? kWithFlatAreas : 0));
+    v.u8("layer_kinds", kinds, 0, kWithFlatAreas + kWithTable + 2);
     corrections = static_cast<CorrectionKind>(kinds % kWithTable);
-    if (kinds >= kWithTable) {
+    if (kinds & kWithTable) {
       v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
       v.varint("table_values", table_values, 2, kMostValues);
+    }
+    if (kinds & kWithFlatAreas) {
+      v.varint("flat_bytes", flat_bytes, 1, UINT64_MAX >> 1);
+      v.varint("flat_areas", flat_areas, 1, kMostFlatAreas);
     }
     if (corrections == CorrectionKind::kNone) return;
     v.varint("coefficient_bytes", coefficient_bytes, 0, UINT64_MAX >> 1);
@@ -138,10 +145,12 @@ struct GeometryLayers {
     }
   }
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
-  static constexpr uint8_t kWithTable = 4;  ///< is added to the kind of corrections
+  static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8;  ///< bits beside the corrections
+  static constexpr uint64_t kMostFlatAreas = 65535;
+  static constexpr uint64_t kMostFlatSamples = uint64_t{1} << 31;  ///< of a plane with flat areas
   static constexpr uint32_t kMostValues = 1u << 20;
 
-  uint64_t openingBytes() const { return validity_bytes + table_bytes; }
+  uint64_t openingBytes() const { return validity_bytes + table_bytes + flat_bytes; }
 };
 
 /// In the place of a number of bit-planes: the texture is drawn

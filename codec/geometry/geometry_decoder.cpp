@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wavelet/band_plan.hpp"
+#include "wavelet/held_lifting.hpp"
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -72,6 +73,18 @@ class Significance {
   std::vector<int> quiet_;      ///< of each track, the finest levels without such a coefficient
 };
 
+/// Levels of the plane are exact where it is flat, at all mip levels.
+void holdShown(const FlatAreas& flat, Extent plane, const View& view,
+               std::vector<int32_t>& heights) {
+  if (flat.empty()) return;
+  const Extent extent = view.extentIn(plane);
+  for (uint32_t y = 0; y < extent.height; ++y) {
+    const size_t row = (view.firstRow() + size_t{y} * view.step()) * plane.width;
+    hold({flat.numbers.data() + row + view.firstColumn(), view.step()}, flat.levels,
+         std::span(heights).subspan(size_t{y} * extent.width, extent.width));
+  }
+}
+
 /// What a track holds, and which bands of it the view needs; empty: none.
 std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart> parts,
                              const ViewSynthesis& synthesis) {
@@ -84,10 +97,11 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
 }  // namespace
 
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
-                               std::vector<uint8_t> valid, const View& view,
+                               KnownSamples known, const View& view,
                                const DecodeContext<TrackMemory>& context) {
+  auto& [valid, flat] = known;
   const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.extent(), valid);
+  const PlaneLayout layout(spec, header.extent(), valid, flat.held());
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
   assert(codewords.size() == regions.size());
@@ -106,6 +120,8 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
           synthesis.put(state.bands[k], more_bits, parts[k]);
         if (significance) significance->take(i, state, parts);
       });
+  for (int32_t& level : flat.levels)  // of what the layout holds, as it is needed from here on
+    level = static_cast<int32_t>(static_cast<uint32_t>(level) << out.fraction_bits);
   out.heights = synthesis.run(context.threads);
   if (significance) significance->giveTo(out);
   const Extent extent = view.extentIn(header.extent());
@@ -114,6 +130,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   out.valid = view.isWhole() ? std::move(valid)
                              : cut(std::span<const uint8_t>(valid), header.extent(), view);
   clearUnmarked(std::span(out.heights), out.valid);
+  holdShown(flat, header.extent(), view, out.heights);
   return out;
 }
 

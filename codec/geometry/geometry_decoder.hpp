@@ -3,14 +3,26 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
+#include "codec/geometry/flat_areas.hpp"
 #include "wavelet/region_decoder.hpp"
 
 namespace tetrakis::inline geometry {
+
+/// What is known of a plane before its coefficients.
+struct KnownSamples {
+  std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
+  FlatAreas flat = {};
+
+  KnownSamples() = default;
+  KnownSamples(std::vector<uint8_t> valid_samples, FlatAreas flat_areas = {})
+      : valid(std::move(valid_samples)), flat(std::move(flat_areas)) {}
+};
 
 /// What a view shows of decoded heights, row by row.
 struct DecodedGeometry {
@@ -28,12 +40,11 @@ struct DecodedGeometry {
 };
 
 /// Decodes what a view shows; in a window the time follows its size if the plane has regions.
-/// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). valid: of
-/// the whole plane, 1 where a sample is valid; empty: all are. Safe on any bytes and on any header
-/// that readHeader() accepts. The memory is that of earlier calls with the same header, validity
-/// and view, which is no window.
+/// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). known: of
+/// the whole plane. Safe on any bytes and on any header that readHeader() accepts. The memory is
+/// that of earlier calls with the same header, known samples and view, which is no window.
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
-                               std::vector<uint8_t> valid = {}, const View& view = {},
+                               KnownSamples known = {}, const View& view = {},
                                const DecodeContext<TrackMemory>& context = {});
 
 /// Rounds a height in units of 2^-fraction_bits steps to whole steps, half up.

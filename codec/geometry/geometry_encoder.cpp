@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/geometry_encoder.hpp"
 
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -10,6 +11,22 @@
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {
+
+namespace {
+
+/// What lifting leaves where samples are held is no coefficient.
+void clearAbsent(const BandPlan& band, std::vector<int32_t>& values) {
+  const BandShape& shape = band.shape;
+  for (uint32_t row = 0; row < shape.rows; ++row) {
+    for (uint32_t x = 0; x < shape.words(); ++x) {
+      uint32_t absent = band.absent[shape.word(row, x)];
+      for (; absent != 0; absent &= absent - 1)
+        values[shape.cell(row, 32 * x + static_cast<uint32_t>(std::countr_zero(absent)))] = 0;
+    }
+  }
+}
+
+}  // namespace
 
 std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
                                              const WaveletHeader& wavelet,
@@ -21,8 +38,13 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   }
   clearUnmarked(std::span(plane), heights.valid);
   const WaveletSpec spec = specOf(wavelet);
-  forwardWavelet(spec, {plane, heights.extent(), heights.valid}, options.threads);
-  const PlaneLayout layout(spec, heights.extent(), heights.valid);
+  static const FlatAreas kNone;
+  const FlatAreas& flat = options.flat == nullptr ? kNone : *options.flat;
+  std::vector<int32_t> levels = flat.levels;
+  for (int32_t& h : levels)
+    h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
+  const PlaneLayout layout(spec, heights.extent(), heights.valid, {flat.numbers, levels});
+  forwardWavelet(spec, layout.pyramid(), plane, options.threads);
   const double unit = std::exp2(-2 * wavelet.fraction_bits);
   const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);
   assert(!regions.empty());
@@ -32,8 +54,11 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
     TrackSource& track = tracks[i];
     track.plan = layout.plan(parts, 0, 0, 0);
     layout.markAbsent(parts, track.plan);
-    for (const BandPart& part : parts)
-      track.bands.push_back({layout.gather(plane, part), layout.energy(part.subband) * unit});
+    for (size_t k = 0; k < parts.size(); ++k) {
+      track.bands.push_back(
+          {layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit});
+      if (!flat.empty()) clearAbsent(track.plan[k], track.bands[k].values);
+    }
   });
   return encodeTracks(tracks, {options.limit, options.threads});
 }

@@ -8,13 +8,15 @@
 #include "base/plane.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
+#include "codec/geometry/flat_areas.hpp"
 
 namespace tetrakis::inline geometry {
 
 struct CoefficientOptions {
-  uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
-  int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
-  uint32_t threads = 1;         ///< nothing depends on them
+  uint64_t limit = UINT64_MAX;      ///< bytes worth coding, of all tracks together
+  int region_log2 = 0;              ///< bitstream/track/regions.hpp; 0: one track
+  uint32_t threads = 1;             ///< nothing depends on them
+  const FlatAreas* flat = nullptr;  ///< areas that are known, and not coded; null: there are none
 };
 
 /// Codes heights in steps. Returns one track for each of regionsOf(). wavelet: from

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/geometry/corrections_decoder.hpp"
+#include "codec/geometry/flat_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 #include "codec/geometry/stored_heights.hpp"
 #include "codec/geometry/value_table_decoder.hpp"
@@ -35,7 +36,7 @@ void correctSteps(DecodedGeometry& geometry, const GeometryLayers& layers,
 
 /// The tracks taken apart.
 struct TakenLayers {
-  std::span<const uint8_t> validity, table, corrections;
+  std::span<const uint8_t> validity, table, flat, corrections;
   Codewords coefficients;
 
   TakenLayers(const Codewords& codewords, const GeometryLayers& layers) : coefficients(codewords) {
@@ -45,6 +46,8 @@ struct TakenLayers {
     first = first.subspan(validity.size());
     table = firstOf(first, layers.table_bytes);
     first = first.subspan(table.size());
+    flat = firstOf(first, layers.flat_bytes);
+    first = first.subspan(flat.size());
     if (layers.corrections == CorrectionKind::kNone) return;
     corrections = first.subspan(firstOf(first, layers.coefficient_bytes).size());
     first = first.first(first.size() - corrections.size());
@@ -60,6 +63,18 @@ std::vector<uint8_t> validityOf(const TakenLayers& taken, const GeometryHeader& 
   std::vector<uint8_t> valid = decodeValidity(taken.validity, header.extent());
   if (whole) memory->valid = valid;
   return valid;
+}
+
+/// Of the whole plane.
+FlatAreas flatAreasOf(const TakenLayers& taken, const GeometryHeader& header,
+                      const GeometryLayers& layers, const std::vector<uint8_t>& valid,
+                      HeightsMemory* memory) {
+  if (layers.flat_bytes == 0 || taken.flat.empty()) return {};
+  const bool whole = memory != nullptr && taken.flat.size() == layers.flat_bytes;
+  if (whole && !memory->flat.empty()) return memory->flat;
+  FlatAreas flat = decodeFlatAreas(taken.flat, header.extent(), valid, layers.flat_areas);
+  if (whole) memory->flat = flat;
+  return flat;
 }
 
 /// Turns steps that count the values of a table into heights.
@@ -135,7 +150,8 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
   if (header.stored()) return decodeStored(header, taken.coefficients.front(), valid, view.level);
   DecodedHeights decoded;
   DecodedGeometry& geometry = decoded.geometry;
-  geometry = decodeGeometry(header, taken.coefficients, std::move(valid), view,
+  FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
+  geometry = decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
                             {context.threads, memory == nullptr ? nullptr : &memory->track});
   applyTable(taken, header, layers, decoded);
   if (taken.corrections.empty() || view.level > 0) return decoded;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes heights from the layers of their tracks: validity, table of values, coefficients,
-// corrections (bitstream/stream/header.hpp), or stored samples.
+// Decodes heights from the layers of their tracks: validity, table of values, flat areas,
+// coefficients, corrections (bitstream/stream/header.hpp), or stored samples.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@ struct DecodedHeights {
 /// and begins at the same address. It is empty before the first call.
 struct HeightsMemory {
   std::vector<uint8_t> valid;  ///< once it is whole
+  FlatAreas flat;              ///< likewise
   TrackMemory track;
 };
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "codec/mesh/fitted_triangle.hpp"
 #include "codec/mesh/triangle.hpp"
-#include "codec/mesh/triangle_samples.hpp"
 
 namespace tetrakis::inline mesh {
 namespace {
@@ -18,24 +18,6 @@ struct FittedCorner {
   double height = 0;
 };
 using FittedTriangle = LatticeTriangle<FittedCorner>;
-
-/// A sample of the triangle: its barycentric coordinates and what it lies above the plane.
-struct WeighedSample {
-  double weight, a, b, p, residual;
-};
-
-void add(TriangleMoments& t, const WeighedSample& s) {
-  t.energy += s.weight * s.residual * s.residual;
-  t.first.a += s.weight * s.residual * s.a;
-  t.first.b += s.weight * s.residual * s.b;
-  t.first.p += s.weight * s.residual * s.p;
-  t.gram.aa += s.weight * s.a * s.a;
-  t.gram.bb += s.weight * s.b * s.b;
-  t.gram.pp += s.weight * s.p * s.p;
-  t.gram.ab += s.weight * s.a * s.b;
-  t.gram.ap += s.weight * s.a * s.p;
-  t.gram.bp += s.weight * s.b * s.p;
-}
 
 /// The plane moves down by (a, b, p) at the corners: all residuals grow by a linear function.
 void lower(TriangleMoments& t, const TriangleMoments::First& by) {
@@ -48,11 +30,6 @@ void lower(TriangleMoments& t, const TriangleMoments::First& by) {
   t.first = {t.first.a + g_by.a, t.first.b + g_by.b, t.first.p + g_by.p};
 }
 
-bool onBorder(const Lattice& lattice, GridPoint p, GridPoint q) {
-  return (p.x == q.x && (p.x == 0 || p.x + 1 == lattice.width())) ||
-         (p.y == q.y && (p.y == 0 || p.y + 1 == lattice.height()));
-}
-
 std::array<double, 3> cornerSamples(const WeightedSurface& surface, const FittedTriangle& t) {
   const auto& z = surface.view.heights;
   return {static_cast<double>(z[t.a.sample]), static_cast<double>(z[t.b.sample]),
@@ -62,28 +39,9 @@ std::array<double, 3> cornerSamples(const WeightedSurface& surface, const Fitted
 /// Of the clamped triangle, against the plane through the samples at its corners.
 TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface,
                           const FittedTriangle& t) {
-  const std::array<GridPoint, 3> corners = {lattice.clamp(t.a.point), lattice.clamp(t.b.point),
-                                            lattice.clamp(t.apex.point)};
-  std::array<double, 3> shares;  // of the samples on each edge
-  for (size_t k = 0; k < 3; ++k)
-    shares[k] = onBorder(lattice, corners[(k + 1) % 3], corners[(k + 2) % 3]) ? 1.0 : 0.5;
-  const TriangleSamples samples(corners);
-  const auto area = static_cast<double>(samples.doubledArea());
-  const std::array<double, 3> heights = cornerSamples(surface, t);
-  TriangleMoments moments;
-  samples.forEach([&](uint32_t x, uint32_t y, const TriangleSamples::Edges& e) {
-    if (std::count(e.begin(), e.end(), 0) == 2) return;  // a vertex stands apart
-    const uint32_t sample = y * lattice.width() + x;
-    double weight = surface.weightOf(sample);
-    for (size_t k = 0; k < 3; ++k)
-      if (e[k] == 0) weight *= shares[k];
-    const double a = static_cast<double>(e[0]) / area, b = static_cast<double>(e[1]) / area,
-                 p = static_cast<double>(e[2]) / area;
-    const double z = surface.view.heights[sample];
-    add(moments,
-        {weight, a, b, p, a * (z - heights[0]) + b * (z - heights[1]) + p * (z - heights[2])});
-  });
-  return moments;
+  return tetrakis::momentsOf(
+      surface, {{lattice.clamp(t.a.point), lattice.clamp(t.b.point), lattice.clamp(t.apex.point)},
+                cornerSamples(surface, t)});
 }
 
 }  // namespace
@@ -109,8 +67,7 @@ class FittedDescent {
   }
 
   /// The leaves of the mesh of `kept` within t.
-  void merge(const FittedTriangle& t, const std::vector<bool>& kept,
-             std::vector<FittedMoments::Leaf>& out) {
+  void merge(const FittedTriangle& t, const std::vector<bool>& kept, std::vector<FittedLeaf>& out) {
     if (t.collapses(lattice_)) return;
     if (splits(t, kept)) {
       const FittedCorner w = cornerAt(t.splitPoint());
@@ -200,7 +157,7 @@ class FittedDescent {
                               const TriangleMoments& first, const TriangleMoments& second) const {
     const double middle = 0.5 * (t.a.height + t.b.height);
     TriangleMoments moments = tetrakis::merge(first, second, w.height - middle);
-    const double weight = onBorder(lattice_, t.a.point, t.b.point) ? 1.0 : 0.5;
+    const double weight = onBorder(mesh_.surface_.view, t.a.point, t.b.point) ? 1.0 : 0.5;
     add(moments, {weight * mesh_.surface_.weightOf(w.sample), 0.5, 0.5, 0,
                   mesh_.surface_.view.heights[w.sample] - middle});
     return moments;
@@ -226,7 +183,7 @@ void FittedMoments::coarsen(std::span<const VertexId> kept) {
     assert(present_[v]);
     keep[v] = true;
   }
-  std::vector<Leaf> merged;
+  std::vector<FittedLeaf> merged;
   FittedDescent descent(*this);
   descent.forEachRoot([&](const auto& t) { descent.merge(t, keep, merged); });
   leaves_ = std::move(merged);
@@ -239,11 +196,11 @@ void FittedMoments::correct(std::span<const uint32_t> samples,
   assert(!full_ && samples.size() == corrections.size());
   std::vector<double> before;
   before.reserve(3 * leaves_.size());
-  for (const Leaf& leaf : leaves_)
+  for (const FittedLeaf& leaf : leaves_)
     for (const uint32_t sample : leaf.corners) before.push_back(heights_[sample]);
   for (size_t i = 0; i < samples.size(); ++i) heights_[samples[i]] += corrections[i];
   for (size_t i = 0; i < leaves_.size(); ++i) {
-    Leaf& leaf = leaves_[i];
+    FittedLeaf& leaf = leaves_[i];
     const double* old = &before[3 * i];
     lower(leaf.moments, {old[0] - heights_[leaf.corners[0]], old[1] - heights_[leaf.corners[1]],
                          old[2] - heights_[leaf.corners[2]]});

@@ -16,30 +16,18 @@
 
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/moments.hpp"
-#include "codec/mesh/surface_view.hpp"
+#include "codec/mesh/weighted_surface.hpp"
 
 namespace tetrakis::inline mesh {
 
-/// A surface whose samples may be unknown. Where known[i] is 0, sample i does not count in fits,
-/// whatever its weight in the view. Where `known` is empty, all samples are known.
-struct WeightedSurface {
-  SurfaceView view;
-  std::span<const uint8_t> known = {};
-
-  bool isWeighted() const { return !known.empty() || !view.weights.empty(); }
-  double weightOf(uint32_t sample) const {
-    return known.empty() || known[sample] != 0 ? view.weightOf(sample) : 0;
-  }
+/// One triangle of a mesh. corners: samples of a, b, apex.
+struct FittedLeaf {
+  std::array<uint32_t, 3> corners;
+  TriangleMoments moments;
 };
 
 class FittedMoments {
  public:
-  /// corners: samples of a, b, apex.
-  struct Leaf {
-    std::array<uint32_t, 3> corners;
-    TriangleMoments moments;
-  };
-
   /// Begins with the mesh of all vertices, whose heights are the samples. The lattice and the
   /// surface must outlive this object.
   FittedMoments(const Lattice& lattice, const WeightedSurface& surface);
@@ -50,9 +38,11 @@ class FittedMoments {
   void correct(std::span<const uint32_t> samples, std::span<const double> corrections);
 
   /// Triangles of the mesh after the first coarsen(), in the order of meshOf().
-  const std::vector<Leaf>& leaves() const { return leaves_; }
+  const std::vector<FittedLeaf>& leaves() const { return leaves_; }
   /// The height of the mesh at `sample`, which is the place of one of its vertices.
   double height(uint32_t sample) const { return heights_[sample]; }
+  /// Of each sample; those of vertices count.
+  std::span<const double> heights() const { return heights_; }
   const WeightedSurface& surface() const { return surface_; }
 
   /// The gain of each vertex of the mesh with the present heights (gains.hpp). vertices: those of
@@ -66,7 +56,7 @@ class FittedMoments {
   WeightedSurface surface_;
   std::vector<bool> present_;    ///< of each lattice vertex
   std::vector<double> heights_;  ///< of each sample; those of vertices count
-  std::vector<Leaf> leaves_;
+  std::vector<FittedLeaf> leaves_;
   /// Of triangles that overhang the grid, against planes through their samples, by split vertex and
   /// side: rasterised once.
   mutable std::unordered_map<uint64_t, TriangleMoments> rasters_;

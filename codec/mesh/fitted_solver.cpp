@@ -12,10 +12,11 @@ namespace {
 
 class NormalEquations {
  public:
-  explicit NormalEquations(const FittedMoments& mesh)
-      : index_(mesh.surface().view.heights.size(), kNone) {
-    couplings_.reserve(mesh.leaves().size());
-    for (const FittedMoments::Leaf& leaf : mesh.leaves()) add(mesh, leaf);
+  NormalEquations(const WeightedSurface& surface, std::span<const FittedLeaf> leaves,
+                  std::span<const double> heights)
+      : surface_(surface), heights_(heights), index_(heights.size(), kNone) {
+    couplings_.reserve(leaves.size());
+    for (const FittedLeaf& leaf : leaves) add(leaf);
   }
 
   /// Of the unknowns.
@@ -44,9 +45,9 @@ class NormalEquations {
   /// Holds a vertex whose own sample has no weight: far below the usual weight, 1.
   static constexpr double kHold = 0x1p-10;
 
-  void add(const FittedMoments& mesh, const FittedMoments::Leaf& leaf) {
+  void add(const FittedLeaf& leaf) {
     std::array<uint32_t, 3> k;
-    for (size_t i = 0; i < 3; ++i) k[i] = unknown(mesh, leaf.corners[i]);
+    for (size_t i = 0; i < 3; ++i) k[i] = unknown(leaf.corners[i]);
     const TriangleMoments& t = leaf.moments;
     couplings_.push_back({k, t.gram.ab, t.gram.ap, t.gram.bp});
     diagonal_[k[0]] += t.gram.aa;
@@ -58,17 +59,19 @@ class NormalEquations {
   }
 
   /// The vertex's own sample (phi = 1) comes with its first triangle.
-  uint32_t unknown(const FittedMoments& mesh, uint32_t sample) {
+  uint32_t unknown(uint32_t sample) {
     if (index_[sample] == kNone) {
       index_[sample] = static_cast<uint32_t>(samples_.size());
       samples_.push_back(sample);
-      const double weight = mesh.surface().weightOf(sample);
+      const double weight = surface_.weightOf(sample);
       diagonal_.push_back(weight > 0 ? weight : kHold);
-      right_.push_back(weight * (mesh.surface().view.heights[sample] - mesh.height(sample)));
+      right_.push_back(weight * (surface_.view.heights[sample] - heights_[sample]));
     }
     return index_[sample];
   }
 
+  const WeightedSurface& surface_;
+  std::span<const double> heights_;
   std::vector<uint32_t> index_;  ///< of each sample among the unknowns
   std::vector<uint32_t> samples_;
   std::vector<double> diagonal_, right_;
@@ -110,10 +113,17 @@ std::vector<double> solve(const NormalEquations& a) {
 
 }  // namespace
 
+HeightCorrections fittedCorrections(const WeightedSurface& surface,
+                                    std::span<const FittedLeaf> leaves,
+                                    std::span<const double> heights) {
+  assert(!leaves.empty() && heights.size() == surface.view.heights.size());
+  const NormalEquations equations(surface, leaves, heights);
+  return {equations.samples(), solve(equations)};
+}
+
 void fitHeights(FittedMoments& mesh) {
-  assert(!mesh.leaves().empty());
-  const NormalEquations equations(mesh);
-  mesh.correct(equations.samples(), solve(equations));
+  const HeightCorrections fitted = fittedCorrections(mesh.surface(), mesh.leaves(), mesh.heights());
+  mesh.correct(fitted.samples, fitted.corrections);
 }
 
 }  // namespace tetrakis::inline mesh

@@ -11,6 +11,10 @@
 // conjugate gradients solve it.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "codec/mesh/fitted_moments.hpp"
 
 namespace tetrakis::inline mesh {
@@ -18,5 +22,17 @@ namespace tetrakis::inline mesh {
 /// Moves the heights of a coarsened mesh to the least squares. A vertex whose own sample has no
 /// weight stays where it is as far as no other sample says more. The same bits with every compiler.
 void fitHeights(FittedMoments& mesh);
+
+/// What the least squares add to the height at each of these samples, the vertices of a mesh.
+struct HeightCorrections {
+  std::vector<uint32_t> samples;
+  std::vector<double> corrections;
+};
+
+/// The same for a mesh of any triangles. leaves: their moments against the planes through
+/// `heights`, which has one for each sample; those of vertices count.
+HeightCorrections fittedCorrections(const WeightedSurface& surface,
+                                    std::span<const FittedLeaf> leaves,
+                                    std::span<const double> heights);
 
 }  // namespace tetrakis::inline mesh

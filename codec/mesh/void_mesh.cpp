@@ -68,7 +68,8 @@ Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const Weighte
   assert(surface.view.heights.size() == lattice.sampleCount());
   assert(surface.known.empty() || surface.known.size() == lattice.sampleCount());
   const std::vector<int32_t> pits = heightsOverPits(surface);
-  const Result<MeshSequence> sequence = decimate({lattice.width(), lattice.height(), pits});
+  const Result<MeshSequence> sequence =
+      decimate({lattice.width(), lattice.height(), pits, surface.view.weights});
   if (!sequence.ok()) return sequence.status();
   FittedVertices result{sequence->order(), {}};
   result.vertices.resize(longestOnLand(*sequence, surface.known, max_triangles));

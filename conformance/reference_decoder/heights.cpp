@@ -81,12 +81,22 @@ struct Surface {
   Plane plane;
 };
 
+/// FORMAT 8.1, "Flat areas": held samples have their levels, at all mip levels.
+void putFlat(const Plane& whole, int level, Plane& image) {
+  for (int y = 0; y < whole.height; y += 1 << level) {
+    for (int x = 0; x < whole.width; x += 1 << level) {
+      const uint32_t area = whole.areaOf(x, y);
+      if (area > 0) image.at(x >> level, y >> level) = whole.flat.levels.at(area - 1);
+    }
+  }
+}
+
 Surface decodeSurface(const GeometryHeader& header,
-                      const std::vector<std::span<const uint8_t>>& coefficients,
-                      std::vector<uint8_t> valid, int level) {
+                      const std::vector<std::span<const uint8_t>>& coefficients, Plane known,
+                      int level) {
   Surface surface;
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
-  surface.plane = {header.width, header.height, {}, std::move(valid)};
+  surface.plane = std::move(known);
   surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     const size_t track = surface.parts.size();
@@ -102,8 +112,11 @@ Surface decodeSurface(const GeometryHeader& header,
     place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
           surface.plane);
   }
+  for (int32_t& height : surface.plane.flat.levels) height = wrap(int64_t{height} << surface.f);
   synthesise(header.wavelet, subbands, level, surface.plane);
+  const Plane whole = surface.plane;
   if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);
+  putFlat(whole, level, surface.plane);
   return surface;
 }
 
@@ -287,9 +300,16 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   const std::vector<uint32_t> table =
       layers.tableBytes == 0 ? std::vector<uint32_t>{}
                              : decodeTable(take(codeword, layers.tableBytes), layers.tableValues);
+  Flat flat;
+  if (layers.flatBytes > 0) {
+    flat = decodeFlat(take(codeword, layers.flatBytes), {header.width, header.height, {}, valid},
+                      layers.flatAreas);
+  }
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
   coefficients[0] = take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
-  Surface surface = decodeSurface(header, coefficients, std::move(valid), level);
+  Plane known{header.width, header.height, {}, std::move(valid)};
+  known.flat = std::move(flat);
+  Surface surface = decodeSurface(header, coefficients, std::move(known), level);
   if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
   std::vector<uint32_t> samples =
       table.empty() ? samplesOf(header, surface) : valuesOf(header, table, surface);

@@ -99,7 +99,8 @@ class Joint {
 
 bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane) {
   const bool two_steps = filterOf(header, level).steps.size() == 2;
-  return header.fractionBits == 0 && header.sampleBits <= 20 && two_steps && plane.valid.empty();
+  return header.fractionBits == 0 && header.sampleBits <= 20 && two_steps && plane.valid.empty() &&
+         plane.flat.areas.empty();
 }
 
 void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane) {

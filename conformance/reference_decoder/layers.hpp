@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: validity, table of values and corrections (docs/FORMAT.md, section 8.1).
+// Reference decoder: validity, table of values, flat areas and
+// corrections (docs/FORMAT.md, section 8.1).
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,14 @@ namespace tetrakis::reference {
 
 /// 1 valid, 0 void, row by row.
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height);
+
+class RangeDecoder;
+
+/// FORMAT 8.1, "Flat areas": 1 flat, 0 not; nothing if a decision does not count.
+std::optional<std::vector<uint8_t>> decodeFlatMask(RangeDecoder& decoder, const Plane& plane);
+
+/// plane: which samples are valid. None unless there are so many areas and all decisions count.
+Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t areas);
 
 /// One a sample, modulo 2^32. plane: which samples are valid. hints: one a sample, 0 to 31.
 std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const Plane& plane,

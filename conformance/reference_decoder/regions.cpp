@@ -93,8 +93,10 @@ std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& 
 void markAbsent(const std::vector<Part>& parts, const Plane& plane, std::span<Band> bands) {
   for (size_t i = 0; i < parts.size(); ++i) {
     for (int r = 0; r < parts[i].rows; ++r) {
-      for (int a = 0; a < parts[i].columns; ++a)
-        bands[i].at(r, a).absent = !plane.isValid(parts[i].x(a), parts[i].y(r));
+      for (int a = 0; a < parts[i].columns; ++a) {
+        const int x = parts[i].x(a), y = parts[i].y(r);
+        bands[i].at(r, a).absent = !plane.isValid(x, y) || plane.areaOf(x, y) > 0;
+      }
     }
   }
 }

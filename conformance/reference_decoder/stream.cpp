@@ -65,12 +65,19 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   layers.validityBytes = in.varint(0, INT64_MAX);
   layers.hasNodata = in.u8(0, 1);
   if (layers.hasNodata) layers.nodata = in.f64();
-  const int kinds = in.u8(0, 6);
+  const int kinds = in.u8(0, 14);
   layers.corrections = kinds % 4;
-  if (kinds == 3 || kinds == 5) in.fail(Outcome::kCorrupt);
-  if (kinds >= 4) {
+  if (kinds % 4 == 3 || kinds % 8 == 5) in.fail(Outcome::kCorrupt);
+  if (kinds & 4) {
     layers.tableBytes = in.varint(1, INT64_MAX);
     layers.tableValues = static_cast<uint32_t>(in.varint(2, 1 << 20));
+  }
+  if (kinds & 8) {
+    layers.flatBytes = in.varint(1, INT64_MAX);
+    layers.flatAreas = static_cast<uint32_t>(in.varint(1, 65535));
+    const bool small =
+        geometry && uint64_t(geometry->width) * uint64_t(geometry->height) <= 1u << 31;
+    if (!small) in.fail(Outcome::kCorrupt);
   }
   if (layers.corrections > 0) layers.coefficientBytes = in.varint(0, INT64_MAX);
   if (layers.corrections == 1) {

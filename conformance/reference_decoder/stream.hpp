@@ -42,6 +42,8 @@ struct Layers {
   int corrections = 0;  ///< 0 none, 1 of steps, 2 of samples
   uint32_t correctionStep = 0;
   uint64_t tableBytes = 0;  ///< 0: no table of values
+  uint64_t flatBytes = 0;
+  uint32_t flatAreas = 0;
   uint32_t tableValues = 0;
 };
 

@@ -31,18 +31,22 @@ std::array<Offset, 12> neighboursOf(bool centre, int s) {
 
 class ValidityDecoder {
  public:
-  ValidityDecoder(std::span<const uint8_t> codeword, int width, int height)
-      : decoder_(codeword),
+  /// none: a plane whose voids are 0 without a decision.
+  ValidityDecoder(RangeDecoder& decoder, int width, int height, const Plane* none = nullptr)
+      : decoder_(decoder),
         width_(width),
         height_(height),
+        none_(none),
         valid_(static_cast<size_t>(width) * height) {}
+
+  bool ended() const { return ended_; }
 
   std::vector<uint8_t> decode() {
     int d = 0;
     while (1 << d < std::max(width_, height_) - 1) ++d;
     const int root = 1 << d;
     for (int y = 0; y < height_; y += root) {
-      for (int x = 0; x < width_; x += root) at(x, y) = next(root_, 1);
+      for (int x = 0; x < width_; x += root) at(x, y) = next(x, y, root_, 1);
     }
     for (int s = root / 2; s >= 1; s /= 2) {
       for (int y = s; y < height_; y += 2 * s) {
@@ -88,17 +92,19 @@ class ValidityDecoder {
     const int second = centre ? before(0, -2 * s) : before(s, -s);
     constexpr int kClass[] = {0, 1, 1, 2, 2, 2, 3, 3, 4};
     const int context = (near * 4 + 2 * first + second) * 5 + kClass[ring];
-    at(x, y) = next(models_[centre][static_cast<size_t>(context)], majority);
+    at(x, y) = next(x, y, models_[centre][static_cast<size_t>(context)], majority);
   }
 
-  uint8_t next(Model& model, int otherwise) {
+  uint8_t next(int x, int y, Model& model, int otherwise) {
+    if (none_ != nullptr && !none_->isValid(x, y)) return 0;
     const std::optional<int> bit = ended_ ? std::nullopt : model.decode(decoder_);
     ended_ = !bit;
     return static_cast<uint8_t>(bit.value_or(otherwise));
   }
 
-  RangeDecoder decoder_;
+  RangeDecoder& decoder_;
   int width_, height_;
+  const Plane* none_;
   std::vector<uint8_t> valid_;
   bool ended_ = false;
   Model root_;
@@ -108,7 +114,15 @@ class ValidityDecoder {
 }  // namespace
 
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height) {
-  return ValidityDecoder(codeword, width, height).decode();
+  RangeDecoder decoder(codeword);
+  return ValidityDecoder(decoder, width, height).decode();
+}
+
+std::optional<std::vector<uint8_t>> decodeFlatMask(RangeDecoder& decoder, const Plane& plane) {
+  ValidityDecoder mask(decoder, plane.width, plane.height, &plane);
+  std::vector<uint8_t> flat = mask.decode();
+  if (mask.ended()) return std::nullopt;
+  return flat;
 }
 
 }  // namespace tetrakis::reference

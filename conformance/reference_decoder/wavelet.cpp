@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: the inverse wavelet of a plane, with voids or without (docs/FORMAT.md,
+// Reference decoder: the inverse wavelet of a plane, with voids and held samples or
+// without (docs/FORMAT.md,
 // section 7).
 #include "conformance/reference_decoder/wavelet.hpp"
 
@@ -9,11 +10,26 @@
 namespace tetrakis::reference {
 namespace {
 
-/// One signal, and which of its samples are valid.
+/// FORMAT 7, "Held samples": s[0], s[1], …
+using States = std::vector<int32_t>;
+
+/// One signal, which of its samples are valid, and the states of those that are held.
 struct Line {
   std::vector<int32_t> values;
   std::vector<bool> valid;
+  std::vector<States> held;  ///< empty: the sample is not held
 };
+
+States statesOf(const Filter& filter, bool exact, int32_t value) {
+  States states = {value, value};
+  for (size_t i = 0; i < filter.steps.size(); ++i) {
+    int64_t sum = int64_t{1} << (filter.shift - 1);
+    for (const int weight : filter.steps[i]) sum += 2 * int64_t{weight} * states[i + 1];
+    if (!exact) sum = wrap(sum);
+    states.push_back(wrap(states[i] + (sum >> filter.shift)));
+  }
+  return states;
+}
 
 /// "Mirrored about the first and the last sample (period 2n - 2)".
 size_t mirrored(int64_t t, size_t size) {
@@ -51,10 +67,14 @@ std::vector<int64_t> pairSums(const Line& line, size_t t, size_t pairs) {
 
 /// FORMAT 7, "Inverse of one signal".
 void synthesiseLine(const Filter& filter, bool exact, Line& line) {
+  for (size_t t = 0; t < line.values.size(); ++t) {
+    if (!line.held[t].empty()) line.values[t] = line.held[t][filter.steps.size() + 1 - t % 2];
+  }
   for (size_t s = filter.steps.size(); s-- > 0;) {
     const std::vector<int>& weights = filter.steps[s];
     for (size_t t = s % 2 == 0 ? 1 : 0; t < line.values.size(); t += 2) {
-      if (!line.valid[t]) continue;
+      if (!line.held[t].empty()) line.values[t] = line.held[t][s];
+      if (!line.valid[t] || !line.held[t].empty()) continue;
       const std::vector<int64_t> sums = pairSums(line, t, weights.size());
       if (sums.empty()) continue;
       int64_t sum = int64_t{1} << (filter.shift - 1);
@@ -70,15 +90,22 @@ struct Places {
   int x, y, stepX, stepY, count;
 };
 
-void synthesisePlaces(const WaveletHeader& header, int level, const Places& places, Plane& plane) {
+bool isExact(const WaveletHeader& header, int level, const Plane& plane) {
+  return !plane.valid.empty() || level > 3 || header.sampleBits > filterOf(header, level).widest;
+}
+
+void synthesisePlaces(const WaveletHeader& header, int level, const Places& places,
+                      const std::vector<int32_t>& held, Plane& plane) {
+  const Filter& filter = filterOf(header, level);
+  const bool exact = isExact(header, level, plane);
   Line line;
   for (int i = 0; i < places.count; ++i) {
     const int x = places.x + i * places.stepX, y = places.y + i * places.stepY;
     line.values.push_back(plane.at(x, y));
     line.valid.push_back(plane.isValid(x, y));
+    const uint32_t area = plane.areaOf(x, y);
+    line.held.push_back(area > 0 ? statesOf(filter, exact, held[area - 1]) : States{});
   }
-  const Filter& filter = filterOf(header, level);
-  const bool exact = !plane.valid.empty() || level > 3 || header.sampleBits > filter.widest;
   synthesiseLine(filter, exact, line);
   for (int i = 0; i < places.count; ++i)
     plane.at(places.x + i * places.stepX, places.y + i * places.stepY) = line.values[size_t(i)];
@@ -89,8 +116,43 @@ int multiples(int size, int step) {
   return (size - 1) / step + 1;
 }
 
+/// FORMAT 7, "Held samples": the values of areas before the analysis of a level, and what its rows
+/// make of them.
+struct HeldValues {
+  std::vector<int32_t> before, low, high;
+};
+
+HeldValues heldValues(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,
+                      const Plane& plane) {
+  HeldValues held;
+  for (int32_t value : plane.flat.levels) {
+    int32_t high = 0;
+    for (int l = 1; l <= level; ++l) {
+      const auto hh = std::find_if(subbands.begin(), subbands.end(), [l](const Subband& subband) {
+        return subband.orientation == kHH && subband.level == l;
+      });
+      const Filter& filter = filterOf(header, l);
+      const bool exact = isExact(header, l, plane);
+      if (l == level) held.before.push_back(value);
+      if (hh->splitsX == l) {
+        const States states = statesOf(filter, exact, value);
+        value = states.back();
+        high = states[states.size() - 2];
+      }
+      if (l == level) {
+        held.low.push_back(value);
+        held.high.push_back(high);
+      }
+      if (hh->splitsY == l) value = statesOf(filter, exact, value).back();
+      if (doublesLow(header, l)) value = wrap(2 * int64_t{value});
+    }
+  }
+  return held;
+}
+
 /// FORMAT 7, "Inverse transform", one level. hh: the subband that is high in both directions.
-void synthesiseLevel(const WaveletHeader& header, const Subband& hh, Plane& plane) {
+void synthesiseLevel(const WaveletHeader& header, const Subband& hh, const HeldValues& held,
+                     Plane& plane) {
   const int lowX = 1 << hh.splitsX, lowY = 1 << hh.splitsY;
   // A side that was split at this level was split at every finer one.
   const bool splitX = hh.splitsX == hh.level, splitY = hh.splitsY == hh.level;
@@ -103,10 +165,15 @@ void synthesiseLevel(const WaveletHeader& header, const Subband& hh, Plane& plan
         plane.at(x, y) = wrap(int64_t{plane.at(x, y)} + 1) >> 1;
     }
   }
-  for (int x = 0; x < plane.width && splitY; x += stepX)
-    synthesisePlaces(header, hh.level, {x, 0, 0, stepY, multiples(plane.height, stepY)}, plane);
-  for (int y = 0; y < plane.height && splitX; y += stepY)
-    synthesisePlaces(header, hh.level, {0, y, stepX, 0, multiples(plane.width, stepX)}, plane);
+  for (int x = 0; x < plane.width && splitY; x += stepX) {
+    const bool high = splitX && x / stepX % 2 == 1;
+    synthesisePlaces(header, hh.level, {x, 0, 0, stepY, multiples(plane.height, stepY)},
+                     high ? held.high : held.low, plane);
+  }
+  for (int y = 0; y < plane.height && splitX; y += stepY) {
+    synthesisePlaces(header, hh.level, {0, y, stepX, 0, multiples(plane.width, stepX)}, held.before,
+                     plane);
+  }
 }
 
 size_t filterNumber(const WaveletHeader& header, int level) {
@@ -139,7 +206,7 @@ void synthesise(const WaveletHeader& header, const std::vector<Subband>& subband
                 Plane& plane) {
   for (const Subband& subband : subbands) {
     if (subband.orientation == kHH && subband.level > target)
-      synthesiseLevel(header, subband, plane);
+      synthesiseLevel(header, subband, heldValues(header, subbands, subband.level, plane), plane);
   }
 }
 

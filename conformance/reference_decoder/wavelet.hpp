@@ -45,15 +45,26 @@ int logNormOf(const WaveletHeader& header, const Subband& subband);
 /// FORMAT 7, "Fraction": f.
 int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes);
 
+/// FORMAT 8.1, "Flat areas". Empty: there are none.
+struct Flat {
+  std::vector<uint32_t> areas;  ///< of each sample: 0 where it is not held, else 1 + its area
+  std::vector<int32_t> levels;  ///< of each area, in steps
+};
+
 /// One value for each sample, row by row.
 struct Plane {
   int width, height;
   std::vector<int32_t> values;
   std::vector<uint8_t> valid = {};  ///< 1 valid, 0 void; empty: all are valid
+  Flat flat = {};
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * width + x; }
   int32_t& at(int x, int y) { return values.at(index(x, y)); }
   bool isValid(int x, int y) const { return valid.empty() || valid.at(index(x, y)); }
+  /// 0: it is not held; else 1 + its area.
+  uint32_t areaOf(int x, int y) const {
+    return flat.areas.empty() ? 0 : flat.areas.at(index(x, y));
+  }
 };
 
 /// FORMAT 7, "Joint lifting": one level, which splits both directions. The low band of the level
@@ -65,6 +76,7 @@ bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane);
 void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane);
 
 /// The inverse transform, of the levels above the target alone, of values that lie at their places.
+/// Levels of flat areas are in units of 2^-f.
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,
                 Plane& plane);
 

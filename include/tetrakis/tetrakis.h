@@ -346,7 +346,7 @@ typedef enum tks_mesh_kind {
                          level with 20 or more a triangle; then nothing finer is decoded */
 } tks_mesh_kind;
 
-/* A conforming 4-8 mesh. Vertex i lies on sample grid_index[i] (y * width + x) and has the height
+/* A conforming 4-8 mesh (but for tks_decode_screen_mesh). Vertex i lies on sample grid_index[i] (y * width + x) and has the height
  * height[i] in `unit`. Vertices come in insertion order, parents before children; of a budget mesh the
  * most important ones come first. Triangles are counter-clockwise seen from above with x to the right
  * and y down the rows towards the viewer. No vertex is void and no triangle touches a void sample with
@@ -363,6 +363,43 @@ typedef struct tks_mesh {
 tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                            tks_mesh* out);
 void tks_free_mesh(tks_mesh* mesh);
+
+/* A camera that a mesh is made for. */
+typedef struct tks_camera {
+  size_t size;            /* sizeof(tks_camera) */
+  uint32_t width, height; /* of its picture, in pixels: 1 to 32768 */
+  double clip[16];        /* that of tks_view_mesh: columns, rows and heights to clip coordinates, whose
+                             y points up in the picture */
+  double weight;          /* of its picture beside those of other cameras; 0: 1 */
+} tks_camera;
+
+/* What a mesh will be drawn for. */
+typedef struct tks_screen {
+  size_t size;               /* sizeof(tks_screen) */
+  const tks_camera* cameras; /* `camera_count` of them, each as long as the first one's size says */
+  uint32_t camera_count;     /* 0: no cameras; all ground counts alike, as on a map */
+  const tks_image* texture;  /* what covers the ground, such as the decoded texture; NULL: unknown,
+                                taken for details of a sample's size everywhere */
+} tks_screen;
+
+/* The mesh of at most max_triangles > 0 triangles (or the base mesh, where that has more) whose
+ * pictures differ least from those of the decoded surface. A height error counts what it costs on the
+ * screen: the squared change of each camera's picture where the error moves the ground that it shows
+ * (visibility, distance, outlines and what is drawn there included), over the pixels of that picture
+ * that show ground. What no camera sees gets few triangles. A camera that sees no ground counts
+ * nothing; if none sees any, it is as if there were none. Made of all samples of level 0, whatever the
+ * number of triangles: this takes several times as long as a budget mesh.
+ *
+ * The vertices are those of a 4-8 mesh, but edges then turn to where the terrain's run: the mesh covers
+ * the grid as tks_mesh says, but is none of the lattice. The same bits with every compiler and number
+ * of threads. screen NULL: no cameras. Source: Balmelli 2000, 6.1 and figure 6.4 (view dependence);
+ * Dyn, Levin and Rippa 1990 (edges).
+ *
+ * TKS_USAGE: max_triangles is 0, the decoder is set to another level than 0, a matrix or weight is not
+ * finite, a weight is negative, a picture has no pixels, or the texture is none that tks_encode would
+ * take. TKS_LIMIT: as tks_decode_mesh, with 40 bytes more a sample and 2 bytes a texel of the texture. */
+tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen,
+                                  uint32_t max_triangles, tks_mesh* out);
 
 /* A mesh kept in a quadtree, about 5 bytes a vertex, to be drawn from many views. It depends on
  * neither the decoder nor its data; several threads may view one tree at a time. */

@@ -94,6 +94,11 @@ inline tks_heights makeHeights() {
   heights.scale = 1;
   return heights;
 }
+inline tks_camera makeCamera() {
+  tks_camera camera{};
+  camera.size = sizeof camera;
+  return camera;
+}
 inline tks_image makeImage() {
   tks_image image{};
   image.size = sizeof image;
@@ -207,7 +212,20 @@ class Decoder {
   /// The best mesh of the decoded surface with at most max_triangles; 0: every sample.
   Result<Mesh> budgetMesh(uint32_t max_triangles) { return mesh(TKS_MESH_BUDGET, max_triangles); }
 
-  /// The same meshes, kept in a tree that gives the part that a view sees.
+  /// The best mesh for cameras with at most max_triangles (tks_decode_screen_mesh). texture: what
+  /// covers the ground; null: unknown.
+  Result<Mesh> screenMesh(std::span<const tks_camera> cameras, uint32_t max_triangles,
+                          const tks_image* texture = nullptr) {
+    const tks_screen screen = {sizeof screen, cameras.data(), static_cast<uint32_t>(cameras.size()),
+                               texture};
+    tks_mesh result{};
+    const tks_status status =
+        tks_decode_screen_mesh(decoder_.get(), &screen, max_triangles, &result);
+    if (status != TKS_OK) return failure(status);
+    return Mesh(result);
+  }
+
+  /// The first two, kept in a tree that gives the part that a view sees.
   Result<MeshTree> codedMeshTree() { return meshTree(TKS_MESH_CODED, 0); }
   Result<MeshTree> budgetMeshTree(uint32_t max_triangles) {
     return meshTree(TKS_MESH_BUDGET, max_triangles);

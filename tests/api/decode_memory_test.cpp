@@ -326,6 +326,41 @@ TEST(DecodeMemory, BoundsOfLargePlanesAreLessThanTwiceWhatIsTaken) {
   }
 }
 
+/// Meshes for cameras have no part of tks_check_memory: what the call refuses is its bound.
+TEST(DecodeMemory, MeshesForCamerasStayBelowTheLimitThatLetsThemPass) {
+  const Raster heights = make({Pattern::kRidges, 500, 400, 1, TKS_U16});
+  const Raster image = make({Pattern::kRidges, 300, 300, 3, TKS_U8});
+  const tks_image texture = image.image();
+  tks_camera camera = {};
+  camera.size = sizeof camera;
+  camera.width = 2000;
+  camera.height = 1000;
+  const double clip[16] = {2.0 / 500, 0, 0, -1, 0, -2.0 / 400, 1e-5, 0.9, 0, 0, 0, 0, 0, 0, 0, 1};
+  std::copy(clip, clip + 16, camera.clip);
+  const tks_screen screen = {sizeof screen, &camera, 1, &texture};
+  for (const Bytes& bytes : {encode(&heights, nullptr, lossless()), withVoids(heights, lossless())})
+    for (const uint32_t triangles : {300u, 20000u, 500000u}) {
+      Measured measured;
+      measured.status = TKS_LIMIT;
+      for (measured.limit = 8 << 20; measured.status == TKS_LIMIT;
+           measured.limit += measured.limit / 4) {
+        tks_limits limits = {};
+        limits.size = sizeof limits;
+        limits.max_memory = measured.limit;
+        Stream stream(bytes, &limits);
+        if (stream.status() != TKS_OK) continue;
+        measured.peak = peakBytes([&] {
+          tks_mesh mesh = {};
+          measured.status = tks_decode_screen_mesh(stream.get(), &screen, triangles, &mesh);
+          tks_free_mesh(&mesh);
+        });
+      }
+      EXPECT_EQ(measured.status, TKS_OK);
+      EXPECT_LE(measured.peak, measured.limit) << triangles;
+      EXPECT_LE(measured.limit, 4 * measured.peak) << triangles;
+    }
+}
+
 /// Levels and windows of streams in regions take memory in proportion to themselves.
 TEST(DecodeMemory, FollowsWhatIsAsked) {
   const Raster image = make({Pattern::kRidges, 1024, 1024, 3, TKS_U8});

@@ -67,10 +67,15 @@ class CliTest : public testing::Test {
   /// Runs "tetrakis <arguments>" (split at spaces) in the folder, inside this process: starting one
   /// loads some hundred libraries. `input` names the file that is standard input.
   Outcome cli(const std::string& arguments, const std::string& input = "/dev/null") {
-    std::vector<std::string> words{"tetrakis"};
+    std::vector<std::string> words;
     std::istringstream split(arguments);
     for (std::string word; split >> word;) words.push_back(word);
-    std::vector<const char*> argv;
+    return cliOf(words, input);
+  }
+
+  /// The same for arguments that hold spaces.
+  Outcome cliOf(const std::vector<std::string>& words, const std::string& input = "/dev/null") {
+    std::vector<const char*> argv{"tetrakis"};
     for (const std::string& word : words) argv.push_back(word.c_str());
     const auto home = std::filesystem::current_path();
     std::filesystem::current_path(folder());

@@ -19,7 +19,7 @@ class CliView : public CliTest {
     return "{\"eye\": [" + eye + "], \"target\": [" + target + "], \"fov_y\": 20}";
   }
   size_t decodedBytes(const std::string& arguments) {
-    const Outcome run = cli("decode a.tks --triangles 900 --mesh - " + arguments);
+    const Outcome run = cli("decode a.tks --mesh - " + arguments);
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_TRUE(run.out.starts_with("glTF"));
     return run.out.size();
@@ -49,6 +49,29 @@ TEST_F(CliView, OneCameraThatSeesGroundIsNeeded) {
   EXPECT_EQ(cli("decode a.tks --mesh m.ply --cameras none.json").code, 2);
 }
 
+TEST_F(CliView, MeshesOfFewTrianglesAreMadeForAllCameras) {
+  makeStream(65);
+  const std::string near = camera("300, 3000, 900", "300, 0, 0");
+  writeCameras(near + ", " + camera("-300, 3000, 900", "0, 0, 0"));
+  const auto decoded = [&](const std::string& arguments) {
+    const Outcome run = cli("decode a.tks --triangles 300 --mesh - " + arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.out;
+  };
+  const std::string map = decoded(""), turned = decoded("--turn-edges");
+  EXPECT_NE(turned, map);
+  for (const char* cameras : {"--cameras c.json", "--view low", "--view all"}) {
+    EXPECT_NE(decoded(cameras), map) << cameras;
+    EXPECT_NE(decoded(cameras), turned) << cameras;
+    EXPECT_EQ(decoded(cameras), decoded(cameras + std::string(" --turn-edges"))) << cameras;
+  }
+  writeCameras(near + ", {\"name\": \"sky\", \"eye\": [0, 30000, 0], \"target\": [0, 90000, 1]}");
+  const Outcome blind = cli("decode a.tks --triangles 300 --mesh m.ply --cameras c.json");
+  EXPECT_EQ(blind.code, 1);
+  EXPECT_NE(blind.err.find("'sky'"), std::string::npos) << blind.err;
+  EXPECT_EQ(cli("decode a.tks --turn-edges --mesh m.ply").code, 1);
+}
+
 TEST_F(CliView, TheCameraSeesTheSamePictureOfThePart) {
   const auto renderer = tools::Renderer::create();
   if (!renderer.ok()) GTEST_SKIP() << renderer.status().message();
@@ -58,7 +81,7 @@ TEST_F(CliView, TheCameraSeesTheSamePictureOfThePart) {
   const auto texture = tools::decodeImage(stream->decoder);
   ASSERT_TRUE(texture.ok());
   const tools::GroundFrame frame = tools::frameOf(stream->decoder.info());
-  const auto whole = stream->decoder.budgetMesh(900);
+  const auto whole = stream->decoder.budgetMesh(0);
   ASSERT_TRUE(whole);
   std::map<uint32_t, uint32_t> vertices;  // of the whole mesh, by sample
   for (uint32_t v = 0; v < whole->vertexCount(); ++v) vertices[whole->gridIndices()[v]] = v;
@@ -75,7 +98,7 @@ TEST_F(CliView, TheCameraSeesTheSamePictureOfThePart) {
     writeCameras(camera(eye, "200, 0, -100"));
     const auto cameras = tools::readCameras(path("c.json"));
     ASSERT_TRUE(cameras.ok());
-    const auto part = tools::viewedMesh(stream->decoder, false, 900, {path("c.json"), ""});
+    const auto part = tools::viewedMesh(stream->decoder, false, {path("c.json"), ""});
     ASSERT_TRUE(part.ok()) << part.status().message();
     EXPECT_LT(part->triangleCount(), whole->triangleCount());
     const auto expected = picture(*whole, cameras->front());

@@ -2,6 +2,7 @@
 // Prints digests of encoded streams, decoded samples and meshes, larger than the conformance
 // vectors are. Two builds (compiler, optimisation, machine) agree when their outputs are equal:
 // .ci/run.
+#include <algorithm>
 #include <cstdio>
 #include <span>
 
@@ -27,6 +28,30 @@ void printMesh(const std::string& name, const Result<Mesh>& mesh) {
   print(name + ".triangles", mesh->triangles(), TKS_U32);
 }
 
+/// For a camera in the south, over heights of some hundreds.
+void printScreenMesh(const std::string& name, Decoder& decoder) {
+  const tks_info& info = decoder.info();
+  if (!info.has_heights) return;
+  tks_camera camera = makeCamera();
+  camera.width = 300;
+  camera.height = 200;
+  const double clip[16] = {
+      2.0 / info.width,   0, 0,  -1, 0, -1.0 / info.height, 3e-4, 0.5, 0, 0, 0, 0, 0,
+      -0.3 / info.height, 0, 1.5};
+  std::copy(clip, clip + 16, camera.clip);
+  printMesh(name, decoder.screenMesh({&camera, 1}, 1000));
+  if (!info.has_texture) return;
+  const auto texels = decoder.texture();
+  if (!texels) return;
+  tks_image image = makeImage();
+  image.width = info.texture_width;
+  image.height = info.texture_height;
+  image.channels = info.texture_channels;
+  image.sample = info.texture_sample;
+  image.data = texels->data();
+  printMesh(name + ".textured", decoder.screenMesh({&camera, 1}, 1000, &image));
+}
+
 void printPrefix(const std::string& name, std::span<const uint8_t> prefix) {
   auto decoder = Decoder::open(prefix);
   if (!decoder) return;
@@ -38,6 +63,7 @@ void printPrefix(const std::string& name, std::span<const uint8_t> prefix) {
   }
   printMesh(name + ".coded", decoder->codedMesh());
   printMesh(name + ".budget", decoder->budgetMesh(1000));
+  printScreenMesh(name + ".screen", *decoder);
 }
 
 void printStream(const std::string& name, std::span<const uint8_t> stream) {

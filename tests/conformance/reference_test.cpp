@@ -213,12 +213,14 @@ TEST(Reference, AgreesOnHeightsOfAllShapes) {
   }
 }
 
+constexpr size_t kBodyBytes = 7;  // where the length of the header's body stands
+
 /// Where fields of the only component lie (docs/FORMAT.md, section 2).
 struct Places {
   size_t planes, wavelet;
 
   explicit Places(const Bytes& stream) {
-    size_t at = 7;
+    size_t at = kBodyBytes;
     const auto skipVarint = [&] {
       while (stream[at++] >= 128) {
       }
@@ -229,7 +231,8 @@ struct Places {
       varint ? skipVarint() : void(++at);
     }
     planes = at + (geometry ? 1 : 2);
-    wavelet = planes + 1 + (geometry ? 1 + 3 * 8 : 0);
+    wavelet = planes + 1 + (geometry ? 1 : 0);
+    for (int i = 0; geometry && i < 3; ++i) wavelet += 1 + stream[wavelet];  // f64
   }
 };
 
@@ -247,18 +250,53 @@ TEST(Reference, AgreesOnFractionsOfSteps) {
   }
 }
 
-/// The stream of one component with other filters, fraction bits and sample bits than it was made
-/// with. It decodes to something else, but to one thing.
-Bytes withAnyWavelet(Bytes stream, uint32_t trial) {
+/// The number that begins at stream[at]; `at` moves behind it.
+uint64_t takeVarint(const Bytes& stream, size_t& at) {
+  uint64_t value = 0;
+  for (int shift = 0;; shift += 7) {
+    value |= uint64_t{stream[at] & 0x7fu} << shift;
+    if (stream[at++] < 128) return value;
+  }
+}
+
+Bytes varintOf(uint64_t value) {
+  Bytes bytes;
+  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<uint8_t>(value | 128));
+  bytes.push_back(static_cast<uint8_t>(value));
+  return bytes;
+}
+
+Bytes replaced(const Bytes& stream, size_t begin, size_t end, const Bytes& by) {
+  Bytes out(stream.begin(), stream.begin() + static_cast<ptrdiff_t>(begin));
+  out.insert(out.end(), by.begin(), by.end());
+  out.insert(out.end(), stream.begin() + static_cast<ptrdiff_t>(end), stream.end());
+  return out;
+}
+
+/// The stream of one component with other filters, fraction bits, sample bits and roundings than it
+/// was made with. It decodes to something else, but to one thing.
+Bytes withAnyWavelet(const Bytes& stream, uint32_t trial) {
   constexpr uint8_t kFractions[] = {0, 0, 1, 4, 8};
   constexpr uint8_t kSampleBits[] = {0, 16, 17, 20, 21, 32};
-  uint8_t* wavelet = stream.data() + Places(stream).wavelet;
+  constexpr uint64_t kRoundedBytes[] = {0, 50, 250, 1 << 20};
   const uint32_t h = samples::hash(trial, 0, 21);
-  for (uint32_t i = 0; i < 3; ++i) wavelet[i] = h >> (2 * i) & 3;
-  wavelet[kFractionBits] = kFractions[(h >> 8) % 5];
-  wavelet[kFractionBits + 1] = kSampleBits[(h >> 16) % 6];
-  sealHeader(stream);
-  return stream;
+  Bytes fields;
+  for (uint32_t i = 0; i < 3; ++i) fields.push_back(h >> (2 * i) & 3);
+  fields.push_back(kFractions[(h >> 8) % 5]);
+  fields.push_back(kSampleBits[(h >> 16) % 6]);
+  if (fields[kFractionBits] == 0) {
+    fields.push_back(static_cast<uint8_t>((h >> 20) % 5));
+    for (const uint8_t byte : varintOf(kRoundedBytes[h >> 30])) fields.push_back(byte);
+  }
+  const size_t begin = Places(stream).wavelet;
+  size_t end = begin + kFractionBits + 2;
+  if (stream[begin + kFractionBits] == 0) takeVarint(stream, ++end);
+  Bytes out = replaced(stream, begin, end, fields);
+  size_t body_end = kBodyBytes;
+  const uint64_t body = takeVarint(stream, body_end);
+  out = replaced(out, kBodyBytes, body_end, varintOf(body + out.size() - stream.size()));
+  sealHeader(out);
+  return out;
 }
 
 /// Floats with voids.

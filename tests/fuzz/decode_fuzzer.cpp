@@ -66,6 +66,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (first) checkWindow(decoder->heights(column), *first, info);
     checkMesh(decoder->codedMesh(), info);
     checkMesh(decoder->budgetMesh(100), info);
+    tks_camera camera = tetrakis::makeCamera();
+    camera.width = camera.height = 40;
+    camera.clip[0] = camera.clip[5] = 2.0 / info.width;
+    camera.clip[6] = 0.01;
+    camera.clip[3] = camera.clip[7] = -1;
+    camera.clip[15] = 1;
+    checkMesh(decoder->screenMesh({&camera, 1}, 100), info);
   }
   if (info.has_texture) static_cast<void>(decoder->texture());
   const auto coarser = [size](uint32_t coarsest) {

@@ -34,7 +34,9 @@ void addTruncate(CLI::App& app, CommandLine& line);
 void addInfo(CLI::App& app, CommandLine& line);
 void addCompare(CLI::App& app, CommandLine& line);
 void addVerify(CLI::App& app, CommandLine& line);
+void addProfile(CLI::App& app, CommandLine& line);
 void addSynth(CLI::App& app, CommandLine& line);
+void addView(CLI::App& app, CommandLine& line);
 
 /// A line on standard error, unless it is empty or -q is given.
 inline void tellNote(const std::string& text, bool quiet) {

@@ -22,8 +22,8 @@ struct DecodeArguments {
   StreamSource source;
   std::string height, texture, mesh;
   uint32_t triangles = 0, level = 0;
-  bool coded_mesh = false;
-  CameraChoice camera;           ///< default: the whole mesh
+  bool coded_mesh = false, turn_edges = false;
+  CameraChoice camera;           ///< default: the whole mesh, for a map
   std::vector<uint32_t> window;  ///< x, y, width, height; empty: everything
   uint32_t threads = hardwareThreads();
   bool force = false;
@@ -129,17 +129,17 @@ class Decoding {
     const tks_info& info = decoder_.info();
     if (!info.has_heights)
       return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
-    const Result<Mesh> mesh = chosenMesh();
-    if (!mesh.ok()) return mesh.status();
-    tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
-    MeshFile file = placeMesh(*mesh, frameOf(info));
-    ImageFile texture;
+    const ImageFile* texture = nullptr;
     if (info.has_texture) {
       const Result<ImageFile>& image = decodedImage();
       if (!image.ok()) return image.status();
-      texture = *image;
-      file.texture = &texture;
+      texture = &*image;
     }
+    const Result<Mesh> mesh = chosenMesh(texture);
+    if (!mesh.ok()) return mesh.status();
+    tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
+    MeshFile file = placeMesh(*mesh, frameOf(info));
+    file.texture = texture;
     return mesh_->stage([&](const std::string& path) { return writeMesh(path, file); });
   }
 
@@ -228,12 +228,14 @@ class Decoding {
     return texelsOver(*window(), info);
   }
 
-  Result<Mesh> chosenMesh() {
+  Result<Mesh> chosenMesh(const ImageFile* texture) {
     if (Status status = check(meshPart(), std::nullopt, meshCopies() + beside_bytes_); !status.ok())
       return status;
     const bool coded = arguments_.coded_mesh;
-    if (!arguments_.camera.isDefault())
-      return viewedMesh(decoder_, coded, arguments_.triangles, arguments_.camera);
+    const bool for_cameras = arguments_.triangles > 0 && !arguments_.camera.isDefault();
+    if (for_cameras || arguments_.turn_edges)
+      return meshForCameras(decoder_, arguments_.triangles, arguments_.camera, texture);
+    if (!arguments_.camera.isDefault()) return viewedMesh(decoder_, coded, arguments_.camera);
     Result<Mesh> mesh = coded ? decoder_.codedMesh() : decoder_.budgetMesh(arguments_.triangles);
     if (!mesh) return mesh.status();
     return std::move(*mesh);
@@ -310,12 +312,17 @@ void addDecode(CLI::App& app, CommandLine& line) {
   verb.add_flag("--coded-mesh", arguments->coded_mesh, "The mesh that the bytes themselves code")
       ->needs(mesh)
       ->excludes(triangles);
+  verb.add_flag("--turn-edges", arguments->turn_edges,
+                "Edges follow the terrain: fewer errors, but no 4-8 mesh")
+      ->needs(triangles);
   CLI::Option* const cameras =
-      verb.add_option("--cameras", arguments->camera.file, "Only what the file's one camera sees")
+      verb.add_option(
+              "--cameras", arguments->camera.file,
+              "With --triangles the mesh for the file's cameras; else what one of them sees")
           ->type_name("FILE.json")
           ->needs(mesh);
   verb.add_option("--view", arguments->camera.view,
-                  "Only what a preset camera sees: low, oblique, top")
+                  "The same for a preset: low, oblique, top, all of them")
       ->type_name("NAME")
       ->needs(mesh)
       ->excludes(cameras);

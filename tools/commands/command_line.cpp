@@ -46,7 +46,9 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addInfo(app, line);
   addCompare(app, line);
   addVerify(app, line);
+  addProfile(app, line);
   addSynth(app, line);
+  addView(app, line);
 }
 
 bool isVerb(const CLI::App& app, const std::string& name) {

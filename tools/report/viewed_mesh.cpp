@@ -2,6 +2,7 @@
 // From cameras in metres to views of the sample grid; see viewed_mesh.hpp.
 #include "tools/report/viewed_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,17 +14,39 @@
 namespace tetrakis::tools {
 namespace {
 
-Result<Camera> chooseCamera(Decoder& decoder, const CameraChoice& choice) {
+Result<std::vector<Camera>> camerasOver(Decoder& decoder, const CameraChoice& choice) {
   Result<std::vector<float>> heights = decoder.surface();
   if (!heights) return heights.status();
   const tks_info& info = decoder.info();
   const Surface surface{info.width, info.height, {heights->begin(), heights->end()}};
-  Result<std::vector<Camera>> cameras = chooseCameras(choice, boundsOf(surface, frameOf(info)));
-  if (!cameras.ok()) return cameras.status();
-  if (cameras->size() != 1)
-    return Status(TKS_USAGE, "a mesh is cut to the view of one camera, not of " +
-                                 std::to_string(cameras->size()));
-  return std::move(cameras->front());
+  return chooseCameras(choice, boundsOf(surface, frameOf(info)));
+}
+
+Status seesNothing(const Camera& camera) {
+  return Status(TKS_USAGE, "the camera '" + camera.name + "' sees no ground");
+}
+
+/// A few triangles tell: trees give all that a camera may see.
+Status checkSight(Decoder& decoder, const std::vector<Camera>& cameras) {
+  constexpr uint32_t kTriangles = 1000;
+  const Result<MeshTree> tree = decoder.budgetMeshTree(kTriangles);
+  if (!tree) return tree.status();
+  for (const Camera& camera : cameras) {
+    const Result<Mesh> seen = tree->view(clipOf(camera, frameOf(decoder.info())));
+    if (!seen) return seen.status();
+    if (seen->triangleCount() == 0) return seesNothing(camera);
+  }
+  return Status();
+}
+
+tks_image imageOf(const ImageFile& file) {
+  tks_image image = makeImage();
+  image.width = file.width;
+  image.height = file.height;
+  image.channels = file.channels;
+  image.sample = file.sample;
+  image.data = file.data.data();
+  return image;
 }
 
 }  // namespace
@@ -46,17 +69,42 @@ std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame) {
   return clip;
 }
 
-Result<Mesh> viewedMesh(Decoder& decoder, bool coded, uint32_t triangles,
-                        const CameraChoice& choice) {
-  const Result<Camera> camera = chooseCamera(decoder, choice);
-  if (!camera.ok()) return camera.status();
-  const Result<MeshTree> tree = coded ? decoder.codedMeshTree() : decoder.budgetMeshTree(triangles);
+Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice) {
+  const Result<std::vector<Camera>> cameras = camerasOver(decoder, choice);
+  if (!cameras.ok()) return cameras.status();
+  if (cameras->size() != 1)
+    return Status(TKS_USAGE, "a mesh is cut to the view of one camera, not of " +
+                                 std::to_string(cameras->size()));
+  const Camera& camera = cameras->front();
+  const Result<MeshTree> tree = coded ? decoder.codedMeshTree() : decoder.budgetMeshTree(0);
   if (!tree) return tree.status();
-  Result<Mesh> mesh = tree->view(clipOf(*camera, frameOf(decoder.info())));
+  Result<Mesh> mesh = tree->view(clipOf(camera, frameOf(decoder.info())));
   if (!mesh) return mesh.status();
-  if (mesh->triangleCount() == 0)
-    return Status(TKS_USAGE, "the camera '" + camera->name + "' sees no ground");
+  if (mesh->triangleCount() == 0) return seesNothing(camera);
   return std::move(*mesh);
+}
+
+tks_camera meshCamera(const Camera& camera, const GroundFrame& frame) {
+  tks_camera result = makeCamera();
+  result.width = camera.width;
+  result.height = camera.height;
+  const std::array<double, 16> clip = clipOf(camera, frame);
+  std::copy(clip.begin(), clip.end(), result.clip);
+  return result;
+}
+
+Result<Mesh> meshForCameras(Decoder& decoder, uint32_t triangles, const CameraChoice& choice,
+                            const ImageFile* texture) {
+  std::vector<tks_camera> cameras;
+  if (!choice.isDefault()) {
+    const Result<std::vector<Camera>> chosen = camerasOver(decoder, choice);
+    if (!chosen.ok()) return chosen.status();
+    if (const Status seen = checkSight(decoder, *chosen); !seen.ok()) return seen;
+    for (const Camera& camera : *chosen)
+      cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
+  }
+  const tks_image image = texture != nullptr ? imageOf(*texture) : tks_image();
+  return decoder.screenMesh(cameras, triangles, texture != nullptr ? &image : nullptr);
 }
 
 }  // namespace tetrakis::tools

@@ -116,7 +116,7 @@ TEST(GeometryTrack, SignificantVerticesAreThoseOfItsCoefficients) {
   for (const Size& size : {Size{2, 5}, Size{33, 20}, Size{70, 41}}) {
     Plane heights(size.count(), 0);
     for (int i = 0; i < 6; ++i) heights[random() % heights.size()] = 40;
-    const Coded coded = encode(heights, size, {{1, 1, 1}, 0, 8});
+    const Coded coded = encode(heights, size, {{1, 1, 1}, 0, 8, 3});
     Plane plane = heights;
     forwardWavelet(uniform(FilterId::kSixTap, true, 8), {plane, size.extent()});
     std::vector<uint8_t> expected(plane.size(), 0);

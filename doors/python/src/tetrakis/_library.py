@@ -192,6 +192,29 @@ class Mesh(ctypes.Structure):
     ]
 
 
+class Camera(ctypes.Structure):
+    """tks_camera."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("clip", c_double * 16),
+        ("weight", c_double),
+    ]
+
+
+class Screen(ctypes.Structure):
+    """tks_screen."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("cameras", POINTER(Camera)),
+        ("camera_count", c_uint32),
+        ("texture", POINTER(Image)),
+    ]
+
+
 STRUCTS = {
     "tks_heights": Heights,
     "tks_image": Image,
@@ -201,6 +224,8 @@ STRUCTS = {
     "tks_info": StreamInfo,
     "tks_window": Window,
     "tks_mesh": Mesh,
+    "tks_camera": Camera,
+    "tks_screen": Screen,
 }
 
 # Handles (tks_decoder*, tks_mesh_tree*) and arrays are addresses: c_void_p.
@@ -240,6 +265,7 @@ PROTOTYPES = {
     "tks_verify": (c_int, [c_void_p]),
     "tks_decode_mesh": (c_int, [c_void_p, c_int, c_uint32, POINTER(Mesh)]),
     "tks_free_mesh": (None, [POINTER(Mesh)]),
+    "tks_decode_screen_mesh": (c_int, [c_void_p, POINTER(Screen), c_uint32, POINTER(Mesh)]),
     "tks_decode_mesh_tree": (c_int, [c_void_p, c_int, c_uint32, POINTER(c_void_p)]),
     "tks_view_mesh": (c_int, [c_void_p, POINTER(c_double), POINTER(Mesh)]),
     "tks_free_mesh_tree": (None, [c_void_p]),

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes for cameras through the C interface.
+#include "codec/mesh/screen_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "api/memory.hpp"
+#include "api/message.hpp"
+#include "api/sized.hpp"
+#include "api/surface_mesh.hpp"
+#include "base/samples.hpp"
+#include "codec/mesh/screen_weights.hpp"
+#include "codec/mesh/void_mesh.hpp"
+
+namespace tetrakis::inline api {
+namespace {
+
+Status checkCamera(const std::string& name, const tks_camera& camera) {
+  constexpr uint32_t kMostPixels = 32768;
+  const auto fits = [](uint32_t side) { return side >= 1 && side <= kMostPixels; };
+  if (!fits(camera.width) || !fits(camera.height))
+    return {TKS_USAGE, "The picture of " + name + " takes sides of 1 to " +
+                           std::to_string(kMostPixels) + " pixels."};
+  if (!std::all_of(camera.clip, camera.clip + 16, [](double v) { return std::isfinite(v); }))
+    return {TKS_USAGE, "The matrix of " + name + " must be finite."};
+  if (!std::isfinite(camera.weight) || camera.weight < 0)
+    return {TKS_USAGE, "The weight of " + name + " must be finite and not negative."};
+  return {};
+}
+
+/// The caller's cameras, for heights in steps.
+Result<std::vector<ScreenView>> viewsOf(const tks_screen& screen, const SurfaceScale& scale) {
+  if (screen.camera_count > 0 && screen.cameras == nullptr)
+    return Status(TKS_USAGE, "The cameras are missing.");
+  std::vector<ScreenView> views;
+  const auto* bytes = reinterpret_cast<const std::byte*>(screen.cameras);
+  for (uint32_t i = 0; i < screen.camera_count; ++i) {
+    const std::string name =
+        "camera " + std::to_string(i + 1) + " of " + std::to_string(screen.camera_count);
+    const auto& given = *reinterpret_cast<const tks_camera*>(bytes + i * screen.cameras->size);
+    tks_camera camera{};
+    Status status = takeSized(name, given, offsetof(tks_camera, weight), camera);
+    if (status.ok() && given.size != screen.cameras->size)
+      status = {TKS_USAGE, "All cameras take structs of one size."};
+    if (status.ok()) status = checkCamera(name, camera);
+    if (!status.ok()) return status;
+    ScreenView view{camera.width, camera.height, {}, camera.weight > 0 ? camera.weight : 1};
+    std::copy_n(camera.clip, 16, view.clip.begin());
+    for (size_t row = 0; row < 4; ++row) {
+      view.clip[4 * row + 3] += view.clip[4 * row + 2] * scale.offset;
+      view.clip[4 * row + 2] *= scale.scale;
+    }
+    views.push_back(view);
+  }
+  return views;
+}
+
+Status takeTexture(const tks_image& given, tks_image& out) {
+  Status status = takeSized("texture", given, offsetof(tks_image, geotransform), out);
+  if (!status.ok()) return status;
+  if (out.data == nullptr || out.width == 0 || out.height == 0)
+    return {TKS_USAGE, "The texture has no samples."};
+  if (out.channels < 1 || out.channels > 4 || (out.sample != TKS_U8 && out.sample != TKS_U16))
+    return {TKS_USAGE, "A texture has 1 to 4 channels of 8 or 16 bits a sample."};
+  return {};
+}
+
+/// (R + 2 G + B) / 4 in 8 bits; grey as it is.
+GroundImage brightnessOf(const tks_image& image) {
+  const size_t texels = size_t{image.width} * image.height;
+  std::vector<uint8_t> brightness(texels);
+  withSampleType(image.sample, [&](auto type) {
+    using Sample = decltype(type);
+    const auto* sample = static_cast<const Sample*>(image.data);
+    const int shift = sizeof(Sample) == 1 ? 0 : 8;
+    for (size_t i = 0; i < texels; ++i, sample += image.channels) {
+      const auto value = [&](size_t channel) {
+        return static_cast<uint32_t>(sample[channel]) >> shift;
+      };
+      brightness[i] = static_cast<uint8_t>(
+          image.channels < 3 ? value(0) : (value(0) + 2 * value(1) + value(2) + 2) / 4);
+    }
+  });
+  return GroundImage(image.width, image.height, std::move(brightness));
+}
+
+class ScreenMeshCall {
+ public:
+  ScreenMeshCall(tks_decoder& decoder, uint32_t max_triangles)
+      : decoder_(decoder), max_triangles_(max_triangles) {}
+
+  Status run(const tks_screen* given, tks_mesh& out) {
+    const StreamHeader& header = decoder_.parsed.header;
+    if (!header.geometry) return noHeights();
+    if (max_triangles_ == 0) return {TKS_USAGE, "A mesh for the screen takes a triangle or more."};
+    if (decoder_.heights_level > 0)
+      return {TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles."};
+    const Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
+    if (!lattice.ok()) return lattice.status();
+    tks_screen screen{};
+    if (given != nullptr) {
+      const Status status = takeSized("screen", *given, sizeof given->size, screen);
+      if (!status.ok()) return status;
+    }
+    tks_image texture{};
+    if (screen.texture != nullptr) {
+      if (Status status = takeTexture(*screen.texture, texture); !status.ok()) return status;
+    }
+    return make(*lattice, screen, texture, out);
+  }
+
+ private:
+  /// texture: without data if there is none.
+  Status make(const Lattice& lattice, const tks_screen& screen, const tks_image& texture,
+              tks_mesh& out) {
+    if (Status status = checkSize(lattice, texture, max_triangles_); !status.ok()) return status;
+    const Result<const DecodedGeometry*> geometry = decodedGeometry(decoder_);
+    if (!geometry.ok()) return geometry.status();
+    const SurfaceScale scale = surfaceScale(decoder_.parsed.header, **geometry);
+    const Result<std::vector<ScreenView>> views = viewsOf(screen, scale);
+    if (!views.ok()) return views.status();
+    WeightedSurface surface{{lattice.width(), lattice.height(), (*geometry)->heights},
+                            (*geometry)->valid};
+    std::vector<float> weights;
+    if (!views->empty()) {
+      const GroundImage image = texture.data == nullptr ? GroundImage() : brightnessOf(texture);
+      weights = screenWeights(surface, *views, image);
+      surface.view.weights = weights;
+    }
+    const auto admits = [&](uint64_t triangles) { return checkSize(lattice, texture, triangles); };
+    Result<FittedMesh> mesh = screenMesh(lattice, surface, max_triangles_, admits);
+    if (!mesh.ok()) return mesh.status();
+    std::vector<float> heights;
+    heights.reserve(mesh->heights.size());
+    for (size_t v = 0; v < mesh->heights.size(); ++v)
+      heights.push_back(surface.isKnown(mesh->mesh.vertices[v])
+                            ? static_cast<float>(mesh->heights[v] * scale.scale + scale.offset)
+                            : std::numeric_limits<float>::quiet_NaN());
+    leaveOutVoids(mesh->mesh, heights);
+    copyMesh(mesh->mesh, heights, out);
+    return {};
+  }
+
+  Status checkSize(const Lattice& lattice, const tks_image& texture, uint64_t triangles) const {
+    const uint64_t texels = texture.data == nullptr ? 0 : uint64_t{texture.width} * texture.height;
+    return checkBytes(decoder_, {TKS_PART_BUDGET_MESH, {}, max_triangles_},
+                      screenMeshBytes(decoder_, lattice, triangles, texels));
+  }
+
+  tks_decoder& decoder_;
+  uint32_t max_triangles_;
+};
+
+}  // namespace
+}  // namespace tetrakis::inline api
+
+tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen,
+                                  uint32_t max_triangles, tks_mesh* out) {
+  if (decoder == nullptr || out == nullptr) return TKS_USAGE;
+  *out = {};
+  const tetrakis::Status status = tetrakis::guarded(
+      [&] { return tetrakis::ScreenMeshCall(*decoder, max_triangles).run(screen, *out); });
+  if (!status.ok()) tks_free_mesh(out);
+  decoder->message = status.message();
+  return status.code();
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_screen_mesh DIR...: textured terrain drawn with few triangles, beside meshoptimizer. Folders
+// below DIR that hold height.* and texture.* are a terrain each; what the meshes lack is measured on
+// the screen, against the full grid with the same texture.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include "bench/arguments.hpp"
+#include "bench/decimation_peers.hpp"
+#include "bench/results.hpp"
+#include "tools/files/stream.hpp"
+#include "tools/report/viewed_mesh.hpp"
+
+namespace {
+
+using namespace tetrakis;
+using namespace tetrakis::bench;
+namespace fs = std::filesystem;
+
+constexpr std::array<uint32_t, 3> kBudgets = {2000, 10000, 50000};
+
+struct Options {
+  std::vector<std::string> folders, filters;
+  std::string csv;
+};
+
+struct Terrain {
+  std::string item;
+  Raster raster;
+  tools::ImageFile texture;
+  tools::GroundFrame frame;  ///< of the raster's steps
+};
+
+struct TerrainFiles {
+  fs::path heights, texture;
+};
+
+std::vector<TerrainFiles> terrainsBelow(const Options& options) {
+  std::map<fs::path, TerrainFiles> found;
+  for (const std::string& folder : options.folders)
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const fs::path& path = entry.path();
+      if (path.stem() == "height") found[path.parent_path()].heights = path;
+      if (path.stem() == "texture") found[path.parent_path()].texture = path;
+    }
+  std::vector<TerrainFiles> terrains;
+  for (const auto& [folder, files] : found) {
+    const std::string text = folder.string();
+    const auto matches = [&](const std::string& f) { return text.find(f) != std::string::npos; };
+    const auto& filters = options.filters;
+    if (!files.heights.empty() && !files.texture.empty() &&
+        (filters.empty() || std::any_of(filters.begin(), filters.end(), matches)))
+      terrains.push_back(files);
+  }
+  return terrains;
+}
+
+Result<Terrain> load(const TerrainFiles& files) {
+  const Result<tools::HeightFile> heights = tools::readHeights(files.heights.string());
+  if (!heights.ok()) return heights.status();
+  Result<Raster> raster = heightRaster(*heights);
+  if (!raster.ok()) return raster.status();
+  Result<tools::ImageFile> texture = tools::readImage(files.texture.string());
+  if (!texture.ok()) return texture.status();
+  Terrain terrain{files.heights.parent_path().filename().string(), std::move(*raster),
+                  std::move(*texture), tools::frameOf(*heights)};
+  terrain.frame.metres_per_unit *= terrain.raster.unit;
+  return terrain;
+}
+
+Result<Buffer> encodeLossless(const Terrain& terrain) {
+  tks_heights heights = makeHeights();
+  heights.width = terrain.raster.width;
+  heights.height = terrain.raster.height;
+  heights.sample = TKS_U16;
+  heights.data = terrain.raster.samples.data();
+  tks_encode_options options = makeEncodeOptions();
+  options.lossless = 1;
+  return encode(&heights, nullptr, options);
+}
+
+/// What the full grid looks like to the cameras, and how far meshes are from it.
+class Screen {
+ public:
+  static Result<Screen> create(const Terrain& terrain) {
+    Screen screen(terrain);
+    auto renderer = tools::Renderer::create();
+    if (!renderer.ok()) return renderer.status();
+    screen.renderer_ = std::move(*renderer);
+    const auto& samples = terrain.raster.samples;
+    const tools::Surface surface{
+        terrain.raster.width, terrain.raster.height, {samples.begin(), samples.end()}};
+    auto cameras = tools::presetCameras("all", tools::boundsOf(surface, terrain.frame));
+    if (!cameras.ok()) return cameras.status();
+    screen.cameras_ = std::move(*cameras);
+    auto pictures = screen.draw(tools::fullGrid(surface, terrain.frame));
+    if (!pictures.ok()) return pictures.status();
+    screen.reference_ = std::move(*pictures);
+    return screen;
+  }
+
+  std::vector<tks_camera> meshCameras() const {
+    std::vector<tks_camera> cameras;
+    for (const tools::Camera& camera : cameras_)
+      cameras.push_back(tools::meshCamera(camera, terrain_->frame));
+    return cameras;
+  }
+
+  /// PSNR of all cameras, then of each.
+  Result<std::vector<double>> score(const tools::MeshFile& mesh) {
+    const auto pictures = draw(mesh);
+    if (!pictures.ok()) return pictures.status();
+    std::vector<double> psnr = {tools::screenPsnr(reference_, *pictures)};
+    for (size_t i = 0; i < reference_.size(); ++i)
+      psnr.push_back(tools::screenPsnr({reference_[i]}, {(*pictures)[i]}));
+    return psnr;
+  }
+
+ private:
+  explicit Screen(const Terrain& terrain) : terrain_(&terrain) {}
+  Result<std::vector<tools::Picture>> draw(tools::MeshFile mesh) {
+    mesh.texture = &terrain_->texture;
+    return renderer_->draw(mesh, cameras_);
+  }
+
+  const Terrain* terrain_;
+  std::unique_ptr<tools::Renderer> renderer_;
+  std::vector<tools::Camera> cameras_;
+  std::vector<tools::Picture> reference_;
+};
+
+tools::MeshFile placed(const PlanMesh& mesh, const tools::GroundFrame& frame) {
+  const double last_column = frame.width - 1.0, last_row = frame.height - 1.0;
+  tools::MeshFile file;
+  for (const auto& [x, y, z] : mesh.positions) {
+    file.positions.push_back(static_cast<float>((x - last_column / 2) * frame.spacing_x));
+    file.positions.push_back(static_cast<float>(z * frame.metres_per_unit));
+    file.positions.push_back(static_cast<float>((y - last_row / 2) * frame.spacing_y));
+    file.texcoords.push_back(static_cast<float>(x / last_column));
+    file.texcoords.push_back(static_cast<float>(y / last_row));
+  }
+  file.triangles = mesh.triangles;
+  return file;
+}
+
+class Comparison {
+ public:
+  Comparison(const Terrain& terrain, Screen& screen, std::vector<ResultRow>& rows)
+      : terrain_(terrain), screen_(screen), rows_(rows) {}
+
+  Status run() {
+    const Result<Buffer> stream = encodeLossless(terrain_);
+    if (!stream) return stream.status();
+    Result<Decoder> decoder = tools::openDecoder(stream->bytes());
+    if (!decoder) return decoder.status();
+    tks_image texture = makeImage();
+    texture.width = terrain_.texture.width;
+    texture.height = terrain_.texture.height;
+    texture.channels = terrain_.texture.channels;
+    texture.sample = terrain_.texture.sample;
+    texture.data = terrain_.texture.data.data();
+    const std::vector<tks_camera> cameras = screen_.meshCameras();
+    const double spacing = 0.5 * (terrain_.frame.spacing_x + terrain_.frame.spacing_y);
+    const Simplifier simplifier(terrain_.raster, terrain_.frame.metres_per_unit / spacing);
+    for (const uint32_t budget : kBudgets) {
+      if (budget > terrain_.raster.pixels()) continue;
+      budget_ = budget;
+      const auto peer = [&] { return placed(simplifier.run(budget), terrain_.frame); };
+      Status status = add("meshoptimizer", [&] { return Result<tools::MeshFile>(peer()); });
+      if (status.ok()) status = ours("budget", [&] { return decoder->budgetMesh(budget); });
+      if (status.ok()) status = ours("turned", [&] { return decoder->screenMesh({}, budget); });
+      if (status.ok())
+        status = ours("cameras", [&] { return decoder->screenMesh(cameras, budget); });
+      if (status.ok())
+        status =
+            ours("cameras+texture", [&] { return decoder->screenMesh(cameras, budget, &texture); });
+      if (!status.ok()) return status;
+    }
+    return {};
+  }
+
+ private:
+  Status ours(const std::string& name, const std::function<Result<Mesh>()>& make) {
+    return add("tetrakis_" + name, [&]() -> Result<tools::MeshFile> {
+      const Result<Mesh> mesh = make();
+      if (!mesh) return mesh.status();
+      return tools::placeMesh(*mesh, terrain_.frame);
+    });
+  }
+
+  Status add(const std::string& codec, const std::function<Result<tools::MeshFile>()>& make) {
+    const std::clock_t start = std::clock();
+    const Result<tools::MeshFile> mesh = make();
+    const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    if (!mesh.ok()) return mesh.status();
+    const auto psnr = screen_.score(*mesh);
+    if (!psnr.ok()) return psnr.status();
+    std::printf("  %-24s %6zu triangles  %6.2f dB  (oblique %.2f, low %.2f, top %.2f)  %.0f ms\n",
+                codec.c_str(), mesh->triangles.size() / 3, (*psnr)[0], (*psnr)[1], (*psnr)[2],
+                (*psnr)[3], ms);
+    std::fflush(stdout);
+    rows_.push_back(
+        {terrain_.item, codec, "screen_psnr_at_" + std::to_string(budget_), (*psnr)[0]});
+    return {};
+  }
+
+  const Terrain& terrain_;
+  Screen& screen_;
+  std::vector<ResultRow>& rows_;
+  uint32_t budget_ = 0;
+};
+
+Status run(const Options& options) {
+  const std::vector<TerrainFiles> terrains = terrainsBelow(options);
+  if (terrains.empty()) return {TKS_IO, "No folder holds height.* and texture.*."};
+  std::vector<ResultRow> rows;
+  for (const TerrainFiles& files : terrains) {
+    const Result<Terrain> terrain = load(files);
+    if (!terrain.ok()) return terrain.status();
+    std::printf("%s, %u x %u\n", terrain->item.c_str(), terrain->raster.width,
+                terrain->raster.height);
+    Result<Screen> screen = Screen::create(*terrain);
+    if (!screen.ok()) return screen.status();
+    if (Status status = Comparison(*terrain, *screen, rows).run(); !status.ok()) return status;
+  }
+  return options.csv.empty() ? Status() : updateResults(options.csv, "screen_mesh", rows);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Arguments arguments("Textured terrain drawn with few triangles, beside meshoptimizer");
+  arguments.folders(options.folders, options.filters);
+  arguments.csv(options.csv);
+  if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
+  const Status status = run(options);
+  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
+  return status.code();
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes the layer of flat areas.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/plane.hpp"
+#include "codec/geometry/flat_areas.hpp"
+
+namespace tetrakis::inline geometry {
+
+/// codeword: any prefix of that of a plane with so many areas and these valid samples. There are
+/// none unless every decision counts and the areas are so many. Safe on any bytes.
+FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, Mask valid,
+                          uint32_t areas);
+
+}  // namespace tetrakis::inline geometry

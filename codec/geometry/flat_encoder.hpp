@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds flat areas, and codes them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "codec/geometry/flat_areas.hpp"
+
+namespace tetrakis::inline geometry {
+
+/// The areas of one height in a plane, of any size.
+class FlatFinder {
+ public:
+  /// heights: their values outlive this.
+  explicit FlatFinder(const PlaneView<const int32_t>& heights);
+
+  /// Samples of areas of at least so many.
+  uint64_t samplesOf(uint32_t least) const;
+
+  /// The areas of at least so many samples, without the samples that touch larger ones of another
+  /// level. None if there is no such area, or if there are too many.
+  FlatAreas areas(uint32_t least) const;
+
+ private:
+  PlaneView<const int32_t> heights_;
+  std::vector<uint32_t> first_;  ///< of each sample: the first one of its area
+  std::vector<uint32_t> sizes_;  ///< of each area, at its first sample
+};
+
+/// valid: the samples that are not void. There are areas.
+std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask valid);
+
+}  // namespace tetrakis::inline geometry

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coding of flat areas: which samples are flat, as a mask of the lattice
+// (lattice/validity_pass.hpp), of which voids are none without a decision; then the level of each
+// area. Inlets of one sea and ponds along one canal share theirs, so the eight latest levels that
+// differ are kept, the last one first. A level is one of these, named by its place; or it is new:
+// the difference to the last one, its number of bits in unary, then the bits below the highest.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "bitstream/coder/adaptive_bit.hpp"
+#include "lattice/validity_pass.hpp"
+
+namespace tetrakis::inline geometry {
+
+/// The mask's side of a decision. Io: as below.
+template <class Io>
+class FlatMaskIo {
+ public:
+  /// flat: what the encoder knows; the decoder ignores it.
+  FlatMaskIo(Io& io, Mask valid, const uint8_t* flat) : io_(io), valid_(valid), flat_(flat) {}
+  bool bit(AdaptiveBit& model, size_t sample) {
+    return valid_[sample] && io_.decide(model, flat_ != nullptr && flat_[sample] != 0);
+  }
+  bool stopped() const { return io_.stopped(); }
+
+ private:
+  Io& io_;
+  Mask valid_;
+  const uint8_t* flat_;
+};
+
+/// Io is the encoder's or the decoder's side of a decision, of which the encoder knows the answer:
+///   bool decide(AdaptiveBit&, bool answer)   bool even(bool answer)   at even odds
+///   bool stopped()                           the last decision did not count
+template <class Io>
+class FlatLevelsPass {
+ public:
+  explicit FlatLevelsPass(Io& io) : io_(io) {}
+
+  /// levels: of the encoder those of the areas, of the decoder as many zeros, which it fills. They
+  /// mean nothing behind the first decision that does not count.
+  void run(std::vector<int32_t>& levels) {
+    for (int32_t& level : levels) {
+      if (io_.stopped()) return;
+      level = next(level);
+    }
+  }
+
+ private:
+  static constexpr size_t kRecent = 8;
+  static constexpr int kMostBits = 32;
+
+  int32_t next(int32_t ours) {
+    size_t place = 0;
+    while (place < known_ && !io_.decide(hit_[place], recent_[place] == ours)) {
+      if (io_.stopped()) return 0;
+      ++place;
+    }
+    if (place == known_) {
+      const uint32_t last = static_cast<uint32_t>(known_ > 0 ? recent_[0] : 0);
+      const int32_t level =
+          static_cast<int32_t>(last + difference(static_cast<uint32_t>(ours) - last));
+      if (known_ < kRecent) ++known_;
+      place = known_ - 1;
+      recent_[place] = level;
+    }
+    const auto end = recent_.begin() + static_cast<ptrdiff_t>(place);
+    std::rotate(recent_.begin(), end, end + 1);
+    return recent_[0];
+  }
+
+  /// Modulo 2^32.
+  uint32_t difference(uint32_t ours) {
+    const bool our_sign = ours >> 31 != 0;
+    const uint32_t our_magnitude = our_sign ? 0 - ours : ours;
+    const int our_bits = static_cast<int>(std::bit_width(our_magnitude));
+    int bits = 0;
+    while (bits < kMostBits && io_.decide(bits_[static_cast<size_t>(bits)], our_bits > bits)) {
+      if (io_.stopped()) return 0;
+      ++bits;
+    }
+    if (bits == 0) return 0;
+    uint32_t magnitude = 1;
+    for (int position = bits - 2; position >= 0; --position)
+      magnitude = 2 * magnitude + io_.even((our_magnitude >> position) & 1);
+    return io_.even(our_sign) ? 0 - magnitude : magnitude;
+  }
+
+  Io& io_;
+  std::array<int32_t, kRecent> recent_{};
+  size_t known_ = 0;
+  std::array<AdaptiveBit, kRecent> hit_;
+  std::array<AdaptiveBit, kMostBits> bits_;
+};
+
+}  // namespace tetrakis::inline geometry

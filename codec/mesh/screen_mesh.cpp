@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/mesh/screen_mesh.hpp"
+
+#include <span>
+#include <utility>
+
+#include "codec/mesh/turned_edges.hpp"
+#include "codec/mesh/void_mesh.hpp"
+
+namespace tetrakis::inline mesh {
+namespace {
+
+Result<FittedMesh> latticeMesh(const Lattice& lattice, const WeightedSurface& surface,
+                               uint32_t max_triangles,
+                               const std::function<Status(uint64_t)>& admits) {
+  if (!surface.known.empty()) {
+    Result<FittedVertices> beside = verticesBesideVoids(lattice, surface, max_triangles, admits);
+    if (!beside.ok()) return beside.status();
+    return FittedMesh{meshOf(lattice, beside->vertices), std::move(beside->heights)};
+  }
+  const Result<FittedSequence> sequence = FittedSequence::makeFor(surface, max_triangles);
+  if (!sequence.ok()) return sequence.status();
+  return sequence->mesh(sequence->longestPrefix(max_triangles));
+}
+
+}  // namespace
+
+Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& surface,
+                              uint32_t max_triangles,
+                              const std::function<Status(uint64_t)>& admits) {
+  Result<FittedMesh> mesh = latticeMesh(lattice, surface, max_triangles, admits);
+  if (mesh.ok()) turnEdges(surface, *mesh);
+  return mesh;
+}
+
+}  // namespace tetrakis::inline mesh

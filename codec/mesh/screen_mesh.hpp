@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes made for the weights of a surface (screen_weights.hpp), with edges that turn as it does.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "base/status.hpp"
+#include "codec/mesh/fitted_heights.hpp"
+#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/weighted_surface.hpp"
+
+namespace tetrakis::inline mesh {
+
+/// A mesh of at most max_triangles > 0 triangles whose vertices are those of a 4-8 mesh, chosen among
+/// all samples by their weighted error and fitted, and whose edges are then turned (turned_edges.hpp).
+/// Where samples are unknown it is that of verticesBesideVoids(), and triangles in voids are part of
+/// it. admits: as there. Fails with the errors of FittedSequence::makeFor().
+Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& surface,
+                              uint32_t max_triangles,
+                              const std::function<Status(uint64_t)>& admits);
+
+}  // namespace tetrakis::inline mesh

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole streams of heights with flat water: it is exact as soon as it is known, in every prefix,
+// window and level, whatever the type, the shape and the target; and land without water pays
+// nothing.
+#include "bitstream/stream/header.hpp"
+#include "conformance/reference_decoder.hpp"
+#include "conformance/samples/void_masks.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+using samples::VoidShape;
+
+constexpr tks_sample kTypes[] = {TKS_U8, TKS_I8, TKS_U16, TKS_I16, TKS_U32, TKS_I32, TKS_F32};
+
+/// Ridges, with the height of their first sample where a shape leaves them out.
+struct Flooded {
+  Raster raster;
+  std::vector<uint8_t> land;
+
+  bool isWater(size_t i, const std::vector<std::byte>& heights) const {
+    return sampleAt(heights, raster.sample, i) == sampleAt(raster.data, raster.sample, i);
+  }
+};
+
+Flooded flooded(VoidShape shape, tks_sample sample, uint32_t width, uint32_t height) {
+  Flooded f{make({Pattern::kRidges, width, height, 1, sample}),
+            samples::validity(shape, width, height)};
+  const size_t bytes = tks_sample_bytes(sample);
+  for (size_t i = 0; i < f.land.size(); ++i) {
+    if (!f.land[i]) std::copy_n(f.raster.data.begin(), bytes, f.raster.data.begin() + i * bytes);
+  }
+  return f;
+}
+
+GeometryLayers layersOf(const Bytes& stream) {
+  return readHeader(stream)->header.layers;
+}
+
+tks_encode_options inRegions(tks_encode_options options) {
+  options.regions = 32;
+  return options;
+}
+
+TEST(FlatWater, ComesBackWithAllTypes) {
+  for (const tks_sample type : kTypes) {
+    const Flooded f = flooded(VoidShape::kCoast, type, 60, 45);
+    const Bytes stream = encode(&f.raster, nullptr, lossless());
+    Stream decoded(stream);
+    EXPECT_EQ(decoded.heights(), f.raster.data) << type;
+  }
+}
+
+/// From the end of the opening on, at every 61st byte.
+TEST(FlatWater, IsExactInEveryPrefixThatHoldsItsShape) {
+  for (const tks_encode_options& options :
+       {lossless(), budget(9000), inRegions(lossless()), inRegions(budget(9000))}) {
+    const Flooded f = flooded(VoidShape::kHalf, TKS_I16, 128, 100);
+    const Bytes stream = encode(&f.raster, nullptr, options);
+    const GeometryLayers layers = layersOf(stream);
+    ASSERT_GT(layers.flat_bytes, 0u);
+    const size_t known = readHeader(stream)->bytes + layers.openingBytes() + 40;
+    for (size_t bytes = known; bytes <= stream.size(); bytes += 61) {
+      Stream prefix(Prefix(stream).first(bytes));
+      const std::vector<std::byte> heights = prefix.heights();
+      for (size_t i = 0; i < f.land.size(); ++i) {
+        if (f.land[i]) continue;
+        ASSERT_TRUE(f.isWater(i, heights)) << bytes << ", " << i;
+      }
+    }
+  }
+}
+
+TEST(FlatWater, DecodesAsTheReferenceDoesInAllPrefixesAndLevels) {
+  for (const tks_encode_options& options : {lossless(), budget(3000), inRegions(budget(3000))}) {
+    const Flooded f = flooded(VoidShape::kCoast, TKS_U16, 90, 70);
+    const Bytes stream = encode(&f.raster, nullptr, options);
+    for (size_t bytes = readHeader(stream)->bytes; bytes <= stream.size(); bytes += 311) {
+      const Prefix prefix = Prefix(stream).first(bytes);
+      for (const int level : {0, 1, 2, 4}) {
+        Stream decoded(prefix);
+        ASSERT_EQ(tks_set_levels(decoded.get(), static_cast<uint32_t>(level), 0), TKS_OK);
+        const uint32_t step = 1u << level;
+        const size_t count = size_t{(90 - 1) / step + 1} * ((70 - 1) / step + 1);
+        std::vector<uint8_t> heights(2 * count);
+        ASSERT_EQ(tks_decode_heights(decoded.get(), heights.data(), heights.size()), TKS_OK);
+        ASSERT_EQ(heights, reference::decode(prefix, 1 << 20, {level, 0}).heights)
+            << bytes << ", level " << level;
+      }
+    }
+  }
+}
+
+TEST(FlatWater, WindowsAreThoseOfTheWhole) {
+  for (const tks_encode_options& options : {lossless(), budget(5000), inRegions(budget(5000))}) {
+    const Flooded f = flooded(VoidShape::kCoast, TKS_I16, 130, 111);
+    const Bytes stream = encode(&f.raster, nullptr, options);
+    for (const size_t bytes : {stream.size(), stream.size() / 2}) {
+      Stream decoded(Prefix(stream).first(bytes));
+      const std::vector<std::byte> whole = decoded.heights();
+      for (const tks_window& window :
+           {tks_window{0, 0, 130, 111}, tks_window{5, 60, 33, 20}, tks_window{129, 110, 1, 1}}) {
+        Stream again(Prefix(stream).first(bytes));
+        std::vector<std::byte> part(size_t{2} * window.width * window.height);
+        ASSERT_EQ(tks_decode_heights_window(again.get(), &window, part.data(), part.size()),
+                  TKS_OK);
+        for (uint32_t y = 0; y < window.height; ++y) {
+          const size_t from = 2 * (size_t{window.y + y} * 130 + window.x);
+          ASSERT_TRUE(std::equal(part.begin() + size_t{2} * y * window.width,
+                                 part.begin() + size_t{2} * (y + 1) * window.width,
+                                 whole.begin() + from));
+        }
+      }
+    }
+  }
+}
+
+TEST(FlatWater, CostsNothingWhereThereIsNone) {
+  const Raster land = make({Pattern::kRidges, 120, 90, 1, TKS_U16});
+  for (const tks_encode_options& options : {lossless(), budget(3000)})
+    EXPECT_EQ(layersOf(encode(&land, nullptr, options)).flat_bytes, 0u);
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer of flat areas: what is found, and what comes back of it.
+#include <gtest/gtest.h>
+
+#include "codec/geometry/flat_choice.hpp"
+#include "codec/geometry/flat_decoder.hpp"
+#include "codec/geometry/flat_encoder.hpp"
+#include "conformance/samples/void_masks.hpp"
+#include "tests/support/random_planes.hpp"
+#include "tests/support/wavelet_cases.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::kVoidShapes;
+using samples::validity;
+using samples::VoidShape;
+
+constexpr Size kSizes[] = {{1, 1}, {1, 9}, {9, 1}, {2, 2}, {5, 3}, {40, 23}, {64, 65}, {2, 300}};
+
+/// Random levels, of which some are equal.
+FlatAreas areasOf(const std::vector<uint8_t>& flat, const Size& size, Random& random) {
+  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, size.extent()));
+  FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
+  for (int32_t& level : areas.levels)
+    level = random() % 3 == 0 ? 5 : static_cast<int32_t>(random() >> random() % 32);
+  return areas;
+}
+
+TEST(FlatAreas, AreNumberedByTheirFirstSamples) {
+  const std::vector<uint8_t> flat = {1, 0, 1, 1, 0,  //
+                                     1, 0, 0, 1, 0,  //
+                                     1, 1, 0, 0, 1,  //
+                                     0, 1, 1, 1, 1};
+  const NumberedAreas areas = numberAreas(PlaneView<const uint8_t>(flat, Extent{5, 4}));
+  EXPECT_EQ(areas.count, 2u);
+  EXPECT_EQ(areas.numbers, (std::vector<uint16_t>{1, 0, 2, 2, 0, 1, 0, 0, 2, 0,  //
+                                                  1, 1, 0, 0, 1, 0, 1, 1, 1, 1}));
+}
+
+TEST(FlatAreas, ComeBackAndNoPrefixShowsOthers) {
+  Random random(1);
+  for (const Size& size : kSizes) {
+    for (const VoidShape shape : kVoidShapes) {
+      for (const VoidShape voids : {VoidShape::kOneVoid, VoidShape::kSpeckle}) {
+        const std::vector<uint8_t> valid = validity(voids, size.width, size.height);
+        std::vector<uint8_t> flat = validity(shape, size.width, size.height);
+        for (size_t i = 0; i < flat.size(); ++i) flat[i] &= valid[i];
+        const FlatAreas areas = areasOf(flat, size, random);
+        if (areas.levels.empty()) continue;
+        const auto count = static_cast<uint32_t>(areas.levels.size());
+        const std::vector<uint8_t> codeword = encodeFlatAreas(areas, size.extent(), valid);
+        const FlatAreas decoded = decodeFlatAreas(codeword, size.extent(), valid, count);
+        ASSERT_EQ(decoded.numbers, areas.numbers) << size << ", " << shape;
+        ASSERT_EQ(decoded.levels, areas.levels) << size << ", " << shape;
+        EXPECT_TRUE(decodeFlatAreas(codeword, size.extent(), valid, count + 1).empty());
+        for (size_t bytes = 0; bytes < codeword.size(); bytes += 1 + codeword.size() / 20) {
+          const FlatAreas some =
+              decodeFlatAreas(std::span(codeword).first(bytes), size.extent(), valid, count);
+          ASSERT_TRUE(some.empty() || some.levels == areas.levels) << size << ", " << bytes;
+        }
+      }
+    }
+  }
+}
+
+TEST(FlatAreas, AreFoundAndNeverTouchOthersOfAnotherLevel) {
+  Random random(2);
+  const Size size{50, 41};
+  Plane heights = randomPlane(random, size.count(), 0, 1);  // many areas, of all sizes
+  const std::vector<uint8_t> valid = validity(VoidShape::kCoast, size.width, size.height);
+  const FlatFinder finder({heights, size.extent(), valid});
+  for (const uint32_t least : {1u, 8u, 64u}) {
+    const FlatAreas areas = finder.areas(least);
+    for (size_t i = 0; i < areas.numbers.size(); ++i) {
+      if (areas.numbers[i] == 0) continue;
+      ASSERT_TRUE(valid[i]);
+      ASSERT_EQ(areas.levels[areas.numbers[i] - 1u], heights[i]);
+    }
+  }
+  EXPECT_TRUE(finder.areas(10000).empty());
+}
+
+TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
+  Random random(3);
+  const Size size{128, 128};
+  Plane land = randomPlane(random, size.count(), 0, 4000), lake = land;
+  for (uint32_t y = 0; y < size.height; ++y) {
+    for (uint32_t x = 40; x < 100; ++x) lake[size_t{y} * size.width + x] = 17;
+  }
+  const HeightPurpose purpose{12, Purpose::kLossless};
+  EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
+  EXPECT_EQ(chooseFlatAreas({lake, size.extent()}, purpose).flat.areas.levels,
+            std::vector<int32_t>{17});
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What JavaScript calls beside tetrakis.h: it spares the loader (web/src/module.js) the layout of
+// structs and numbers of 64 bits.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+#include "tetrakis/tetrakis.h"
+
+extern "C" {
+
+tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_decoder** out,
+                    char* message, size_t message_size) {
+  tks_limits limits{};
+  limits.size = sizeof limits;
+  limits.max_memory = static_cast<uint64_t>(max_memory);
+  return tks_open(data, size, &limits, out, message, message_size);
+}
+
+/// How many numbers web_numbers() writes, and in their order the names that the loader gives them.
+/// Both are read by the loader, so that there is one list.
+const char* web_names() {
+  return "formatVersion profile level headerBytes streamBytes availableBytes packets geometryBytes "
+         "textureBytes hasHeights hasTexture width height coarsestLevel sample scale offset step "
+         "spacingX spacingY lossless hasVoids hasNodata nodata maxError trianglesHint "
+         "textureWidth textureHeight textureChannels textureCoarsestLevel textureCutout "
+         "textureSample heightsRmse texturePsnr hasGeotransform g0 g1 g2 g3 g4 g5 registration "
+         "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration";
+}
+
+tks_status web_numbers(const tks_decoder* decoder, double* out) {
+  tks_info i{};
+  i.size = sizeof i;
+  if (const tks_status status = tks_get_info(decoder, &i); status != TKS_OK) return status;
+  const auto number = [](uint64_t value) { return static_cast<double>(value); };
+  const double numbers[] = {number(i.format_version),
+                            number(i.profile),
+                            number(i.level),
+                            number(i.header_bytes),
+                            number(i.stream_bytes),
+                            number(i.available_bytes),
+                            number(i.packets),
+                            number(i.geometry_bytes),
+                            number(i.texture_bytes),
+                            double(i.has_heights),
+                            double(i.has_texture),
+                            number(i.width),
+                            number(i.height),
+                            number(i.coarsest_level),
+                            double(i.sample),
+                            i.scale,
+                            i.offset,
+                            i.step,
+                            i.spacing_x,
+                            i.spacing_y,
+                            double(i.lossless),
+                            double(i.has_voids),
+                            double(i.has_nodata),
+                            i.nodata,
+                            i.max_error,
+                            number(i.triangles),
+                            number(i.texture_width),
+                            number(i.texture_height),
+                            number(i.texture_channels),
+                            number(i.texture_coarsest_level),
+                            double(i.texture_cutout),
+                            double(i.texture_sample),
+                            i.heights_rmse,
+                            i.texture_psnr,
+                            double(i.has_geotransform),
+                            i.geotransform[0],
+                            i.geotransform[1],
+                            i.geotransform[2],
+                            i.geotransform[3],
+                            i.geotransform[4],
+                            i.geotransform[5],
+                            double(i.registration),
+                            double(i.texture_has_geotransform),
+                            i.texture_geotransform[0],
+                            i.texture_geotransform[1],
+                            i.texture_geotransform[2],
+                            i.texture_geotransform[3],
+                            i.texture_geotransform[4],
+                            i.texture_geotransform[5],
+                            double(i.texture_registration)};
+  std::copy(std::begin(numbers), std::end(numbers), out);
+  return TKS_OK;
+}
+
+/// A text of the stream: 0 unit, 1 vertical datum, 2 CRS, 3 CRS of the texture.
+const char* web_text(const tks_decoder* decoder, int which) {
+  tks_info i{};
+  i.size = sizeof i;
+  if (tks_get_info(decoder, &i) != TKS_OK) return "";
+  const char* const texts[] = {i.unit, i.vertical_datum, i.crs, i.texture_crs};
+  return which >= 0 && which < 4 ? texts[which] : "";
+}
+
+/// Texels of 1 to 4 channels as RGBA of 8 bits each. Texels of 16 bits lose their lower ones.
+void web_rgba(const void* texels, uint8_t* out, size_t count, uint32_t channels,
+              tks_sample sample) {
+  const auto* const bytes = static_cast<const uint8_t*>(texels);
+  const auto* const words = static_cast<const uint16_t*>(texels);
+  const auto value = [&](size_t i) {
+    return sample == TKS_U16 ? static_cast<uint8_t>(words[i] >> 8) : bytes[i];
+  };
+  const bool colour = channels > 2, alpha = channels % 2 == 0;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t first = i * channels;
+    out[4 * i] = value(first);
+    out[4 * i + 1] = value(first + (colour ? 1 : 0));
+    out[4 * i + 2] = value(first + (colour ? 2 : 0));
+    out[4 * i + 3] = alpha ? value(first + channels - 1) : 255;
+  }
+}
+
+}  // extern "C"

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+
+export type TksCode =
+  | 'usage' | 'io' | 'corrupt' | 'truncated' | 'unsupported' | 'limit' | 'memory' | 'changed'
+  | 'mismatch';
+
+/** What promises are rejected with; `message` is one or two sentences for people. */
+export class TksError extends Error {
+  readonly code: TksCode;
+}
+
+export interface OpenOptions {
+  /** Ends opening; later calls take signals of their own. */
+  signal?: AbortSignal;
+  /** false: decode on this thread. A Worker or its URL: where bundlers do not find `tetrakis/worker`. */
+  worker?: boolean | Worker | string | URL;
+  /** Where bundlers do not find `tetrakis/tetrakis.wasm`: its URL, bytes, or compiled module. */
+  wasm?: string | URL | BufferSource | WebAssembly.Module;
+  /** Bytes that one decoding may take; default 2^30. */
+  memory?: number;
+}
+
+export interface FrameOptions {
+  /** Use no more than the first bytes of the stream. Default: all. */
+  bytes?: number;
+  signal?: AbortSignal;
+  /** The mesh has at most so many. Default 20000. */
+  triangles?: number;
+  /** Only what this camera may see of the mesh: 16 numbers, row by row, from (column, row, height, 1)
+   * to clip coordinates. Default: all. */
+  view?: ArrayLike<number> | null;
+  mesh?: boolean;
+  /** Unit normals for the vertices of the mesh. Default false. */
+  normals?: boolean;
+  texture?: boolean;
+  /** The heights as a grid. Default false. */
+  surface?: boolean;
+  /** Longest side of the texture, by the mip levels of the stream. Default 4096. */
+  texels?: number;
+  /** Longest side of the grid of heights, likewise. Default 4096. */
+  samples?: number;
+  /** The mip levels themselves, in place of `texels` and `samples`. */
+  textureLevel?: number;
+  surfaceLevel?: number;
+}
+
+export interface TerrainInfo {
+  formatVersion: number;
+  headerBytes: number;
+  streamBytes: number;
+  /** Payload of either component in this prefix. */
+  geometryBytes: number;
+  textureBytes: number;
+  hasHeights: boolean;
+  hasTexture: boolean;
+  width: number;
+  height: number;
+  /** Metres; 0: unknown. */
+  spacingX: number;
+  spacingY: number;
+  textureWidth: number;
+  textureHeight: number;
+  textureChannels: number;
+  /** What the prefix states of its quality, in `unit` and dB; less than 0: nothing yet. */
+  heightsRmse: number;
+  texturePsnr: number;
+  /** Guaranteed for the complete stream; less than 0: not stated. */
+  maxError: number;
+  lossless: boolean;
+  hasVoids: boolean;
+  hasGeotransform: boolean;
+  /** As GDAL's; of the texture where textureHasGeotransform. */
+  geotransform: number[];
+  textureHasGeotransform: boolean;
+  textureGeotransform: number[];
+  unit: string;
+  verticalDatum: string;
+  crs: string;
+  textureCrs: string;
+  [field: string]: unknown;
+}
+
+export interface Mesh {
+  /** Vertex i lies on sample gridIndex[i] = row * info.width + column. */
+  gridIndex: Uint32Array;
+  /** In info.unit. */
+  heights: Float32Array;
+  /** Three indices each, counter-clockwise seen from above with rows towards the viewer. */
+  triangles: Uint32Array;
+  /** x along a row, y up, z down the rows; for isotropic metres. */
+  normals?: Float32Array;
+}
+
+export interface Raster<T> {
+  /** Mip level: 1 / 2^level of the full resolution. */
+  level: number;
+  width: number;
+  height: number;
+  geotransform: number[];
+  data: T;
+}
+
+export interface Frame {
+  bytes: number;
+  /** These are all bytes of the stream. */
+  complete: boolean;
+  info: TerrainInfo;
+  mesh?: Mesh;
+  /** RGBA. */
+  texture?: Raster<Uint8ClampedArray>;
+  /** In info.unit; voids are NaN. */
+  surface?: Raster<Float32Array> & {spacingX: number; spacingY: number};
+}
+
+export interface Terrain {
+  readonly info: TerrainInfo;
+  readonly loaded: {requests: number; bytes: number};
+  /** The file ends before the stream does: frames are good, but not complete. */
+  readonly truncated: boolean;
+  /** Fetches the first `bytes` bytes, without decoding. Resolves to how many there are. */
+  load(bytes: number, options?: {signal?: AbortSignal}): Promise<number>;
+  /** One frame of the first `bytes` bytes; fetches those that are missing. */
+  decode(options?: FrameOptions): Promise<Frame>;
+  /** Frames of prefixes that grow fourfold, from those that are there to `bytes`. */
+  refine(options?: FrameOptions): AsyncGenerator<Frame, void, void>;
+  dispose(): void;
+}
+
+export function open(
+  input: string | URL | ArrayBuffer | ArrayBufferView | Blob, options?: OpenOptions,
+): Promise<Terrain>;
+
+/** Metres of one unit of height, of one column and of one row; where nothing is stated, 1. */
+export function groundScale(info: TerrainInfo): {height: number; x: number; y: number};

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {
+  GetResourceResponse, Map, RasterDEMSourceSpecification, RasterSourceSpecification, RequestParameters,
+} from 'maplibre-gl';
+import type {OpenOptions, Terrain} from './index.js';
+
+type Input = string | URL | ArrayBuffer | ArrayBufferView | Blob;
+
+export interface TksMapSource {
+  /** For map.addSource(); null where the stream has no such part. */
+  readonly heights: RasterDEMSourceSpecification | null;
+  readonly texture: RasterSourceSpecification | null;
+  readonly terrain: Terrain;
+  /** Fetches on, fourfold each time up to `bytes`, and refreshes the tiles of the map's sources. */
+  refine(map: Map, options?: {bytes?: number; signal?: AbortSignal}): Promise<void>;
+  /** RGBA of 256 x 256 pixels; null where the stream does not reach. */
+  render(part: 'heights' | 'texture', tile: {z: number; x: number; y: number}):
+    Promise<Uint8ClampedArray | null>;
+  dispose(): void;
+}
+
+export class TksProtocol {
+  /** For maplibregl.addProtocol('tks', protocol.tile). */
+  readonly tile: (request: RequestParameters, stop: AbortController) =>
+    Promise<GetResourceResponse<ImageBitmap | ArrayBuffer>>;
+  /** `bounds`: west, south, east, north in degrees, for streams that do not say where they lie. */
+  add(name: string, input: Input, options?: OpenOptions & {bounds?: [number, number, number, number]}):
+    Promise<TksMapSource>;
+  remove(name: string): void;
+}

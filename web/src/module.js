@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loads the decoder's WebAssembly module and calls it. The module is built without JavaScript of
+// emscripten's, so this file is all of its glue. Nothing here waits: it runs in a worker as well.
+import {TksError} from './error.js';
+
+const SAMPLES = [
+  Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array,
+];
+const TRUNCATED = 4;
+const BUDGET_MESH = 1;
+const MESSAGE_BYTES = 400;
+
+/** A function with a vector in it: engines without SIMD refuse it. */
+const VECTOR_FUNCTION = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15,
+  253, 98, 11,
+]);
+export const hasVectors = () => WebAssembly.validate(VECTOR_FUNCTION);
+
+/** What the module imports: a notice that memory grew, and an exit that only an abort calls. */
+function importsOf(module) {
+  const imports = {};
+  for (const {module: space, name} of WebAssembly.Module.imports(module)) {
+    (imports[space] ??= {})[name] = name.startsWith('emscripten_notify')
+      ? () => {}
+      : () => {
+          throw new WebAssembly.RuntimeError(`aborted in ${name}`);
+        };
+  }
+  return imports;
+}
+
+/** An instance with the few operations on its memory that decoding needs. */
+class Instance {
+  constructor(module) {
+    this.calls = new WebAssembly.Instance(module, importsOf(module)).exports;
+    this.calls._initialize?.();
+  }
+  /** Anew at each use: growing memory detaches the old buffer. */
+  view(Type, address, length) {
+    return new Type(this.calls.memory.buffer, address, length);
+  }
+  copy(Type, address, length) {
+    return this.view(Type, address, length).slice();
+  }
+  text(address) {
+    const bytes = this.view(Uint8Array, address);
+    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+  }
+  /** Calls `use` with memory that is freed afterwards. */
+  with(bytes, use) {
+    const address = this.calls.malloc(Math.max(bytes, 1));
+    if (address === 0) throw new TksError('memory', `There is no memory for ${bytes} bytes more.`);
+    try {
+      return use(address);
+    } finally {
+      this.calls.free(address);
+    }
+  }
+}
+
+/** Mip level at which neither side has more than `most` samples. */
+function levelFor(width, height, most, coarsest) {
+  let level = 0;
+  while (level < coarsest && Math.max(width, height) / 2 ** level > most) ++level;
+  return level;
+}
+
+/** One opened prefix. Close it. */
+class Opened {
+  constructor(instance, address, size, memory) {
+    this.instance = instance;
+    const {calls} = instance;
+    instance.with(4 + MESSAGE_BYTES, (out) => {
+      const status = calls.web_open(address, size, memory, out, out + 4, MESSAGE_BYTES);
+      if (status !== 0) throw this.#refusal(status, instance.text(out + 4));
+      [this.decoder] = instance.view(Uint32Array, out, 1);
+    });
+  }
+  /** `needed`: how many bytes the header is known to take; the sentence of the library says it. */
+  #refusal(status, message) {
+    const error = TksError.ofStatus(status, message);
+    if (status === TRUNCATED) error.needed = Number(/at least (\d+)/.exec(message)?.[1] ?? 0);
+    return error;
+  }
+  close() {
+    this.instance.calls.tks_close(this.decoder);
+  }
+  check(status) {
+    if (status === 0) return;
+    throw TksError.ofStatus(status, this.instance.text(this.instance.calls.tks_message(this.decoder)));
+  }
+  setLevels(heights, texture) {
+    this.check(this.instance.calls.tks_set_levels(this.decoder, heights, texture));
+  }
+
+  info() {
+    const {instance, decoder} = this;
+    const names = instance.text(instance.calls.web_names()).split(' ');
+    const numbers = instance.with(8 * names.length, (out) => {
+      this.check(instance.calls.web_numbers(decoder, out));
+      return instance.copy(Float64Array, out, names.length);
+    });
+    const info = Object.fromEntries(names.map((name, i) => [name, numbers[i]]));
+    for (const name of Object.keys(info)) {
+      if (/^(h|textureH)as[A-Z]|^lossless$/.test(name)) info[name] = info[name] !== 0;
+    }
+    const gather = (letter) =>
+      Array.from({length: 6}, (_, i) => {
+        const value = info[letter + i];
+        delete info[letter + i];
+        return value;
+      });
+    info.geotransform = gather('g');
+    info.textureGeotransform = gather('t');
+    const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs'];
+    texts.forEach((name, i) => (info[name] = instance.text(instance.calls.web_text(decoder, i))));
+    return info;
+  }
+
+  /** What a call writes into memory of `length` elements. */
+  decoded(name, Type, length, size) {
+    const bytes = length * Type.BYTES_PER_ELEMENT;
+    return this.instance.with(bytes, (out) => {
+      this.check(this.instance.calls[name](this.decoder, out, size ?? length));
+      return this.instance.copy(Type, out, length);
+    });
+  }
+  heights(info) {
+    const Type = SAMPLES[info.sample], length = info.width * info.height;
+    return this.decoded('tks_decode_heights', Type, length, length * Type.BYTES_PER_ELEMENT);
+  }
+  surface(info) {
+    return this.decoded('tks_decode_surface', Float32Array, info.width * info.height);
+  }
+  texels(info) {
+    const Type = SAMPLES[info.textureSample];
+    const length = info.textureWidth * info.textureHeight * info.textureChannels;
+    return this.decoded('tks_decode_texture', Type, length, length * Type.BYTES_PER_ELEMENT);
+  }
+  rgba(info) {
+    const {instance} = this, count = info.textureWidth * info.textureHeight;
+    const bytes = count * info.textureChannels * SAMPLES[info.textureSample].BYTES_PER_ELEMENT;
+    return instance.with(bytes, (texels) => {
+      this.check(instance.calls.tks_decode_texture(this.decoder, texels, bytes));
+      return instance.with(4 * count, (out) => {
+        instance.calls.web_rgba(texels, out, count, info.textureChannels, info.textureSample);
+        return instance.copy(Uint8ClampedArray, out, 4 * count);
+      });
+    });
+  }
+
+  /** tks_mesh at `out`: two counts, three addresses. */
+  #meshAt(out) {
+    const {instance} = this;
+    const [vertices, faces, grid, heights, triangles] = instance.copy(Uint32Array, out, 5);
+    const mesh = {
+      gridIndex: instance.copy(Uint32Array, grid, vertices),
+      heights: instance.copy(Float32Array, heights, vertices),
+      triangles: instance.copy(Uint32Array, triangles, 3 * faces),
+    };
+    instance.calls.tks_free_mesh(out);
+    return mesh;
+  }
+  mesh(triangles, view) {
+    const {instance, decoder} = this, {calls} = instance;
+    if (!calls.tks_decode_mesh) throw new TksError('usage', 'This module makes no meshes.');
+    if (!view) {
+      return instance.with(20, (out) => {
+        this.check(calls.tks_decode_mesh(decoder, BUDGET_MESH, triangles, out));
+        return this.#meshAt(out);
+      });
+    }
+    return instance.with(20 + 4 + 128, (out) => {
+      this.check(calls.tks_decode_mesh_tree(decoder, BUDGET_MESH, triangles, out + 20));
+      const [tree] = instance.view(Uint32Array, out + 20, 1);
+      instance.view(Float64Array, out + 24, 16).set(view);
+      const status = calls.tks_view_mesh(tree, out + 24, out);
+      calls.tks_free_mesh_tree(tree);
+      if (status !== 0) throw TksError.ofStatus(status, 'The view is not a matrix of 16 numbers.');
+      return this.#meshAt(out);
+    });
+  }
+}
+
+/**
+ * Unit normals of a mesh's vertices by central differences of a surface: x along the rows, y up,
+ * z down the rows. Cells beside voids count as flat.
+ */
+function normalsOf(mesh, width, level, surface, scale) {
+  const normals = new Float32Array(3 * mesh.gridIndex.length);
+  const side = 2 ** level, {data, width: w, height: h} = surface;
+  const slope = (a, b, distance) => (distance > 0 && a === a && b === b ? (b - a) / distance : 0);
+  mesh.gridIndex.forEach((index, i) => {
+    const x = Math.min(Math.round((index % width) / side), w - 1);
+    const y = Math.min(Math.round(Math.floor(index / width) / side), h - 1);
+    const left = Math.max(x - 1, 0), right = Math.min(x + 1, w - 1);
+    const above = Math.max(y - 1, 0), below = Math.min(y + 1, h - 1);
+    const across = data[y * w + x];
+    const dx = slope(data[y * w + left] ?? across, data[y * w + right], (right - left) * side);
+    const dz = slope(data[above * w + x] ?? across, data[below * w + x], (below - above) * side);
+    const nx = (-dx * scale.height) / scale.x, nz = (-dz * scale.height) / scale.y;
+    const length = Math.hypot(nx, 1, nz);
+    normals.set([nx / length, 1 / length, nz / length], 3 * i);
+  });
+  return normals;
+}
+
+const METRES = {ft: 0.3048, foot: 0.3048, feet: 0.3048, 'us-ft': 1200 / 3937};
+
+/** Metres of one unit of height, of one column and of one row; where nothing is stated, 1. */
+export function groundScale(info) {
+  return {
+    height: METRES[info.unit.toLowerCase()] ?? 1,
+    x: info.spacingX > 0 ? info.spacingX : 1,
+    y: info.spacingY > 0 ? info.spacingY : info.spacingX > 0 ? info.spacingX : 1,
+  };
+}
+
+/** Enough for shading, in the time of a first picture. */
+const NORMAL_SAMPLES = 1024;
+
+/** The parts of a frame that `request` asks for. */
+function partsOf(opened, info, request) {
+  const parts = {};
+  const textureLevel =
+    request.textureLevel ??
+    levelFor(info.textureWidth, info.textureHeight, request.texels, info.textureCoarsestLevel);
+  const surfaceLevel =
+    request.surfaceLevel ?? levelFor(info.width, info.height, request.samples, info.coarsestLevel);
+  if (request.mesh && info.hasHeights) parts.mesh = opened.mesh(request.triangles, request.view);
+  const shown = (level) => {
+    opened.setLevels(Math.min(level, info.coarsestLevel), info.hasTexture ? textureLevel : 0);
+    return opened.info();
+  };
+  const surfaceAt = (level) => {
+    const at = shown(level);
+    return {level, width: at.width, height: at.height, spacingX: at.spacingX,
+      spacingY: at.spacingY, geotransform: at.geotransform, data: opened.surface(at)};
+  };
+  if (request.surface && info.hasHeights) parts.surface = surfaceAt(surfaceLevel);
+  if (request.normals && parts.mesh) {
+    const level = levelFor(info.width, info.height, NORMAL_SAMPLES, info.coarsestLevel);
+    const surface = parts.surface?.level === level ? parts.surface : surfaceAt(level);
+    parts.mesh.normals = normalsOf(parts.mesh, info.width, level, surface, groundScale(info));
+  }
+  if (request.texture && info.hasTexture) {
+    const at = shown(0);
+    parts.texture = {level: textureLevel, width: at.textureWidth, height: at.textureHeight,
+      geotransform: at.textureGeotransform, data: opened.rgba(at)};
+  }
+  return parts;
+}
+
+/** Decodes prefixes of one stream. Its bytes live here; an instance that aborted is replaced. */
+export class Decoder {
+  #instance = null;
+  #bytes = new Uint8Array(0);
+  #length = 0;
+
+  constructor(module, memory) {
+    this.module = module;
+    this.memory = memory;
+  }
+
+  append(chunk) {
+    const length = this.#length + chunk.length;
+    if (length > this.#bytes.length) {
+      const larger = new Uint8Array(Math.max(length, 2 * this.#bytes.length));
+      larger.set(this.#bytes.subarray(0, this.#length));
+      this.#bytes = larger;
+    }
+    this.#bytes.set(chunk, this.#length);
+    this.#length = length;
+  }
+
+  /** Calls `use` with the first `bytes` bytes opened. */
+  opened(bytes, use) {
+    const size = Math.min(bytes, this.#length);
+    try {
+      const instance = (this.#instance ??= new Instance(this.module));
+      return instance.with(size, (address) => {
+        instance.view(Uint8Array, address, size).set(this.#bytes.subarray(0, size));
+        const opened = new Opened(instance, address, size, this.memory);
+        try {
+          return use(opened);
+        } finally {
+          if (this.#instance) opened.close();
+        }
+      });
+    } catch (error) {
+      if (error instanceof TksError) throw error;
+      this.#instance = null;
+      throw new TksError('memory', 'The decoder ran out of memory. Ask for fewer texels, samples ' +
+        'or triangles.', {cause: error});
+    }
+  }
+
+  decode(request) {
+    return this.opened(request.bytes, (opened) => {
+      const info = opened.info();
+      return {
+        bytes: info.availableBytes,
+        complete: info.availableBytes >= info.streamBytes,
+        info,
+        ...partsOf(opened, info, request),
+      };
+    });
+  }
+
+  /** The very samples, as the conformance vectors state them. */
+  samples(bytes, level) {
+    return this.opened(bytes, (opened) => {
+      const whole = opened.info();
+      opened.setLevels(Math.min(level, whole.coarsestLevel),
+        Math.min(level, whole.textureCoarsestLevel));
+      const info = opened.info();
+      return {
+        heights: info.hasHeights ? opened.heights(info) : null,
+        texture: info.hasTexture ? opened.texels(info) : null,
+      };
+    });
+  }
+}
+
+/** The buffers of a frame, to be handed over between threads instead of copied. */
+export function buffersOf(frame) {
+  const arrays = [frame.texture?.data, frame.surface?.data, ...Object.values(frame.mesh ?? {})];
+  return arrays.filter(Boolean).map((array) => array.buffer);
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the bytes of a stream come from: memory, a Blob, or a URL. From a URL they come by range
+// requests, each for what is still missing; where a server answers with the whole file instead (200),
+// that one answer is read as far as its bytes are asked for.
+import {TksError} from './error.js';
+
+const MAGIC = [0x54, 0x4b, 0x53, 0x1a];
+
+/** The promise, or the signal's reason once it aborts. */
+export function abortable(promise, signal) {
+  if (!signal) return promise;
+  signal.throwIfAborted();
+  return new Promise((resolve, reject) => {
+    const stop = () => reject(signal.reason);
+    signal.addEventListener('abort', stop, {once: true});
+    promise.then(resolve, reject).finally(() => signal.removeEventListener('abort', stop));
+  });
+}
+
+/** Refuses what is no stream, as far as its first bytes tell. `what` says where it is from. */
+function checkMagic(bytes, what) {
+  if (MAGIC.every((byte, i) => i >= bytes.length || bytes[i] === byte)) return;
+  const text = String.fromCharCode(...bytes.subarray(0, 16)).replace(/[^ -~]/g, '.');
+  throw new TksError('corrupt', `${what} is not a Tetrakis stream: it begins with "${text}".`);
+}
+
+class MemorySource {
+  requests = 0;
+  #blob;
+  #have = 0;
+  constructor(blob) {
+    this.#blob = blob;
+  }
+  /** The bytes from those that were given before up to `end`; fewer at the end of the data. */
+  async next(end) {
+    const begin = this.#have;
+    if (end <= begin || this.ended) return new Uint8Array(0);
+    const part = this.#blob.slice(begin, end);
+    const bytes = part instanceof Uint8Array ? part : new Uint8Array(await part.arrayBuffer());
+    if (begin === 0) checkMagic(bytes, 'This file');
+    this.#have += bytes.length;
+    return bytes;
+  }
+  get ended() {
+    return this.#have >= (this.#blob.size ?? this.#blob.length);
+  }
+  close() {}
+}
+
+class UrlSource {
+  requests = 0;
+  ended = false;
+  #url;
+  #stop = new AbortController();
+  #have = 0;
+  #version = null;
+  #reader = null;
+  #left = [];
+
+  constructor(url) {
+    this.#url = String(url);
+  }
+
+  async next(end) {
+    if (end <= this.#have || this.ended) return new Uint8Array(0);
+    const bytes = this.#reader ? await this.#read(end) : await this.#request(end);
+    if (this.#have === 0 && bytes.length > 0) checkMagic(bytes, this.#what);
+    this.#have += bytes.length;
+    return bytes;
+  }
+  close() {
+    this.#stop.abort();
+  }
+
+  get #what() {
+    return `${this.#url}${this.type ? ` (${this.type})` : ''}`;
+  }
+  async #fetch(begin, end) {
+    ++this.requests;
+    try {
+      return await fetch(this.#url, {
+        headers: {Range: `bytes=${begin}-${end - 1}`},
+        signal: this.#stop.signal,
+      });
+    } catch (error) {
+      throw new TksError('io', `${this.#url} cannot be fetched: there is no connection, or that ` +
+        'server does not allow this page to read it (CORS: Access-Control-Allow-Origin).',
+        {cause: error});
+    }
+  }
+
+  async #request(end) {
+    const begin = this.#have;
+    const answer = await this.#fetch(begin, end);
+    if (answer.status === 416 && begin > 0) {
+      this.ended = true;
+      return new Uint8Array(0);
+    }
+    if (!answer.ok) {
+      throw new TksError('io', `${this.#url}: the server answered ${answer.status} ` +
+        `${answer.statusText}.`.replace(' .', '.'));
+    }
+    this.#checkVersion(answer);
+    this.type = answer.headers.get('content-type')?.split(';')[0];
+    if (answer.status === 206) return this.#part(answer, begin, end);
+    // The server knows no ranges. What is there already comes again and is left out.
+    this.#reader = answer.body.getReader();
+    if (begin > 0) await this.#read(begin, 0);
+    return this.#read(end);
+  }
+
+  #checkVersion(answer) {
+    const version = answer.headers.get('etag') ?? answer.headers.get('last-modified');
+    this.#version ??= version;
+    if (version === null || version === this.#version) return;
+    this.close();
+    throw new TksError('changed', `${this.#url} has changed on the server since its first bytes ` +
+      'were read. Open it again.');
+  }
+
+  async #part(answer, begin, end) {
+    // Servers of other origins show this field only where they say so.
+    const range = /bytes (\d+)-(\d+)\/(\d+|\*)/.exec(answer.headers.get('content-range') ?? '');
+    if (range && Number(range[1]) !== begin) {
+      throw new TksError('io', `${this.#url}: the server was asked for byte ${begin} and sent byte ` +
+        `${range[1]}.`);
+    }
+    let bytes;
+    try {
+      bytes = new Uint8Array(await answer.arrayBuffer());
+    } catch (error) {
+      throw new TksError('io', `${this.#url}: the connection broke.`, {cause: error});
+    }
+    const sent = range ? Number(range[2]) + 1 - begin : bytes.length;
+    if (bytes.length > end - begin || bytes.length !== sent) {
+      throw new TksError('io', `${this.#url}: the server sent ${bytes.length} bytes where ` +
+        `${Math.min(sent, end - begin)} were announced. Does it compress streams ` +
+        '(Content-Encoding)? It should send them as they are.');
+    }
+    this.ended = bytes.length < end - begin || (range !== null && Number(range[3]) === begin + sent);
+    return bytes;
+  }
+
+  /** Bytes of the one answer up to `end`, which is counted from byte `have`. */
+  async #read(end, have = this.#have) {
+    const parts = this.#left;
+    let length = parts.reduce((sum, part) => sum + part.length, 0);
+    while (have + length < end) {
+      const {done, value} = await this.#reader.read().catch((error) => {
+        throw new TksError('io', `${this.#url}: the connection broke.`, {cause: error});
+      });
+      if (done) {
+        this.ended = true;
+        break;
+      }
+      parts.push(value);
+      length += value.length;
+    }
+    const all = new Uint8Array(length);
+    let place = 0;
+    for (const part of parts) {
+      all.set(part, place);
+      place += part.length;
+    }
+    const rest = all.subarray(end - have);
+    this.#left = rest.length ? [rest] : [];
+    return all.subarray(0, end - have);
+  }
+}
+
+export function sourceOf(input) {
+  if (typeof input === 'string' || input instanceof URL) return new UrlSource(input);
+  if (input instanceof ArrayBuffer) return new MemorySource(new Uint8Array(input));
+  if (ArrayBuffer.isView(input)) {
+    return new MemorySource(new Uint8Array(input.buffer, input.byteOffset, input.byteLength));
+  }
+  if (input instanceof Blob) return new MemorySource(input);
+  throw new TksError('usage', 'open() takes a URL, bytes or a Blob.');
+}

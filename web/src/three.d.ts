@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Camera, DataTexture, Loader, Material, Mesh} from 'three';
+import type {Frame, OpenOptions, Raster, Terrain} from './index.js';
+
+export interface TerrainOptions {
+  /** The mesh has at most so many. Default 20000. */
+  triangles?: number;
+  /** Fetches no more than so many bytes. Default: all that the camera needs. */
+  bytes?: number;
+  /** Heights are refined until their error is seen as so many pixels. Default 1. */
+  pixelError?: number;
+  /** Default: a MeshLambertMaterial, which needs lights. */
+  material?: Material;
+}
+
+/** x along the rows, y up, z down the rows; metres; the middle of the terrain at x = z = 0. */
+export class TksTerrain extends Mesh {
+  constructor(terrain: Terrain, options?: TerrainOptions);
+  readonly terrain: Terrain;
+  readonly frame: Frame | null;
+  triangles: number;
+  bytes: number;
+  pixelError: number;
+  /** Draws a frame of `terrain`; parts that it lacks stay as they are. Event: `frame`. */
+  show(frame: Frame): void;
+  /** To be called for each picture: fetches and decodes more where this camera sees the difference.
+   * `viewportHeight` in pixels. Events: `frame`, and `error`, after which nothing more is fetched. */
+  update(camera: Camera, viewportHeight: number): void;
+  dispose(): void;
+}
+
+export class TksLoader extends Loader<TksTerrain> {
+  setDecoderOptions(options: Pick<OpenOptions, 'worker' | 'wasm' | 'memory'>): this;
+  setTerrainOptions(options: TerrainOptions): this;
+  /** As load(), of bytes. */
+  parse(buffer: ArrayBuffer, onLoad: (terrain: TksTerrain) => void,
+    onError?: (error: unknown) => void): void;
+  parseAsync(buffer: ArrayBuffer): Promise<TksTerrain>;
+}
+
+export function textureOf(raster: Raster<Uint8ClampedArray>): DataTexture;

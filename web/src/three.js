@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// three.js: a Loader, as DRACOLoader is one, and the mesh that it loads, which refines by the camera.
+// x points along the rows, y up, z down the rows; metres, with the middle of the terrain at (0, 0).
+import {
+  Box3, BufferAttribute, BufferGeometry, DataTexture, LinearFilter, LinearMipmapLinearFilter, Loader,
+  MathUtils, Mesh, MeshLambertMaterial, RGBAFormat, SRGBColorSpace, Vector3,
+} from 'three';
+
+import {groundScale, open} from './index.js';
+
+/** Places of all samples that matter: of a mesh's vertices, or of the corners of a flat image. */
+function geometryOf(frame) {
+  const {info, mesh} = frame;
+  const geometry = new BufferGeometry();
+  const flat = !mesh;
+  const width = flat ? 2 : info.width, height = flat ? 2 : info.height;
+  const grid = flat ? [0, 1, 2, 3] : mesh.gridIndex;
+  const scale = flat
+    ? {x: info.textureWidth, y: info.textureHeight, height: 1}
+    : groundScale(info);
+  const positions = new Float32Array(3 * grid.length), places = new Float32Array(2 * grid.length);
+  for (let i = 0; i < grid.length; ++i) {
+    const column = grid[i] % width, row = Math.floor(grid[i] / width);
+    positions[3 * i] = (column - (width - 1) / 2) * scale.x;
+    positions[3 * i + 1] = flat ? 0 : mesh.heights[i] * scale.height;
+    positions[3 * i + 2] = (row - (height - 1) / 2) * scale.y;
+    places[2 * i] = column / (width - 1);
+    places[2 * i + 1] = row / (height - 1);
+  }
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  geometry.setAttribute('uv', new BufferAttribute(places, 2));
+  geometry.setIndex(new BufferAttribute(flat ? new Uint32Array([0, 2, 1, 1, 2, 3]) : mesh.triangles, 1));
+  if (mesh?.normals) geometry.setAttribute('normal', new BufferAttribute(mesh.normals, 3));
+  else geometry.computeVertexNormals();
+  return geometry;
+}
+
+/** A texture of RGBA rows, the first row at v = 0. */
+export function textureOf({width, height, data}) {
+  const bytes = new Uint8Array(data.buffer, data.byteOffset, data.length);
+  const texture = new DataTexture(bytes, width, height, RGBAFormat);
+  texture.colorSpace = SRGBColorSpace;
+  texture.generateMipmaps = true;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.magFilter = LinearFilter;
+  texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** The first prefix that `update()` asks for, and how much longer each following one is. */
+const FIRST_BYTES = 4096;
+const GROWTH = 4;
+/** What error of a texture is seen where a texel fills a pixel. */
+const GOOD_PSNR = 40;
+
+export class TksTerrain extends Mesh {
+  #reading = null;
+  #stop = new AbortController();
+  #box = new Box3();
+  #eye = new Vector3();
+  #wanted = 0;
+  #texels = Infinity;
+
+  /** `terrain`: of open(). It is disposed with this object. */
+  constructor(terrain, {triangles = 20000, bytes = Infinity, pixelError = 1, material} = {}) {
+    super(new BufferGeometry(), material ?? new MeshLambertMaterial());
+    this.terrain = terrain;
+    this.triangles = triangles;
+    this.bytes = bytes;
+    this.pixelError = pixelError;
+    this.frame = null;
+    if (terrain.info.textureCutout || [2, 4].includes(terrain.info.textureChannels)) {
+      this.material.alphaTest = 0.5;
+    }
+  }
+
+  /** Draws a frame of `terrain`. Parts that it lacks stay as they are. */
+  show(frame) {
+    if (frame.mesh || !this.frame) {
+      this.geometry.dispose();
+      this.geometry = geometryOf(frame);
+    }
+    if (frame.texture) this.setMap(textureOf(frame.texture));
+    this.frame = {...this.frame, ...frame};
+    this.dispatchEvent({type: 'frame', frame});
+  }
+  setMap(texture) {
+    this.material.map?.dispose();
+    if (!this.material.map) this.material.needsUpdate = true;
+    this.material.map = texture;
+  }
+
+  /** Pixels of a metre at the point of the terrain that is nearest to the camera. */
+  #pixelsPerMetre(camera, viewportHeight) {
+    if (camera.isOrthographicCamera) {
+      return (viewportHeight * camera.zoom) / (camera.top - camera.bottom);
+    }
+    if (!this.geometry.boundingBox) this.geometry.computeBoundingBox();
+    this.#box.copy(this.geometry.boundingBox).applyMatrix4(this.matrixWorld);
+    const distance = this.#box.distanceToPoint(camera.getWorldPosition(this.#eye));
+    const scale = this.getWorldScale(new Vector3()).x;
+    const focal = viewportHeight / (2 * Math.tan(MathUtils.degToRad(camera.fov) / 2));
+    return (scale * focal * camera.zoom) / Math.max(distance, camera.near);
+  }
+
+  /** Whether this camera sees that bytes are missing, and the longest side of a texture for it. */
+  #needs(camera, viewportHeight) {
+    const {info} = this.frame, scale = groundScale(info);
+    const pixels = this.#pixelsPerMetre(camera, viewportHeight);
+    const texel = info.hasHeights ? ((info.width - 1) * scale.x) / info.textureWidth : 1;
+    const level = Math.max(0, Math.floor(-Math.log2(pixels * texel)));
+    const error = info.heightsRmse < 0 ? Infinity : info.heightsRmse * scale.height * pixels;
+    // Averaging four texels takes 6 dB off an error without direction.
+    const good = GOOD_PSNR - 6 * level;
+    return {
+      more: (info.hasHeights && error > this.pixelError) ||
+        (info.hasTexture && info.texturePsnr < good),
+      texels: Math.ceil(Math.max(info.textureWidth, info.textureHeight, 1) / 2 ** level),
+    };
+  }
+
+  /**
+   * To be called for each picture: fetches and decodes more where this camera sees the difference.
+   * One decoding runs at a time. Failures go to the event `error`.
+   */
+  update(camera, viewportHeight) {
+    if (this.#reading || this.#stop.signal.aborted) return;
+    const limit = Math.min(this.bytes, this.terrain.info.streamBytes);
+    let bytes = Math.min(this.#wanted || FIRST_BYTES, limit), texels = this.#texels;
+    if (this.frame) {
+      const needs = this.#needs(camera, viewportHeight);
+      if (needs.more && !this.terrain.truncated) bytes = Math.min(GROWTH * bytes, limit);
+      texels = this.#wanted ? Math.max(texels, needs.texels) : needs.texels;
+      if (bytes === this.#wanted && texels === this.#texels) return;
+    } else {
+      texels = 1024;
+    }
+    this.#reading = this.#read(bytes, texels).finally(() => (this.#reading = null));
+  }
+  async #read(bytes, texels) {
+    try {
+      const frame = await this.terrain.decode(
+        {bytes, texels, triangles: this.triangles, normals: true, signal: this.#stop.signal});
+      if (this.#stop.signal.aborted) return;
+      this.#wanted = bytes;
+      this.#texels = texels;
+      this.show(frame);
+    } catch (error) {
+      if (this.#stop.signal.aborted) return;
+      this.#stop.abort();
+      this.dispatchEvent({type: 'error', error});
+    }
+  }
+
+  dispose() {
+    this.#stop.abort();
+    this.geometry.dispose();
+    this.material.map?.dispose();
+    this.material.dispose();
+    this.terrain.dispose();
+  }
+}
+
+export class TksLoader extends Loader {
+  #decoderOptions = {};
+  #terrainOptions = {};
+
+  /** Those of open(): worker, wasm, memory. */
+  setDecoderOptions(options) {
+    this.#decoderOptions = options;
+    return this;
+  }
+  /** Those of TksTerrain: triangles, bytes, pixelError, material. */
+  setTerrainOptions(options) {
+    this.#terrainOptions = options;
+    return this;
+  }
+
+  /** Gives a TksTerrain that shows its first frame; its update() brings the others. */
+  load(url, onLoad, onProgress, onError) {
+    const resolved = this.manager.resolveURL((this.path ?? '') + url);
+    this.manager.itemStart(resolved);
+    this.#load(resolved)
+      .then(onLoad, (error) => {
+        this.manager.itemError(resolved);
+        if (onError) onError(error);
+        else console.error(error);
+      })
+      .finally(() => this.manager.itemEnd(resolved));
+  }
+  parse(buffer, onLoad, onError) {
+    this.#load(buffer).then(onLoad, onError ?? console.error);
+  }
+  parseAsync(buffer) {
+    return this.#load(buffer);
+  }
+  async #load(input) {
+    const terrain = await open(input, this.#decoderOptions);
+    const object = new TksTerrain(terrain, this.#terrainOptions);
+    try {
+      object.show(await terrain.decode({bytes: Math.min(FIRST_BYTES, object.bytes), texels: 1024,
+        triangles: object.triangles, normals: true}));
+      return object;
+    } catch (error) {
+      object.dispose();
+      throw error;
+    }
+  }
+}

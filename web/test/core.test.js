@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// The core: sources of bytes with the faults that servers have, frames, aborts, limits of memory.
+import assert from 'node:assert/strict';
+import {readFile, mkdtemp, writeFile, rm} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {gzipSync} from 'node:zlib';
+
+import {TksError, open} from '../src/index.js';
+import {serve} from './server.js';
+
+const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
+const NAME = 'joint_budget_97x97_128x128.tks';
+let bytes, folder;
+
+before(async () => {
+  bytes = new Uint8Array(await readFile(vectors + NAME));
+  folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
+  await writeFile(join(folder, 'whole.tks'), bytes);
+  await writeFile(join(folder, 'short.tks'), bytes.subarray(0, bytes.length >> 1));
+  await writeFile(join(folder, 'header.tks'), bytes.subarray(0, 30));
+  await writeFile(join(folder, 'page.tks'), '<!doctype html><title>Sign in</title>');
+  await writeFile(join(folder, 'empty.tks'), '');
+});
+after(() => rm(folder, {recursive: true}));
+
+async function withServer(faults, use) {
+  const server = await serve(folder, faults);
+  try {
+    return await use(server);
+  } finally {
+    await server.close();
+  }
+}
+
+const framesOf = async (terrain, options) => {
+  const frames = [];
+  for await (const frame of terrain.refine(options)) frames.push(frame);
+  return frames;
+};
+
+const rejects = (promise, code, pattern) =>
+  assert.rejects(promise, (error) => {
+    assert.ok(error instanceof TksError, String(error));
+    assert.equal(error.code, code, error.message);
+    assert.match(error.message, pattern);
+    return true;
+  });
+
+test('frames grow to the whole stream, from bytes, a Blob and a URL alike', async () => {
+  await withServer({}, async (server) => {
+    const results = [];
+    for (const input of [bytes, bytes.buffer.slice(0), new Blob([bytes]), server.url + 'whole.tks']) {
+      const terrain = await open(input);
+      const frames = await framesOf(terrain, {normals: true, surface: true});
+      terrain.dispose();
+      assert.ok(frames.length >= 2);
+      for (let i = 1; i < frames.length; ++i) assert.ok(frames[i].bytes > frames[i - 1].bytes);
+      assert.ok(frames.at(-1).complete);
+      assert.equal(frames.at(-1).bytes, bytes.length);
+      results.push(frames);
+    }
+    for (const frames of results) assert.deepEqual(frames, results[0]);
+    const tks = server.requests.map((request) => request.range);
+    assert.equal(tks[0], 'bytes=0-4095');
+    assert.ok(tks.length <= 3, tks.join());
+  });
+});
+
+test('a frame is whole: triangles within the budget, indices, normals, RGBA', async () => {
+  const terrain = await open(bytes);
+  const {mesh, texture, surface, info} = await terrain.decode(
+    {triangles: 500, normals: true, surface: true});
+  assert.ok(mesh.triangles.length <= 1500 && mesh.triangles.length > 600);
+  assert.ok(mesh.triangles.every((vertex) => vertex < mesh.heights.length));
+  assert.ok(mesh.gridIndex.every((sample) => sample < info.width * info.height));
+  assert.equal(mesh.normals.length, 3 * mesh.heights.length);
+  for (let i = 0; i < mesh.normals.length; i += 3) {
+    assert.ok(Math.abs(Math.hypot(...mesh.normals.subarray(i, i + 3)) - 1) < 1e-5);
+  }
+  assert.equal(texture.data.length, 4 * info.textureWidth * info.textureHeight);
+  assert.equal(surface.data.length, info.width * info.height);
+  const small = await terrain.decode({texels: 40, mesh: false});
+  assert.ok(small.texture.width <= 40 && small.texture.level > 0 && !small.mesh);
+});
+
+test('a view gives a part of the mesh', async () => {
+  const terrain = await open(bytes);
+  // The western half: column 0 to 48 becomes -1 to 1; rows likewise; no perspective.
+  const view = [1 / 24, 0, 0, -1, 0, 1 / 48, 0, -1, 0, 0, 0, 0, 0, 0, 0, 1];
+  const whole = (await terrain.decode({triangles: 2000})).mesh;
+  const part = (await terrain.decode({triangles: 2000, view})).mesh;
+  assert.ok(part.triangles.length > 0 && part.triangles.length < whole.triangles.length);
+});
+
+test('prefixes that are there need no request; a longer one needs one', async () => {
+  await withServer({}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    assert.equal(server.requests.length, 1);
+    await terrain.decode({bytes: 2000});
+    assert.equal(server.requests.length, 1);
+    await Promise.all([terrain.decode(), terrain.decode()]);
+    assert.equal(server.requests.length, 2);
+    assert.deepEqual(terrain.loaded, {requests: 2, bytes: bytes.length});
+    terrain.dispose();
+  });
+});
+
+test('a server without ranges: one request, the same frames', async () => {
+  await withServer({noRanges: true}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    const frames = await framesOf(terrain);
+    assert.ok(frames.length >= 2 && frames.at(-1).complete);
+    assert.equal(server.requests.length, 1);
+    terrain.dispose();
+  });
+});
+
+test('ranges that end midway: what is there is left out of the whole file', async () => {
+  await withServer({}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    server.faults.noRanges = true;
+    const frame = await terrain.decode();
+    assert.deepEqual(frame.texture, (await (await open(bytes)).decode()).texture);
+    terrain.dispose();
+  });
+});
+
+test('a file that is cut short is a prefix, and says so', async () => {
+  for (const noRanges of [false, true]) {
+    await withServer({noRanges}, async (server) => {
+      const terrain = await open(server.url + 'short.tks');
+      const frames = await framesOf(terrain);
+      assert.equal(frames.at(-1).complete, false);
+      assert.equal(frames.at(-1).bytes, bytes.length >> 1);
+      assert.equal(terrain.truncated, true);
+      terrain.dispose();
+    });
+  }
+  await rejects(open(bytes.subarray(0, 30)), 'truncated', /ends after 30 bytes, inside the header/);
+});
+
+test('what cannot be opened says why', async () => {
+  await withServer({}, async ({url}) => {
+    await rejects(open(url + 'page.tks'), 'corrupt',
+      /page\.tks \(application\/octet-stream\) is not a Tetrakis stream: it begins with "<!doctype/);
+    await rejects(open(url + 'none.tks'), 'io', /the server answered 404/);
+    await rejects(open(url + 'header.tks'), 'truncated', /ends after 30 bytes/);
+  });
+  await withServer({headers: {'content-type': 'text/html'}}, ({url}) =>
+    rejects(open(url + 'page.tks'), 'corrupt', /\(text\/html\) is not a Tetrakis stream/));
+  await rejects(open('http://127.0.0.1:9/closed.tks'), 'io', /cannot be fetched.*CORS/);
+  await rejects(open(new TextEncoder().encode('PK..')), 'corrupt', /not a Tetrakis stream/);
+  await rejects(open(7), 'usage', /URL, bytes or a Blob/);
+  const damaged = bytes.slice();
+  damaged[4] = 99;
+  await rejects(open(damaged), 'unsupported', /version/i);
+});
+
+test('a file that changes between requests is refused', async () => {
+  await withServer({etag: (request) => `"${request}"`}, async ({url}) => {
+    const terrain = await open(url + 'whole.tks');
+    await rejects(terrain.decode(), 'changed', /has changed on the server/);
+    terrain.dispose();
+  });
+});
+
+test('aborting: the reason comes back, and the terrain goes on', async () => {
+  const reason = new Error('the user went away');
+  await assert.rejects(open(bytes, {signal: AbortSignal.abort(reason)}), reason);
+  const terrain = await open(bytes);
+  const stop = new AbortController();
+  const frame = terrain.decode({signal: stop.signal});
+  stop.abort(reason);
+  await assert.rejects(frame, reason);
+  assert.ok((await terrain.decode()).complete);
+});
+
+test('a limit of memory is kept; an instance that aborted is replaced', async () => {
+  await rejects(open(bytes, {memory: 1000}).then((terrain) => terrain.decode()), 'limit', /./);
+  const {Decoder} = await import('../src/module.js');
+  const decoder = new Decoder(
+    await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url))), 2 ** 30);
+  decoder.append(bytes);
+  const request = {bytes: bytes.length, texture: true, texels: 4096, samples: 4096};
+  const before = decoder.decode(request);
+  assert.throws(() => decoder.opened(bytes.length, (opened) => {
+    opened.instance.calls.free(0x7ffffff0);
+    opened.instance.calls.tks_decode_texture(0x7ffffff0, 0, 0);
+  }), (error) => error.code === 'memory');
+  assert.deepEqual(decoder.decode(request), before);
+});
+
+test('memory returns: a hundred frames take no more than one', async () => {
+  const {Decoder} = await import('../src/module.js');
+  const decoder = new Decoder(
+    await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url))), 2 ** 30);
+  decoder.append(bytes);
+  const size = () => decoder.opened(bytes.length, (o) => o.instance.calls.memory.buffer.byteLength);
+  const request = {bytes: bytes.length, mesh: true, normals: true, surface: true, texture: true,
+    triangles: 5000, texels: 4096, samples: 4096};
+  decoder.decode(request);
+  const first = size();
+  for (let i = 0; i < 100; ++i) decoder.decode(request);
+  assert.equal(size(), first);
+});
+
+test('the modules are small', async () => {
+  for (const [name, limit] of [['tetrakis', 176], ['tetrakis-raster', 110]]) {
+    const file = await readFile(new URL(`../dist/${name}.wasm`, import.meta.url));
+    const zipped = gzipSync(file, {level: 9}).length;
+    console.log(`${name}.wasm: ${file.length} bytes, ${zipped} gzipped`);
+    assert.ok(zipped <= limit * 1000, `${name}.wasm`);
+  }
+});

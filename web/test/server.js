@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A static server for tests, with the faults that servers have.
+import {createReadStream} from 'node:fs';
+import {stat} from 'node:fs/promises';
+import {createServer} from 'node:http';
+import {extname, join, normalize} from 'node:path';
+
+const TYPES = {
+  '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
+  '.tks': 'application/octet-stream', '.svg': 'image/svg+xml', '.mjs': 'text/javascript',
+};
+
+/**
+ * Serves `folder`. Of `faults`: noRanges (200 and the whole file), etag (called for each answer),
+ * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always).
+ */
+export async function serve(folder, faults = {}) {
+  const requests = [];
+  const server = createServer(async (request, response) => {
+    const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
+    requests.push({path, range: request.headers.range});
+    const file = join(folder, path);
+    const size = await stat(file).then((found) => (found.isFile() ? found.size : -1), () => -1);
+    if (size < 0 || faults.missing) {
+      response.writeHead(404, {'content-type': 'text/html'});
+      return response.end('<!doctype html>nothing here');
+    }
+    const headers = {'content-type': TYPES[extname(path)] ?? 'text/plain', ...faults.headers};
+    if (faults.etag) headers.etag = faults.etag(requests.length);
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? '');
+    if (!range || faults.noRanges) {
+      response.writeHead(200, {...headers, 'content-length': size});
+      return createReadStream(file).pipe(response);
+    }
+    const start = Number(range[1]), end = Math.min(Number(range[2]), size - 1);
+    if (start >= size) {
+      response.writeHead(416, {...headers, 'content-range': `bytes */${size}`});
+      return response.end();
+    }
+    response.writeHead(206, {
+      ...headers, 'content-length': end - start + 1, 'content-range': `bytes ${start}-${end}/${size}`,
+    });
+    createReadStream(file, {start, end}).pipe(response);
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  return {
+    url: `http://127.0.0.1:${server.address().port}/`,
+    requests,
+    faults,
+    close: () => {
+      server.closeAllConnections();
+      return new Promise((resolve) => server.close(resolve));
+    },
+  };
+}

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewer in headless Chromium: what is drawn, after how many requests, and what it says of bad
+// files. TETRAKIS_CLI: a built `tetrakis`, whose `view` then serves the page in one of the tests.
+import assert from 'node:assert/strict';
+import {spawn} from 'node:child_process';
+import {once} from 'node:events';
+import {existsSync} from 'node:fs';
+import {cp, mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {chromium} from 'playwright-core';
+
+import {serve} from './server.js';
+
+const viewer = new URL('../dist/viewer/', import.meta.url).pathname;
+const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
+const NAME = 'joint_budget_97x97_128x128.tks';
+const CLI = process.env.TETRAKIS_CLI ?? new URL('../../build/tetrakis', import.meta.url).pathname;
+let browser, folder, bytes;
+
+before(async () => {
+  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
+  await cp(viewer, folder, {recursive: true});
+  bytes = await readFile(vectors + NAME);
+  const damaged = Buffer.from(bytes);
+  damaged.fill(0xff, 5, 40);
+  await writeFile(join(folder, 'whole.tks'), bytes);
+  await writeFile(join(folder, 'damaged.tks'), damaged);
+  await writeFile(join(folder, 'short.tks'), bytes.subarray(0, 3000));
+  await writeFile(join(folder, 'page.tks'), '<!doctype html><title>Sign in</title>');
+});
+after(async () => {
+  await browser.close();
+  await rm(folder, {recursive: true});
+});
+
+const ended = (page) =>
+  page.waitForFunction(() => ['done', 'failed'].includes(document.body.dataset.state));
+
+/** Opens the viewer and calls `use` once it has ended with what it was told to show. */
+async function withPage(query, use, faults = {}, options = {}) {
+  const server = await serve(folder, faults);
+  const page = await browser.newPage({viewport: {width: 1000, height: 600}, ...options});
+  const errors = [];
+  page.on('pageerror', (error) => errors.push(error.message));
+  try {
+    await page.goto(server.url + 'index.html' + query);
+    if (query) await ended(page);
+    await use(page, server);
+    assert.deepEqual(errors, []);
+  } finally {
+    await page.close();
+    await server.close();
+  }
+}
+
+const ranges = (server) =>
+  server.requests.filter(({path}) => path.endsWith('.tks')).map(({range}) => range);
+const text = (page, selector) => page.locator(selector).textContent();
+
+/** Distinct colours of the canvas, coarsely, and the share of pixels that are not sky. */
+async function colours(page) {
+  const picture = await page.locator('canvas').screenshot({style: 'aside, header { display: none }'});
+  return page.evaluate(async (base64) => {
+    const image = await createImageBitmap(await (await fetch('data:image/png;base64,' + base64)).blob());
+    const canvas = new OffscreenCanvas(image.width, image.height), context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const {data} = context.getImageData(0, 0, image.width, image.height), seen = new Set();
+    let ground = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      seen.add((data[i] >> 4 << 8) | (data[i + 1] >> 4 << 4) | data[i + 2] >> 4);
+      // The sky is blue to grey: its red is never the most.
+      if (data[i] > data[i + 2] || data[i + 1] > data[i + 2]) ++ground;
+    }
+    return {distinct: seen.size, ground: (4 * ground) / data.length};
+  }, picture.toString('base64'));
+}
+
+test('a picture after one request, then refinement to the last byte', async () => {
+  await withPage('?tks=whole.tks', async (page, server) => {
+    assert.equal(ranges(server)[0], 'bytes=0-4095');
+    assert.equal(ranges(server).length, 2);
+    assert.equal(await page.locator('body').getAttribute('data-bytes'), String(bytes.length));
+    assert.match(await text(page, '#split-text'), /heights .* texture .* 2 requests/);
+    assert.match(await text(page, '#psnr'), /dB/);
+    const {distinct, ground} = await colours(page);
+    assert.ok(distinct > 40 && ground > 0.05, JSON.stringify({distinct, ground}));
+  });
+});
+
+test('the first picture needs the first request alone', async () => {
+  const server = await serve(folder);
+  const page = await browser.newPage();
+  try {
+    // Whatever follows the first 4 kB never comes.
+    await page.route('**/whole.tks', (route) =>
+      route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined);
+    await page.goto(server.url + 'index.html?tks=whole.tks');
+    await page.waitForFunction(() => document.body.dataset.bytes === '4096');
+    assert.ok((await colours(page)).ground > 0.05);
+  } finally {
+    await page.close();
+    await server.close();
+  }
+});
+
+test('sliders go back without requests; wireframe, texture, light and flight draw', async () => {
+  await withPage('?tks=whole.tks', async (page, server) => {
+    const before = server.requests.length;
+    await page.locator('#bytes').fill('400');
+    await page.locator('#triangles').fill('100');
+    await page.waitForFunction(() => Number(document.body.dataset.bytes) < 1000);
+    await ended(page);
+    await page.waitForFunction(() => Number(document.querySelector('#triangles-here').textContent) < 300);
+    assert.equal(server.requests.length, before);
+    for (const name of ['wireframe', 'textured', 'shaded', 'fly']) await page.locator('#' + name).click();
+    await page.keyboard.down('w');
+    await page.waitForTimeout(200);
+    await page.keyboard.up('w');
+    assert.ok((await colours(page)).distinct > 4);
+  });
+});
+
+test('a server without ranges', async () => {
+  await withPage('?tks=whole.tks', async (page, server) => {
+    assert.equal(ranges(server).length, 1);
+    assert.equal(await page.locator('body').getAttribute('data-bytes'), String(bytes.length));
+  }, {noRanges: true});
+});
+
+test('files that cannot be shown say why, and others can be opened', async () => {
+  for (const [name, pattern] of [
+    ['damaged.tks', /./], ['page.tks', /not a Tetrakis stream/], ['none.tks', /answered 404/],
+  ]) {
+    await withPage('?tks=' + name, async (page) => {
+      assert.match(await page.getByRole('alert').textContent(), pattern);
+      await page.locator('#file').setInputFiles(join(folder, 'whole.tks'));
+      await page.waitForFunction((size) => document.body.dataset.bytes === size, String(bytes.length));
+      assert.equal(await page.getByRole('alert').isVisible(), false);
+    });
+  }
+});
+
+test('a file that is cut short is shown, with a note', async () => {
+  await withPage('?tks=short.tks', async (page) => {
+    assert.match(await page.getByRole('alert').textContent(), /cut short: 3.0 kB of 12 kB/);
+    assert.ok((await colours(page)).ground > 0.05);
+  });
+});
+
+test('a drop opens', async () => {
+  await withPage('', async (page) => {
+    assert.ok(await page.locator('#welcome').isVisible());
+    await page.evaluate((data) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([new Uint8Array(data)], 'dropped.tks'));
+      window.dispatchEvent(new DragEvent('drop', {dataTransfer: transfer, cancelable: true}));
+    }, [...bytes]);
+    await ended(page);
+    assert.equal(await text(page, '#name'), 'dropped.tks');
+    assert.equal(await page.locator('body').getAttribute('data-state'), 'done');
+  });
+});
+
+test('a lost context comes back', async () => {
+  await withPage('?tks=whole.tks', async (page) => {
+    await page.evaluate(async () => {
+      const context = document.querySelector('canvas').getContext('webgl2');
+      const extension = context.getExtension('WEBGL_lose_context');
+      const restored = new Promise((resolve) =>
+        document.querySelector('canvas').addEventListener('webglcontextrestored', resolve));
+      extension.loseContext();
+      await new Promise((resolve) => setTimeout(resolve, 100));
+      extension.restoreContext();
+      await restored;
+      await new Promise((resolve) => setTimeout(resolve, 200));
+    });
+    assert.ok((await colours(page)).ground > 0.05);
+  });
+});
+
+test('a phone: the controls unfold, nothing is wider than the screen', async () => {
+  await withPage('?tks=whole.tks', async (page) => {
+    assert.equal(await page.locator('#bytes').isVisible(), false);
+    await page.locator('#fold').tap();
+    assert.ok(await page.locator('#bytes').isVisible());
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  }, {}, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true});
+});
+
+test('every kind of stream is drawn', async () => {
+  for (const name of ['geometry_budget_129x97.tks', 'rgba_32x32.tks', 'coast_budget_90x70.tks',
+    'nothing_valid_12x7.tks', 'texture_1x1.tks', 'tiny_2x2.tks']) {
+    await cp(vectors + name, join(folder, name));
+    await withPage('?tks=' + name, async (page) => {
+      assert.equal(await page.locator('body').getAttribute('data-state'), 'done', name);
+    });
+  }
+});
+
+test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async () => {
+  const child = spawn(CLI, ['view', '--no-browser', join(folder, 'whole.tks')]);
+  const page = await browser.newPage();
+  try {
+    const [line] = await once(child.stdout, 'data');
+    const address = String(line).trim();
+    assert.match(address, /^http:\/\/127\.0\.0\.1:\d+\/\?tks=whole\.tks$/);
+    const answers = [];
+    page.on('response', (answer) => answers.push(answer));
+    await page.goto(address);
+    await ended(page);
+    assert.equal(await page.locator('body').getAttribute('data-bytes'), String(bytes.length));
+    const parts = answers.filter((answer) => answer.url().endsWith('/whole.tks'));
+    assert.deepEqual(parts.map((answer) => answer.status()), [206, 206]);
+    const status = async (path, headers) =>
+      (await page.request.get(new URL(path, address).href, {headers})).status();
+    assert.equal(await status('/%2e%2e/%2e%2e/etc/passwd'), 404);
+    assert.equal(await status('/whole.tks', {Host: 'elsewhere.example'}), 403);
+    assert.equal(await status('/whole.tks', {Range: 'bytes=900000-'}), 416);
+    const last = await page.request.get(new URL('/whole.tks', address).href,
+      {headers: {Range: 'bytes=5990-99999999'}});
+    assert.deepEqual(await last.body(), bytes.subarray(5990));
+  } finally {
+    await page.close();
+    child.kill();
+  }
+});

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page: opens a stream (?tks=URL, a drop, a file), refines it, and lets its bytes and triangles be
+// chosen.
+import {open} from '../src/index.js';
+import {TksTerrain, textureOf} from '../src/three.js';
+import {Picture} from './scene.js';
+import {tint} from './tint.js';
+
+const $ = (id) => document.getElementById(id);
+const FIRST_BYTES = 4096;
+const GROWTH = 4;
+/** What is fetched without being asked for. */
+const FREE_BYTES = 8 << 20;
+const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
+
+const picture = new Picture($('picture'));
+const wasm = new URL('tetrakis.wasm', document.baseURI);
+const worker = new URL('worker.js', document.baseURI);
+
+let terrain = null, object = null;
+let wanted = {}, shown = {};
+let opening = new AbortController();
+let pumping = false;
+
+/** Sliders are logarithmic: 0 to 1000 for `least` to `most`. */
+const fromSlider = (slider, least, most) => least * (most / least) ** (slider.value / 1000);
+const toSlider = (value, least, most) => (1000 * Math.log(value / least)) / Math.log(most / least);
+
+function formatBytes(bytes) {
+  if (bytes < 1000) return `${bytes} B`;
+  const [value, unit] = bytes < 1e6 ? [bytes / 1e3, 'kB'] : [bytes / 1e6, 'MB'];
+  return `${value.toFixed(value < 10 ? 1 : 0)} ${unit}`;
+}
+const formatCount = (count) => count.toLocaleString('en').replaceAll(',', '\u2009');
+
+function tell(text, isNote = false) {
+  $('message').textContent = text;
+  $('message').classList.toggle('note', isNote);
+  $('message').hidden = !text;
+}
+
+function readOut(frame, triangles) {
+  const {info} = frame;
+  $('bytes-here').textContent = formatBytes(frame.bytes);
+  $('bytes-of').textContent = `of ${formatBytes(info.streamBytes)}`;
+  $('triangles-here').textContent = formatCount(triangles);
+  $('heights-quality').hidden = !info.hasHeights;
+  $('texture-quality').hidden = !info.hasTexture;
+  const rmse = info.heightsRmse;
+  $('rmse').textContent =
+    rmse < 0 ? '–' : rmse === 0 ? 'exact' : `${Number(rmse.toPrecision(2))} ${info.unit}`.trim();
+  $('psnr').textContent =
+    info.texturePsnr < 0 ? '–' : isFinite(info.texturePsnr) ? `${info.texturePsnr.toFixed(1)} dB` : 'exact';
+  const share = (bytes) => `${(100 * bytes) / info.streamBytes}%`;
+  $('split-heights').style.width = share(info.geometryBytes);
+  $('split-texture').style.width = share(info.textureBytes);
+  const parts = [];
+  if (info.hasHeights) parts.push(`heights ${formatBytes(info.geometryBytes)}`);
+  if (info.hasTexture) parts.push(`texture ${formatBytes(info.textureBytes)}`);
+  const {requests} = terrain.loaded;
+  if (requests) parts.push(requests === 1 ? '1 request' : `${requests} requests`);
+  $('split-text').textContent = parts.join(' · ');
+}
+
+/** The next prefix on the way: what is here already at once, else fourfold. */
+function nextBytes() {
+  const here = Math.max(terrain.loaded.bytes, FIRST_BYTES);
+  if (!shown.bytes) return Math.min(wanted.bytes, here);
+  if (wanted.bytes <= here) return wanted.bytes;
+  return Math.min(wanted.bytes, Math.max(GROWTH * Math.min(shown.bytes, here), here));
+}
+
+function show(frame, request) {
+  const first = object.frame === null;
+  object.show(frame);
+  if (frame.surface && $('textured').checked) object.setMap(textureOf(tint(frame.surface)));
+  if (first) picture.home();
+  shown = {bytes: request.bytes, triangles: request.triangles};
+  readOut(frame, frame.mesh ? frame.mesh.triangles.length / 3 : 2);
+  document.body.dataset.bytes = frame.bytes;
+  picture.draw();
+}
+
+/** Decodes until what is shown is what is wanted. */
+async function pump() {
+  if (pumping || !terrain) return;
+  pumping = true;
+  const current = terrain;
+  document.body.dataset.state = 'busy';
+  try {
+    while (current === terrain &&
+        (shown.bytes !== wanted.bytes || shown.triangles !== wanted.triangles)) {
+      const {info} = terrain, request = {bytes: nextBytes(), triangles: wanted.triangles};
+      const otherBytes = request.bytes !== shown.bytes;
+      const frame = await current.decode({
+        ...request, normals: true, signal: opening.signal,
+        texture: otherBytes, surface: otherBytes && !info.hasTexture,
+        texels: Math.min(4096, picture.renderer.capabilities.maxTextureSize), samples: 1024,
+      });
+      if (current !== terrain) return;
+      if (current.truncated && request.bytes > frame.bytes) {
+        wanted.bytes = request.bytes = frame.bytes;
+        tell(`The file is cut short: ${formatBytes(frame.bytes)} of ` +
+          `${formatBytes(info.streamBytes)} are there, and shown.`, true);
+      }
+      show(frame, request);
+    }
+    document.body.dataset.state = 'done';
+  } catch (error) {
+    if (current === terrain) fail(error);
+  } finally {
+    pumping = false;
+    if (current !== terrain) pump();
+  }
+}
+
+function fail(error) {
+  tell(error.message);
+  document.body.dataset.state = 'failed';
+  if (!object?.frame) $('welcome').hidden = false;
+}
+
+function setWanted() {
+  if (!terrain) return;
+  wanted = {
+    bytes: Math.round(fromSlider($('bytes'), leastBytes(), terrain.info.streamBytes)),
+    triangles: Math.round(fromSlider($('triangles'), LEAST_TRIANGLES, mostTriangles())),
+  };
+  pump();
+}
+/** Of the header alone there is a surface too. */
+const leastBytes = () => Math.min(terrain.info.headerBytes, terrain.info.streamBytes - 1);
+const mostTriangles = () =>
+  Math.max(2 * LEAST_TRIANGLES, Math.min(MOST_TRIANGLES, 2 * terrain.info.width * terrain.info.height));
+
+/** Sliders and switches for what was opened. */
+function prepareControls(info) {
+  $('panel').hidden = false;
+  $('bytes').value = toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(), info.streamBytes);
+  $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, mostTriangles()), LEAST_TRIANGLES,
+    mostTriangles());
+  $('triangles').disabled = $('exaggeration').disabled = !info.hasHeights;
+  const sizes = [];
+  if (info.hasHeights) sizes.push(`${info.width} × ${info.height} heights`);
+  if (info.hasTexture) sizes.push(`${info.textureWidth} × ${info.textureHeight} texels`);
+  $('size').textContent = sizes.join(' · ');
+}
+
+async function openInput(input, name) {
+  opening.abort();
+  opening = new AbortController();
+  const {signal} = opening;
+  tell('');
+  $('welcome').hidden = true;
+  $('name').textContent = name;
+  $('size').textContent = 'opening …';
+  document.body.dataset.state = 'busy';
+  try {
+    const opened = await open(input, {signal, wasm, worker});
+    if (signal.aborted) return opened.dispose();
+    terrain = opened;
+    shown = {};
+    object = new TksTerrain(terrain);
+    object.material.wireframe = $('wireframe').checked;
+    object.scale.y = exaggeration();
+    picture.setObject(object);
+    prepareControls(terrain.info);
+    setWanted();
+  } catch (error) {
+    if (signal.aborted) return;
+    $('size').textContent = '';
+    fail(error);
+  }
+}
+
+const exaggeration = () => 10 ** ($('exaggeration').value / 20);
+
+function listen() {
+  $('bytes').addEventListener('input', setWanted);
+  $('triangles').addEventListener('input', setWanted);
+  $('exaggeration').addEventListener('input', () => {
+    $('times').value = exaggeration().toPrecision(2);
+    if (object) object.scale.y = exaggeration();
+    picture.draw();
+  });
+  $('wireframe').addEventListener('change', () => {
+    if (object) object.material.wireframe = $('wireframe').checked;
+    picture.draw();
+  });
+  $('textured').addEventListener('change', () => {
+    if (!object) return;
+    object.setMap(null);
+    const {texture, surface} = object.frame ?? {};
+    if ($('textured').checked && texture) object.setMap(textureOf(texture));
+    else if ($('textured').checked && surface) object.setMap(textureOf(tint(surface)));
+    object.material.needsUpdate = true;
+    picture.draw();
+  });
+  $('shaded').addEventListener('change', () => picture.setShaded($('shaded').checked));
+  $('fly').addEventListener('change', () => {
+    picture.setFlying($('fly').checked);
+    $('picture').focus();
+  });
+  $('home').addEventListener('click', () => object && picture.home());
+  $('fold').addEventListener('click', () => {
+    const folded = $('panel').classList.toggle('folded');
+    $('fold').setAttribute('aria-expanded', String(!folded));
+  });
+  for (const id of ['another', 'choose']) $(id).addEventListener('click', () => $('file').click());
+  $('file').addEventListener('change', () => {
+    const [file] = $('file').files;
+    if (file) openInput(file, file.name);
+  });
+  $('address').addEventListener('submit', (event) => {
+    event.preventDefault();
+    openUrl(new FormData(event.target).get('url'));
+  });
+  addEventListener('dragover', (event) => {
+    event.preventDefault();
+    document.body.classList.add('dropping');
+  });
+  addEventListener('dragleave', (event) => {
+    if (!event.relatedTarget) document.body.classList.remove('dropping');
+  });
+  addEventListener('drop', (event) => {
+    event.preventDefault();
+    document.body.classList.remove('dropping');
+    const [file] = event.dataTransfer.files;
+    if (file) openInput(file, file.name);
+  });
+}
+
+function openUrl(url) {
+  const resolved = new URL(url, document.baseURI);
+  openInput(resolved, decodeURIComponent(resolved.pathname.split('/').pop()));
+}
+
+listen();
+if (matchMedia('(max-width: 640px)').matches) $('fold').click();
+const address = new URLSearchParams(location.search).get('tks');
+if (address) openUrl(address);
+else $('welcome').hidden = false;
