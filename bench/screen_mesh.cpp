@@ -105,8 +105,8 @@ class Screen {
     return screen;
   }
 
-  std::vector<tks_camera> meshCameras() const {
-    std::vector<tks_camera> cameras;
+  std::vector<tks_screen_camera> meshCameras() const {
+    std::vector<tks_screen_camera> cameras;
     for (const tools::Camera& camera : cameras_)
       cameras.push_back(tools::meshCamera(camera, terrain_->frame));
     return cameras;
@@ -165,7 +165,7 @@ class Comparison {
     texture.channels = terrain_.texture.channels;
     texture.sample = terrain_.texture.sample;
     texture.data = terrain_.texture.data.data();
-    const std::vector<tks_camera> cameras = screen_.meshCameras();
+    const std::vector<tks_screen_camera> cameras = screen_.meshCameras();
     const double spacing = 0.5 * (terrain_.frame.spacing_x + terrain_.frame.spacing_y);
     const Simplifier simplifier(terrain_.raster, terrain_.frame.metres_per_unit / spacing);
     for (const uint32_t budget : kBudgets) {

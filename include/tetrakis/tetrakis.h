@@ -364,19 +364,19 @@ tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t ma
                            tks_mesh* out);
 void tks_free_mesh(tks_mesh* mesh);
 
-/* A camera that a mesh is made for. */
-typedef struct tks_camera {
-  size_t size;            /* sizeof(tks_camera) */
+/* A camera that a mesh is made for, as a renderer has it (tks_camera: as people place it). */
+typedef struct tks_screen_camera {
+  size_t size;            /* sizeof(tks_screen_camera) */
   uint32_t width, height; /* of its picture, in pixels: 1 to 32768 */
   double clip[16];        /* that of tks_view_mesh: columns, rows and heights to clip coordinates, whose
                              y points up in the picture */
   double weight;          /* of its picture beside those of other cameras; 0: 1 */
-} tks_camera;
+} tks_screen_camera;
 
 /* What a mesh will be drawn for. */
 typedef struct tks_screen {
   size_t size;               /* sizeof(tks_screen) */
-  const tks_camera* cameras; /* `camera_count` of them, each as long as the first one's size says */
+  const tks_screen_camera* cameras; /* `camera_count` of them, each as long as the first one's size says */
   uint32_t camera_count;     /* 0: no cameras; all ground counts alike, as on a map */
   const tks_image* texture;  /* what covers the ground, such as the decoded texture; NULL: unknown,
                                 taken for details of a sample's size everywhere */
