@@ -43,7 +43,13 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
     counted[i] = 0;
   }
   const double squares = truth.squaresOf(decoded, std::move(counted));
-  return unknown + std::max(squares, std::min(heights.left, QuantisedHeights::kSomething));
+  // Fractions that round to the right samples are not exact as long as there are bytes to come: meshes
+  // are made of them as they are.
+  const bool may_be_exact =
+      decoded.geometry.fraction_bits <= heights.header.wavelet.fraction_bits ||
+      isWhole(prefix, heights.tracks);
+  const double left = may_be_exact ? heights.left : QuantisedHeights::kSomething;
+  return unknown + std::max(squares, std::min(left, QuantisedHeights::kSomething));
 }
 
 SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix,
