@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_screen_mesh DIR...: textured terrain drawn with few triangles, beside meshoptimizer. Folders
-// below DIR that hold height.* and texture.* are a terrain each; what the meshes lack is measured on
-// the screen, against the full grid with the same texture.
+// bench_screen_mesh DIR...: textured terrain drawn with few triangles, beside meshoptimizer.
+// Folders below DIR that hold height.* and texture.* are a terrain each; what the meshes lack is
+// measured on the screen, against the full grid with the same texture.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -43,8 +43,8 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
     counted[i] = 0;
   }
   const double squares = truth.squaresOf(decoded, std::move(counted));
-  // Fractions that round to the right samples are not exact as long as there are bytes to come: meshes
-  // are made of them as they are.
+  // Fractions that round to the right samples are not exact as long as there are bytes to come:
+  // meshes are made of them as they are.
   const bool may_be_exact =
       decoded.geometry.fraction_bits <= heights.header.wavelet.fraction_bits ||
       isWhole(prefix, heights.tracks);

@@ -28,7 +28,8 @@ struct BandPart {
 /// What a region holds of each of the subbands, in coding order.
 std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region);
 
-/// The subbands of planes that share one size, one transform and the samples that exist and are held.
+/// The subbands of planes that share one size, one transform and the samples that exist and are
+/// held.
 class PlaneLayout {
  public:
   /// The bytes of the mask, and what is held, outlive the layout.
@@ -48,7 +49,8 @@ class PlaneLayout {
   std::vector<BandPlan> plan(std::span<const BandPart> parts, int first, int priority,
                              uint32_t models) const;
 
-  /// Marks the coefficients of samples that do not exist, or are held, as absent. bands: those of the parts.
+  /// Marks the coefficients of samples that do not exist, or are held, as absent. bands: those of
+  /// the parts.
   void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
   /// Returns the coefficients of a part of a transformed plane, in the cell layout of its shape.

@@ -2,12 +2,12 @@
 // This is lifting of planes in which some samples are held: both sides know their values before
 // any coefficient. A step reads a held sample, but does not change it as it changes others. It
 // makes of it what it makes of a signal that has the sample's value everywhere. So constants are
-// predicted exactly up to the shore of a lake, no coefficient of a held sample is coded, and nothing
-// rings across the shore: land next to water is predicted from the water's true level, and an update
-// finds no detail on the water.
+// predicted exactly up to the shore of a lake, no coefficient of a held sample is coded, and
+// nothing rings across the shore: land next to water is predicted from the water's true level, and
+// an update finds no detail on the water.
 //
-// Of such a signal all even samples are equal at any time, and so are all odd ones. With s[0] = s[1]
-// = its value, step i of an analysis makes s[i + 2] of s[i], the samples that it changes, and
+// Of such a signal all even samples are equal at any time, and so are all odd ones. With s[0] =
+// s[1] = its value, step i of an analysis makes s[i + 2] of s[i], the samples that it changes, and
 // s[i + 1], those that it reads. With filters whose predictions sum to -1 that is 0 for odd samples
 // and the value itself for even ones.
 #pragma once

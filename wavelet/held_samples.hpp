@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Held samples have their values before anything else is known of a plane: areas of constant height.
+// Held samples have their values before anything else is known of a plane: areas of constant
+// height.
 #pragma once
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 // Joint lifting splits rows and columns in one go and rounds every coefficient once, where lifting
 // the rows and then the columns rounds it twice (after M. Iwahashi and H. Kiya, "Non separable 2D
 // factorization of separable 2D DWT for lossless image coding", ICIP 2009). With the two steps P
-// (predict) and U (update) of a filter along x and y, and a, b, c, d for what becomes LL, HL, LH and
-// HH:
+// (predict) and U (update) of a filter along x and y, and a, b, c, d for what becomes LL, HL, LH
+// and HH:
 //
 //   d += [Px (c + Py a) + Py b]
 //   b += [Px a + Uy d]                    c += [Py a + Ux d]

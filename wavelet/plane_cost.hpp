@@ -16,8 +16,8 @@ struct PlaneCost {
   double squares = 0;  ///< squared error of the plane
 
   /// One figure for both, in bits: the error that a step leaves, at the exchange rate of its
-  /// bit-plane. A bit that refines a coefficient takes step^2 / 4 of squared error off, and one that
-  /// makes it significant about 0.4 step^2. step 0: nothing is left.
+  /// bit-plane. A bit that refines a coefficient takes step^2 / 4 of squared error off, and one
+  /// that makes it significant about 0.4 step^2. step 0: nothing is left.
   double joint(double step) const;
 };
 

@@ -26,8 +26,8 @@ inline int unroundedBits(int bit_planes) {
 }
 
 /// Returns how many binary places the coefficients get when they are reconstructed: those of the
-/// header, or, if it has none and so much is unknown that roundings would add to it, as many as fit.
-/// bytes: of the coefficients, in all tracks together.
+/// header, or, if it has none and so much is unknown that roundings would add to it, as many as
+/// fit. bytes: of the coefficients, in all tracks together.
 inline int outputFractionBits(const WaveletHeader& header, int bit_planes, uint64_t bytes) {
   const bool rounds = header.fraction_bits > 0 || bytes >= header.rounded_bytes;
   return rounds ? header.fraction_bits : unroundedBits(bit_planes);

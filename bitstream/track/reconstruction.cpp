@@ -55,8 +55,8 @@ void Reconstruction::row(uint32_t row, int32_t* values) const {
   }
 }
 
-/// sixtyfourths / 64 of the open interval in output units, rounded towards zero. It reaches from the
-/// least integer in it to the greatest.
+/// sixtyfourths / 64 of the open interval in output units, rounded towards zero. It reaches from
+/// the least integer in it to the greatest.
 int32_t Reconstruction::fraction(int sixtyfourths, int plane) const {
   const auto magnitude = static_cast<uint64_t>(sixtyfourths < 0 ? -sixtyfourths : sixtyfourths);
   const uint64_t interval = ((uint64_t{1} << plane) - 1) << fraction_bits_;

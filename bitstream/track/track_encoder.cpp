@@ -180,8 +180,8 @@ class TrackCoder {
   }
 
   int firstKey() const { return done() ? kNoKey : passes_->front().key; }
-  /// A track of zeros is complete without a byte: WaveletHeader::rounded_bytes tells the decoder that
-  /// none of its decisions is missing.
+  /// A track of zeros is complete without a byte: WaveletHeader::rounded_bytes tells the decoder
+  /// that none of its decisions is missing.
   bool done() const { return nothing_to_say_ || passes_->empty(); }
   uint64_t bytes() const { return io_.decidedBytes(); }
   double distortion() const { return track_.points.back().distortion; }

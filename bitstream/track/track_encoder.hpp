@@ -32,8 +32,8 @@ struct EncodedTrack {
 /// Of all codewords together.
 uint64_t bytesOf(std::span<const EncodedTrack> tracks);
 
-/// The bytes with which coefficients are restored exactly; where their tracks are not complete, more
-/// than they have.
+/// The bytes with which coefficients are restored exactly; where their tracks are not complete,
+/// more than they have.
 uint64_t exactBytes(std::span<const EncodedTrack> tracks);
 
 /// Coefficients of one band in the cell layout of BandShape (margins zero), |value| < 2^30.

@@ -5,36 +5,11 @@
 #include <cassert>
 #include <utility>
 
-#include "bitstream/coder/range_encoder.hpp"
 #include "bitstream/stream/header.hpp"
+#include "codec/geometry/decision_encoding.hpp"
 #include "codec/geometry/flat_pass.hpp"
 
 namespace tetrakis::inline geometry {
-
-namespace {
-
-class FlatEncoding {
- public:
-  bool decide(AdaptiveBit& model, bool answer) {
-    encoder_.encode(model, answer);
-    return answer;
-  }
-  bool even(bool answer) {
-    encoder_.encodeEven(answer);
-    return answer;
-  }
-  bool stopped() const { return false; }
-  std::vector<uint8_t> finish() {
-    std::vector<uint8_t> codeword = encoder_.finish();
-    if (codeword.empty()) codeword.push_back(0);
-    return codeword;
-  }
-
- private:
-  RangeEncoder encoder_;
-};
-
-}  // namespace
 
 FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heights) {
   const Extent extent = heights.extent();
@@ -86,12 +61,14 @@ std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask 
   std::vector<uint8_t> flat(plane.samples()), known(plane.samples());
   std::transform(areas.numbers.begin(), areas.numbers.end(), flat.begin(),
                  [](uint16_t number) { return static_cast<uint8_t>(number != 0); });
-  FlatEncoding io;
-  FlatMaskIo<FlatEncoding> mask_io(io, valid, flat.data());
-  ValidityPass<FlatMaskIo<FlatEncoding>>({known, plane}, mask_io).run();
+  DecisionEncoding io;
+  FlatMaskIo<DecisionEncoding> mask_io(io, valid, flat.data());
+  ValidityPass<FlatMaskIo<DecisionEncoding>>({known, plane}, mask_io).run();
   std::vector<int32_t> levels = areas.levels;
-  FlatLevelsPass<FlatEncoding>(io).run(levels);
-  return io.finish();
+  FlatLevelsPass<DecisionEncoding>(io).run(levels);
+  std::vector<uint8_t> codeword = io.finish();
+  if (codeword.empty()) codeword.push_back(0);  // flat_bytes is at least 1
+  return codeword;
 }
 
 }  // namespace tetrakis::inline geometry

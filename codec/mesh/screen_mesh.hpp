@@ -12,10 +12,10 @@
 
 namespace tetrakis::inline mesh {
 
-/// A mesh of at most max_triangles > 0 triangles whose vertices are those of a 4-8 mesh, chosen among
-/// all samples by their weighted error and fitted, and whose edges are then turned (turned_edges.hpp).
-/// Where samples are unknown it is that of verticesBesideVoids(), and triangles in voids are part of
-/// it. admits: as there. Fails with the errors of FittedSequence::makeFor().
+/// A mesh of at most max_triangles > 0 triangles whose vertices are those of a 4-8 mesh, chosen
+/// among all samples by their weighted error and fitted, and whose edges are then turned
+/// (turned_edges.hpp). Where samples are unknown it is that of verticesBesideVoids(), and triangles
+/// in voids are part of it. admits: as there. Fails with the errors of FittedSequence::makeFor().
 Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& surface,
                               uint32_t max_triangles,
                               const std::function<Status(uint64_t)>& admits);

@@ -5,7 +5,7 @@
 // d(screen) / d(height). The picture I then errs by I(s) - I(s - e v) wherever that ground is seen:
 // by the squared derivative of the picture along v, on as many pixels as the sample covers. So
 //
-//   weight = sum over cameras of  c  A |v|^2 D,   c = weight of the camera / pixels that show ground
+//   weight = sum over cameras of  c A |v|^2 D,  c = weight of the camera / pixels that show ground
 //
 // A: pixels that the sample covers, the determinant of its ground axes on the screen; 0 where it is
 // hidden. D: mean squared difference of brightness to the pixels a pixel away, along v and against

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a camera sees of a surface: how near the ground is in each pixel, and how bright.
 //
-// A plain z-buffer over all triangles of the grid. Its numbers take part in choosing the vertices of
-// meshes, so they come from IEEE additions, multiplications, divisions, square roots and
+// A plain z-buffer over all triangles of the grid. Its numbers take part in choosing the vertices
+// of meshes, so they come from IEEE additions, multiplications, divisions, square roots and
 // comparisons alone: the same bits with every compiler, and no library of mathematics.
 #pragma once
 
@@ -74,8 +74,8 @@ class SurfacePicture {
 
   /// Pixels that show ground.
   size_t covered() const { return covered_; }
-  /// Whether the picture shows such a point of the surface: it may lie a little behind the ground of
-  /// its own or of a neighbouring pixel.
+  /// Whether the picture shows such a point of the surface: it may lie a little behind the ground
+  /// of its own or of a neighbouring pixel.
   bool shows(const ScreenPoint& point) const;
   /// Bilinear; beyond the border of the picture that of the border.
   double brightness(double x, double y) const;

@@ -23,9 +23,9 @@ struct FittedVertices {
 /// voids are still part of it. To decimation voids are a pit whose floor lies a quarter of the
 /// range below the lowest height: the wall at the coast keeps vertices along it, where a triangle
 /// that reaches into the void would be lost as a whole, and the floor costs nothing. Heights are
-/// then fitted to the valid samples alone. surface: known samples are those that are valid; weights count
-/// in voids as well. admits:
-/// whether memory suffices for so many triangles, those in voids included; its error is returned.
+/// then fitted to the valid samples alone. surface: known samples are those that are valid; weights
+/// count in voids as well. admits: whether memory suffices for so many triangles, those in voids
+/// included; its error is returned.
 Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const WeightedSurface& surface,
                                            uint32_t max_triangles,
                                            const std::function<Status(uint64_t)>& admits);

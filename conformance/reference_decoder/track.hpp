@@ -53,8 +53,8 @@ struct Band {
   std::vector<bool> blocks;                  ///< likewise each block, row by row
 };
 
-/// Runs the passes over the bands, up to the last one of a needed band or to the first decision that
-/// does not count (FORMAT 4, tail rule).
+/// Runs the passes over the bands, up to the last one of a needed band or to the first decision
+/// that does not count (FORMAT 4, tail rule).
 void decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band>& bands);
 
 }  // namespace tetrakis::reference

@@ -9,11 +9,12 @@
  * written outputs, or an error and untouched outputs; it never prints, exits or throws. Truncation
  * is not an error. All functions are reentrant; one handle serves one thread at a time.
  *
- * Structs that begin with their `size` may grow at their end; programs compiled before keep working.
- * Set it to sizeof: fields that a shorter struct lacks count as 0, which is every default. One that is
- * too short for its first fields gives TKS_USAGE (through tks_encode_options.triangles,
- * tks_heights.offset, tks_image.data, tks_limits.size, tks_info.level). In a longer one this library
- * leaves 0 what it does not know of tks_info; elsewhere such fields must be 0, else TKS_UNSUPPORTED.
+ * Structs that begin with their `size` may grow at their end; programs compiled before keep
+ * working. Set it to sizeof: fields that a shorter struct lacks count as 0, which is every default.
+ * One that is too short for its first fields gives TKS_USAGE (through tks_encode_options.triangles,
+ * tks_heights.offset, tks_image.data, tks_limits.size, tks_info.level). In a longer one this
+ * library leaves 0 what it does not know of tks_info; elsewhere such fields must be 0, else
+ * TKS_UNSUPPORTED.
  *
  * C99 or any C++.
  */
@@ -43,8 +44,8 @@ typedef enum tks_status {
   TKS_TRUNCATED = 4,   /* strict mode only: the stream ends early */
   TKS_UNSUPPORTED = 5, /* version, profile or feature unknown to this library */
   TKS_LIMIT = 6,       /* a limit of tks_limits would be exceeded */
-  TKS_MISMATCH = 7,    /* comparison or verification failed; from tks_encode: a fault of the encoder,
-                          which broke a promise and so returns no stream */
+  TKS_MISMATCH = 7,    /* comparison or verification failed; from tks_encode: a fault of the
+                          encoder, which broke a promise and so returns no stream */
   TKS_NO_MEMORY = 8
 } tks_status;
 
@@ -78,8 +79,8 @@ typedef enum tks_registration {
  * subnormal ones, negative zeros and integers of the full 32 bits are heights like any other.
  *
  * Georeference: kept as given, with every prefix; coding does not depend on it. A geotransform is
- * that of GDAL, in units of the CRS (metres, feet, degrees): column c and row r, where (0, 0) is the
- * outer corner of the first sample and (0.5, 0.5) its middle, lie at
+ * that of GDAL, in units of the CRS (metres, feet, degrees): column c and row r, where (0, 0) is
+ * the outer corner of the first sample and (0.5, 0.5) its middle, lie at
  *     x (easting, longitude)  = geotransform[0] + c * geotransform[1] + r * geotransform[2]
  *     y (northing, latitude)  = geotransform[3] + c * geotransform[4] + r * geotransform[5]
  * whatever the registration. Its numbers must lie within +-2^512, else TKS_USAGE. */
@@ -89,28 +90,30 @@ typedef struct tks_heights {
   tks_sample sample;
   const void* data;
   double scale, offset;           /* 1 and 0 when samples are heights */
-  double step;                    /* quantisation step in sample units; 0: chosen (exact if possible) */
+  double step;                    /* quantisation step in samples; 0: chosen (exact if possible) */
   double spacing_x, spacing_y;    /* metres per sample; 0: unknown, which pictures take for 30 */
   const char* unit;               /* UTF-8, NULL: unknown; e.g. "m" */
   const char* vertical_datum;     /* UTF-8, NULL: unknown; e.g. "EGM2008", "EPSG:5703" */
   const char* crs;                /* UTF-8 "EPSG:code", WKT or a name, NULL: unknown */
   int has_nodata;                 /* non-zero: `nodata` is declared */
-  double nodata;                  /* in sample units; one that the type cannot hold meets no sample */
+  double nodata;                  /* as a sample; one that the type cannot hold meets none */
   double geotransform[6];         /* above; in the order of GDAL */
   int has_geotransform;           /* 0: the place is unknown, and `geotransform` not looked at */
   tks_registration registration;  /* 0: unknown */
   const char* description;        /* UTF-8, what GDAL calls the band's description; NULL: none */
-  const char* geo_keys;           /* what a GeoTIFF says of its CRS beyond `crs` and `vertical_datum`
-                                     ("1024=1 1026=\"my grid\" ...": docs/FORMAT.md); NULL: nothing */
+  const char* geo_keys;           /* what a GeoTIFF says of its CRS beyond `crs` and
+                                     `vertical_datum` ("1024=1 1026=\"my grid\" ...":
+                                     docs/FORMAT.md); NULL: nothing */
 } tks_heights;
 
-/* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed. It
- * covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
+/* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
+ * It covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
  *
- * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of the
- * colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their channels:
- * exact in the complete stream, which is sent whole.) Unless the stream is lossless, the colours of
- * texels with alpha 0 are not kept (they come back as the mean of the others) and count in no error.
+ * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of
+ * the colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their
+ * channels: exact in the complete stream, which is sent whole.) Unless the stream is lossless, the
+ * colours of texels with alpha 0 are not kept (they come back as the mean of the others) and count
+ * in no error.
  *
  * Georeference: as that of tks_heights. */
 typedef struct tks_image {
@@ -187,8 +190,8 @@ typedef struct tks_limits {
 
 typedef struct tks_decoder tks_decoder;
 
-/* Opens the first `size` bytes of a stream. The data must outlive the decoder. A prefix too short to
- * hold the header gives TKS_TRUNCATED with the number of bytes needed in the message. */
+/* Opens the first `size` bytes of a stream. The data must outlive the decoder. A prefix too short
+ * to hold the header gives TKS_TRUNCATED with the number of bytes needed in the message. */
 tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
                     char* message, size_t message_size);
 void tks_close(tks_decoder* decoder);
@@ -221,9 +224,10 @@ typedef struct tks_info {
   uint32_t regions, texture_regions; /* side of the spatial regions; 0: none */
   uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
   uint32_t texture_coarsest_level;
-  int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are not kept */
-  int texture_drawn;       /* 1: colours coded as they are; 2: those of an overlay on a photograph; 3:
-                              samples stored, because nothing codes them in fewer bytes */
+  int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are
+                              not kept */
+  int texture_drawn;       /* 1: colours coded as they are; 2: those of an overlay on a photograph;
+                              3: samples stored, because nothing codes them in fewer bytes */
   tks_sample texture_sample;
   double heights_rmse;     /* stated by the last complete packet, in unit; < 0: not yet stated */
   double texture_psnr;     /* likewise, dB; < 0: not yet stated; infinity: exact */
@@ -232,17 +236,17 @@ typedef struct tks_info {
   const char* crs;
   int heights_stored;      /* samples stored, because nothing codes them in fewer bytes */
   int has_geotransform;    /* of the heights; 0: their place is unknown */
-  double geotransform[6];  /* of the level that is set (tks_heights says what it is); 0 when unknown.
-                              Of a window that begins at column c and row r: [0] and [3] become the
-                              x and y of (c, r) */
+  double geotransform[6];  /* of the level that is set (tks_heights says what it is); 0 when
+                              unknown. Of a window that begins at column c and row r: [0] and
+                              [3] become the x and y of (c, r) */
   tks_registration registration;
   const char* description; /* "" when unknown, as the texts below; owned by the decoder */
   const char* geo_keys;
   int texture_has_geotransform; /* the texture has a georeference of its own */
   double texture_geotransform[6]; /* of the level that is set */
   tks_registration texture_registration;
-  const char* texture_crs;      /* that of the heights where the texture's place is known and no other
-                                   CRS is stated */
+  const char* texture_crs;      /* that of the heights where the texture's place is known and no
+                                   other CRS is stated */
   const char* texture_geo_keys;
 } tks_info;
 
@@ -261,13 +265,13 @@ tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t textu
  * or NaN. */
 tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes);
 
-/* Writes width * height heights in info.unit, one float each. Where a prefix says more than whole steps
- * of the sample type can show, the heights lie between the steps: what a renderer should draw. Voids
- * are NaN. */
+/* Writes width * height heights in info.unit, one float each. Where a prefix says more than whole
+ * steps of the sample type can show, the heights lie between the steps: what a renderer should
+ * draw. Voids are NaN. */
 tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count);
 
-/* Writes width * height bytes: 1 where a sample is valid, 0 where it is void. A prefix that ends inside
- * the mask gives it at a coarser resolution. */
+/* Writes width * height bytes: 1 where a sample is valid, 0 where it is void. A prefix that ends
+ * inside the mask gives it at a coarser resolution. */
 tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count);
 
 /* Writes texture_width * texture_height * texture_channels samples of info.texture_sample. */
@@ -298,12 +302,12 @@ typedef enum tks_part {
   TKS_PART_BUDGET_MESH = 4  /* the same, TKS_MESH_BUDGET */
 } tks_part;
 
-/* Whether tks_limits.max_memory suffices for such a call, before there is an array for what it gives:
- * TKS_LIMIT and a sentence if the decoder, the call and `beside` bytes (of that array, say) take more
- * together. window: NULL for all of the level that is set; max_triangles: of a budget mesh. bytes,
- * unless NULL: an upper bound of what the call itself allocates, meshes that it hands over included;
- * more threads take more. Calls check the same with `beside` 0. TKS_USAGE: there is no such part or
- * window. */
+/* Whether tks_limits.max_memory suffices for such a call, before there is an array for what it
+ * gives: TKS_LIMIT and a sentence if the decoder, the call and `beside` bytes (of that array, say)
+ * take more together. window: NULL for all of the level that is set; max_triangles: of a budget
+ * mesh. bytes, unless NULL: an upper bound of what the call itself allocates, meshes that it hands
+ * over included; more threads take more. Calls check the same with `beside` 0. TKS_USAGE: there is
+ * no such part or window. */
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes);
 
@@ -321,11 +325,12 @@ typedef enum tks_mesh_kind {
                          level with 20 or more a triangle; then nothing finer is decoded */
 } tks_mesh_kind;
 
-/* A conforming 4-8 mesh (but for tks_decode_screen_mesh). Vertex i lies on sample grid_index[i] (y * width + x) and has the height
- * height[i] in `unit`. Vertices come in insertion order, parents before children; of a budget mesh the
- * most important ones come first. Triangles are counter-clockwise seen from above with x to the right
- * and y down the rows towards the viewer. No vertex is void and no triangle touches a void sample with
- * a corner; where all samples are void the mesh is empty. */
+/* A conforming 4-8 mesh (but for tks_decode_screen_mesh). Vertex i lies on sample grid_index[i]
+ * (y * width + x) and has the height height[i] in `unit`. Vertices come in insertion order, parents
+ * before children; of a budget mesh the most important ones come first. Triangles are
+ * counter-clockwise seen from above with x to the right and y down the rows towards the viewer. No
+ * vertex is void and no triangle touches a void sample with a corner; where all samples are void
+ * the mesh is empty. */
 typedef struct tks_mesh {
   uint32_t vertex_count, triangle_count;
   uint32_t* grid_index;
@@ -343,8 +348,8 @@ void tks_free_mesh(tks_mesh* mesh);
 typedef struct tks_camera {
   size_t size;            /* sizeof(tks_camera) */
   uint32_t width, height; /* of its picture, in pixels: 1 to 32768 */
-  double clip[16];        /* that of tks_view_mesh: columns, rows and heights to clip coordinates, whose
-                             y points up in the picture */
+  double clip[16];        /* that of tks_view_mesh: columns, rows and heights to clip coordinates,
+                             whose y points up in the picture */
   double weight;          /* of its picture beside those of other cameras; 0: 1 */
 } tks_camera;
 
@@ -358,21 +363,22 @@ typedef struct tks_screen {
 } tks_screen;
 
 /* The mesh of at most max_triangles > 0 triangles (or the base mesh, where that has more) whose
- * pictures differ least from those of the decoded surface. A height error counts what it costs on the
- * screen: the squared change of each camera's picture where the error moves the ground that it shows
- * (visibility, distance, outlines and what is drawn there included), over the pixels of that picture
- * that show ground. What no camera sees gets few triangles. A camera that sees no ground counts
- * nothing; if none sees any, it is as if there were none. Made of all samples of level 0, whatever the
- * number of triangles: this takes several times as long as a budget mesh.
+ * pictures differ least from those of the decoded surface. A height error counts what it costs on
+ * the screen: the squared change of each camera's picture where the error moves the ground that it
+ * shows (visibility, distance, outlines and what is drawn there included), over the pixels of that
+ * picture that show ground. What no camera sees gets few triangles. A camera that sees no ground
+ * counts nothing; if none sees any, it is as if there were none. Made of all samples of level 0,
+ * whatever the number of triangles: this takes several times as long as a budget mesh.
  *
- * The vertices are those of a 4-8 mesh, but edges then turn to where the terrain's run: the mesh covers
- * the grid as tks_mesh says, but is none of the lattice. The same bits with every compiler and number
- * of threads. screen NULL: no cameras. Source: Balmelli 2000, 6.1 and figure 6.4 (view dependence);
- * Dyn, Levin and Rippa 1990 (edges).
+ * The vertices are those of a 4-8 mesh, but edges then turn to where the terrain's run: the mesh
+ * covers the grid as tks_mesh says, but is none of the lattice. The same bits with every compiler
+ * and number of threads. screen NULL: no cameras. Source: Balmelli 2000, 6.1 and figure 6.4 (view
+ * dependence); Dyn, Levin and Rippa 1990 (edges).
  *
- * TKS_USAGE: max_triangles is 0, the decoder is set to another level than 0, a matrix or weight is not
- * finite, a weight is negative, a picture has no pixels, or the texture is none that tks_encode would
- * take. TKS_LIMIT: as tks_decode_mesh, with 40 bytes more a sample and 2 bytes a texel of the texture. */
+ * TKS_USAGE: max_triangles is 0, the decoder is set to another level than 0, a matrix or weight is
+ * not finite, a weight is negative, a picture has no pixels, or the texture is none that tks_encode
+ * would take. TKS_LIMIT: as tks_decode_mesh, with 40 bytes more a sample and 2 bytes a texel of the
+ * texture. */
 tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen,
                                   uint32_t max_triangles, tks_mesh* out);
 
@@ -384,12 +390,13 @@ typedef struct tks_mesh_tree tks_mesh_tree;
 tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                                 tks_mesh_tree** out);
 
-/* The part of the mesh that a camera may see. clip: 4 x 4, row by row, takes (column, row, height, 1),
- * the height in `unit`, to clip coordinates; what is seen has -w <= x <= w and -w <= y <= w (the third
- * row is not used). `out` holds every triangle whose ground may be seen at some height of the mesh, and
- * a few beside them; of the vertices those of its triangles, parents before children. With a matrix
- * that does not depend on the height it is the mesh of a map window. It may be empty. TKS_USAGE if
- * the matrix is not finite. Takes time in proportion to what is seen, and to one bit a vertex. */
+/* The part of the mesh that a camera may see. clip: 4 x 4, row by row, takes (column, row, height,
+ * 1), the height in `unit`, to clip coordinates; what is seen has -w <= x <= w and -w <= y <= w
+ * (the third row is not used). `out` holds every triangle whose ground may be seen at some height
+ * of the mesh, and a few beside them; of the vertices those of its triangles, parents before
+ * children. With a matrix that does not depend on the height it is the mesh of a map window. It may
+ * be empty. TKS_USAGE if the matrix is not finite. Takes time in proportion to what is seen, and to
+ * one bit a vertex. */
 tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out);
 void tks_free_mesh_tree(tks_mesh_tree* tree);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What meets a target: searches over packets, needs, budgets; and the curves that packets come from.
+// What meets a target: searches over packets, needs, budgets; and the curves that packets come
+// from.
 #include "ratecontrol/target.hpp"
 
 #include <gtest/gtest.h>
@@ -124,7 +125,8 @@ TEST(Budgets, KeepWhatBeginsWithinThemAndStateWhatEndsWithinThem) {
   }
 }
 
-/// Tracks whose error halves with every ten bytes; the first has an opening that seems worth little.
+/// Tracks whose error halves with every ten bytes; the first has an opening that seems worth
+/// little.
 std::vector<EncodedTrack> tracksWithOpening(size_t count, uint64_t opening) {
   std::vector<EncodedTrack> tracks(count);
   for (size_t i = 0; i < count; ++i) {

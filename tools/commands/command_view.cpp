@@ -94,7 +94,8 @@ void openBrowser(const std::string& address) {
 }
 
 /// The one range that is asked for, cut to what there is. What is no such range, or several, counts
-/// as none, as HTTP allows. 0.11 of httplib would read beyond the end. False: nothing of it is there.
+/// as none, as HTTP allows. 0.11 of httplib would read beyond the end. False: nothing of it is
+/// there.
 bool cutRanges(httplib::Ranges& ranges, ssize_t size) {
   if (ranges.size() != 1) return ranges.clear(), true;
   auto& [first, last] = ranges.front();

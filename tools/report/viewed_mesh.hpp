@@ -12,16 +12,16 @@ namespace tetrakis::tools {
 /// Clip coordinates of (column, row, height, 1) for tks_view_mesh: row by row, the third row zero.
 std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame);
 
-/// The mesh of a decoded surface, coded or of every sample, as far as the one chosen camera sees it.
-/// TKS_USAGE for several cameras, or if no ground is in view.
+/// The mesh of a decoded surface, coded or of every sample, as far as the one chosen camera sees
+/// it. TKS_USAGE for several cameras, or if no ground is in view.
 Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice);
 
 /// The camera for tks_decode_screen_mesh, over the heights of this frame.
 tks_camera meshCamera(const Camera& camera, const GroundFrame& frame);
 
-/// The mesh of at most `triangles` > 0 triangles that is best for the chosen cameras; nothing chosen:
-/// for a map. texture: what covers the ground, or null. TKS_USAGE with the name of a camera that has
-/// no ground in view.
+/// The mesh of at most `triangles` > 0 triangles that is best for the chosen cameras; nothing
+/// chosen: for a map. texture: what covers the ground, or null. TKS_USAGE with the name of a camera
+/// that has no ground in view.
 Result<Mesh> meshForCameras(Decoder& decoder, uint32_t triangles, const CameraChoice& choice,
                             const ImageFile* texture);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// std::bit_cast for the libc++ of emscripten 3.1.6 (Debian 12), which lacks it. Included by force in
-// front of every file of the module.
+// std::bit_cast for the libc++ of emscripten 3.1.6 (Debian 12), which lacks it. Included by force
+// in front of every file of the module.
 #pragma once
 
 #include <bit>

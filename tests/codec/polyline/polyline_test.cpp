@@ -190,7 +190,8 @@ TEST(Polylines, OfGreedyAlgorithmsTakeTheBestStep) {
 }
 
 /// Table 2.1 says 8 for two segments, which every greedy algorithm of the thesis reaches; the
-/// optimum is 68/9, and decimation by global error finds it. One segment is better either way (2.2.3).
+/// optimum is 68/9, and decimation by global error finds it. One segment is better either way
+/// (2.2.3).
 TEST(Polylines, OfTable21) {
   const Curve curve(zigzag());
   for (const Algorithm& algorithm : kAlgorithms) {

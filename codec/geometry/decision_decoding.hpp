@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `Io` of passes whose decisions are a codeword of their own (value_table_pass.hpp,
+// flat_pass.hpp), on the decoder's side. On the encoder's: decision_encoding.hpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/coder/range_decoder.hpp"
+
+namespace tetrakis::inline geometry {
+
+class DecisionDecoding {
+ public:
+  explicit DecisionDecoding(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  bool decide(AdaptiveBit& model, bool) { return decoder_.decode(model); }
+  bool even(bool) { return decoder_.decodeEven(); }
+  bool stopped() const { return decoder_.exhausted(); }
+
+ private:
+  RangeDecoder decoder_;
+};
+
+}  // namespace tetrakis::inline geometry

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `Io` of passes whose decisions are a codeword of their own (value_table_pass.hpp,
+// flat_pass.hpp), on the encoder's side. On the decoder's: decision_decoding.hpp.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/coder/range_encoder.hpp"
+
+namespace tetrakis::inline geometry {
+
+class DecisionEncoding {
+ public:
+  bool decide(AdaptiveBit& model, bool answer) {
+    encoder_.encode(model, answer);
+    return answer;
+  }
+  bool even(bool answer) {
+    encoder_.encodeEven(answer);
+    return answer;
+  }
+  bool stopped() const { return false; }
+  std::vector<uint8_t> finish() { return encoder_.finish(); }
+
+ private:
+  RangeEncoder encoder_;
+};
+
+}  // namespace tetrakis::inline geometry
