@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Datasets of GDAL as what tks_encode takes.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "doors/gdal/crs.hpp"
+#include "gdal_priv.h"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::gdal {
+
+struct Progress {
+  GDALProgressFunc function;
+  void* user;
+};
+
+/// The part [from, to] of a longer work; false: stop.
+class ProgressPart {
+ public:
+  ProgressPart(const Progress& whole, double from, double to)
+      : whole_(whole), from_(from), to_(to) {}
+  bool report(double done) const {
+    return whole_.function == nullptr ||
+           whole_.function(from_ + (to_ - from_) * done, "", whole_.user) != FALSE;
+  }
+  static int CPL_STDCALL call(double done, const char*, void* part) {
+    return static_cast<const ProgressPart*>(part)->report(done) ? TRUE : FALSE;
+  }
+
+ private:
+  Progress whole_;
+  double from_, to_;
+};
+
+/// Move only: the struct points into its own texts and samples.
+struct CopiedHeights {
+  std::vector<std::byte> samples;
+  CrsTexts crs;
+  std::string unit, description;
+  tks_heights heights{};
+};
+
+struct CopiedTexture {
+  std::vector<std::byte> texels;
+  CrsTexts crs;
+  tks_image image{};
+};
+
+/// strict: doubles that no float holds are refused; else a warning tells that they are rounded.
+/// Null after a reported error.
+std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
+                                           bool strict, const ProgressPart& progress);
+
+/// `file` is opened. Null after a reported error.
+std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file);
+
+struct Place {
+  double geotransform[6];
+  int has_geotransform;
+  tks_registration registration;
+};
+Place placeOf(GDALDataset& dataset);
+
+}  // namespace tetrakis::gdal

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A dataset of GDAL as the texture of a stream.
+#include <algorithm>
+#include <memory>
+
+#include "doors/gdal/copied_raster.hpp"
+#include "doors/gdal/source.hpp"
+
+namespace tetrakis::gdal {
+namespace {
+
+struct DatasetCloser {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+
+/// Why it is no texture; "" if it is one.
+std::string objection(GDALDataset& dataset) {
+  const int bands = dataset.GetRasterCount();
+  if (bands < 1 || bands > 4)
+    return "A texture has 1 to 4 bands, and this has " + std::to_string(bands) + ".";
+  const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+  for (int band = 1; band <= bands; ++band) {
+    GDALRasterBand& each = *dataset.GetRasterBand(band);
+    if (each.GetRasterDataType() != type || (type != GDT_Byte && type != GDT_UInt16))
+      return "A texture has bands of Byte, or all of UInt16 (gdal_translate -ot).";
+    if (each.GetColorTable() != nullptr)
+      return "A texture has no colour table (gdal_translate -expand rgb).";
+  }
+  const bool alpha = dataset.GetRasterBand(bands)->GetColorInterpretation() == GCI_AlphaBand;
+  if (alpha != (bands % 2 == 0)) {
+    return "The bands of a texture are grey, grey and alpha, RGB, or RGB and alpha "
+           "(gdal_translate -b, -colorinterp).";
+  }
+  return "";
+}
+
+/// Texels that a mask of the dataset leaves out have alpha 0.
+bool masked(GDALDataset& dataset) {
+  return dataset.GetRasterCount() % 2 == 1 &&
+         dataset.GetRasterBand(1)->GetMaskFlags() == GMF_PER_DATASET;
+}
+
+bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
+  const tks_image& image = copy.image;
+  const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
+  const auto sample = static_cast<GSpacing>(tks_sample_bytes(image.sample));
+  const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+  const GSpacing pixel = sample * image.channels, line = pixel * width;
+  copy.texels.resize(static_cast<size_t>(line) * height);
+  const int bands = dataset.GetRasterCount();
+  if (dataset.RasterIO(GF_Read, 0, 0, width, height, copy.texels.data(), width, height, type, bands,
+                       nullptr, pixel, line, sample, nullptr) != CE_None)
+    return false;
+  if (static_cast<int>(image.channels) == bands) return true;
+  std::byte* const alpha = copy.texels.data() + (bands * sample);
+  if (dataset.GetRasterBand(1)->GetMaskBand()->RasterIO(GF_Read, 0, 0, width, height, alpha, width,
+                                                        height, type, pixel, line,
+                                                        nullptr) != CE_None)
+    return false;
+  for (size_t i = 0; i < copy.texels.size() - bands * sample; i += pixel) {
+    const bool shown = std::any_of(alpha + i, alpha + i + sample,
+                                   [](std::byte byte) { return byte != std::byte{0}; });
+    std::fill_n(alpha + i, sample, shown ? std::byte{255} : std::byte{0});
+  }
+  return true;
+}
+
+}  // namespace
+
+std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file) {
+  const std::unique_ptr<GDALDataset, DatasetCloser> dataset(
+      GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset) return nullptr;
+  if (const std::string why = objection(*dataset); !why.empty()) {
+    reportFailure(TKS_USAGE, name, "TEXTURE=" + file + ": " + why);
+    return nullptr;
+  }
+  auto copy = std::make_unique<CopiedTexture>();
+  tks_image& image = copy->image;
+  image.size = sizeof image;
+  image.width = static_cast<uint32_t>(dataset->GetRasterXSize());
+  image.height = static_cast<uint32_t>(dataset->GetRasterYSize());
+  image.channels = static_cast<uint32_t>(dataset->GetRasterCount() + masked(*dataset));
+  image.sample = dataset->GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
+  if (!readTexels(*dataset, *copy)) return nullptr;
+  if (const OGRSpatialReference* const system = dataset->GetSpatialRef())
+    copy->crs = crsTexts(*system);
+  const Place place = placeOf(*dataset);
+  std::copy_n(place.geotransform, 6, image.geotransform);
+  image.has_geotransform = place.has_geotransform;
+  image.registration = place.registration;
+  image.crs = copy->crs.crs.c_str();
+  image.data = copy->texels.data();
+  return copy;
+}
+
+}  // namespace tetrakis::gdal

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "doors/gdal/settings.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "cpl_conv.h"
+#include "cpl_multiproc.h"
+
+namespace tetrakis::gdal {
+
+const char* const kOpenOptions =
+    "<OpenOptionList>"
+    "<Option name='BYTES' type='string' description='Read no more than so many bytes from the "
+    "front of the stream: a rougher terrain, sooner'/>"
+    "<Option name='STRICT' type='boolean' default='NO' description='Refuse streams that end early, "
+    "and check the whole syntax'/>"
+    "<Option name='NUM_THREADS' type='string' description='Threads of decoding: a number, or "
+    "ALL_CPUS' default='1'/>"
+    "</OpenOptionList>";
+
+const char* const kCreationOptions =
+    "<CreationOptionList>"
+    "<Option name='MAX_Z_ERROR' type='float' default='0' description='Largest error of any pixel, "
+    "in pixel values, guaranteed; 0 is lossless'/>"
+    "<Option name='BYTES' type='string' description='Size of the file: the best that fits'/>"
+    "<Option name='PSNR' type='float' description='Quality of heights and texture, in dB'/>"
+    "<Option name='TEXTURE' type='string' description='Dataset with an image over the same ground, "
+    "of 1 to 4 bands of Byte or UInt16'/>"
+    "<Option name='BLOCKSIZE' type='string' description='Side of the regions that can be read by "
+    "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
+    "<Option name='INDEX' type='boolean' default='NO' description='Write the byte ranges of all "
+    "packets into the header'/>"
+    "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
+    "ALL_CPUS' default='1'/>"
+    "</CreationOptionList>";
+
+namespace {
+
+/// The options of one call, whose first mistake is reported.
+class Options {
+ public:
+  Options(const std::string& name, CSLConstList options) : name_(name), options_(options) {}
+
+  bool good() const { return good_; }
+  const char* text(const char* key) const { return CSLFetchNameValue(options_, key); }
+
+  uint64_t count(const char* key, const char* meaning) {
+    const char* const given = text(key);
+    if (given == nullptr) return 0;
+    uint64_t value = 0;
+    const char* const end = given + std::strlen(given);
+    const auto [stop, error] = std::from_chars(given, end, value);
+    if (error == std::errc() && stop == end && value > 0) return value;
+    refuse(std::string(key) + "=" + given + " is no " + meaning + ".");
+    return 0;
+  }
+
+  double number(const char* key, const char* meaning) {
+    const char* const given = text(key);
+    if (given == nullptr) return 0;
+    char* stop = nullptr;
+    const double value = CPLStrtod(given, &stop);
+    if (*given != '\0' && *stop == '\0' && std::isfinite(value) && value >= 0) return value;
+    refuse(std::string(key) + "=" + given + " is no " + meaning + ".");
+    return 0;
+  }
+
+  bool flag(const char* key) const {
+    return CPLTestBool(CSLFetchNameValueDef(options_, key, "NO"));
+  }
+
+  uint32_t threads() {
+    const char* const given =
+        CSLFetchNameValueDef(options_, "NUM_THREADS", CPLGetConfigOption("GDAL_NUM_THREADS", "1"));
+    if (EQUAL(given, "ALL_CPUS")) return static_cast<uint32_t>(CPLGetNumCPUs());
+    const int number = std::atoi(given);
+    if (number >= 1 && number <= 1024) return static_cast<uint32_t>(number);
+    refuse(std::string("NUM_THREADS=") + given + " is neither a number of threads nor ALL_CPUS.");
+    return 1;
+  }
+
+  void refuse(const std::string& sentence) {
+    if (good_) reportFailure(TKS_USAGE, name_, sentence);
+    good_ = false;
+  }
+
+ private:
+  const std::string& name_;
+  CSLConstList options_;
+  bool good_ = true;
+};
+
+/// What BLOCKSIZE says of regions.
+uint32_t regions(Options& options) {
+  const char* const given = options.text("BLOCKSIZE");
+  if (given == nullptr) return 0;
+  if (EQUAL(given, "NONE")) return 1;
+  const uint64_t side = options.count("BLOCKSIZE", "side of blocks");
+  if (side >= 16 && side <= uint64_t{1} << 20 && (side & (side - 1)) == 0)
+    return static_cast<uint32_t>(side);
+  options.refuse(std::string("BLOCKSIZE=") + given +
+                 " is neither a power of two from 16 to 1048576 nor NONE.");
+  return 0;
+}
+
+}  // namespace
+
+std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList options) {
+  Options given(name, options);
+  OpenSettings settings;
+  if (given.text("BYTES") != nullptr) settings.bytes = given.count("BYTES", "number of bytes");
+  settings.strict = given.flag("STRICT");
+  settings.threads = given.threads();
+  if (settings.strict && settings.bytes)
+    given.refuse("BYTES and STRICT=YES exclude each other: one cuts the stream, one wants all.");
+  return given.good() ? std::optional(settings) : std::nullopt;
+}
+
+std::optional<CopySettings> copySettings(const std::string& name, CSLConstList options) {
+  Options given(name, options);
+  CopySettings settings{};
+  tks_encode_options& encode = settings.encode;
+  encode.size = sizeof encode;
+  settings.max_z_error = given.number("MAX_Z_ERROR", "error of at least 0");
+  encode.bytes = given.count("BYTES", "number of bytes");
+  encode.psnr = given.number("PSNR", "number of decibels");
+  const bool targets[] = {given.text("MAX_Z_ERROR") != nullptr, given.text("BYTES") != nullptr,
+                          given.text("PSNR") != nullptr};
+  if (targets[0] + targets[1] + targets[2] > 1)
+    given.refuse("MAX_Z_ERROR, BYTES and PSNR exclude each other; give one of them.");
+  if (targets[2] && encode.psnr == 0) given.refuse("PSNR must be more than 0.");
+  encode.lossless = !targets[1] && !targets[2] && settings.max_z_error == 0;
+  encode.regions = regions(given);
+  encode.index = given.flag("INDEX");
+  encode.threads = given.threads();
+  if (const char* const texture = given.text("TEXTURE")) settings.texture = texture;
+  return given.good() ? std::optional(settings) : std::nullopt;
+}
+
+}  // namespace tetrakis::gdal

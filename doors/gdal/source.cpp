@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "doors/gdal/source.hpp"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "cpl_error.h"
+
+namespace tetrakis::gdal {
+namespace {
+
+/// A header without an index takes some hundred bytes, with a CRS as WKT two thousand. This is the
+/// least that GDAL reads over a network.
+constexpr uint64_t kHeaderGuess = 16384;
+
+int errorNumber(tks_status status) {
+  switch (status) {
+    case TKS_USAGE:
+      return CPLE_IllegalArg;
+    case TKS_IO:
+      return CPLE_FileIO;
+    case TKS_UNSUPPORTED:
+      return CPLE_NotSupported;
+    case TKS_LIMIT:
+    case TKS_NO_MEMORY:
+      return CPLE_OutOfMemory;
+    default:
+      return CPLE_AppDefined;
+  }
+}
+
+uint32_t sideOfLevel(uint32_t side, uint32_t level) {
+  return static_cast<uint32_t>((side + (uint64_t{1} << level) - 1) >> level);
+}
+
+tks_limits limits() {
+  // Memory is what counts: of large streams windows and levels may fit.
+  tks_limits limits{};
+  limits.size = sizeof limits;
+  limits.max_samples = limits.max_texels = uint64_t{1} << 40;
+  return limits;
+}
+
+}  // namespace
+
+void reportFailure(tks_status status, const std::string& name, const std::string& sentence) {
+  CPLError(CE_Failure, errorNumber(status), "%s: %s", name.c_str(),
+           status == TKS_NO_MEMORY ? "There is not enough memory." : sentence.c_str());
+}
+
+std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings& settings) {
+  File file(VSIFOpenL(name.c_str(), "rb"));
+  if (!file) {
+    reportFailure(TKS_IO, name, "The file cannot be opened.");
+    return nullptr;
+  }
+  std::unique_ptr<Source> source(new Source(name, settings, std::move(file)));
+  if (!source->readHeader() || !source->checkLength()) return nullptr;
+  return source;
+}
+
+bool Source::readHeader() {
+  if (VSIFSeekL(file_.get(), 0, SEEK_END) != 0) {
+    reportFailure(TKS_IO, name_, "The length of the file cannot be found.");
+    return false;
+  }
+  end_ = std::min<uint64_t>(VSIFTellL(file_.get()), settings_.bytes.value_or(UINT64_MAX));
+  tks_status status = TKS_TRUNCATED;
+  for (uint64_t size = 0; status == TKS_TRUNCATED && size < end_;) {
+    size = std::min(end_, std::max(kHeaderGuess, 4 * size));
+    status = openPrefix(size);
+  }
+  if (end_ == 0) message_ = "There are no bytes.";
+  if (status != TKS_OK && status != TKS_IO) reportFailure(status, name_, message_);
+  return status == TKS_OK;
+}
+
+bool Source::checkLength() {
+  end_ = std::min(end_, info_.stream_bytes);
+  if (!settings_.strict || complete()) return true;
+  reportFailure(TKS_TRUNCATED, name_,
+                "The stream ends early, and STRICT=YES refuses that: there are " +
+                    std::to_string(end_) + " of " + std::to_string(info_.stream_bytes) + " bytes.");
+  return false;
+}
+
+bool Source::readUpTo(uint64_t bytes) {
+  const size_t had = bytes_.size();
+  if (bytes <= had) return true;
+  try {
+    bytes_.resize(bytes);
+  } catch (const std::bad_alloc&) {
+    reportFailure(TKS_NO_MEMORY, name_, "");
+    return false;
+  }
+  const bool read = VSIFSeekL(file_.get(), had, SEEK_SET) == 0 &&
+                    VSIFReadL(bytes_.data() + had, 1, bytes - had, file_.get()) == bytes - had;
+  if (read) return true;
+  bytes_.resize(had);
+  reportFailure(TKS_IO, name_,
+                "Bytes " + std::to_string(had) + " to " + std::to_string(bytes - 1) +
+                    " of the file cannot be read.");
+  return false;
+}
+
+tks_status Source::openPrefix(uint64_t bytes) {
+  decoder_.reset();
+  if (!readUpTo(bytes)) return TKS_IO;
+  const tks_limits most = limits();
+  tks_decoder* opened = nullptr;
+  char sentence[512] = "";
+  const tks_status status =
+      tks_open(bytes_.data(), bytes_.size(), &most, &opened, sentence, sizeof sentence);
+  if (status != TKS_OK) {
+    message_ = sentence;
+    return status;
+  }
+  decoder_.reset(opened);
+  info_.size = sizeof info_;
+  tks_set_threads(opened, settings_.threads);
+  return tks_get_info(opened, &info_);
+}
+
+bool Source::failed(tks_status status) {
+  reportFailure(status, name_, decoder_ ? tks_message(decoder_.get()) : message_);
+  return false;
+}
+
+bool Source::load() {
+  const bool fresh = bytes_.size() < end_ || !decoder_ || (settings_.strict && file_);
+  if (!fresh) return true;
+  const tks_status opened = openPrefix(end_);
+  if (opened == TKS_IO) return false;
+  if (opened != TKS_OK) return failed(opened);
+  if (settings_.strict) {
+    if (const tks_status sound = tks_verify(decoder_.get()); sound != TKS_OK) return failed(sound);
+  }
+  file_.reset();  // all that is used is read
+  return true;
+}
+
+uint32_t Source::width(uint32_t level) const {
+  return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.width : info_.texture_width, level);
+}
+
+uint32_t Source::height(uint32_t level) const {
+  return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.height : info_.texture_height, level);
+}
+
+uint32_t Source::channels() const {
+  return part_ == TKS_PART_HEIGHTS ? 1 : info_.texture_channels;
+}
+
+tks_sample Source::sample() const {
+  return part_ == TKS_PART_HEIGHTS ? info_.sample : info_.texture_sample;
+}
+
+uint32_t Source::coarsestLevel() const {
+  return part_ == TKS_PART_HEIGHTS ? info_.coarsest_level : info_.texture_coarsest_level;
+}
+
+uint32_t Source::regionSide() const {
+  if (part_ == TKS_PART_TEXTURE) return info_.texture_regions;
+  // Corrections lie in one codeword: windows of such streams take all of it (tetrakis.h).
+  const bool corrected = info_.max_error > 0 || (info_.lossless && !info_.exact_steps);
+  return corrected ? 0 : info_.regions;
+}
+
+bool Source::decodeLevel(uint32_t level, std::vector<std::byte>& out) {
+  const bool heights = part_ == TKS_PART_HEIGHTS;
+  const uint64_t bytes = uint64_t{width(level)} * height(level) * pixelBytes();
+  tks_decoder* const decoder = decoder_.get();
+  tks_status status = tks_set_levels(decoder, heights ? level : 0, heights ? 0 : level);
+  if (status == TKS_OK) status = tks_check_memory(decoder, part_, nullptr, 0, bytes, nullptr);
+  if (status != TKS_OK) return failed(status);
+  out.resize(bytes);
+  status = heights ? tks_decode_heights(decoder, out.data(), bytes)
+                   : tks_decode_texture(decoder, out.data(), bytes);
+  return status == TKS_OK || failed(status);
+}
+
+const std::byte* Source::level(uint32_t level) {
+  KeptLevel& kept = kept_.at(level == 0 ? 0 : 1);
+  if (!kept.pixels.empty() && kept.level == level) return kept.pixels.data();
+  kept.pixels.clear();
+  if (!load()) return nullptr;
+  try {
+    std::vector<std::byte> pixels;
+    if (!decodeLevel(level, pixels)) return nullptr;
+    kept = {level, std::move(pixels)};
+    return kept.pixels.data();
+  } catch (const std::bad_alloc&) {
+    reportFailure(TKS_NO_MEMORY, name_, "");
+    return nullptr;
+  }
+}
+
+bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
+  if (!load()) return false;
+  tks_decoder* const decoder = decoder_.get();
+  tks_status status = tks_set_levels(decoder, 0, 0);
+  if (status != TKS_OK) return failed(status);
+  out.resize(size_t{window.width} * window.height * pixelBytes());
+  status = part_ == TKS_PART_HEIGHTS
+               ? tks_decode_heights_window(decoder, &window, out.data(), out.size())
+               : tks_decode_texture_window(decoder, &window, out.data(), out.size());
+  return status == TKS_OK || failed(status);
+}
+
+}  // namespace tetrakis::gdal

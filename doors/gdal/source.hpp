@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// One component of a stream that GDAL's virtual files hold: which of its bytes are read, and what
+// they decode to.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cpl_vsi.h"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::gdal {
+
+/// The failure of a call of the library as an error of GDAL: the sentence after the file's name.
+void reportFailure(tks_status status, const std::string& name, const std::string& sentence);
+
+struct OpenSettings {
+  std::optional<uint64_t> bytes;  ///< as if the file were no longer than that
+  bool strict = false;            ///< a stream that ends early or has damages is refused
+  uint32_t threads = 1;
+};
+
+struct FileCloser {
+  void operator()(VSILFILE* file) const { VSIFCloseL(file); }
+};
+using File = std::unique_ptr<VSILFILE, FileCloser>;
+
+/// Opening reads the header; the rest is read when samples are asked for.
+class Source {
+ public:
+  /// Null after an error was reported.
+  static std::unique_ptr<Source> open(const std::string& name, const OpenSettings& settings);
+
+  /// Of level 0. Its texts live until samples are asked for.
+  const tks_info& info() const { return info_; }
+  /// Whether all of the stream is there to be read.
+  bool complete() const { return end_ == info_.stream_bytes; }
+
+  /// Everything below concerns this component; the heights at first.
+  void choose(tks_part part) { part_ = part; }
+  tks_part part() const { return part_; }
+  const std::string& name() const { return name_; }
+  uint32_t width(uint32_t level) const;
+  uint32_t height(uint32_t level) const;
+  uint32_t channels() const;
+  tks_sample sample() const;
+  size_t pixelBytes() const { return channels() * tks_sample_bytes(sample()); }
+  uint32_t coarsestLevel() const;
+  /// Side of the regions by which windows are decoded; 0: they take as long as all.
+  uint32_t regionSide() const;
+
+  /// All pixels of a level, channels interleaved; of level 0 and the last other level they are
+  /// kept. Null after an error was reported.
+  const std::byte* level(uint32_t level);
+  /// A part of level 0.
+  bool window(const tks_window& window, std::vector<std::byte>& out);
+
+ private:
+  using DecoderPointer = std::unique_ptr<tks_decoder, decltype(&tks_close)>;
+
+  Source(std::string name, const OpenSettings& settings, File file)
+      : name_(std::move(name)), settings_(settings), file_(std::move(file)) {}
+  bool readHeader();
+  bool checkLength();
+  /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
+  tks_status openPrefix(uint64_t bytes);
+  bool readUpTo(uint64_t bytes);
+  /// All bytes that are used.
+  bool load();
+  bool failed(tks_status status);
+  bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
+
+  std::string name_;
+  OpenSettings settings_;
+  File file_;
+  tks_part part_ = TKS_PART_HEIGHTS;
+  uint64_t end_ = 0;  ///< of what may be used
+  std::vector<uint8_t> bytes_;
+  std::string message_;  ///< why openPrefix failed
+  DecoderPointer decoder_{nullptr, tks_close};
+  tks_info info_{};
+  struct KeptLevel {
+    uint32_t level = 0;
+    std::vector<std::byte> pixels;
+  };
+  std::array<KeptLevel, 2> kept_;  ///< level 0, and another
+};
+
+}  // namespace tetrakis::gdal
