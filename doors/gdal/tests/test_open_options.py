@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: Apache-2.0
+"""BYTES, STRICT, NUM_THREADS; prefixes, damaged and foreign files; files over HTTP."""
+
+import http.server
+import re
+import threading
+
+import numpy as np
+import pytest
+from conftest import REPOSITORY, copy, gdal, refused, terrain
+
+VECTORS = sorted((REPOSITORY / "conformance/vectors").glob("*.tks"))
+
+
+def opened(name, *options):
+    return gdal.OpenEx(str(name), gdal.OF_RASTER | gdal.OF_VERBOSE_ERROR, open_options=list(options))
+
+
+@pytest.fixture(scope="module")
+def stream(tmp_path_factory):
+    name = tmp_path_factory.mktemp("stream") / "a.tks"
+    copy(terrain(dtype="i2"), name, "BLOCKSIZE=128")
+    return name
+
+
+def test_bytes(stream, tmp_path):
+    size = stream.stat().st_size
+    errors = []
+    for share in (50, 8, 2):
+        limit = size // share
+        rough = opened(stream, f"BYTES={limit}")
+        assert rough.GetMetadataItem("COMPRESSION_REVERSIBILITY", "IMAGE_STRUCTURE") == "LOSSY"
+        heights = rough.ReadAsArray().astype(float)
+        errors.append(np.sqrt(np.mean((heights - terrain(dtype="i2")) ** 2)))
+        cut = tmp_path / "cut.tks"
+        cut.write_bytes(stream.read_bytes()[:limit])
+        np.testing.assert_array_equal(opened(cut).ReadAsArray(), heights)
+    assert errors[0] > errors[1] > errors[2] > 0
+    np.testing.assert_array_equal(opened(stream, f"BYTES={2 * size}").ReadAsArray(), terrain(dtype="i2"))
+    refused(lambda: opened(stream, "BYTES=20"), "bytes")
+    for wrong in ("0", "-5", "many", "1.5", ""):
+        refused(lambda wrong=wrong: opened(stream, f"BYTES={wrong}"), "no number of bytes")
+
+
+def test_strict(stream, tmp_path):
+    whole = stream.read_bytes()
+    np.testing.assert_array_equal(opened(stream, "STRICT=YES").ReadAsArray(), terrain(dtype="i2"))
+    cut = tmp_path / "cut.tks"
+    cut.write_bytes(whole[:-1])
+    refused(lambda: opened(cut, "STRICT=YES"), f"{len(whole) - 1} of {len(whole)} bytes")
+    assert opened(cut, "STRICT=NO").ReadAsArray().shape == (300, 340)
+    refused(lambda: opened(stream, "STRICT=YES", "BYTES=4000"), "exclude each other")
+
+
+def test_num_threads(stream):
+    for threads in ("1", "3", "ALL_CPUS"):
+        dataset = opened(stream, "NUM_THREADS=" + threads)
+        np.testing.assert_array_equal(dataset.ReadAsArray(), terrain(dtype="i2"))
+    refused(lambda: opened(stream, "NUM_THREADS=none"), "NUM_THREADS=none")
+
+
+@pytest.mark.parametrize("vector", VECTORS, ids=lambda path: path.stem)
+def test_vectors_read_or_are_refused(vector, tmp_path):
+    """Streams of every kind, and damaged ones: as a whole, cut, and with a byte that is wrong."""
+    whole = vector.read_bytes()
+    rng = np.random.default_rng(len(whole))
+    variants = [whole, whole[: len(whole) // 2], whole[:9], whole[:4]]
+    for at in rng.integers(0, len(whole), 4):
+        damaged = bytearray(whole)
+        damaged[at] ^= 1 << int(rng.integers(0, 8))
+        variants.append(bytes(damaged))
+    for number, data in enumerate(variants):
+        name = f"/vsimem/{vector.stem}_{number}.tks"
+        gdal.FileFromMemBuffer(name, data)
+        try:
+            for part in ("heights", "texture"):
+                dataset = gdal.Open(f'TKS:"{name}":{part}')
+                for i in range(1, dataset.RasterCount + 1):
+                    dataset.GetRasterBand(i).Checksum()
+                assert dataset.ReadAsArray(0, 0, 1, 1) is not None
+        except RuntimeError as error:
+            assert str(error).rstrip().endswith("."), error
+        finally:
+            gdal.Unlink(name)
+    assert number == 7
+
+
+def test_foreign_files(tmp_path):
+    for data in (b"", b"TKS", b"TKS\x1a", b"GIF89a" + bytes(100), b"TKS\x1b" + bytes(99)):
+        name = tmp_path / "foreign.tks"
+        name.write_bytes(data)
+        with pytest.raises(RuntimeError):
+            gdal.Open(str(name))
+    refused(lambda: gdal.Open(f'TKS:"{tmp_path}/foreign.tks":heights'), "foreign.tks")
+    refused(lambda: gdal.Open(f'TKS:"{tmp_path}/nowhere.tks":heights'), "cannot be opened")
+    assert gdal.IdentifyDriver(str(VECTORS[0])).ShortName == "TKS"
+
+
+def test_a_file_that_shrinks(stream, tmp_path):
+    name = tmp_path / "shrinks.tks"
+    name.write_bytes(stream.read_bytes())
+    dataset = gdal.Open(str(name))
+    name.write_bytes(stream.read_bytes()[:20000])
+    refused(dataset.ReadAsArray, "cannot be read")
+
+
+class Server(http.server.BaseHTTPRequestHandler):
+    """Serves one file by ranges, and notes which."""
+
+    data, ranges = b"", []
+
+    def do_HEAD(self):
+        self.send_response(200)
+        self.send_header("Content-Length", str(len(self.data)))
+        self.send_header("Accept-Ranges", "bytes")
+        self.end_headers()
+
+    def do_GET(self):
+        asked = re.match(r"bytes=(\d+)-(\d+)", self.headers.get("Range", ""))
+        first, last = (int(asked[1]), int(asked[2])) if asked else (0, len(self.data) - 1)
+        part = self.data[first : last + 1]
+        self.ranges.append((first, first + len(part)))
+        self.send_response(206 if asked else 200)
+        self.send_header("Content-Length", str(len(part)))
+        self.send_header("Content-Range", f"bytes {first}-{first + len(part) - 1}/{len(self.data)}")
+        self.end_headers()
+        self.wfile.write(part)
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def server(tmp_path):
+    copy(terrain(800, 900, "i4"), tmp_path / "a.tks")
+    Server.data, Server.ranges = (tmp_path / "a.tks").read_bytes(), []
+    listening = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
+    threading.Thread(target=listening.serve_forever, daemon=True).start()
+    options = {"GDAL_DISABLE_READDIR_ON_OPEN": "EMPTY_DIR", "GDAL_HTTP_PROXY": "", "NO_PROXY": "*"}
+    with gdal.config_options(options) if hasattr(gdal, "config_options") else _Options(options):
+        yield f"/vsicurl/http://127.0.0.1:{listening.server_port}/a.tks"
+    listening.shutdown()
+    listening.server_close()
+    gdal.VSICurlClearCache()
+
+
+class _Options:
+    """gdal.config_options, which GDAL 3.6 lacks."""
+
+    def __init__(self, options):
+        self.options = options
+
+    def __enter__(self):
+        self.before = {key: gdal.GetConfigOption(key) for key in self.options}
+        for key, value in self.options.items():
+            gdal.SetConfigOption(key, value)
+
+    def __exit__(self, *_):
+        for key, value in self.before.items():
+            gdal.SetConfigOption(key, value)
+
+
+def test_vsicurl_reads_only_what_it_needs(server):
+    assert len(Server.data) > 200000
+    dataset = opened(server)
+    assert dataset.RasterXSize == 900
+    assert max(last for _, last in Server.ranges) <= 16384, Server.ranges  # the header
+    rough = opened(server, "BYTES=65536")
+    assert rough.ReadAsArray().shape == (800, 900)
+    assert max(last for _, last in Server.ranges) <= 65536, Server.ranges
+    np.testing.assert_array_equal(dataset.ReadAsArray(), terrain(800, 900, "i4"))
+    assert len(Server.ranges) <= 4, Server.ranges

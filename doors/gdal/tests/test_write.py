@@ -1,0 +1,340 @@
+# SPDX-License-Identifier: Apache-2.0
+"""CreateCopy: every type and creation option, places and reference systems, what is refused."""
+
+import subprocess
+
+import numpy as np
+import pytest
+from conftest import RGB, SAMPLES, copy, gdal, gdal_type, memory, refused, samples, system, terrain
+
+
+@pytest.mark.parametrize("dtype", SAMPLES)
+@pytest.mark.parametrize("shape", [(2, 2), (37, 300), (300, 41)])
+def test_lossless(tmp_path, dtype, shape):
+    heights = terrain(*shape, dtype)
+    name = str(tmp_path / "a.tks")
+    dataset = copy(heights, name)
+    np.testing.assert_array_equal(samples(dataset), heights)
+    assert dataset.GetRasterBand(1).DataType == gdal_type(dtype)
+    assert dataset.GetMetadataItem("COMPRESSION_REVERSIBILITY", "IMAGE_STRUCTURE") == "LOSSLESS"
+
+
+@pytest.mark.parametrize("dtype", SAMPLES)
+def test_gdal_translate_both_ways(tmp_path, dtype):
+    tif, tks, back = (str(tmp_path / name) for name in ("a.tif", "a.tks", "b.tif"))
+    options = ["PIXELTYPE=SIGNEDBYTE"] if dtype == "i1" and gdal_type("i1") == gdal.GDT_Byte else []
+    gdal.GetDriverByName("GTiff").CreateCopy(tif, memory(terrain(60, 80, dtype)), options=options)
+    subprocess.run(["gdal_translate", "-q", tif, tks], check=True)
+    subprocess.run(["gdal_translate", "-q", tks, back], check=True)
+    np.testing.assert_array_equal(samples(gdal.Open(back)), terrain(60, 80, dtype))
+    assert gdal.Open(tks).GetDriver().ShortName == "TKS"
+
+
+def test_floats_bit_for_bit(tmp_path):
+    bits = np.random.default_rng(3).integers(0, 2**32, (50, 60), np.uint32)
+    wild = bits.view(np.float32).copy()
+    wild[~np.isfinite(wild)] = -0.0
+    back = copy(wild, tmp_path / "a.tks").ReadAsArray()
+    np.testing.assert_array_equal(back.view(np.uint32), wild.view(np.uint32))
+
+
+@pytest.mark.parametrize("dtype", ["i2", "u4", "f4"])
+@pytest.mark.parametrize("error", ["5", "0.5", "60"])
+def test_max_z_error_holds(tmp_path, dtype, error):
+    name = tmp_path / "a.tks"
+    dataset = copy(terrain(dtype=dtype), name, "MAX_Z_ERROR=" + error)
+    off = np.abs(dataset.ReadAsArray().astype(float) - terrain(dtype=dtype).astype(float))
+    assert off.max() <= float(error)
+    assert name.stat().st_size < copy_size(tmp_path, terrain(dtype=dtype))
+
+
+def copy_size(folder, heights, *options):
+    copy(heights, folder / "size.tks", *options)
+    return (folder / "size.tks").stat().st_size
+
+
+def test_max_z_error_is_in_pixel_values(tmp_path):
+    """As LERC has it: the scale to metres does not count."""
+    heights = terrain(dtype="i2")
+    source = memory(heights, scale=0.01, offset=5, unit="m")
+    dataset = copy(source, tmp_path / "a.tks", "MAX_Z_ERROR=5")
+    off = np.abs(dataset.ReadAsArray().astype(float) - heights)
+    assert 2 < off.max() <= 5
+    assert dataset.GetMetadataItem("MAX_ERROR", "TKS") == "0.050000000000000003"
+
+
+def test_bytes_and_psnr(tmp_path):
+    heights = terrain()
+    name = tmp_path / "a.tks"
+    for budget in (500, 4000, 20000):
+        copy(heights, name, f"BYTES={budget}")
+        assert 0.8 * budget < name.stat().st_size <= budget
+    for psnr in (40, 60):
+        back = copy(heights, name, f"PSNR={psnr}").ReadAsArray()
+        rmse = np.sqrt(np.mean((back.astype(float) - heights) ** 2))
+        assert 20 * np.log10(np.ptp(heights) / rmse) >= psnr
+
+
+def test_blocksize_and_index(tmp_path):
+    heights = terrain(dtype="i2")
+    plain = copy_size(tmp_path, heights)
+    assert copy_size(tmp_path, heights, "BLOCKSIZE=32") > plain
+    assert copy_size(tmp_path, heights, "BLOCKSIZE=NONE") == plain
+    assert copy_size(tmp_path, heights, "INDEX=YES") > plain == copy_size(tmp_path, heights, "INDEX=NO")
+    for side in ("8", "100", "2097152", "-64", "x"):
+        refused(lambda side=side: copy(heights, tmp_path / "b.tks", "BLOCKSIZE=" + side), "BLOCKSIZE")
+    assert not (tmp_path / "b.tks").exists()
+    assert copy(heights, tmp_path / "b.tks", "BLOCKSIZE=512").GetRasterBand(1).GetBlockSize() == [340, 300]
+
+
+def test_num_threads_changes_no_byte(tmp_path):
+    written = []
+    for threads in ("1", "4", "ALL_CPUS"):
+        copy(terrain(), tmp_path / "a.tks", "NUM_THREADS=" + threads)
+        written.append((tmp_path / "a.tks").read_bytes())
+    assert written[0] == written[1] == written[2]
+    refused(lambda: copy(terrain(), tmp_path / "b.tks", "NUM_THREADS=0"), "NUM_THREADS=0")
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        (["BYTES=4000", "PSNR=40"], "exclude each other"),
+        (["MAX_Z_ERROR=1", "BYTES=4000"], "exclude each other"),
+        (["MAX_Z_ERROR=0", "PSNR=40"], "exclude each other"),
+        (["MAX_Z_ERROR=-1"], "MAX_Z_ERROR=-1"),
+        (["MAX_Z_ERROR=some"], "MAX_Z_ERROR=some"),
+        (["BYTES=0"], "BYTES=0"),
+        (["BYTES=10"], ""),
+        (["PSNR=0"], "PSNR"),
+        (["PSNR=nan"], "PSNR=nan"),
+        (["TEXTURE=/nowhere.png"], ""),
+    ],
+)
+def test_options_that_make_no_sense(tmp_path, options, words):
+    with pytest.raises(RuntimeError, match=words):
+        copy(terrain(40, 50), tmp_path / "a.tks", *options)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_textures(tmp_path, texture):
+    heights = terrain(40, 50)
+    for bands, colours in ((1, None), (2, (gdal.GCI_GrayIndex, gdal.GCI_AlphaBand)), (3, RGB)):
+        for dtype in ("u1", "u2"):
+            layers = np.stack([terrain(45, 60, dtype, seed) for seed in range(bands)])
+            facts = {"colours": colours} if colours else {}
+            image = str(tmp_path / "image.tif")
+            gdal.GetDriverByName("GTiff").CreateCopy(image, memory(layers, **facts))
+            name = tmp_path / "a.tks"
+            copy(heights, name, "TEXTURE=" + image)
+            back = gdal.Open(f'TKS:"{name}":texture')
+            np.testing.assert_array_equal(back.ReadAsArray(), layers if bands > 1 else layers[0])
+            np.testing.assert_array_equal(gdal.Open(str(name)).ReadAsArray(), heights)
+    image = str(tmp_path / "five.tif")
+    for layers, words in (
+        (np.zeros((5, 8, 9), np.uint8), "1 to 4 bands"),
+        (np.zeros((8, 9), np.float32), "bands of Byte"),
+        (np.zeros((2, 8, 9), np.uint8), "grey and alpha"),
+    ):
+        gdal.GetDriverByName("GTiff").CreateCopy(image, memory(layers))
+        refused(lambda: copy(heights, tmp_path / "b.tks", "TEXTURE=" + image), words)
+
+
+def test_texture_with_a_mask(tmp_path):
+    image = str(tmp_path / "image.tif")
+    layers = np.stack([terrain(45, 60, "u1", seed) for seed in range(3)])
+    with_mask = gdal.GetDriverByName("GTiff").CreateCopy(image, memory(layers, colours=RGB))
+    with_mask.CreateMaskBand(gdal.GMF_PER_DATASET)
+    mask = np.full((45, 60), 255, np.uint8)
+    mask[10:20, 5:50] = 0
+    with_mask.GetRasterBand(1).GetMaskBand().WriteArray(mask)
+    del with_mask
+    copy(terrain(40, 50), tmp_path / "a.tks", "TEXTURE=" + image)
+    back = gdal.Open(f'TKS:"{tmp_path}/a.tks":texture')
+    assert back.RasterCount == 4
+    np.testing.assert_array_equal(back.GetRasterBand(4).ReadAsArray(), mask)
+    np.testing.assert_array_equal(back.ReadAsArray()[:3][:, mask > 0], layers[:, mask > 0])
+
+
+@pytest.mark.parametrize(
+    "transform",
+    [(400000, 30, 0, 3800000, 0, -30), (100.25, 3, 8, 900, 4, -6), (-180, 0.1, 0, 90, 0, -0.1), (5, -2, 0, 5, 0, 3)],
+)
+def test_geotransforms_are_kept(tmp_path, transform):
+    for registration in ("Area", "Point"):
+        source = memory(terrain(20, 30), transform=transform, area_or_point=registration)
+        dataset = copy(source, tmp_path / "a.tks")
+        assert dataset.GetGeoTransform() == transform
+        assert dataset.GetMetadataItem("AREA_OR_POINT") == registration
+        assert not (tmp_path / "a.tks.aux.xml").exists()
+    assert copy(terrain(20, 30), tmp_path / "b.tks").GetGeoTransform(can_return_null=True) is None
+
+
+LOCAL = 'LOCAL_CS["my grid",UNIT["metre",1]]'
+LAMBERT = "+proj=lcc +lat_1=44 +lat_2=49 +lat_0=46.5 +lon_0=3 +x_0=7e5 +y_0=6.6e6 +ellps=GRS80 +units=m"
+
+
+@pytest.mark.parametrize("crs", ["EPSG:32611", "EPSG:4326", "EPSG:32611+5773", "EPSG:6893", LOCAL, LAMBERT])
+def test_reference_systems_are_kept(tmp_path, crs):
+    source = memory(terrain(20, 30), crs=crs, transform=(1, 1, 0, 1, 0, -1))
+    name = tmp_path / "a.tks"
+    copy(source, name)
+    back = gdal.Open(str(name)).GetSpatialRef()
+    assert back.IsSame(system(crs)), back.ExportToWkt()
+    assert back.GetDataAxisToSRSAxisMapping() == source.GetSpatialRef().GetDataAxisToSRSAxisMapping()
+    assert not (tmp_path / "a.tks.aux.xml").exists()
+    if crs.startswith("EPSG"):
+        assert b"CRS[" not in name.read_bytes()  # a code is enough
+
+
+def test_epoch_goes_beside(tmp_path):
+    crs = system("EPSG:9754")
+    crs.SetCoordinateEpoch(2020.5)
+    source = memory(terrain(20, 30))
+    source.SetSpatialRef(crs)
+    copy(source, tmp_path / "a.tks")
+    assert gdal.Open(str(tmp_path / "a.tks")).GetSpatialRef().GetCoordinateEpoch() == 2020.5
+
+
+def test_reference_system_that_cannot_be_parsed(tmp_path, monkeypatch):
+    """A stream may hold any text there; the raster is opened without, and a warning says why."""
+    source = memory(terrain(20, 30), crs=LOCAL)
+    name = tmp_path / "a.tks"
+    copy(source, name)
+    data = bytearray(name.read_bytes())
+    at = data.index(b"ENGCRS")
+    data[at : at + 6] = b"HUMBUG"
+    # The header ends with a checksum of all bytes before it (docs/FORMAT.md, section 2).
+    import zlib
+
+    size, shift, start = 0, 0, 7
+    while True:
+        size |= (data[start] & 127) << shift
+        shift, start = shift + 7, start + 1
+        if data[start - 1] < 128:
+            break
+    end = start + size
+    data[end : end + 4] = zlib.crc32(data[:end]).to_bytes(4, "little")
+    name.write_bytes(data)
+    heard = []
+    gdal.PushErrorHandler(lambda *error: heard.append(error[2]))
+    try:
+        dataset = gdal.Open(str(name))
+    finally:
+        gdal.PopErrorHandler()
+    assert dataset.GetSpatialRef() is None and any("HUMBUG" in text for text in heard)
+    np.testing.assert_array_equal(dataset.ReadAsArray(), terrain(20, 30))
+
+
+def test_facts_of_the_band(tmp_path):
+    source = memory(
+        terrain(20, 30, "i2"), nodata=-7, unit="ft", scale=-2.5, offset=1e3, description="höhe"
+    )
+    band = copy(source, tmp_path / "a.tks").GetRasterBand(1)
+    assert (band.GetScale(), band.GetOffset(), band.GetUnitType()) == (-2.5, 1000, "ft")
+    assert band.GetDescription() == "höhe" and band.GetNoDataValue() == -7
+    plain = copy(terrain(20, 30), tmp_path / "b.tks").GetRasterBand(1)
+    assert plain.GetScale() is None and plain.GetOffset() is None and plain.GetUnitType() == ""
+
+
+@pytest.mark.parametrize("nodata", [-9999, -3.4028234663852886e38, -3.402823e38, float("nan"), 0.1])
+def test_nodata_of_floats(tmp_path, nodata):
+    heights = terrain(30, 40)
+    heights[3:9, 5:20] = nodata
+    dataset = copy(memory(heights, nodata=nodata), tmp_path / "a.tks", "MAX_Z_ERROR=1")
+    band = dataset.GetRasterBand(1)
+    np.testing.assert_array_equal(band.ReadAsArray()[3:9, 5:20], heights[3:9, 5:20])
+    void = np.zeros((30, 40), bool)
+    void[3:9, 5:20] = True
+    np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray() == 0, void)
+
+
+@pytest.mark.parametrize("dtype", ["u1", "i2", "u2", "f4"])
+def test_masks_become_nodata(tmp_path, dtype):
+    heights = terrain(30, 40, dtype) // 2 + 1
+    source = memory(heights.astype(dtype))
+    source.CreateMaskBand(gdal.GMF_PER_DATASET)
+    mask = np.full((30, 40), 255, np.uint8)
+    mask[3:9, 5:20] = 0
+    source.GetRasterBand(1).GetMaskBand().WriteArray(mask)
+    band = copy(source, tmp_path / "a.tks").GetRasterBand(1)
+    assert band.GetNoDataValue() is not None
+    np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray(), mask)
+    np.testing.assert_array_equal(band.ReadAsArray()[mask > 0], heights[mask > 0])
+
+
+def test_a_mask_without_room(tmp_path):
+    source = memory(np.arange(512, dtype=np.uint16).astype(np.uint8).reshape(16, 32))
+    source.CreateMaskBand(gdal.GMF_PER_DATASET)
+    mask = np.full((16, 32), 255, np.uint8)
+    mask[0, 0] = 0
+    source.GetRasterBand(1).GetMaskBand().WriteArray(mask)
+    refused(lambda: copy(source, tmp_path / "a.tks"), "wider type")
+
+
+def test_doubles(tmp_path):
+    exact = terrain(30, 40).astype(np.float64)
+    band = copy(exact, tmp_path / "a.tks").GetRasterBand(1)
+    assert band.DataType == gdal.GDT_Float32
+    np.testing.assert_array_equal(band.ReadAsArray(), exact)
+    refused(lambda: copy(exact + 1e-9, tmp_path / "b.tks"), "Float64")
+    assert not (tmp_path / "b.tks").exists()
+    gdal.PushErrorHandler("CPLQuietErrorHandler")
+    rounded = copy(exact + 1e-9, tmp_path / "b.tks", strict=False)
+    gdal.PopErrorHandler()
+    np.testing.assert_array_equal(rounded.ReadAsArray(), (exact + 1e-9).astype(np.float32))
+
+
+def test_sources_that_are_no_heights(tmp_path):
+    name = tmp_path / "a.tks"
+    message = refused(lambda: copy(np.zeros((3, 8, 9), np.uint8), name), "one band", "has 3", "-b 1")
+    assert "TEXTURE" in message
+    refused(lambda: copy(np.zeros((8, 9), np.complex64), name), "CFloat32")
+    refused(lambda: copy(np.zeros((1, 9), np.uint8), name), "9 x 1")
+    infinite = terrain(20, 30)
+    infinite[4, 7] = np.inf
+    refused(lambda: copy(infinite, name), "nfinit")
+    assert not name.exists()
+
+
+def test_unwritable_targets(tmp_path):
+    for name in (tmp_path / "nowhere/a.tks", "/proc/a.tks", "/vsizip/a.zip/a.tks.d"):
+        refused(lambda name=name: copy(terrain(20, 30), name), "cannot be written")
+    (tmp_path / "folder.tks").mkdir()
+    with pytest.raises(RuntimeError):
+        copy(terrain(20, 30), tmp_path / "folder.tks")
+    with open("/dev/full", "wb"):
+        refused(lambda: copy(terrain(20, 30), "/dev/full"), "cannot be written")
+
+
+def test_virtual_files():
+    heights = terrain(20, 30)
+    np.testing.assert_array_equal(copy(heights, "/vsimem/a.tks").ReadAsArray(), heights)
+    np.testing.assert_array_equal(gdal.Open('TKS:"/vsimem/a.tks":heights').ReadAsArray(), heights)
+    gdal.Unlink("/vsimem/a.tks")
+
+
+@pytest.mark.parametrize("stop", [0.0, 0.05, 0.3, 0.9, 1.0])
+def test_cancelled(tmp_path, stop):
+    seen = []
+
+    def progress(done, *_):
+        seen.append(done)
+        return 0 if done >= stop else 1
+
+    message = refused(lambda: copy(terrain(), tmp_path / "a.tks", "BYTES=9000", progress=progress))
+    assert "topped by the user" in message
+    assert list(tmp_path.iterdir()) == [] and sum(done >= stop for done in seen) == 1
+
+
+def test_progress(tmp_path):
+    seen = []
+    copy(terrain(), tmp_path / "a.tks", progress=lambda done, *_: seen.append(done) or 1)
+    assert seen == sorted(seen) and seen[-1] == 1 and len(seen) > 3 and seen[-2] < 1
+
+
+def test_other_metadata_go_beside(tmp_path):
+    source = memory(terrain(20, 30))
+    source.SetMetadataItem("MISSION", "SRTM")
+    copy(source, tmp_path / "a.tks")
+    assert gdal.Open(str(tmp_path / "a.tks")).GetMetadataItem("MISSION") == "SRTM"
