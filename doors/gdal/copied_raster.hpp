@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <gdal_priv.h>
 #include "doors/gdal/crs.hpp"
-#include "gdal_priv.h"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {

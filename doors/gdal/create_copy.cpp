@@ -6,11 +6,11 @@
 #include <new>
 #include <string>
 
-#include "cpl_vsi_error.h"
+#include <cpl_vsi_error.h>
+#include <gdal_pam.h>
 #include "doors/gdal/copied_raster.hpp"
 #include "doors/gdal/dataset.hpp"
 #include "doors/gdal/settings.hpp"
-#include "gdal_pam.h"
 
 namespace tetrakis::gdal {
 namespace {

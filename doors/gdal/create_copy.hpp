@@ -2,7 +2,7 @@
 // GDAL's way of writing a file of a format that cannot be changed in place.
 #pragma once
 
-#include "gdal_priv.h"
+#include <gdal_priv.h>
 
 namespace tetrakis::gdal {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doors/gdal/crs.hpp"
 
-#include "cpl_conv.h"
-#include "cpl_error.h"
+#include <cpl_conv.h>
+#include <cpl_error.h>
 
 namespace tetrakis::gdal {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "ogr_spatialref.h"
+#include <ogr_spatialref.h>
 
 namespace tetrakis::gdal {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <gdal_pam.h>
 #include "doors/gdal/crs.hpp"
 #include "doors/gdal/source.hpp"
-#include "gdal_pam.h"
 
 namespace tetrakis::gdal {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GDAL driver TKS, which GDAL finds as gdal_TKS.so in its folder of plugins.
+#include <gdal_frmts.h>
 #include "doors/gdal/create_copy.hpp"
 #include "doors/gdal/dataset.hpp"
 #include "doors/gdal/settings.hpp"
-#include "gdal_frmts.h"
 
 CPL_C_START
 void CPL_DLL GDALRegister_TKS();

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "cpl_conv.h"
-#include "cpl_vsi.h"
+#include <cpl_conv.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
 #include "doors/gdal/crs.hpp"
-#include "gdal_priv.h"
 
 namespace tetrakis::gdal {
 namespace {

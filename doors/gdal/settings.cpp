@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "cpl_conv.h"
-#include "cpl_multiproc.h"
+#include <cpl_conv.h>
+#include <cpl_multiproc.h>
 
 namespace tetrakis::gdal {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "cpl_string.h"
+#include <cpl_string.h>
 #include "doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {

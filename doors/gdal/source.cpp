@@ -5,7 +5,7 @@
 #include <new>
 #include <utility>
 
-#include "cpl_error.h"
+#include <cpl_error.h>
 
 namespace tetrakis::gdal {
 namespace {

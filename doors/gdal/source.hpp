@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "cpl_vsi.h"
+#include <cpl_vsi.h>
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {
