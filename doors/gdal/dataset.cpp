@@ -8,218 +8,16 @@
 #include <string_view>
 #include <utility>
 
+#include "doors/gdal/band.hpp"
 #include "doors/gdal/overview.hpp"
+#include "doors/gdal/pixels.hpp"
 #include "doors/gdal/settings.hpp"
 
 namespace tetrakis::gdal {
 
-GDALDataType typeOf(tks_sample sample) {
-  switch (sample) {
-    case TKS_I8:
-#if GDAL_VERSION_NUM >= 3070000
-      return GDT_Int8;
-#endif
-    case TKS_U8:
-      return GDT_Byte;
-    case TKS_U16:
-      return GDT_UInt16;
-    case TKS_I16:
-      return GDT_Int16;
-    case TKS_U32:
-      return GDT_UInt32;
-    case TKS_I32:
-      return GDT_Int32;
-    case TKS_F32:
-      break;
-  }
-  return GDT_Float32;
-}
-
 namespace {
 
 constexpr uint32_t kOverviewEnds = 256;  ///< no overview where both sides are at most this
-constexpr int kBlock = 256;              ///< side of blocks where there are no regions
-
-/// What a band says beside its samples.
-struct BandFacts {
-  std::optional<double> nodata;
-  double scale = 1, offset = 0;
-  std::string unit;
-  GDALColorInterp colour = GCI_GrayIndex;
-};
-
-/// Copies a rectangle of one channel out of interleaved pixels.
-void copyChannel(const std::byte* from, size_t from_row, size_t pixel_bytes, std::byte* to,
-                 size_t to_row, size_t sample_bytes, uint32_t columns, uint32_t rows) {
-  for (uint32_t y = 0; y < rows; ++y) {
-    const std::byte* in = from + y * from_row;
-    std::byte* out = to + y * to_row;
-    if (pixel_bytes == sample_bytes) {
-      std::memcpy(out, in, columns * sample_bytes);
-      continue;
-    }
-    for (uint32_t x = 0; x < columns; ++x, in += pixel_bytes, out += sample_bytes)
-      std::memcpy(out, in, sample_bytes);
-  }
-}
-
-class Band final : public GDALPamRasterBand {
- public:
-  Band(Dataset& dataset, int number, BandFacts facts) : facts_(std::move(facts)) {
-    poDS = &dataset;
-    nBand = number;
-    const Source& source = dataset.source();
-    eDataType = typeOf(source.sample());
-    nRasterXSize = static_cast<int>(source.width(dataset.level()));
-    nRasterYSize = static_cast<int>(source.height(dataset.level()));
-    // Small blocks decode each region several times; large ones would fill the cache.
-    const uint32_t regions = source.regionSide();
-    const int side = regions == 0 ? kBlock : static_cast<int>(std::clamp(regions, 64u, 1024u));
-    nBlockXSize = std::min(side, nRasterXSize);
-    nBlockYSize = std::min(side, nRasterYSize);
-    if (source.sample() == TKS_I8 && eDataType == GDT_Byte)
-      GDALRasterBand::SetMetadataItem("PIXELTYPE", "SIGNEDBYTE", "IMAGE_STRUCTURE");
-  }
-
-  double GetNoDataValue(int* success) override {
-    int found = FALSE;
-    const double pam = GDALPamRasterBand::GetNoDataValue(&found);
-    if (success != nullptr) *success = found || facts_.nodata;
-    return found ? pam : facts_.nodata.value_or(pam);
-  }
-  double GetScale(int* success) override {
-    if (success != nullptr) *success = facts_.scale != 1 || facts_.offset != 0;
-    return facts_.scale;
-  }
-  double GetOffset(int* success) override {
-    if (success != nullptr) *success = facts_.scale != 1 || facts_.offset != 0;
-    return facts_.offset;
-  }
-  const char* GetUnitType() override { return facts_.unit.c_str(); }
-  GDALColorInterp GetColorInterpretation() override { return facts_.colour; }
-
-  int GetOverviewCount() override { return static_cast<int>(dataset().overviews().size()); }
-  GDALRasterBand* GetOverview(int i) override {
-    const auto& overviews = dataset().overviews();
-    if (i < 0 || i >= static_cast<int>(overviews.size())) return nullptr;
-    return overviews[static_cast<size_t>(i)]->GetRasterBand(nBand);
-  }
-
- protected:
-  CPLErr IReadBlock(int x, int y, void* out) override {
-    return readBlocks(tks_window{static_cast<uint32_t>(x), static_cast<uint32_t>(y), 1, 1},
-                      static_cast<std::byte*>(out));
-  }
-
-  /// Decoding one large window takes less than its blocks one by one, whose regions overlap: all
-  /// blocks that are not in GDAL's cache are decoded together, in strips that the cache holds.
-  CPLErr IRasterIO(GDALRWFlag flag, int x, int y, int width, int height, void* data, int columns,
-                   int rows, GDALDataType type, GSpacing pixel, GSpacing line,
-                   GDALRasterIOExtraArg* extra) override {
-    const bool whole = flag == GF_Read && columns == width && rows == height;
-    if (!whole || !dataset().readsWindows()) {
-      return GDALPamRasterBand::IRasterIO(flag, x, y, width, height, data, columns, rows, type,
-                                          pixel, line, extra);
-    }
-    const int strip = rowsOfStrip(width);
-    for (int top = y; top < y + height;) {
-      const int bottom = std::min(y + height, (top / nBlockYSize + strip) * nBlockYSize);
-      if (!cacheBlocks(x, top, width, bottom - top)) return CE_Failure;
-      const CPLErr read = GDALPamRasterBand::IRasterIO(
-          flag, x, top, width, bottom - top, static_cast<GByte*>(data) + (top - y) * line, width,
-          bottom - top, type, pixel, line, extra);
-      if (read != CE_None) return read;
-      top = bottom;
-    }
-    return CE_None;
-  }
-
- private:
-  Dataset& dataset() const { return static_cast<Dataset&>(*poDS); }
-
-  /// Rows of blocks of this width of which a quarter of the cache holds all bands; at least 1.
-  int rowsOfStrip(int width) const {
-    const GIntBig row = static_cast<GIntBig>(width + 2 * nBlockXSize) * nBlockYSize *
-                        static_cast<GIntBig>(dataset().source().pixelBytes());
-    return static_cast<int>(std::clamp<GIntBig>(GDALGetCacheMax64() / 4 / row, 1, 1 << 20));
-  }
-
-  bool cached(int x, int y) {
-    GDALRasterBlock* const block = TryGetLockedBlockRef(x, y);
-    if (block != nullptr) block->DropLock();
-    return block != nullptr;
-  }
-
-  /// The rectangle of blocks that are missing beneath one of samples.
-  bool cacheBlocks(int x, int y, int width, int height) {
-    int left = std::numeric_limits<int>::max(), top = left, right = -1, bottom = -1;
-    for (int by = y / nBlockYSize; by <= (y + height - 1) / nBlockYSize; ++by) {
-      for (int bx = x / nBlockXSize; bx <= (x + width - 1) / nBlockXSize; ++bx) {
-        if (cached(bx, by)) continue;
-        left = std::min(left, bx);
-        top = std::min(top, by);
-        right = std::max(right, bx);
-        bottom = std::max(bottom, by);
-      }
-    }
-    if (right < 0) return true;
-    const tks_window blocks{static_cast<uint32_t>(left), static_cast<uint32_t>(top),
-                            static_cast<uint32_t>(right - left + 1),
-                            static_cast<uint32_t>(bottom - top + 1)};
-    return readBlocks(blocks, nullptr) == CE_None;
-  }
-
-  /// Decodes a rectangle of blocks. The first one's channel goes to `out` if that is given,
-  /// everything else into the cache.
-  CPLErr readBlocks(const tks_window& blocks, std::byte* out) {
-    const uint32_t x = blocks.x * nBlockXSize, y = blocks.y * nBlockYSize;
-    const tks_window window{x, y, std::min<uint32_t>(blocks.width * nBlockXSize, nRasterXSize - x),
-                            std::min<uint32_t>(blocks.height * nBlockYSize, nRasterYSize - y)};
-    std::vector<std::byte> pixels;
-    if (!dataset().read(window, pixels)) return CE_Failure;
-    const auto own = [&](int band, uint32_t bx, uint32_t by) {
-      return out != nullptr && band == nBand && bx == blocks.x && by == blocks.y;
-    };
-    for (int band = 1; band <= poDS->GetRasterCount(); ++band) {
-      for (uint32_t by = blocks.y; by < blocks.y + blocks.height; ++by) {
-        for (uint32_t bx = blocks.x; bx < blocks.x + blocks.width; ++bx) {
-          if (own(band, bx, by)) {
-            spread(pixels, window, band, bx, by, out);
-          } else if (!intoCache(pixels, window, band, bx, by)) {
-            return CE_Failure;
-          }
-        }
-      }
-    }
-    return CE_None;
-  }
-
-  bool intoCache(const std::vector<std::byte>& pixels, const tks_window& window, int band,
-                 uint32_t bx, uint32_t by) {
-    Band& other = static_cast<Band&>(*poDS->GetRasterBand(band));
-    const int x = static_cast<int>(bx), y = static_cast<int>(by);
-    if (other.cached(x, y)) return true;
-    GDALRasterBlock* const block = other.GetLockedBlockRef(x, y, TRUE);
-    if (block == nullptr) return false;
-    spread(pixels, window, band, bx, by, static_cast<std::byte*>(block->GetDataRef()));
-    block->DropLock();
-    return true;
-  }
-
-  /// One block of one channel out of the pixels of a window.
-  void spread(const std::vector<std::byte>& pixels, const tks_window& window, int band, uint32_t bx,
-              uint32_t by, std::byte* to) const {
-    const size_t sample = tks_sample_bytes(dataset().source().sample());
-    const size_t pixel = dataset().source().pixelBytes();
-    const uint32_t x = bx * nBlockXSize - window.x, y = by * nBlockYSize - window.y;
-    const size_t row = window.width * pixel;
-    copyChannel(pixels.data() + y * row + x * pixel + (band - 1) * sample, row, pixel, to,
-                nBlockXSize * sample, sample, std::min<uint32_t>(nBlockXSize, window.width - x),
-                std::min<uint32_t>(nBlockYSize, window.height - y));
-  }
-
-  BandFacts facts_;
-};
 
 GDALColorInterp colourOf(uint32_t channels, uint32_t channel) {
   if (channels % 2 == 0 && channel + 1 == channels) return GCI_AlphaBand;
@@ -323,7 +121,7 @@ Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> nodata, u
       facts.unit = info.unit;
     }
     SetBand(static_cast<int>(channel) + 1,
-            new Band(*this, static_cast<int>(channel) + 1, std::move(facts)));
+            makeBand(*this, static_cast<int>(channel) + 1, std::move(facts)));
   }
   if (source_->channels() > 1)
     GDALDataset::SetMetadataItem("INTERLEAVE", "PIXEL", "IMAGE_STRUCTURE");
@@ -427,8 +225,9 @@ bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
     }
     out.resize(size_t{window.width} * window.height * pixel);
     if (level_ == 0) {
-      copyChannel(pixels + (size_t{window.y} * width + window.x) * pixel, width * pixel, pixel,
-                  out.data(), window.width * pixel, pixel, window.width, window.height);
+      const std::byte* const first = pixels + (size_t{window.y} * width + window.x) * pixel;
+      copySamples({first, width * pixel, pixel, window.width, window.height}, pixel, out.data(),
+                  window.width * pixel);
       return true;
     }
     const FinerLevel finer{pixels, area, width, height, source_->sample(), source_->channels(),

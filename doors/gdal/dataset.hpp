@@ -14,10 +14,6 @@
 
 namespace tetrakis::gdal {
 
-/// GDAL's type of samples. Before GDAL 3.7 signed bytes are Byte, and the metadata item PIXELTYPE
-/// says that they have a sign.
-GDALDataType typeOf(tks_sample sample);
-
 class Dataset final : public GDALPamDataset {
  public:
   /// What `name` is: a file, or TKS:"file":heights or :texture. Null after a reported error.

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""bench/doors runs this: doors.py HEIGHT FOLDER. One thread everywhere; each time is the median of
+five reads, each of a dataset that was opened for it. Heights are rounded to whole numbers of
+UInt16, as JPEG 2000 needs it."""
+
+import statistics
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from osgeo import gdal
+
+gdal.UseExceptions()
+SIDE, RUNS, WINDOW, OVERVIEW = 4097, 5, 512, 8
+
+
+def integers(name):
+    """Whole numbers less their minimum (where that takes more than 16 bits, fewer levels), cut or
+    mirrored to SIDE."""
+    heights = gdal.Open(name).ReadAsArray().astype(np.float64)
+    rows, columns = (abs((np.arange(SIDE) + n - 1) % (2 * n - 2) - n + 1) for n in heights.shape)
+    heights = heights[np.ix_(rows, columns)]
+    heights -= np.nanmin(heights)
+    return np.rint(heights / np.ceil(heights.max() / 65535)).astype(np.uint16)
+
+
+def write(folder, heights, driver, options):
+    source = gdal.GetDriverByName("MEM").Create("", heights.shape[1], heights.shape[0], 1, gdal.GDT_UInt16)
+    source.GetRasterBand(1).WriteArray(heights)
+    name = str(folder / f"bench.{ {'TKS': 'tks', 'COG': 'tif', 'JP2OpenJPEG': 'jp2'}[driver] }")
+    start = time.perf_counter()
+    written = gdal.GetDriverByName(driver).CreateCopy(name, source, options=options)
+    del written
+    return name, time.perf_counter() - start
+
+
+def read(name, overview=None, **part):
+    """Milliseconds, and the last array."""
+    times = []
+    for _ in range(RUNS):
+        start = time.perf_counter()
+        dataset = gdal.Open(name)
+        band = dataset.GetRasterBand(1)
+        array = (band if overview is None else band.GetOverview(overview)).ReadAsArray(**part)
+        times.append(time.perf_counter() - start)
+        del dataset
+    return 1000 * statistics.median(times), array
+
+
+def measure(folder, heights, label, driver, options):
+    """Prints one row; returns the RMSE."""
+    name, encoding = write(folder, heights, driver, options)
+    rows, columns = heights.shape
+    middle = {"xoff": columns // 2, "yoff": rows // 2, "win_xsize": WINDOW, "win_ysize": WINDOW}
+    window, _ = read(name, **middle)
+    overview, pixels = read(name, overview=2)
+    whole, array = read(name)
+    off = array.astype(np.float64) - heights
+    rmse = np.sqrt(np.mean(off**2))
+    whole_pixels = SIDE // OVERVIEW
+    cut = heights[: whole_pixels * OVERVIEW, : whole_pixels * OVERVIEW]
+    means = cut.reshape(whole_pixels, OVERVIEW, whole_pixels, OVERVIEW).mean(axis=(1, 3))
+    blur = np.sqrt(np.mean((pixels[:whole_pixels, :whole_pixels] - means) ** 2))
+    size = Path(name).stat().st_size
+    print(f"| {label} | {size / 1000:.0f} | {rmse:.2f} | {np.abs(off).max():.0f} | {encoding:.1f} "
+          f"| {window:.0f} | {overview:.0f} | {blur:.2f} | {whole:.0f} |", flush=True)
+    Path(name).unlink()
+    return rmse
+
+
+def main():
+    heights, folder = integers(sys.argv[1]), Path(sys.argv[2])
+    print(f"{heights.shape[1]} x {heights.shape[0]} UInt16, 0 to {heights.max()}\n")
+    print(f"| | kB | RMSE | largest error | encode, s | window of {WINDOW}², ms "
+          f"| 1/{OVERVIEW}, ms | its RMSE to means | all, ms |\n" + "| --- " * 9 + "|")
+    measure(folder, heights, "**lossless**: TKS", "TKS", [])
+    measure(folder, heights, "TKS, BLOCKSIZE=128", "TKS", ["BLOCKSIZE=128"])
+    measure(folder, heights, "COG, DEFLATE, predictor", "COG", ["COMPRESS=DEFLATE", "PREDICTOR=YES"])
+    measure(folder, heights, "COG, LERC_ZSTD", "COG", ["COMPRESS=LERC_ZSTD", "MAX_Z_ERROR=0"])
+    exact = ["QUALITY=100", "REVERSIBLE=YES"]
+    measure(folder, heights, "JP2OpenJPEG, reversible", "JP2OpenJPEG", exact)
+    measure(folder, heights, "**largest error 10**: TKS", "TKS", ["MAX_Z_ERROR=10"])
+    measure(folder, heights, "COG, LERC_ZSTD", "COG", ["COMPRESS=LERC_ZSTD", "MAX_Z_ERROR=10"])
+    rmse = measure(folder, heights, "**equal RMSE**: JP2OpenJPEG, QUALITY=10", "JP2OpenJPEG", ["QUALITY=10"])
+    psnr = 20 * np.log10(np.ptp(heights) / rmse)
+    measure(folder, heights, "TKS, PSNR", "TKS", [f"PSNR={psnr:.4f}"])
+
+
+main()
