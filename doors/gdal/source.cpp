@@ -111,12 +111,13 @@ tks_status Source::openPrefix(uint64_t bytes) {
   tks_decoder* opened = nullptr;
   char sentence[512] = "";
   const tks_status status =
-      tks_open(bytes_.data(), bytes_.size(), &most, &opened, sentence, sizeof sentence);
+      tks_open(bytes_.data(), bytes, &most, &opened, sentence, sizeof sentence);
   if (status != TKS_OK) {
     message_ = sentence;
     return status;
   }
   decoder_.reset(opened);
+  opened_ = bytes;
   info_.size = sizeof info_;
   tks_set_threads(opened, settings_.threads);
   return tks_get_info(opened, &info_);
@@ -127,17 +128,21 @@ bool Source::failed(tks_status status) {
   return false;
 }
 
-bool Source::load() {
-  const bool fresh = bytes_.size() < end_ || !decoder_ || (settings_.strict && file_);
-  if (!fresh) return true;
-  const tks_status opened = openPrefix(end_);
-  if (opened == TKS_IO) return false;
-  if (opened != TKS_OK) return failed(opened);
-  if (settings_.strict) {
+bool Source::reopen(uint64_t bytes) {
+  if (decoder_ && opened_ == bytes) return true;
+  const tks_status status = openPrefix(bytes);
+  if (status == TKS_OK || status == TKS_IO) return status == TKS_OK;
+  return failed(status);
+}
+
+bool Source::load(uint32_t level) {
+  if (settings_.strict && !verified_) {
+    if (!reopen(end_)) return false;
     if (const tks_status sound = tks_verify(decoder_.get()); sound != TKS_OK) return failed(sound);
+    verified_ = true;
   }
-  file_.reset();  // all that is used is read
-  return true;
+  const uint64_t pixels = uint64_t{width(level)} * height(level) * pixelBytes();
+  return reopen(level == 0 ? end_ : std::min(end_, info_.header_bytes + pixels));
 }
 
 uint32_t Source::width(uint32_t level) const {
@@ -184,7 +189,7 @@ const std::byte* Source::level(uint32_t level) {
   KeptLevel& kept = kept_.at(level == 0 ? 0 : 1);
   if (!kept.pixels.empty() && kept.level == level) return kept.pixels.data();
   kept.pixels.clear();
-  if (!load()) return nullptr;
+  if (!load(level)) return nullptr;
   try {
     std::vector<std::byte> pixels;
     if (!decodeLevel(level, pixels)) return nullptr;
@@ -197,7 +202,7 @@ const std::byte* Source::level(uint32_t level) {
 }
 
 bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
-  if (!load()) return false;
+  if (!load(0)) return false;
   tks_decoder* const decoder = decoder_.get();
   tks_status status = tks_set_levels(decoder, 0, 0);
   if (status != TKS_OK) return failed(status);

@@ -55,7 +55,8 @@ class Source {
   uint32_t regionSide() const;
 
   /// All pixels of a level, channels interleaved; of level 0 and the last other level they are
-  /// kept. Null after an error was reported.
+  /// kept. Null after an error was reported. A level above 0 takes no more bytes of the stream than
+  /// its pixels have: what it shows comes first, and a small map takes a small download.
   const std::byte* level(uint32_t level);
   /// A part of level 0.
   bool window(const tks_window& window, std::vector<std::byte>& out);
@@ -69,9 +70,10 @@ class Source {
   bool checkLength();
   /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
   tks_status openPrefix(uint64_t bytes);
+  bool reopen(uint64_t bytes);
   bool readUpTo(uint64_t bytes);
-  /// All bytes that are used.
-  bool load();
+  /// Opens what a level takes.
+  bool load(uint32_t level);
   bool failed(tks_status status);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
 
@@ -81,6 +83,8 @@ class Source {
   tks_part part_ = TKS_PART_HEIGHTS;
   uint64_t end_ = 0;  ///< of what may be used
   std::vector<uint8_t> bytes_;
+  uint64_t opened_ = 0;  ///< how many of them the decoder has
+  bool verified_ = false;
   std::string message_;  ///< why openPrefix failed
   DecoderPointer decoder_{nullptr, tks_close};
   tks_info info_{};
