@@ -196,7 +196,6 @@ char** Dataset::GetFileList() {
   return files;
 }
 
-#if GDAL_VERSION_NUM >= 3060000
 CPLErr Dataset::IBuildOverviews(const char*, int, const int*, int, const int*, GDALProgressFunc,
                                 void*, CSLConstList) {
   CPLError(CE_Failure, CPLE_NotSupported,
@@ -204,7 +203,6 @@ CPLErr Dataset::IBuildOverviews(const char*, int, const int*, int, const int*, G
            source_->name().c_str());
   return CE_Failure;
 }
-#endif
 
 bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
   try {

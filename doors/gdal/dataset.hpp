@@ -33,11 +33,9 @@ class Dataset final : public GDALPamDataset {
   const std::vector<std::unique_ptr<Dataset>>& overviews() const { return overviews_; }
 
  protected:
-#if GDAL_VERSION_NUM >= 3060000
   CPLErr IBuildOverviews(const char* resampling, int count, const int* factors, int bands,
                          const int* band_list, GDALProgressFunc progress, void* user,
                          CSLConstList options) override;
-#endif
 
  private:
   Dataset(std::shared_ptr<Source> source, std::optional<double> nodata, uint32_t level);

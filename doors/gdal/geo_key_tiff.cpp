@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GeoTIFF keys as text -> a GeoTIFF of one pixel in memory, of which GDAL says the reference system.
+// GeoTIFF keys as text -> a GeoTIFF of one pixel in memory, of which GDAL says the CRS.
 // Sources: docs/FORMAT.md, section 2 (`geo_keys`); OGC GeoTIFF 1.1 (19-008r4), section 7.1.
 #include <atomic>
 #include <charconv>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GDAL's overviews, made of mip levels. Sample (x, y) of level k lies on sample (x 2^k, y 2^k) of the
-// raster, whereas the middle of an overview's pixel is that of 2^k x 2^k samples: (2^k - 1) / 2
+// GDAL's overviews, made of mip levels. Sample (x, y) of level k lies on sample (x 2^k, y 2^k) of
+// the raster, whereas the middle of an overview's pixel is that of 2^k x 2^k samples: (2^k - 1) / 2
 // samples further. So overview k is the mean of level k - 1 over the areas of its pixels.
 #pragma once
 

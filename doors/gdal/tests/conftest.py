@@ -45,7 +45,8 @@ def memory(array, **facts):
     array = np.asarray(array)
     layers = array[None] if array.ndim == 2 else array
     kind = gdal_type(array.dtype)
-    dataset = gdal.GetDriverByName("MEM").Create("", layers.shape[2], layers.shape[1], len(layers), kind)
+    bands, rows, columns = layers.shape
+    dataset = gdal.GetDriverByName("MEM").Create("", columns, rows, bands, kind)
     signed = array.dtype == np.int8 and kind == gdal.GDT_Byte
     for number, layer in enumerate(layers, 1):
         band = dataset.GetRasterBand(number)

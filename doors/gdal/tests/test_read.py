@@ -129,7 +129,8 @@ def test_downsampled_reads_use_overviews(placed):
     np.testing.assert_array_equal(
         dataset.GetRasterBand(1).ReadAsArray(buf_xsize=170, buf_ysize=150), overview
     )
-    np.testing.assert_array_equal(gdal.OpenEx(placed, open_options=["OVERVIEW_LEVEL=0"]).ReadAsArray(), overview)
+    small = gdal.OpenEx(placed, open_options=["OVERVIEW_LEVEL=0"])
+    np.testing.assert_array_equal(small.ReadAsArray(), overview)
 
 
 def test_overviews_of_voids(tmp_path):
@@ -198,7 +199,8 @@ def test_statistics_go_beside(tmp_path):
 
 def test_gdalwarp(placed, tmp_path):
     out = str(tmp_path / "warped.tif")
-    subprocess.run(["gdalwarp", "-q", "-novshift", "-t_srs", "EPSG:32611", "-tr", "10", "10", placed, out], check=True)
+    options = ["-q", "-novshift", "-t_srs", "EPSG:32611", "-tr", "10", "10"]
+    subprocess.run(["gdalwarp", *options, placed, out], check=True)
     warped = gdal.Open(out)
     np.testing.assert_array_equal(warped.ReadAsArray(), terrain(dtype="i2"))
     degrees = str(tmp_path / "degrees.tif")
@@ -209,7 +211,8 @@ def test_gdalwarp(placed, tmp_path):
 def test_gdaladdo_is_refused(placed):
     before = open(placed, "rb").read()
     for options in (["-ro"], []):
-        done = subprocess.run(["gdaladdo", *options, placed, "2", "4"], capture_output=True, text=True)
+        command = ["gdaladdo", *options, placed, "2", "4"]
+        done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode != 0 and "own overviews" in done.stderr, done.stderr
     assert open(placed, "rb").read() == before
 
