@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bench/doors runs this: doors.py HEIGHT FOLDER. One thread everywhere; each time is the median CPU time of
-five reads, each of a dataset that was opened for it. Heights are whole numbers of UInt16, as JPEG
-2000 needs it. The overview is that of 1/8 of the resolution, held against means of 8 x 8 samples."""
+"""bench/doors runs this: doors.py HEIGHT FOLDER. One thread everywhere; each time is CPU time, of
+reads the median of five, each of a dataset that was opened for it. Heights are whole numbers of
+UInt16, as JPEG 2000 needs it. The overview is that of 1/8 of the resolution, held against means of
+8 x 8 samples."""
 
 import statistics
 import sys

@@ -58,6 +58,12 @@ bool encode(const std::string& name, const CopiedHeights& heights, const CopiedT
   return false;
 }
 
+/// What was written of a stream; what is no file of its own, such as /dev/full, stays.
+void discard(const std::string& name) {
+  VSIStatBufL stat;
+  if (VSIStatL(name.c_str(), &stat) == 0 && VSI_ISREG(stat.st_mode)) VSIUnlink(name.c_str());
+}
+
 bool write(const std::string& name, const tks_buffer& stream) {
   VSILFILE* const file = VSIFOpenExL(name.c_str(), "wb", TRUE);
   if (file == nullptr) {
@@ -67,7 +73,7 @@ bool write(const std::string& name, const tks_buffer& stream) {
   }
   const bool written = VSIFWriteL(stream.data, 1, stream.size, file) == stream.size;
   if (VSIFCloseL(file) == 0 && written) return true;
-  VSIUnlink(name.c_str());
+  discard(name);
   reportFailure(TKS_IO, name, "The file cannot be written whole: is the disk full?");
   return false;
 }
@@ -105,7 +111,7 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
   }
   if (!write(name, stream.buffer)) return nullptr;
   if (!ProgressPart(progress, 0, 1).report(1)) {
-    VSIUnlink(name.c_str());
+    discard(name);
     CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
     return nullptr;
   }

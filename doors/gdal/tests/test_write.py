@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """CreateCopy: every type and creation option, places and reference systems, what is refused."""
 
+import resource
 import subprocess
 
 import numpy as np
@@ -328,8 +329,17 @@ def test_unwritable_targets(tmp_path):
     (tmp_path / "folder.tks").mkdir()
     with pytest.raises(RuntimeError):
         copy(terrain(20, 30), tmp_path / "folder.tks")
-    with open("/dev/full", "wb"):
-        refused(lambda: copy(terrain(20, 30), "/dev/full"), "cannot be written")
+
+
+def test_a_file_that_cannot_grow(tmp_path):
+    """As a full disk: what was written of the stream goes away again."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, before[1]))
+    try:
+        refused(lambda: copy(terrain(), tmp_path / "a.tks"), "cannot be written whole")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_virtual_files():
