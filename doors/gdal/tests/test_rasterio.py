@@ -45,6 +45,7 @@ def test_write(tmp_path, dtype):
         assert off.max() <= 2
 
 
+@pytest.mark.filterwarnings("ignore::rasterio.errors.NotGeoreferencedWarning")
 def test_lossy_profile(tmp_path):
     copy(terrain(), tmp_path / "a.tks", "BYTES=5000")
     with rasterio.open(tmp_path / "a.tks") as dataset:
