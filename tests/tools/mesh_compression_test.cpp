@@ -179,10 +179,12 @@ void expectSame(const ReadMesh& read, const MeshFile& mesh, uint32_t side) {
     EXPECT_NEAR(at[0], mesh.positions[3 * v], horizontal);
     EXPECT_NEAR(at[1], mesh.positions[3 * v + 1], vertical);
     EXPECT_NEAR(at[2], mesh.positions[3 * v + 2], horizontal);
+    const float* normal = &read.normals[3 * i];
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
     double product = 0;
-    for (size_t k = 0; k < 3; ++k)
-      product += double{read.normals[3 * i + k]} * mesh.normals[3 * v + k];
-    EXPECT_GT(product, std::cos(0.02)) << i;
+    for (size_t k = 0; k < 3; ++k) product += double{normal[k]} * mesh.normals[3 * v + k];
+    EXPECT_NEAR(length, 1, 0.01);
+    EXPECT_GT(product / length, std::cos(0.02)) << i;
     for (size_t k = 0; k < 2 && !mesh.texcoords.empty(); ++k)
       EXPECT_NEAR(read.texcoords[2 * i + k], mesh.texcoords[2 * v + k], 1e-5);
   }
