@@ -41,7 +41,7 @@ struct EncodedTexture {
   std::vector<std::byte> bytes;
 };
 
-Result<EncodedTexture> named(const char* mime_type, Result<std::vector<std::byte>> bytes) {
+Result<EncodedTexture> ofType(const char* mime_type, Result<std::vector<std::byte>> bytes) {
   if (!bytes.ok()) return bytes.status();
   return EncodedTexture{mime_type, std::move(*bytes)};
 }
@@ -62,21 +62,21 @@ Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format)
   const ImageFile& texels = image.sample == TKS_U8 ? image : reduced;
   switch (format) {
     case MeshTexture::kWebp:
-      return named("image/webp", encodeWebp(image.channels < 3 ? inColour(texels) : texels));
+      return ofType("image/webp", encodeWebp(image.channels < 3 ? inColour(texels) : texels));
     case MeshTexture::kJpeg:
       if (image.channels % 2 == 0)
         return Status(TKS_USAGE,
                       "a JPEG holds no alpha, which the texture has: write "
                       "--mesh-texture png or webp");
-      return named("image/jpeg", encodeJpeg(texels, kTextureQuality));
+      return ofType("image/jpeg", encodeJpeg(texels, kTextureQuality));
     case MeshTexture::kChosen:
       if (auto jpeg = encodeJpeg(image, kTextureQuality); jpeg.ok())
-        return named("image/jpeg", std::move(jpeg));
+        return ofType("image/jpeg", std::move(jpeg));
       break;
     case MeshTexture::kPng:
       break;
   }
-  return named("image/png", encodePng(texels));
+  return ofType("image/png", encodePng(texels));
 }
 
 }  // namespace
