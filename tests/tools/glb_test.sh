@@ -18,6 +18,12 @@ for stream in both bare; do
   tetrakis decode "$work/$stream.tks" --mesh "$work/$stream-full.glb"
   tetrakis decode "$work/$stream.tks" --triangles 500 --mesh "$work/$stream-budget.glb"
   tetrakis decode "$work/$stream.tks" --bytes 3000 --coded-mesh --mesh "$work/$stream-coded.glb"
+  for coder in draco meshopt; do
+    tetrakis decode "$work/$stream.tks" --compress "$coder" --mesh "$work/$stream-$coder.glb"
+  done
+done
+for format in png webp; do
+  tetrakis decode "$work/both.tks" --mesh-texture "$format" --mesh "$work/both-$format.glb"
 done
 
 cd "$node_folder"

@@ -30,6 +30,7 @@ struct CommandLine {
 
 void addEncode(CLI::App& app, CommandLine& line);
 void addDecode(CLI::App& app, CommandLine& line);
+void addTiles(CLI::App& app, CommandLine& line);
 void addTruncate(CLI::App& app, CommandLine& line);
 void addInfo(CLI::App& app, CommandLine& line);
 void addCompare(CLI::App& app, CommandLine& line);

@@ -8,37 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "tools/commands/command.hpp"
+#include "tools/commands/decode_arguments.hpp"
+#include "tools/commands/engine_output.hpp"
 #include "tools/commands/output.hpp"
-#include "tools/commands/output_names.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/plain_heights.hpp"
+#include "tools/report/surface_normals.hpp"
 #include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::tools {
 namespace {
-
-struct DecodeArguments {
-  StreamSource source;
-  std::string height, texture, mesh;
-  uint32_t triangles = 0, level = 0;
-  bool coded_mesh = false, turn_edges = false;
-  CameraChoice camera;           ///< default: the whole mesh, for a map
-  std::vector<uint32_t> window;  ///< x, y, width, height; empty: everything
-  uint32_t threads = hardwareThreads();
-  bool force = false;
-};
-
-Status checkOutputs(const DecodeArguments& arguments) {
-  std::vector<std::string> names;
-  if (!arguments.height.empty()) names.push_back(arguments.height);
-  if (!arguments.texture.empty()) names.push_back(arguments.texture);
-  if (!arguments.mesh.empty())
-    for (std::string& name : meshFiles(arguments.mesh)) names.push_back(std::move(name));
-  if (names.empty())
-    return Status(TKS_USAGE, "nothing to write: give --height, --texture or --mesh");
-  return checkDistinct(names);
-}
 
 tks_window windowOf(const DecodeArguments& arguments) {
   const std::vector<uint32_t>& w = arguments.window;
@@ -104,19 +83,29 @@ class Decoding {
   /// What stands in the way of writing, before there is anything to write.
   Status plan() {
     const tks_info& info = decoder_.info();
-    if (Status status = plan(arguments_.height, ".tif", height_); !status.ok()) return status;
+    const char* const heights = arguments_.size.empty() ? ".tif" : ".r16";
+    if (Status status = plan(arguments_.height, heights, height_); !status.ok()) return status;
     if (Status status = plan(arguments_.texture, ".png", texture_); !status.ok()) return status;
     if (Status status = plan(arguments_.mesh, ".glb", mesh_); !status.ok()) return status;
+    if (Status status = plan(arguments_.normal_map, ".png", normals_); !status.ok()) return status;
+    if (Status status = planFormats(); !status.ok()) return status;
     if (!texture_ || !info.has_texture) return Status();
     return checkImageFormat(texture_->name(), info.texture_channels, info.texture_sample);
   }
 
   Status writeHeightField() {
+    if (engine_) return writeForEngine();
     const Result<HeightFile> heights =
         decodeHeights(decoder_, window(), heightCopies() + beside_bytes_);
     if (!heights.ok()) return heights.status();
     tellNote(hgtNote(height_->name(), *heights), quiet_);
     return height_->stage([&](const std::string& path) { return writeHeights(path, *heights); });
+  }
+
+  Status writeNormals() {
+    const Result<ImageFile> map = normalMap(decoder_, stream_.bytes.size() + beside_bytes_);
+    if (!map.ok()) return map.status();
+    return normals_->stage([&](const std::string& path) { return writeImage(path, *map); });
   }
 
   Status writeTexture() {
@@ -137,17 +126,23 @@ class Decoding {
     }
     const Result<Mesh> mesh = chosenMesh(texture);
     if (!mesh.ok()) return mesh.status();
+    Result<std::vector<float>> normals = surfaceNormals(decoder_, mesh->gridIndices());
+    if (!normals.ok()) return normals.status();
     tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
     MeshFile file = placeMesh(*mesh, frameOf(info));
     file.texture = texture;
-    return mesh_->stage([&](const std::string& path) { return writeMesh(path, file); });
+    file.normals = std::move(*normals);
+    return mesh_->stage([&](const std::string& path) {
+      return writeMesh(path, file, "", arguments_.mesh_options);
+    });
   }
 
   Status commit() {
     std::vector<Output*> outputs;
-    for (std::optional<Output>* output : {&height_, &texture_, &mesh_})
+    for (std::optional<Output>* output : {&height_, &texture_, &mesh_, &normals_})
       if (*output) outputs.push_back(&**output);
-    return Output::commitAll(std::move(outputs));
+    if (Status status = Output::commitAll(std::move(outputs)); !status.ok()) return status;
+    return arguments_.json ? print(dump(engine_json_)) : Status();
   }
 
  private:
@@ -157,6 +152,41 @@ class Decoding {
     if (!planned.ok()) return planned.status();
     output.emplace(std::move(*planned));
     return Status();
+  }
+
+  /// That what is asked for and the names of files go together.
+  Status planFormats() {
+    const tks_info& info = decoder_.info();
+    if (mesh_) {
+      const Status fits = checkMeshOptions(mesh_->name(), arguments_.mesh_options);
+      if (!fits.ok()) return fits;
+    }
+    if (normals_)
+      if (Status fits = checkImageFormat(normals_->name(), 3, TKS_U8); !fits.ok()) return fits;
+    if (arguments_.size.empty()) {
+      if (!height_ || formatOf(height_->name(), "") != "r16") return Status();
+      return Status(TKS_USAGE, "an .r16 file is one of an engine: give --size unreal or unity");
+    }
+    const Result<EngineSize> size =
+        parseEngineSize(arguments_.size, std::max(info.width, info.height));
+    if (!size.ok()) return size.status();
+    engine_ = *size;
+    return checkEngineFormat(*engine_, height_->name());
+  }
+
+  Status writeForEngine() {
+    const Result<EngineHeights> heights =
+        decodeEngineHeights(decoder_, *engine_, stream_.bytes.size() + beside_bytes_);
+    if (!heights.ok()) return heights.status();
+    if (heights->voids > 0)
+      tellNote(std::to_string(heights->voids) + " void samples have the lowest height", quiet_);
+    if (arguments_.json) {
+      engine_json_ = engineJson(*heights);
+    } else if (!quiet_) {
+      std::fprintf(stderr, "%s: %s\n", height_->name().c_str(), engineText(*heights).c_str());
+    }
+    return height_->stage(
+        [&](const std::string& path) { return writeEngineHeights(path, *heights); });
   }
 
   bool wantsTexture() const { return !arguments_.texture.empty() || !arguments_.mesh.empty(); }
@@ -245,7 +275,9 @@ class Decoding {
   const OpenStream& stream_;
   Decoder& decoder_;
   bool quiet_;
-  std::optional<Output> height_, texture_, mesh_;
+  std::optional<Output> height_, texture_, mesh_, normals_;
+  std::optional<EngineSize> engine_;  ///< of --size
+  Json engine_json_;
   std::optional<Result<ImageFile>> image_;
   std::future<Result<ImageFile>> beside_;
   uint64_t beside_bytes_ = 0;
@@ -266,12 +298,13 @@ Status checkWindow(const DecodeArguments& arguments, const tks_info& info) {
 }
 
 Status decode(const DecodeArguments& arguments, bool quiet) {
-  if (Status status = checkOutputs(arguments); !status.ok()) return status;
+  if (Status status = checkArguments(arguments); !status.ok()) return status;
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
   stream->decoder.setThreads(arguments.threads);
   if (Status status = checkWindow(arguments, stream->decoder.info()); !status.ok()) return status;
-  const uint32_t heights_level = arguments.height.empty() ? 0 : arguments.level,
+  const bool no_heights = arguments.height.empty() && arguments.normal_map.empty();
+  const uint32_t heights_level = no_heights ? 0 : arguments.level,
                  texture_level = arguments.texture.empty() ? 0 : arguments.level;
   const Status set = stream->decoder.setLevels(heights_level, texture_level);
   if (!set.ok()) return set;
@@ -285,6 +318,8 @@ Status decode(const DecodeArguments& arguments, bool quiet) {
     if (Status status = decoding.writeTexture(); !status.ok()) return status;
   if (!arguments.mesh.empty())
     if (Status status = decoding.writeSurfaceMesh(); !status.ok()) return status;
+  if (!arguments.normal_map.empty())
+    if (Status status = decoding.writeNormals(); !status.ok()) return status;
   return decoding.commit();
 }
 
@@ -293,47 +328,7 @@ Status decode(const DecodeArguments& arguments, bool quiet) {
 void addDecode(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<DecodeArguments>();
   CLI::App& verb = *app.add_subcommand("decode", "Write heights, texture or mesh of a stream");
-  addSource(verb, arguments->source);
-  verb.add_option("--height", arguments->height, "Heights, same type as encoded (.tif .png .exr …)")
-      ->type_name("OUT.tif");
-  verb.add_option("--texture", arguments->texture, "Texture (.png .tif .jpg .bmp .webp .jp2 …)")
-      ->type_name("OUT.png");
-  CLI::Option* const mesh =
-      verb.add_option("--mesh", arguments->mesh, "Mesh in metres (.glb .obj .ply)")
-          ->type_name("OUT.glb");
-  CLI::Option* const level =
-      verb.add_option("--level", arguments->level,
-                      "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
-          ->type_name("K")
-          ->excludes(mesh);
-  CLI::Option* const triangles =
-      addTriangles(verb, arguments->triangles, "At most so many triangles; else every sample")
-          ->needs(mesh);
-  verb.add_flag("--coded-mesh", arguments->coded_mesh, "The mesh that the bytes themselves code")
-      ->needs(mesh)
-      ->excludes(triangles);
-  verb.add_flag("--turn-edges", arguments->turn_edges,
-                "Edges follow the terrain: fewer errors, but no 4-8 mesh")
-      ->needs(triangles);
-  CLI::Option* const cameras =
-      verb.add_option(
-              "--cameras", arguments->camera.file,
-              "With --triangles the mesh for the file's cameras; else what one of them sees")
-          ->type_name("FILE.json")
-          ->needs(mesh);
-  verb.add_option("--view", arguments->camera.view,
-                  "The same for a preset: low, oblique, top, all of them")
-      ->type_name("NAME")
-      ->needs(mesh)
-      ->excludes(cameras);
-  verb.add_option("--window", arguments->window, "Only these samples, and the texels over them")
-      ->delimiter(',')
-      ->expected(4)
-      ->type_name("X,Y,W,H")
-      ->excludes(mesh)
-      ->excludes(level);
-  addThreads(verb, arguments->threads);
-  addForce(verb, arguments->force);
+  addArguments(verb, *arguments);
   verb.callback([arguments, &line] {
     line.action = [arguments, &line] { return decode(*arguments, line.quiet); };
   });

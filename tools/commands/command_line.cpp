@@ -49,6 +49,7 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addProfile(app, line);
   addSynth(app, line);
   addView(app, line);
+  addTiles(app, line);
 }
 
 bool isVerb(const CLI::App& app, const std::string& name) {

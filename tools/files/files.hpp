@@ -71,6 +71,7 @@ struct ImageFile {
 struct MeshFile {
   std::vector<float> positions;        ///< 3 per vertex
   std::vector<float> texcoords;        ///< 2 per vertex; empty without texture
+  std::vector<float> normals;          ///< 3 per vertex, of length 1; empty: smooth ones are made
   std::vector<uint32_t> triangles;     ///< 3 per triangle, counter-clockwise seen from above
   const ImageFile* texture = nullptr;  ///< not owned; may be null
 };
@@ -115,10 +116,27 @@ Status writeImage(const std::string& path, const ImageFile& image, const std::st
 /// 100.
 Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
 
-/// .glb (texture embedded: JPEG, or PNG when it has alpha or 16 bits, reduced to 8), .obj (+ .mtl
-/// and .png of the same name when textured), .ply (binary, texture coordinates but no texture); all
-/// with smooth normals. Coordinates come back bit for bit. Fails with TKS_USAGE on an empty or
+/// Of the geometry in a .glb: KHR_draco_mesh_compression, EXT_meshopt_compression.
+enum class MeshCompression { kNone, kDraco, kMeshopt };
+
+/// Of the texture in a .glb, reduced to 8 bits. kChosen: JPEG, or PNG when it has alpha or 16 bits.
+/// kJpeg refuses alpha.
+enum class MeshTexture { kChosen, kJpeg, kPng, kWebp };
+
+struct MeshOptions {
+  MeshCompression compression = MeshCompression::kNone;
+  MeshTexture texture = MeshTexture::kChosen;
+  bool operator==(const MeshOptions&) const = default;
+};
+
+/// TKS_USAGE if the options mean nothing to a mesh of that name.
+Status checkMeshOptions(const std::string& path, const MeshOptions& options);
+
+/// .glb (texture embedded), .obj (+ .mtl and .png of the same name when textured), .ply (binary,
+/// texture coordinates but no texture); all with normals. Coordinates come back bit for bit, of a
+/// compressed .glb as meshopt_mesh.hpp and draco_mesh.hpp say. Fails with TKS_USAGE on an empty or
 /// inconsistent mesh.
-Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "");
+Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "",
+                 const MeshOptions& options = {});
 
 }  // namespace tetrakis::tools

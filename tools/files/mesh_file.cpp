@@ -25,6 +25,9 @@ Status checkMesh(const MeshFile& mesh) {
   if (!mesh.texcoords.empty() && mesh.texcoords.size() != 2 * vertices) {
     return refuse("a mesh has two texture coordinates for every vertex, or none");
   }
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
+    return refuse("a mesh has a normal for every vertex, or none");
+  }
   if (mesh.texture && mesh.texcoords.empty()) {
     return refuse("a textured mesh needs texture coordinates");
   }
@@ -64,7 +67,7 @@ std::string objText(const MeshFile& mesh, const std::string& library) {
   for (size_t i = 0; i < mesh.texcoords.size(); i += 2) {
     appendRow(text, "vt", std::array{mesh.texcoords[i], 1 - mesh.texcoords[i + 1]});
   }
-  const std::vector<float> normals = smoothNormals(mesh);
+  const std::vector<float> normals = normalsOf(mesh);
   for (size_t i = 0; i < normals.size(); i += 3) {
     appendRow(text, "vn", std::span(normals).subspan(i, 3));
   }
@@ -95,7 +98,7 @@ std::vector<std::byte> encodePly(const MeshFile& mesh) {
                (textured ? "property float s\nproperty float t\n" : "") + "element face " +
                std::to_string(mesh.triangles.size() / 3) +
                "\nproperty list uchar int vertex_indices\nend_header\n");
-  const std::vector<float> normals = smoothNormals(mesh);
+  const std::vector<float> normals = normalsOf(mesh);
   for (size_t i = 0; i < vertices; ++i) {
     file.putAll(std::span(mesh.positions).subspan(3 * i, 3));
     file.putAll(std::span(normals).subspan(3 * i, 3));
@@ -126,14 +129,20 @@ Status writeObj(const std::string& path, const MeshFile& mesh) {
   return writeText(path, objText(mesh, std::filesystem::path(library).filename().string()));
 }
 
-Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format) {
+Status checkMeshOptions(const std::string& path, const MeshOptions& options) {
+  if (formatOf(path, "") == "glb" || options == MeshOptions()) return {};
+  return {TKS_USAGE, "--compress and --mesh-texture are for meshes that end in .glb"};
+}
+
+Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format,
+                 const MeshOptions& options) {
   const Status sound = checkMesh(mesh);
   if (!sound.ok()) return sound;
   const std::string name = formatOf(path, format);
   if (name == "obj") return writeObj(path, mesh);
   if (name == "ply") return writeBytes(path, encodePly(mesh));
   if (name == "glb") {
-    const auto glb = encodeGlb(mesh);
+    const auto glb = encodeGlb(mesh, options);
     return glb.ok() ? writeBytes(path, *glb) : glb.status();
   }
   return {TKS_USAGE,

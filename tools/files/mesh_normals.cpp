@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smooth normals of a mesh.
+// Normals of a mesh.
 #include <cmath>
 
 #include "tools/files/mesh_writers.hpp"
@@ -35,6 +35,10 @@ std::vector<float> smoothNormals(const MeshFile& mesh) {
     }
   }
   return normals;
+}
+
+std::vector<float> normalsOf(const MeshFile& mesh) {
+  return mesh.normals.empty() ? smoothNormals(mesh) : mesh.normals;
 }
 
 }  // namespace tetrakis::tools

@@ -12,17 +12,20 @@
 
 namespace tetrakis::tools {
 
+/// Three numbers a vertex: those of the mesh if it has some, else its smooth normals.
+std::vector<float> normalsOf(const MeshFile& mesh);
+
 /// Three numbers a vertex: the mean of the normals around it by their triangles' areas, of length
 /// 1; straight up where no triangle with an area meets it.
 std::vector<float> smoothNormals(const MeshFile& mesh);
 
-/// Binary glTF 2.0 in one piece, with smooth normals.
-Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh);
+/// Binary glTF 2.0 in one piece.
+Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh, const MeshOptions& options);
 
-/// Binary little-endian PLY, with smooth normals; texture coordinates as s, t with t upwards.
+/// Binary little-endian PLY; texture coordinates as s, t with t upwards.
 std::vector<std::byte> encodePly(const MeshFile& mesh);
 
-/// Wavefront OBJ with smooth normals, beside its material library and texture: "name.obj",
+/// Wavefront OBJ, beside its material library and texture: "name.obj",
 /// "name.mtl", "name.png".
 Status writeObj(const std::string& path, const MeshFile& mesh);
 

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Terrain tiles: they cover the globe's quadtree without gaps or overlaps, share their edges to the
+// bit, and have the heights of the stream.
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/terrain_tile_reader.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using nlohmann::json;
+
+/// Level, column, row.
+using TileName = std::array<uint32_t, 3>;
+
+class CliTiles : public CliTest {
+ protected:
+  /// Floats over EPSG:4326: 1000 + 4000 (x - west) + 9000 (y - south) metres.
+  static tools::HeightFile ramp(uint32_t width, uint32_t height, double west, double south) {
+    constexpr double kStep = 0.001;
+    tools::HeightFile file;
+    file.width = width;
+    file.height = height;
+    file.sample = TKS_F32;
+    file.unit = "m";
+    file.crs = "EPSG:4326";
+    file.geotransform = tools::GeoTransform{west, kStep, 0, south + height * kStep, 0, -kStep};
+    for (uint32_t i = 0; i < width * height; ++i) {
+      const double x = (i % width + 0.5) * kStep, y = (height - i / width - 0.5) * kStep;
+      const auto sample = static_cast<float>(1000 + 4000 * x + 9000 * y);
+      const auto bytes = std::as_bytes(std::span(&sample, 1));
+      file.data.insert(file.data.end(), bytes.begin(), bytes.end());
+    }
+    return file;
+  }
+
+  /// Encodes it as s.tks.
+  void encode(const tools::HeightFile& file) {
+    ASSERT_TRUE(tools::writeHeights(path("h.tif"), file).ok());
+    const Outcome run = cli("-q encode h.tif --max-error 0.001 -f -o s.tks");
+    ASSERT_EQ(run.code, 0) << run.err;
+  }
+
+  std::map<TileName, TerrainTile> readTiles(const std::string& folder) {
+    std::map<TileName, TerrainTile> tiles;
+    const json layer = json::parse(content(folder + "/layer.json"));
+    EXPECT_EQ(layer["format"], "quantized-mesh-1.0");
+    for (uint32_t level = 0; level < layer["available"].size(); ++level) {
+      const json range = layer["available"][level][0];
+      for (uint32_t x = range["startX"]; x <= range["endX"]; ++x)
+        for (uint32_t y = range["startY"]; y <= range["endY"]; ++y)
+          tiles[{level, x, y}] =
+              TerrainTileReader(content(folder + "/" + std::to_string(level) + "/" +
+                                        std::to_string(x) + "/" + std::to_string(y) + ".terrain"))
+                  .read();
+    }
+    EXPECT_EQ(layer["maxzoom"], layer["available"].size() - 1);
+    return tiles;
+  }
+
+  /// Places and heights along one edge.
+  static std::string edgeText(const TerrainTile& tile, size_t edge) {
+    std::string text;
+    for (const uint16_t i : tile.edges[edge])
+      text += std::to_string(edge % 2 == 0 ? tile.v[i] : tile.u[i]) + ":" +
+              std::to_string(tile.metres(i)) + " ";
+    return text;
+  }
+
+  static void expectCovered(const TerrainTile& tile) {
+    constexpr int64_t kSide = 32767;
+    int64_t area = 0;
+    for (size_t i = 0; i < tile.triangles.size(); i += 3) {
+      const auto corner = [&](size_t k, const std::vector<uint32_t>& axis) {
+        return int64_t{axis.at(tile.triangles[i + k])};
+      };
+      const int64_t twice =
+          (corner(1, tile.u) - corner(0, tile.u)) * (corner(2, tile.v) - corner(0, tile.v)) -
+          (corner(2, tile.u) - corner(0, tile.u)) * (corner(1, tile.v) - corner(0, tile.v));
+      EXPECT_GT(twice, 0);
+      area += twice;
+    }
+    EXPECT_EQ(area, 2 * kSide * kSide);
+    EXPECT_EQ(tile.extensions.at(1).size(), 2 * tile.u.size());
+  }
+
+  void expectSound(const std::map<TileName, TerrainTile>& tiles) {
+    for (const auto& item : tiles) {
+      const TileName& name = item.first;
+      const TerrainTile& tile = item.second;
+      SCOPED_TRACE(std::to_string(name[0]) + "/" + std::to_string(name[1]) + "/" +
+                   std::to_string(name[2]));
+      expectCovered(tile);
+      EXPECT_EQ(tile.extensions.contains(4), name[0] % 10 == 0);
+      const auto east = tiles.find({name[0], name[1] + 1, name[2]});
+      if (east != tiles.end()) {
+        EXPECT_EQ(edgeText(tile, 2), edgeText(east->second, 0));
+      }
+      const auto north = tiles.find({name[0], name[1], name[2] + 1});
+      if (north != tiles.end()) {
+        EXPECT_EQ(edgeText(tile, 3), edgeText(north->second, 1));
+      }
+      if (name[0] > 0) {
+        EXPECT_TRUE(tiles.contains({name[0] - 1, name[1] / 2, name[2] / 2}));
+      }
+    }
+  }
+};
+
+TEST_F(CliTiles, CoverTheGroundAndShareTheirEdges) {
+  for (const auto& [west, south] : {std::pair(7.31, 46.2), {-0.05, -0.04}, {-179.9, 88.0}}) {
+    encode(ramp(130, 70, west, south));
+    const Outcome run = cli("tiles s.tks -f -o t");
+    ASSERT_EQ(run.code, 0) << run.err;
+    const auto tiles = readTiles("t");
+    EXPECT_NE(run.err.find(std::to_string(tiles.size()) + " tiles"), std::string::npos) << run.err;
+    expectSound(tiles);
+  }
+}
+
+TEST_F(CliTiles, HaveTheHeightsOfTheStreamAtTheRightPlace) {
+  encode(ramp(130, 110, 7.31, 46.2));
+  ASSERT_EQ(cli("-q tiles s.tks -o t").code, 0);
+  const auto tiles = readTiles("t");
+  const uint32_t deepest = tiles.rbegin()->first[0];
+  size_t seen = 0;
+  for (const auto& item : tiles) {
+    const double side = 180 / std::pow(2, item.first[0]);
+    for (size_t i = 0; i < item.second.u.size() && item.first[0] == deepest; ++i) {
+      const double x = (item.first[1] + item.second.u[i] / 32767.0) * side - 180 - 7.31;
+      const double y = (item.first[2] + item.second.v[i] / 32767.0) * side - 90 - 46.2;
+      const bool in = x > 0.001 && x < 0.129 && y > 0.001 && y < 0.109;
+      const bool out = x < -0.0001 || x > 0.1301 || y < -0.0001 || y > 0.1101;
+      if (in) {
+        EXPECT_NEAR(item.second.metres(i), 1000 + 4000 * x + 9000 * y, 0.15);
+      }
+      if (out) {
+        EXPECT_EQ(item.second.metres(i), 0);
+      }
+      seen += in;
+    }
+  }
+  EXPECT_GT(seen, 50U);
+}
+
+TEST_F(CliTiles, TakeProjectedGroundVoidsAndTheLeastOfTerrains) {
+  tools::HeightFile utm = ramp(40, 30, 500000, 4000000);
+  utm.crs = "EPSG:32611";
+  utm.geotransform = tools::GeoTransform{380000, 30, 2, 3810000, 1, -30};  // turned a little
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  for (size_t i = 0; i < 400; ++i) std::memcpy(&utm.data[4 * i], &none, 4);
+  encode(utm);
+  ASSERT_EQ(cli("-q tiles s.tks -o utm").code, 0);
+  expectSound(readTiles("utm"));
+  encode(ramp(2, 2, 7, 46));
+  ASSERT_EQ(cli("-q tiles s.tks -o least").code, 0);
+  expectSound(readTiles("least"));
+  ASSERT_EQ(cli("-q tiles s.tks --bytes 200 -f -o least").code, 0);
+  expectSound(readTiles("least"));
+}
+
+TEST_F(CliTiles, WhatHasNoPlaceOnAGlobeIsRefused) {
+  makeStream();
+  const auto refused = [this](const std::string& arguments, int code) {
+    const Outcome run = cli(arguments);
+    EXPECT_EQ(run.code, code) << arguments;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  };
+  refused("tiles a.tks -o t", 1);
+  tools::HeightFile file = ramp(9, 9, 7, 46);
+  for (const char* crs : {"EPSG:1", "somewhere", "EPSG:5703", ""}) {
+    file.crs = crs;
+    encode(file);
+    refused("tiles s.tks -o t", 1);
+  }
+  encode(ramp(9, 9, 179.995, 46));  // to 180.004
+  refused("tiles s.tks -o t", 1);
+  file.crs = "EPSG:3031";  // the south pole in the middle
+  file.geotransform = tools::GeoTransform{-45000, 10000, 0, 45000, 0, -10000};
+  encode(file);
+  refused("tiles s.tks -o t", 1);
+  ASSERT_EQ(cli("-q encode --texture texture.png --lossless -o image.tks").code, 0);
+  refused("tiles image.tks -o t", 1);
+  refused("tiles a.tks -o t --format zip", 1);
+  refused("tiles a.tks", 1);
+  EXPECT_FALSE(std::filesystem::exists(path("t")));
+}
+
+TEST_F(CliTiles, FoldersAppearWholeAndAreNotOverwritten) {
+  encode(ramp(9, 9, 7, 46));
+  ASSERT_EQ(cli("-q tiles s.tks -o t/").code, 0);
+  const std::string layer = content("t/layer.json");
+  EXPECT_EQ(cli("tiles s.tks -o t").code, 2);
+  EXPECT_EQ(cli("-q tiles s.tks -f -o t").code, 0);
+  EXPECT_EQ(content("t/layer.json"), layer);
+  EXPECT_EQ(cli("tiles s.tks -f -o .").code, 2);
+  EXPECT_EQ(cli("tiles s.tks -f -o s.tks").code, 2);
+  EXPECT_EQ(cli("tiles s.tks -o missing/t").code, 2);
+  std::filesystem::create_directory(path("empty"));
+  EXPECT_EQ(cli("-q tiles s.tks -o empty").code, 0);
+  EXPECT_EQ(content("empty/layer.json"), layer);
+  EXPECT_EQ(names(), (std::set<std::string>{"empty", "h.tif", "s.tks", "t"}));
+}
+
+}  // namespace
+}  // namespace tetrakis::test

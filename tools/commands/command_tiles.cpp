@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis tiles: a stream as a folder of tiles for globes.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "tools/commands/command.hpp"
+#include "tools/commands/progress.hpp"
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/temporary.hpp"
+#include "tools/tiles/terrain_tiles.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TilesArguments {
+  StreamSource source;
+  std::string folder, format = "quantized-mesh";
+  uint32_t threads = hardwareThreads();
+  bool force = false;
+};
+
+/// A folder that is written beside its place and appears whole or not at all. One that is not empty
+/// is replaced by force, and only if tiles were made there before.
+class TileFolder {
+ public:
+  static Result<TileFolder> plan(const std::string& path, bool force) {
+    TileFolder folder;
+    folder.path_ = fs::absolute(path).lexically_normal();
+    if (!folder.path_.has_filename()) folder.path_ = folder.path_.parent_path();
+    std::error_code error;
+    if (fs::exists(folder.path_, error)) {
+      const std::string name = quoted(path);
+      if (!fs::is_directory(folder.path_, error)) return Status(TKS_IO, name + " is no folder");
+      folder.replaces_ = !fs::is_empty(folder.path_, error);
+      if (folder.replaces_ && !force)
+        return Status(TKS_IO, name + " is not empty: -f replaces tiles in it");
+      if (folder.replaces_ && !fs::exists(folder.path_ / "layer.json", error))
+        return Status(TKS_IO, name + " holds something else than tiles: name another folder");
+    }
+    Result<Temporary> staging = Temporary::makeFolder(folder.path_.parent_path());
+    if (!staging.ok()) return staging.status();
+    folder.staging_ = std::move(*staging);
+    fs::create_directory(folder.staging_.path() / "new", error);
+    return folder;
+  }
+
+  std::string staging() const { return (staging_.path() / "new").string(); }
+
+  Status commit() {
+    std::error_code error;
+    if (replaces_) fs::rename(path_, staging_.path() / "old", error);
+    if (!error) fs::rename(staging(), path_, error);
+    if (!error) return {};
+    return {TKS_IO, "cannot write " + quoted(path_.string()) + ": " + error.message()};
+  }
+
+ private:
+  TileFolder() = default;
+  fs::path path_;
+  bool replaces_ = false;
+  Temporary staging_;
+};
+
+Status makeTiles(const TilesArguments& arguments, bool quiet) {
+  Result<OpenStream> stream = openStream(arguments.source);
+  if (!stream.ok()) return stream.status();
+  stream->decoder.setThreads(arguments.threads);
+  Result<TileFolder> folder = TileFolder::plan(arguments.folder, arguments.force);
+  if (!folder.ok()) return folder.status();
+  Progress progress("tiles", quiet);
+  const Result<TileSetSize> written =
+      writeTerrainTiles(stream->decoder, folder->staging(),
+                        [&progress](double done) { Progress::report(&progress, done); });
+  if (!written.ok()) return written.status();
+  if (const Status status = folder->commit(); !status.ok()) return status;
+  if (!quiet)
+    std::fprintf(stderr, "%s: %llu tiles, levels 0 to %u, %llu bytes\n", arguments.folder.c_str(),
+                 static_cast<unsigned long long>(written->tiles), written->deepest,
+                 static_cast<unsigned long long>(written->bytes));
+  return {};
+}
+
+}  // namespace
+
+void addTiles(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<TilesArguments>();
+  CLI::App& verb = *app.add_subcommand("tiles", "Make terrain tiles for a globe out of a stream");
+  addSource(verb, arguments->source);
+  verb.add_option("-o,--output", arguments->folder, "Folder for layer.json and the tiles")
+      ->required()
+      ->type_name("DIR");
+  verb.add_option("--format", arguments->format, "Of the tiles: quantized-mesh")
+      ->check(silent(CLI::IsMember({"quantized-mesh"})))
+      ->capture_default_str()
+      ->type_name("NAME");
+  addThreads(verb, arguments->threads);
+  addForce(verb, arguments->force);
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return makeTiles(*arguments, line.quiet); };
+  });
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights for a game engine out of a stream, and what to type in there.
+#pragma once
+
+#include <string>
+
+#include "tools/commands/json.hpp"
+#include "tools/files/engine_heights.hpp"
+#include "tools/files/stream.hpp"
+
+namespace tetrakis::tools {
+
+/// From the mip level that is just finer than the square. Leaves the decoder at level 0.
+Result<EngineHeights> decodeEngineHeights(Decoder& decoder, const EngineSize& size,
+                                          uint64_t copies);
+
+/// Size, range and the engine's own scales.
+Json engineJson(const EngineHeights& heights);
+
+/// A sentence or two for people.
+std::string engineText(const EngineHeights& heights);
+
+}  // namespace tetrakis::tools

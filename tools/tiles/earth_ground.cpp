@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/tiles/earth_ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tools/files/file_bytes.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+constexpr const char* kLongitudeLatitude = "EPSG:4326";
+
+/// From coordinates back to columns and rows.
+std::optional<GeoTransform> inverseOf(const GeoTransform& t) {
+  const double determinant = t[1] * t[5] - t[2] * t[4];
+  if (!(std::abs(determinant) > 0) || !std::isfinite(determinant)) return std::nullopt;
+  GeoTransform inverse{0, t[5] / determinant,  -t[2] / determinant,
+                       0, -t[4] / determinant, t[1] / determinant};
+  inverse[0] = -(t[0] * inverse[1] + t[3] * inverse[2]);
+  inverse[3] = -(t[0] * inverse[4] + t[3] * inverse[5]);
+  return inverse;
+}
+
+ProjObject toLongitudeLatitude(PJ_CONTEXT* context, const std::string& crs) {
+  const ProjObject from = horizontalPart(context, findCrs(context, kLongitudeLatitude));
+  const ProjObject to = horizontalPart(context, findCrs(context, crs));
+  if (!from || !to) return nullptr;
+  const ProjObject raw(
+      proj_create_crs_to_crs_from_pj(context, from.get(), to.get(), nullptr, nullptr));
+  return raw ? ProjObject(proj_normalize_for_visualization(context, raw.get())) : nullptr;
+}
+
+/// The mean of the valid samples around a place by their bilinear weights; NaN if there is none.
+float bilinear(const LevelSurface& surface, double x, double y) {
+  const double left = std::clamp(std::floor(x), 0.0, std::max(surface.width - 2.0, 0.0));
+  const double top = std::clamp(std::floor(y), 0.0, std::max(surface.height - 2.0, 0.0));
+  double sum = 0, weights = 0;
+  for (const double row : {top, top + 1}) {
+    for (const double column : {left, left + 1}) {
+      const double weight = (1 - std::abs(x - column)) * (1 - std::abs(y - row));
+      if (!(weight > 0) || column >= surface.width || row >= surface.height) continue;
+      const float height =
+          surface.heights[static_cast<size_t>(row) * surface.width + static_cast<size_t>(column)];
+      if (std::isnan(height)) continue;
+      sum += weight * height;
+      weights += weight;
+    }
+  }
+  return weights > 0 ? static_cast<float>(sum / weights) : std::numeric_limits<float>::quiet_NaN();
+}
+
+}  // namespace
+
+Result<EarthGround> EarthGround::create(const tks_info& info) {
+  if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
+  const std::string crs = info.crs;
+  if (!info.has_geotransform || crs.empty())
+    return Status(TKS_USAGE,
+                  "the stream does not say where on Earth its heights lie: encode a "
+                  "GeoTIFF, or a world file with --crs");
+  EarthGround ground;
+  std::copy_n(info.geotransform, 6, ground.transform_.begin());
+  const auto inverse = inverseOf(ground.transform_);
+  if (!inverse) return Status(TKS_USAGE, "the geotransform of the stream has no inverse");
+  ground.inverse_ = *inverse;
+  ground.width_ = info.width;
+  ground.height_ = info.height;
+  ground.context_ = quietContext();
+  if (ground.context_) ground.transformation_ = toLongitudeLatitude(ground.context_.get(), crs);
+  if (!ground.transformation_)
+    return Status(TKS_USAGE,
+                  "PROJ cannot turn " + quoted(crs.substr(0, 80)) + " into longitude and latitude");
+  if (const Status status = ground.findBounds(); !status.ok()) return status;
+  const GeographicBounds& b = ground.bounds_;
+  constexpr double kMetresPerDegree = 111195;
+  const double metres = std::min(info.spacing_x, info.spacing_y);
+  ground.spacing_ = metres > 0 ? metres / kMetresPerDegree : (b.north - b.south) / info.height;
+  return ground;
+}
+
+/// By 65 x 65 places from edge to edge.
+Status EarthGround::findBounds() {
+  constexpr int kPlaces = 64;
+  const double none = std::numeric_limits<double>::infinity();
+  bounds_ = {none, none, -none, -none};
+  for (int i = 0; i <= kPlaces; ++i) {
+    for (int j = 0; j <= kPlaces; ++j) {
+      const double c = double(width_) * i / kPlaces, r = double(height_) * j / kPlaces;
+      const PJ_COORD place =
+          proj_coord(transform_[0] + c * transform_[1] + r * transform_[2],
+                     transform_[3] + c * transform_[4] + r * transform_[5], 0, HUGE_VAL);
+      const PJ_COORD found = proj_trans(transformation_.get(), PJ_INV, place);
+      if (!std::isfinite(found.xy.x) || !std::isfinite(found.xy.y))
+        return {TKS_USAGE, "parts of the heights lie beyond the places that their CRS is for"};
+      bounds_.west = std::min(bounds_.west, found.xy.x);
+      bounds_.east = std::max(bounds_.east, found.xy.x);
+      bounds_.south = std::min(bounds_.south, found.xy.y);
+      bounds_.north = std::max(bounds_.north, found.xy.y);
+    }
+  }
+  constexpr double kSlack = 1e-6;
+  const double width = bounds_.east - bounds_.west;
+  const bool on_earth = bounds_.west >= -180 - kSlack && bounds_.east <= 180 + kSlack &&
+                        bounds_.south >= -90 - kSlack && bounds_.north <= 90 + kSlack;
+  // A raster in degrees may well go round the Earth; others of that width have come apart.
+  const PJ_COORD first = proj_trans(transformation_.get(), PJ_INV,
+                                    proj_coord(transform_[0], transform_[3], 0, HUGE_VAL));
+  const PJ_COORD last = proj_trans(transformation_.get(), PJ_INV,
+                                   proj_coord(transform_[0] + width_ * transform_[1],
+                                              transform_[3] + width_ * transform_[4], 0, HUGE_VAL));
+  const bool whole = width <= 180 || std::abs(last.xy.x - first.xy.x) > width - 1;
+  if (on_earth && whole) return {};
+  return {TKS_USAGE,
+          "the heights hold a pole or lie on both sides of the antimeridian: cut them "
+          "there and make tiles of each part"};
+}
+
+void EarthGround::sampleParallel(const LevelSurface& surface, double latitude,
+                                 std::span<const double> longitudes,
+                                 std::span<float> heights) const {
+  const double scale = std::ldexp(1, -static_cast<int>(surface.level));
+  for (size_t i = 0; i < longitudes.size(); ++i) {
+    heights[i] = std::numeric_limits<float>::quiet_NaN();
+    // Far from its place a projection may give anything.
+    if (longitudes[i] < bounds_.west || longitudes[i] > bounds_.east || latitude < bounds_.south ||
+        latitude > bounds_.north)
+      continue;
+    const PJ_COORD place =
+        proj_trans(transformation_.get(), PJ_FWD, proj_coord(longitudes[i], latitude, 0, HUGE_VAL));
+    const double x = place.xy.x, y = place.xy.y;
+    const double column = inverse_[0] + x * inverse_[1] + y * inverse_[2];
+    const double row = inverse_[3] + x * inverse_[4] + y * inverse_[5];
+    if (!(column >= 0 && column <= width_ && row >= 0 && row <= height_)) continue;
+    // From areas to the middles of samples, of which the outer ones count up to the edge.
+    const double across = std::clamp((column - 0.5) * scale, 0.0, surface.width - 1.0);
+    const double down = std::clamp((row - 0.5) * scale, 0.0, surface.height - 1.0);
+    heights[i] = bilinear(surface, across, down);
+  }
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the samples of a stream lie in longitude and latitude.
+#pragma once
+
+#include <span>
+
+#include "base/status.hpp"
+#include "tetrakis/tetrakis.hpp"
+#include "tools/files/files.hpp"
+#include "tools/files/proj_objects.hpp"
+#include "tools/tiles/geographic_tile.hpp"
+
+namespace tetrakis::tools {
+
+/// Heights in units of the stream, NaN where void, of a mip level.
+struct LevelSurface {
+  std::vector<float> heights;
+  uint32_t width = 0, height = 0;
+  uint32_t level = 0;  ///< sample (x, y) lies on sample (x 2^level, y 2^level) of level 0
+};
+
+/// Not thread safe.
+class EarthGround {
+ public:
+  /// TKS_USAGE if the stream does not say where its heights lie, PROJ does not know the CRS, or the
+  /// ground holds a pole or crosses the antimeridian, where tiles would have to be of both sides.
+  static Result<EarthGround> create(const tks_info& info);
+
+  const GeographicBounds& bounds() const { return bounds_; }
+
+  /// Degrees of latitude between samples.
+  double spacing() const { return spacing_; }
+
+  /// Heights along a parallel, bilinear between the samples that are no voids; NaN outside, and
+  /// where no sample is.
+  void sampleParallel(const LevelSurface& surface, double latitude,
+                      std::span<const double> longitudes, std::span<float> heights) const;
+
+ private:
+  EarthGround() = default;
+  Status findBounds();
+
+  ProjContext context_;
+  ProjObject transformation_;  ///< from longitude and latitude to the CRS
+  GeoTransform transform_{}, inverse_{};
+  uint32_t width_ = 0, height_ = 0;
+  double spacing_ = 0;
+  GeographicBounds bounds_;
+};
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/tiles/terrain_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tools/files/file_bytes.hpp"
+#include "tools/report/scene.hpp"
+#include "tools/tiles/quantized_mesh.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr uint32_t kDeepest = 24;
+/// Levels of availability in the metadata of a tile.
+constexpr uint32_t kMetadataLevels = 10;
+
+/// What Cesium takes the error of a level's tiles for: a quarter of a cell at the equator.
+double levelError(uint32_t level) {
+  constexpr double kEquator = 40075016.685578488;
+  return std::ldexp(kEquator / (2 * kTileCells) / 4, -static_cast<int>(level));
+}
+
+/// The least level whose cells are no longer than the spacing of the samples.
+uint32_t deepestLevel(double spacing) {
+  uint32_t level = 0;
+  while (level < kDeepest && tileDegrees(level) / kTileCells > spacing) ++level;
+  return level;
+}
+
+json rangeJson(const TileRange& range) {
+  json ranges = json::array();
+  ranges.push_back(
+      {{"startX", range.x0}, {"startY", range.y0}, {"endX", range.x1}, {"endY", range.y1}});
+  return ranges;
+}
+
+/// Writes level by level, from the deepest up.
+class TileWriter {
+ public:
+  TileWriter(Decoder& decoder, const EarthGround& ground, std::string folder)
+      : decoder_(decoder), ground_(ground), folder_(std::move(folder)) {
+    written_.deepest = deepestLevel(ground.spacing());
+    metres_ = frameOf(decoder.info()).metres_per_unit;
+    for (uint32_t level = 0; level <= written_.deepest; ++level)
+      ranges_.push_back(tilesOver(ground.bounds(), level));
+  }
+
+  /// Before anything is decoded.
+  Status checkMemory() {
+    const tks_info& info = decoder_.info();
+    const uint64_t cells = ranges_.back().count() * kTileCells * kTileCells;
+    const uint64_t samples = uint64_t{info.width} * info.height;
+    return decoder_
+        .checkMemory(TKS_PART_HEIGHTS, nullptr, 0,
+                     sizeof(float) * samples + 3 * sizeof(float) * cells)
+        .status();
+  }
+
+  Result<TileSetSize> write(const std::function<void(double)>& progress) {
+    for (uint32_t level = written_.deepest + 1; level-- > 0;) {
+      if (Status status = decodeFor(level); !status.ok()) return status;
+      TerrainLevel terrain(ground_, surface_, metres_, ranges_[level]);
+      if (level == written_.deepest) heights_ = rangeOf(surface_);
+      terrain.chooseVertices(levelError(level) / 2);
+      if (Status status = writeLevel(terrain); !status.ok()) return status;
+      progress(1 - std::ldexp(1, -2 * static_cast<int>(written_.deepest + 1 - level)));
+    }
+    if (Status status = writeLayer(); !status.ok()) return status;
+    return written_;
+  }
+
+ private:
+  /// Mip levels follow the levels of tiles, as far as there are some.
+  Status decodeFor(uint32_t level) {
+    const uint32_t mip = std::min(written_.deepest - level, decoder_.info().coarsest_level);
+    if (!surface_.heights.empty() && surface_.level == mip) return {};
+    surface_.heights.clear();
+    if (Status set = decoder_.setLevels(mip, 0); !set.ok()) return set;
+    Result<std::vector<float>> heights = decoder_.surface();
+    if (!heights) return heights.status();
+    surface_ = {std::move(*heights), decoder_.info().width, decoder_.info().height, mip};
+    return {};
+  }
+
+  /// One for all tiles. Ground that is not covered has the height 0; where a mip level overshoots
+  /// the samples, it is cut.
+  HeightRange rangeOf(const LevelSurface& surface) const {
+    double low = 0, high = 0;
+    for (const float height : surface.heights) {
+      if (std::isnan(height)) continue;
+      low = std::min(low, height * metres_);
+      high = std::max(high, height * metres_);
+    }
+    return {static_cast<float>(low), static_cast<float>(high)};
+  }
+
+  Status writeLevel(const TerrainLevel& terrain) {
+    const TileRange& range = terrain.range();
+    for (uint32_t x = range.x0; x <= range.x1; ++x) {
+      const fs::path column = fs::path(folder_) / std::to_string(range.level) / std::to_string(x);
+      std::error_code error;
+      fs::create_directories(column, error);
+      if (error)
+        return {TKS_IO, "cannot create " + quoted(column.string()) + ": " + error.message()};
+      for (uint32_t y = range.y0; y <= range.y1; ++y) {
+        const GeographicTile tile{range.level, x, y};
+        const auto bytes =
+            encodeQuantizedMesh(terrain.meshOf(tile), tile, heights_, metadataOf(tile));
+        const Status status =
+            writeBytes((column / (std::to_string(y) + ".terrain")).string(), bytes);
+        if (!status.ok()) return status;
+        ++written_.tiles;
+        written_.bytes += bytes.size();
+      }
+    }
+    return {};
+  }
+
+  /// Which tiles there are below this one, on every tenth level.
+  std::string metadataOf(const GeographicTile& tile) const {
+    if (tile.level % kMetadataLevels != 0) return "";
+    json available = json::array();
+    for (uint32_t down = 1; down <= kMetadataLevels; ++down) {
+      if (tile.level + down > written_.deepest) break;
+      TileRange range = ranges_[tile.level + down];
+      available.push_back(below(tile, range) ? rangeJson(range) : json::array());
+    }
+    return json{{"available", available}}.dump();
+  }
+
+  Status writeLayer() const {
+    json available = json::array();
+    for (const TileRange& range : ranges_) available.push_back(rangeJson(range));
+    const GeographicBounds& b = ground_.bounds();
+    const json layer{{"tilejson", "2.1.0"},
+                     {"name", "Tetrakis"},
+                     {"version", "1.0.0"},
+                     {"format", "quantized-mesh-1.0"},
+                     {"scheme", "tms"},
+                     {"tiles", json::array({"{z}/{x}/{y}.terrain?v={version}"})},
+                     {"projection", "EPSG:4326"},
+                     {"bounds", json::array({-180, -90, 180, 90})},
+                     {"valid_bounds", json::array({b.west, b.south, b.east, b.north})},
+                     {"minzoom", 0},
+                     {"maxzoom", written_.deepest},
+                     {"extensions", json::array({"octvertexnormals", "metadata"})},
+                     {"metadataAvailability", kMetadataLevels},
+                     {"available", available}};
+    const std::string text = layer.dump(2) + "\n";
+    return writeBytes((fs::path(folder_) / "layer.json").string(), std::as_bytes(std::span(text)));
+  }
+
+  Decoder& decoder_;
+  const EarthGround& ground_;
+  std::string folder_;
+  double metres_ = 1;
+  std::vector<TileRange> ranges_;  ///< by level
+  LevelSurface surface_;
+  HeightRange heights_;
+  TileSetSize written_;
+};
+
+}  // namespace
+
+Result<TileSetSize> writeTerrainTiles(Decoder& decoder, const std::string& folder,
+                                      const std::function<void(double)>& progress) {
+  const Result<EarthGround> ground = EarthGround::create(decoder.info());
+  if (!ground.ok()) return ground.status();
+  TileWriter writer(decoder, *ground, folder);
+  if (Status status = writer.checkMemory(); !status.ok()) return status;
+  return writer.write(progress);
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream as a folder of terrain tiles that Cesium reads from any static host.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "base/status.hpp"
+#include "tetrakis/tetrakis.hpp"
+
+namespace tetrakis::tools {
+
+struct TileSetSize {
+  uint64_t tiles = 0, bytes = 0;
+  uint32_t deepest = 0;  ///< level
+};
+
+/// Writes layer.json and LEVEL/X/Y.terrain (quantized-mesh-1.0) into an existing folder: from the
+/// two tiles of level 0 down to the level whose grid is as fine as the samples. Level by level each
+/// height is within half of what Cesium takes a level's error for, of the mip level that is shown.
+/// progress: done so far, in [0, 1]. Errors: those of EarthGround; TKS_LIMIT; TKS_IO.
+Result<TileSetSize> writeTerrainTiles(Decoder& decoder, const std::string& folder,
+                                      const std::function<void(double)>& progress);
+
+}  // namespace tetrakis::tools
