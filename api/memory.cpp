@@ -89,7 +89,7 @@ class HeightsBytes {
     const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
     const uint64_t corrections = corrected_ ? low() * (kValue + 1) + kRow * header_.width : 0;
     const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
-    const uint64_t surface = planes.coefficients + marks + masks + flatBytes() +
+    const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +
                              std::max({state, planes.work, corrections + tableBytes()});
     return kOnce + trackBytes(header_) + std::max(surface, flatOpeningBytes());
   }
@@ -103,6 +103,8 @@ class HeightsBytes {
     const uint64_t samples = view_.window ? shown_ : low();
     return table_ ? layers_.table_values * kEntry + samples * kValue : 0;
   }
+  /// Coefficients around the table, in one piece.
+  uint64_t joinedBytes() const { return table_ ? decoder_.payload_bytes : 0; }
   /// The number of each sample, and of each area its level and what levels of the transform make of
   /// it.
   uint64_t flatBytes() const {

@@ -44,29 +44,52 @@ VectorCase sampleCorrections(const std::string& name, const std::string& purpose
   return crafted(name, purpose, streamOf(header, codeword));
 }
 
+/// What there is of a table of noise.
+struct NoiseTable {
+  tks_sample sample;
+  uint32_t values;
+  uint32_t seed;
+  uint64_t after = 0;                 ///< bytes of coefficients
+  std::vector<TableKnot> knots = {};  ///< that stand in for it
+  uint8_t fraction_bits = 0;
+};
+
 /// Tables of noise: gaps of all sizes, words that wrap, floats that are no numbers. Corrections lie
-/// behind them.
-VectorCase noiseTable(const std::string& name, const std::string& purpose, tks_sample sample,
-                      uint32_t values, uint32_t seed) {
-  StreamHeader header = heightsHeader(28, 23, sample, 12);
+/// behind the coefficients, of which there are 300 bytes.
+VectorCase noiseTable(const std::string& name, const std::string& purpose, const NoiseTable& of) {
+  StreamHeader header = heightsHeader(28, 23, of.sample, 12);
   header.geometry->step = 3;
+  header.geometry->wavelet.fraction_bits = of.fraction_bits;
   header.layers.corrections = CorrectionKind::kSamples;
   header.layers.table_bytes = 500;
-  header.layers.table_values = values;
+  header.layers.table_values = of.values;
+  header.layers.table_after = of.after;
+  header.layers.table_knots = of.knots;
   header.layers.coefficient_bytes = 300;
-  Bytes codeword = noise(500, seed);
-  append(codeword, noise(300, seed + 1));
-  append(codeword, noise(900, seed + 2, 9));
+  const Bytes coefficients = noise(300, of.seed + 1);
+  Bytes codeword(coefficients.begin(), coefficients.begin() + static_cast<ptrdiff_t>(of.after));
+  append(codeword, noise(500, of.seed));
+  codeword.insert(codeword.end(), coefficients.begin() + static_cast<ptrdiff_t>(of.after),
+                  coefficients.end());
+  append(codeword, noise(900, of.seed + 2, 9));
   return crafted(name, purpose, streamOf(header, codeword));
 }
 
 std::vector<VectorCase> tableCases() {
+  constexpr int64_t kSteep = GeometryLayers::kMostRise;
+  const std::vector<TableKnot> wild = {{0, -kSteep}, {1, kSteep}, {30, -17}, {59, 250}};
   return {noiseTable("noise_table_i16_28x23", "noise: a table of which words leave their type",
-                     TKS_I16, 40, 71),
-          noiseTable("noise_table_f32_28x23", "noise: a table of any floats", TKS_F32, 60, 74),
+                     {TKS_I16, 40, 71}),
+          noiseTable("noise_table_f32_28x23", "noise: a table of any floats", {TKS_F32, 60, 74}),
           noiseTable("noise_table_unknown_28x23",
-                     "noise: the bytes of the table do not decide all of its values", TKS_I32,
-                     1 << 20, 77)};
+                     "noise: the bytes of the table do not decide all of its values",
+                     {TKS_I32, 1 << 20, 77}),
+          noiseTable("noise_table_knots_28x23",
+                     "noise: a table among the coefficients, knots of any rise",
+                     {TKS_F32, 60, 80, 130, wild}),
+          noiseTable("noise_table_behind_28x23",
+                     "noise: an undecided table behind the coefficients, six fraction bits",
+                     {TKS_I32, 1 << 20, 83, 300, {{400000, -300}, {524288, 300}, {700000, 9}}, 6})};
 }
 
 /// Flat areas of any shape and any level, and noise for coefficients.

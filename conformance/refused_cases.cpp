@@ -90,6 +90,23 @@ std::vector<VectorCase> refusedHeaders() {
     h.layers.table_bytes = 9;
     h.layers.table_values = 1;
   });
+  refuse("table_knots", "a knot beyond the table", [](StreamHeader& h) {
+    h.layers.table_bytes = 9;
+    h.layers.table_values = 4;
+    h.layers.table_knots = {{1, 5}, {4, 5}};
+  });
+  refuse("table_rise", "a knot that rises too far", [](StreamHeader& h) {
+    h.layers.table_bytes = 9;
+    h.layers.table_values = 4;
+    h.layers.table_knots = {{1, 1}, {2, GeometryLayers::kMostRise + 1}};
+  });
+  refuse("table_after", "a table behind more coefficients than there are", [](StreamHeader& h) {
+    h.layers.corrections = CorrectionKind::kSamples;
+    h.layers.table_bytes = 9;
+    h.layers.table_values = 4;
+    h.layers.table_after = 7;
+    h.layers.coefficient_bytes = 6;
+  });
   refuse("table_stored", "stored heights with a table of values", [](StreamHeader& h) {
     h.geometry->planes = GeometryHeader::kStoredPlanes;
     h.layers.table_bytes = 9;

@@ -6,6 +6,7 @@
 
 #include "codec/geometry/stored_heights.hpp"
 #include "encoder/height_errors.hpp"
+#include "ratecontrol/hull.hpp"
 #include "wavelet/rounding_choice.hpp"
 
 namespace tetrakis::inline encoder {
@@ -21,6 +22,39 @@ double squaresOf(const FlatLayer& flat) {
     squares += level * level;
   }
   return squares;
+}
+
+/// Bytes of coefficients that are to come before a table of so many bytes: all those that take off
+/// more error a byte than the table does, which leaves `error` while it is missing.
+uint64_t bytesBeforeTable(const EncodedTrack& coefficients, size_t bytes, double error) {
+  const double slope = error / static_cast<double>(bytes);
+  const std::vector<RatePoint> hull = lowerHull(coefficients.points, 0);
+  uint64_t before = 0;
+  for (size_t i = 1; i < hull.size(); ++i) {
+    const RatePoint &a = hull[i - 1], &b = hull[i];
+    if (a.distortion - b.distortion < slope * static_cast<double>(b.bytes - a.bytes)) break;
+    before = b.bytes;
+  }
+  return before;
+}
+
+/// Puts the table to its place within the coefficients, and into their account.
+void putTable(const QuantisedHeights& heights, GeometryLayers& layers, EncodedTrack& track) {
+  const std::vector<uint8_t>& table = heights.table;
+  if (table.empty()) return;
+  layers.table_after = bytesBeforeTable(track, table.size(), heights.without_table);
+  track.codeword.insert(track.codeword.begin() + static_cast<ptrdiff_t>(layers.table_after),
+                        table.begin(), table.end());
+  std::vector<RatePoint> points;
+  for (const RatePoint& point : track.points) {
+    const bool before = point.bytes <= layers.table_after;
+    if (before) {
+      points.push_back({point.bytes, point.distortion + heights.without_table, point.dips});
+    }
+    if (point.bytes >= layers.table_after)
+      points.push_back({point.bytes + table.size(), point.distortion, point.dips});
+  }
+  track.points = std::move(points);
 }
 
 /// Moves the account of the coefficients to behind the opening, and lets it end with the
@@ -91,8 +125,8 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
   EncodedTrack& track = coded.tracks.front();
   std::vector<uint8_t>& codeword = track.codeword;
   if (!corrections.empty()) coded.layers.coefficient_bytes = codeword.size();
+  putTable(heights, coded.layers, track);
   codeword.insert(codeword.begin(), flat.codeword.begin(), flat.codeword.end());
-  codeword.insert(codeword.begin(), heights.table.begin(), heights.table.end());
   codeword.insert(codeword.begin(), heights.validity.begin(), heights.validity.end());
   codeword.insert(codeword.end(), corrections.begin(), corrections.end());
   joinAccount(heights, layers, track);
@@ -129,6 +163,8 @@ CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
   stored.layers.corrections = CorrectionKind::kNone;
   stored.layers.coefficient_bytes = 0;
   stored.layers.table_bytes = stored.layers.table_values = 0;
+  stored.layers.table_after = 0;
+  stored.layers.table_knots.clear();
   stored.layers.flat_bytes = stored.layers.flat_areas = 0;
   const QuantisedHeights& heights = *stored.of;
   EncodedTrack& track = stored.tracks.emplace_back();

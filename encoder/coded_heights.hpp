@@ -21,8 +21,8 @@ struct CodedHeights {
   std::shared_ptr<const QuantisedHeights> of;
   GeometryHeader header;  ///< without max_error
   GeometryLayers layers;
-  /// The first holds the codewords of validity, table and flat areas, coefficients, corrections;
-  /// others coefficients alone.
+  /// The first holds the codewords of validity and flat areas, coefficients with the table among
+  /// them, corrections; others coefficients alone.
   std::vector<EncodedTrack> tracks;
   uint64_t closing = 0;  ///< bytes of corrections
   double left = 0;       ///< QuantisedHeights::left, or what stored samples leave
@@ -53,8 +53,9 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            const CoefficientOptions& options);
 
-/// Validity, table and flat areas before the coefficients of the first track, corrections behind
-/// them. region_log2: what the coefficients were coded with.
+/// Validity and flat areas before the coefficients of the first track, corrections behind them, a
+/// table within them, where its bytes take off as much error as theirs. region_log2: what the
+/// coefficients were coded with.
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
                         std::vector<EncodedTrack> coefficients, int region_log2);
 

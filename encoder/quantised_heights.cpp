@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/geometry/corrections_encoder.hpp"
+#include "codec/geometry/stand_in_choice.hpp"
 #include "codec/geometry/value_table_encoder.hpp"
 #include "lattice/validity_encoder.hpp"
 
@@ -59,6 +60,10 @@ void addTable(QuantisedHeights& heights) {
   heights.table = encodeValueTable(table);
   heights.layers.table_bytes = heights.table.size();
   heights.layers.table_values = static_cast<uint32_t>(table.words.size());
+  StandInChoice stand_in = chooseStandIn(heights.steps, headerOf(heights), heights.table.size(),
+                                         heights.mostOfASample());
+  heights.layers.table_knots = std::move(stand_in.knots);
+  heights.without_table = std::max(stand_in.squares, QuantisedHeights::kSomething);
 }
 
 /// What restores the samples behind the steps.

@@ -27,6 +27,7 @@ struct QuantisedHeights {
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
   double left = 0;
+  double without_table = 0;  ///< squared error, in steps, of complete coefficients without it
 
   /// Corrections restore every sample.
   bool restored() const { return layers.corrections == CorrectionKind::kSamples; }

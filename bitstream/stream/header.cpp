@@ -132,6 +132,12 @@ Status checkLayers(const StreamHeader& header) {
       (layers.table_bytes > 0 && layers.corrections == CorrectionKind::kSteps)) {
     return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
   }
+  const bool steep =
+      std::any_of(layers.table_knots.begin(), layers.table_knots.end(),
+                  [](const TableKnot& k) { return std::abs(k.rise) > GeometryLayers::kMostRise; });
+  if (steep) {
+    return {TKS_CORRUPT, "Corrupt stream: a knot of its table of values lies too far off."};
+  }
   if (layers.flat_bytes > 0 &&
       header.geometry->extent().samples() > GeometryLayers::kMostFlatSamples) {
     return {TKS_CORRUPT, "Corrupt stream: so large a height field has no flat areas."};

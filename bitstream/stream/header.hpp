@@ -102,16 +102,28 @@ struct GeometryHeader {
   static constexpr uint8_t kStoredPlanes = 31;
 };
 
-/// What a geometry track holds besides coefficients, which then lie between the two:
+/// A point of the polyline that stands for a table of values while that is missing.
+struct TableKnot {
+  uint32_t place = 0;  ///< in the table
+  int64_t rise = 0;    ///< of its value above base + step * (place - middle), in 1/16 steps
+
+  bool operator==(const TableKnot&) const = default;
+};
+
+/// What a geometry track holds besides coefficients:
 ///
-///   validity codeword | table of values | flat areas | coefficients | corrections
+///   validity codeword | flat areas | coefficients | corrections
+///
+/// A table of values lies within the coefficients, or at one of their ends.
 struct GeometryLayers {
   uint64_t validity_bytes = 0;  ///< 0: every sample is valid
   uint64_t table_bytes = 0;     ///< 0: steps are multiples; else they count the values of a table
   uint32_t table_values = 0;    ///< with a table only: how many it has
-  uint64_t flat_bytes = 0;      ///< 0: there are no flat areas
-  uint32_t flat_areas = 0;      ///< with flat areas only: how many there are
-  uint8_t has_nodata = 0;       ///< voids have the sample value `nodata`; else NaN (f32 only)
+  uint64_t table_after = 0;     ///< likewise: bytes of coefficients before it
+  std::vector<TableKnot> table_knots = {};  ///< likewise, by rising places
+  uint64_t flat_bytes = 0;                  ///< 0: there are no flat areas
+  uint32_t flat_areas = 0;                  ///< with flat areas only: how many there are
+  uint8_t has_nodata = 0;  ///< voids have the sample value `nodata`; else NaN (f32 only)
   double nodata = 0;
   CorrectionKind corrections = CorrectionKind::kNone;
   uint64_t coefficient_bytes = 0;  ///< with corrections only: what follows is theirs
@@ -133,13 +145,15 @@ struct GeometryLayers {
     if (kinds & kWithTable) {
       v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
       v.varint("table_values", table_values, 2, kMostValues);
+      v.varint("table_after", table_after, 0, UINT64_MAX >> 1);
+      visitKnots(v);
     }
     if (kinds & kWithFlatAreas) {
       v.varint("flat_bytes", flat_bytes, 1, UINT64_MAX >> 1);
       v.varint("flat_areas", flat_areas, 1, kMostFlatAreas);
     }
     if (corrections == CorrectionKind::kNone) return;
-    v.varint("coefficient_bytes", coefficient_bytes, 0, UINT64_MAX >> 1);
+    v.varint("coefficient_bytes", coefficient_bytes, table_after, UINT64_MAX >> 1);
     if (corrections == CorrectionKind::kSteps) {
       v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
     }
@@ -149,8 +163,29 @@ struct GeometryLayers {
   static constexpr uint64_t kMostFlatAreas = 65535;
   static constexpr uint64_t kMostFlatSamples = uint64_t{1} << 31;  ///< of a plane with flat areas
   static constexpr uint32_t kMostValues = 1u << 20;
+  static constexpr uint8_t kMostKnots = 64;
+  static constexpr int64_t kMostRise = int64_t{1} << 28;
 
-  uint64_t openingBytes() const { return validity_bytes + table_bytes + flat_bytes; }
+  uint64_t openingBytes() const { return validity_bytes + flat_bytes; }
+
+ private:
+  /// Each as what it differs by from the one before it.
+  template <class V>
+  void visitKnots(V& v) {
+    auto count = static_cast<uint8_t>(table_knots.size());
+    v.u8("table_knots", count, 0, kMostKnots);
+    table_knots.resize(count);
+    TableKnot before;
+    for (size_t i = 0; i < table_knots.size() && v.ok(); ++i) {
+      TableKnot& knot = table_knots[i];
+      uint32_t gap = knot.place - before.place;
+      int64_t rise = knot.rise - before.rise;
+      v.varint("knot_gap", gap, i > 0 ? 1 : 0, table_values - 1u - before.place);
+      v.zigzag("knot_rise", rise, 2 * kMostRise);
+      knot = {before.place + gap, before.rise + rise};
+      before = knot;
+    }
+  }
 };
 
 /// In the place of a number of bit-planes: the texture is drawn

@@ -10,6 +10,7 @@
 #include "codec/geometry/flat_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 #include "codec/geometry/stored_heights.hpp"
+#include "codec/geometry/value_stand_in.hpp"
 #include "codec/geometry/value_table_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
 
@@ -37,20 +38,37 @@ void correctSteps(DecodedGeometry& geometry, const GeometryLayers& layers,
 /// The tracks taken apart.
 struct TakenLayers {
   std::span<const uint8_t> validity, table, flat, corrections;
-  Codewords coefficients;
+  Codewords coefficients;  ///< of the first track those before the table
+  std::span<const uint8_t> behind_table;
 
   TakenLayers(const Codewords& codewords, const GeometryLayers& layers) : coefficients(codewords) {
     assert(!coefficients.empty());
     std::span<const uint8_t>& first = coefficients.front();
-    validity = firstOf(first, layers.validity_bytes);
-    first = first.subspan(validity.size());
-    table = firstOf(first, layers.table_bytes);
-    first = first.subspan(table.size());
-    flat = firstOf(first, layers.flat_bytes);
-    first = first.subspan(flat.size());
-    if (layers.corrections == CorrectionKind::kNone) return;
-    corrections = first.subspan(firstOf(first, layers.coefficient_bytes).size());
-    first = first.first(first.size() - corrections.size());
+    const auto take = [&](uint64_t count) {
+      const std::span<const uint8_t> taken = firstOf(first, count);
+      first = first.subspan(taken.size());
+      return taken;
+    };
+    validity = take(layers.validity_bytes);
+    flat = take(layers.flat_bytes);
+    const bool corrected = layers.corrections != CorrectionKind::kNone;
+    const uint64_t all = corrected ? layers.coefficient_bytes : UINT64_MAX;
+    const bool has_table = layers.table_bytes > 0;
+    const std::span<const uint8_t> ahead = take(has_table ? layers.table_after : all);
+    table = take(layers.table_bytes);
+    if (has_table) behind_table = take(all - layers.table_after);
+    corrections = first;
+    first = ahead;
+  }
+
+  /// Makes the coefficients of the first track one codeword, which `joined` holds from then on.
+  void join(std::vector<uint8_t>& joined) {
+    if (behind_table.empty()) return;
+    std::span<const uint8_t>& ahead = coefficients.front();
+    joined.reserve(ahead.size() + behind_table.size());
+    joined.assign(ahead.begin(), ahead.end());
+    joined.insert(joined.end(), behind_table.begin(), behind_table.end());
+    ahead = joined;
   }
 };
 
@@ -82,7 +100,11 @@ void applyTable(const TakenLayers& taken, const GeometryHeader& header,
                 const GeometryLayers& layers, DecodedHeights& decoded) {
   if (layers.table_bytes == 0) return;
   const ValueTable table = decodeValueTable(taken.table, layers.table_values);
-  if (!table.empty()) applyTable(table, header, decoded);
+  if (table.empty()) {
+    applyStandIn(layers, decoded.geometry);
+  } else {
+    applyTable(table, header, decoded);
+  }
 }
 
 /// Adds corrections of the samples to those that the table has made.
@@ -145,7 +167,7 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,
                              const Codewords& codewords, const View& view,
                              const DecodeContext<HeightsMemory>& context) {
-  const TakenLayers taken(codewords, layers);
+  TakenLayers taken(codewords, layers);
   // A stored sample's place depends on the voids before it, and contexts of corrections come from
   // the corrections and heights of the whole plane.
   if (view.window && (header.stored() || !taken.corrections.empty()))
@@ -155,6 +177,8 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
   if (header.stored()) return decodeStored(header, taken.coefficients.front(), valid, view.level);
   DecodedHeights decoded;
   DecodedGeometry& geometry = decoded.geometry;
+  std::vector<uint8_t> joined;
+  taken.join(joined);
   FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
   const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
                        taken.flat.size() == layers.flat_bytes;

@@ -170,6 +170,29 @@ std::vector<uint32_t> valuesOf(const GeometryHeader& header, const std::vector<u
   return samples;
 }
 
+/// FORMAT 8.1, "Stand-in": heights between steps in the place of a table.
+void standIn(const Layers& layers, Surface& surface) {
+  constexpr int64_t kMost = 1 << 29;
+  const std::vector<TableKnot>& knots = layers.tableKnots;
+  const int64_t one = int64_t{1} << surface.f;
+  for (size_t i = 0; i < surface.plane.values.size(); ++i) {
+    int32_t& v = surface.plane.values[i];
+    const int64_t place = v + layers.tableValues / 2 * one;
+    size_t next = 0;
+    while (next < knots.size() && knots[next].place * one <= place) ++next;
+    int64_t rise = knots[next == 0 ? 0 : next - 1].rise;
+    if (next > 0 && next < knots.size()) {
+      const TableKnot &a = knots[next - 1], &b = knots[next];
+      const int64_t up = (b.rise - a.rise) * (place - a.place * one);
+      const int64_t run = (b.place - a.place) * one;
+      rise += (up - ((up % run) + run) % run) / run;
+    }
+    const int64_t line = (int64_t{v} * 16) >> surface.f;
+    v = static_cast<int32_t>(std::clamp(line, -kMost, kMost) + rise);
+  }
+  surface.f = 4;
+}
+
 /// FORMAT 8.1, "Table of values": the sample N near a value.
 uint32_t nearValue(const GeometryHeader& header, uint32_t bits) {
   constexpr double kMost = 1 << 25;
@@ -297,19 +320,27 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
   if (header.planes == kStoredPlanes) return decodeStored(header, layers, codeword, valid, level);
-  const std::vector<uint32_t> table =
-      layers.tableBytes == 0 ? std::vector<uint32_t>{}
-                             : decodeTable(take(codeword, layers.tableBytes), layers.tableValues);
   Flat flat;
   if (layers.flatBytes > 0) {
     flat = decodeFlat(take(codeword, layers.flatBytes), {header.width, header.height, {}, valid},
                       layers.flatAreas);
   }
+  const uint64_t bytes = layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX;
+  const bool hasTable = layers.tableBytes > 0;
+  const auto ahead = take(codeword, hasTable ? layers.tableAfter : bytes);
+  std::vector<uint8_t> first(ahead.begin(), ahead.end());
+  std::vector<uint32_t> table;
+  if (hasTable) {
+    table = decodeTable(take(codeword, layers.tableBytes), layers.tableValues);
+    const auto behind = take(codeword, bytes - layers.tableAfter);
+    first.insert(first.end(), behind.begin(), behind.end());
+  }
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
-  coefficients[0] = take(codeword, layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
+  coefficients[0] = first;
   Plane known{header.width, header.height, {}, std::move(valid)};
   known.flat = std::move(flat);
   Surface surface = decodeSurface(header, coefficients, std::move(known), level);
+  if (table.empty() && !layers.tableKnots.empty()) standIn(layers, surface);
   if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
   std::vector<uint32_t> samples =
       table.empty() ? samplesOf(header, surface) : valuesOf(header, table, surface);

@@ -59,6 +59,22 @@ bool holds(int sample, double value) {
   return value >= kLeast[sample] && value <= kLargest[sample] && value == std::floor(value);
 }
 
+/// FORMAT 2, the fields of a table but the first two.
+void readKnots(Reader& in, Layers& layers) {
+  constexpr int64_t kMostRise = 1 << 28;
+  layers.tableAfter = in.varint(0, INT64_MAX);
+  const int count = in.u8(0, 64);
+  TableKnot knot;
+  for (int i = 0; i < count; ++i) {
+    const int64_t most = int64_t{layers.tableValues} - 1 - knot.place, least = i > 0 ? 1 : 0;
+    if (most < least) in.fail(Outcome::kCorrupt);
+    knot.place += static_cast<int64_t>(in.varint(least, std::max(least, most)));
+    knot.rise += in.zigzag(2 * kMostRise);
+    if (std::abs(knot.rise) > kMostRise) in.fail(Outcome::kCorrupt);
+    layers.tableKnots.push_back(knot);
+  }
+}
+
 /// FORMAT 2, table Layers.
 Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   Layers layers;
@@ -71,6 +87,7 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   if (kinds & 4) {
     layers.tableBytes = in.varint(1, INT64_MAX);
     layers.tableValues = static_cast<uint32_t>(in.varint(2, 1 << 20));
+    readKnots(in, layers);
   }
   if (kinds & 8) {
     layers.flatBytes = in.varint(1, INT64_MAX);
@@ -79,7 +96,7 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
         geometry && uint64_t(geometry->width) * uint64_t(geometry->height) <= 1u << 31;
     if (!small) in.fail(Outcome::kCorrupt);
   }
-  if (layers.corrections > 0) layers.coefficientBytes = in.varint(0, INT64_MAX);
+  if (layers.corrections > 0) layers.coefficientBytes = in.varint(layers.tableAfter, INT64_MAX);
   if (layers.corrections == 1) {
     layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
   }

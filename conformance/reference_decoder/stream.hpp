@@ -35,6 +35,10 @@ struct GeometryHeader {
 };
 
 /// FORMAT 2, table Layers.
+struct TableKnot {
+  int64_t place = 0, rise = 0;
+};
+
 struct Layers {
   uint64_t validityBytes = 0, coefficientBytes = 0;
   bool hasNodata = false;
@@ -45,6 +49,8 @@ struct Layers {
   uint64_t flatBytes = 0;
   uint32_t flatAreas = 0;
   uint32_t tableValues = 0;
+  uint64_t tableAfter = 0;
+  std::vector<TableKnot> tableKnots;
 };
 
 struct TextureHeader {

@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "bitstream/stream/header.hpp"
+#include "conformance/samples/few_values.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
 
@@ -243,6 +245,33 @@ TEST(DecodeMemory, HeightsOfEveryKindStayBelowTheBound) {
   expectWithinBounds(encode(&heights, nullptr, within(100)), "corrections of steps");
   expectWithinBounds(withVoids(heights, lossless()), "voids");
   expectWithinBounds(withVoids(heights, inRegions(budget(9000), 64)), "voids in regions");
+}
+
+/// Areas and heights between them in turns, or heights of few values.
+TEST(DecodeMemory, FlatAreasAndTablesStayBelowTheBound) {
+  Raster lakes = make({Pattern::kRidges, 161, 130, 1, TKS_I16, 3});
+  for (uint32_t y = 0; y < 130; ++y) {
+    for (uint32_t x = 0; x < 161; ++x) {
+      if (x / 23 % 2 == 0 || y / 26 % 2 == 0) continue;
+      const auto level = static_cast<int16_t>(100 + x / 23 + y / 26);
+      std::memcpy(lakes.data.data() + 2 * (size_t{y} * 161 + x), &level, 2);
+    }
+  }
+  const auto expectAreas = [&](const Bytes& bytes, const std::string& what) {
+    EXPECT_GT(readHeader(bytes)->header.layers.flat_areas, 0u) << what;
+    expectWithinBounds(bytes, what, readHeader(bytes)->header.layers.validity_bytes > 0);
+  };
+  expectAreas(encode(&lakes, nullptr, lossless()), "lakes");
+  expectAreas(encode(&lakes, nullptr, budget(8000)), "lossy lakes");
+  expectAreas(encode(&lakes, nullptr, inRegions(lossless(), 32)), "lakes in regions");
+  expectAreas(withVoids(lakes, lossless()), "lakes beside voids");
+  const Raster few = samples::withFewValues(make({Pattern::kRidges, 150, 140, 1, TKS_U8, 3}),
+                                            samples::FewValues::kRare);
+  for (const uint32_t side_of_regions : {1u, 32u}) {
+    const Bytes bytes = encode(&few, nullptr, inRegions(lossless(), side_of_regions));
+    EXPECT_GT(readHeader(bytes)->header.layers.table_bytes, 0u);
+    expectWithinBounds(bytes, "few values");
+  }
 }
 
 TEST(DecodeMemory, StoredSamplesStayBelowTheBound) {

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole streams of heights that have few values, which a table holds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "bitstream/stream/header.hpp"
+#include "conformance/reference_decoder.hpp"
+#include "conformance/samples/few_values.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::FewValues;
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+std::string nameOf(FewValues kind) {
+  constexpr const char* kNames[] = {"feet", "rescaled", "rare", "stretched"};
+  return kNames[static_cast<size_t>(kind)];
+}
+
+/// Beside the same terrain in whole numbers, the values cost their table, and exceptions.
+TEST(FewValues, TakeLittleMoreThanWholeNumbers) {
+  const Raster whole = make({Pattern::kRidges, 150, 140, 1, TKS_U8, 3});
+  const size_t plain = encode(&whole, nullptr, lossless()).size();
+  for (const FewValues kind : samples::kFewValues) {
+    SCOPED_TRACE(nameOf(kind));
+    const Raster heights = samples::withFewValues(whole, kind);
+    const Bytes stream = encode(&heights, nullptr, lossless());
+    EXPECT_TRUE(Stream(stream).heights() == heights.data);
+    EXPECT_EQ(Stream(stream).info().lossless, 1);
+    const size_t exceptions = kind == FewValues::kRare ? 150 * 140 / 100 * 4 : 0;
+    EXPECT_LT(stream.size(), plain + plain / 50 + 400 + exceptions);
+  }
+}
+
+/// Squared error of a prefix.
+double squaresOf(const Raster& truth, Prefix prefix) {
+  const std::vector<std::byte> shown = Stream(prefix).heights();
+  double squares = 0;
+  for (size_t i = 0; i < truth.width * size_t{truth.height}; ++i) {
+    const double error = sampleAt(shown, truth.sample, i) - sampleAt(truth.data, truth.sample, i);
+    squares += error * error;
+  }
+  return squares;
+}
+
+/// Square roots over 16 bits: no line comes near to the values.
+Raster squareRoots(uint32_t width, uint32_t height) {
+  Raster heights = make({Pattern::kRidges, width, height, 1, TKS_U16, 3});
+  for (size_t i = 0; i < size_t{width} * height; ++i) {
+    const double value = sampleAt(heights.data, TKS_U16, i);
+    const auto root = static_cast<uint16_t>(std::lround(std::sqrt(std::round(value / 40)) * 900));
+    std::memcpy(heights.data.data() + 2 * i, &root, 2);
+  }
+  return heights;
+}
+
+/// The table comes when it is worth its bytes: halves and quarters of the stream are good without.
+TEST(FewValues, PrefixesAreGoodBeforeTheTable) {
+  const Raster whole = make({Pattern::kRidges, 150, 140, 1, TKS_U8, 3});
+  for (const Raster& heights :
+       {samples::withFewValues(whole, FewValues::kFeet), squareRoots(150, 140)}) {
+    const Bytes stream = encode(&heights, nullptr, lossless());
+    const GeometryLayers layers = readHeader(stream)->header.layers;
+    ASSERT_GT(layers.table_bytes, 0u);
+    EXPECT_GT(layers.table_after, 0u);
+    for (const size_t part : {8, 4, 2}) {
+      const size_t bytes = stream.size() / part;
+      const Bytes lossy = encode(&heights, nullptr, budget(bytes));
+      EXPECT_LT(squaresOf(heights, Prefix(stream).first(bytes)), 2 * squaresOf(heights, lossy))
+          << part;
+    }
+  }
+}
+
+TEST(FewValues, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
+  const Raster whole = make({Pattern::kSteps, 61, 50, 1, TKS_U8, 3});
+  tks_encode_options regions = lossless();
+  regions.regions = 16;
+  for (const Raster& heights :
+       {samples::withFewValues(whole, FewValues::kFeet), squareRoots(61, 50),
+        samples::withFewValues(whole, FewValues::kRare)}) {
+    for (const tks_encode_options& options : {lossless(), regions}) {
+      const Bytes stream = encode(&heights, nullptr, options);
+      EXPECT_GT(readHeader(stream)->header.layers.table_bytes, 0u);
+      for (size_t n = readHeader(stream)->bytes; n <= stream.size(); n += n % 7 + 1) {
+        const Prefix prefix = Prefix(stream).first(n);
+        for (const uint32_t level : {0u, 2u}) {
+          Stream decoded(prefix);
+          ASSERT_EQ(tks_set_levels(decoded.get(), level, 0), TKS_OK);
+          const size_t samples = size_t{(60u >> level) + 1} * ((49u >> level) + 1);
+          std::vector<uint8_t> shown(samples * tks_sample_bytes(heights.sample));
+          ASSERT_EQ(tks_decode_heights(decoded.get(), shown.data(), shown.size()), TKS_OK);
+          ASSERT_EQ(shown, reference::decode(prefix, 1 << 20, {static_cast<int>(level), 0}).heights)
+              << n << ", level " << level;
+        }
+      }
+    }
+  }
+}
+
+TEST(FewValues, WindowsAreThoseOfTheWholeInAllPrefixes) {
+  const Raster heights = squareRoots(90, 70);
+  const Bytes stream = encode(&heights, nullptr, lossless());
+  for (size_t n = readHeader(stream)->bytes; n <= stream.size(); n += 97) {
+    const std::vector<std::byte> whole = Stream(Prefix(stream).first(n)).heights();
+    const tks_window window{13, 9, 31, 20};
+    std::vector<std::byte> part(size_t{2} * window.width * window.height);
+    Stream decoded(Prefix(stream).first(n));
+    ASSERT_EQ(tks_decode_heights_window(decoded.get(), &window, part.data(), part.size()), TKS_OK);
+    for (uint32_t y = 0; y < window.height; ++y) {
+      const auto row = whole.begin() + 2 * ((window.y + y) * ptrdiff_t{90} + window.x);
+      ASSERT_TRUE(std::equal(row, row + 2 * window.width, part.begin() + 2 * y * window.width));
+    }
+  }
+}
+
+/// Once the table is there, a prefix shows its values: nothing lies between them.
+TEST(FewValues, PrefixesShowValuesOfTheTable) {
+  const Raster heights =
+      samples::withFewValues(make({Pattern::kSteps, 90, 70, 1, TKS_U8, 5}), FewValues::kFeet);
+  const Bytes stream = encode(&heights, nullptr, lossless());
+  const auto samplesOf = [](const std::vector<std::byte>& bytes) {
+    std::vector<float> out(bytes.size() / 4);
+    std::memcpy(out.data(), bytes.data(), bytes.size());
+    return out;
+  };
+  std::vector<float> values = samplesOf(heights.data);
+  std::sort(values.begin(), values.end());
+  const ParsedHeader header = *readHeader(stream);
+  const GeometryLayers& layers = header.header.layers;
+  const size_t known = header.bytes + layers.table_after + layers.table_bytes;
+  for (size_t n = known + known / 50 + 40; n < stream.size(); n += 1 + stream.size() / 99) {
+    Stream prefix(Prefix(stream).first(n));
+    for (const float sample : samplesOf(prefix.heights()))
+      ASSERT_TRUE(std::binary_search(values.begin(), values.end(), sample)) << sample;
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test
