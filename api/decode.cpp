@@ -41,10 +41,21 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
                                " samples and hold one or more.");
 }
 
-DecodedHeights decodeHeights(const tks_decoder& decoder, const View& view) {
+namespace {
+
+/// What the decoder remembers of a view; null: nothing.
+template <class Memory>
+Memory* memoryOf(const tks_decoder& decoder, std::map<int, Memory>& levels, const View& view) {
+  return decoder.remembers && !view.window ? &levels[view.level] : nullptr;
+}
+
+}  // namespace
+
+DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
   return decodeHeights(*header.geometry, header.layers,
-                       decoder.payload.codewordsOf(Component::kGeometry), view, {decoder.threads});
+                       decoder.payload.codewordsOf(Component::kGeometry), view,
+                       {decoder.threads, memoryOf(decoder, decoder.heights_memory, view)});
 }
 
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
@@ -156,7 +167,7 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
     return {};
   }
   writeTexels(decodeTexture(header, decoder.payload.codewordsOf(Component::kTexture), *view,
-                            {decoder.threads}),
+                            {decoder.threads, memoryOf(decoder, decoder.texture_memory, *view)}),
               sample, call.out);
   return {};
 }

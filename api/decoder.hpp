@@ -2,6 +2,7 @@
 // What a tks_decoder holds, and what the files that work on it share.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,15 +11,21 @@
 #include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
+#include "bitstream/stream/pieces.hpp"
 #include "codec/geometry/height_layers.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
 #include "wavelet/pyramid.hpp"
 
 struct tks_decoder {
-  std::span<const uint8_t> data;  ///< the caller's
+  std::span<const uint8_t> data;  ///< the stream up to its first missing byte: the caller's, ...
+  tetrakis::Pieces pieces;        ///< ... or, once there came more, of these
   tetrakis::ParsedHeader parsed;
   tetrakis::Demultiplexed payload;
   int heights_level = 0, texture_level = 0;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
+  bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
+  std::map<int, tetrakis::HeightsMemory> heights_memory;  ///< by level
+  std::map<int, tetrakis::TextureMemory> texture_memory;
   uint32_t threads = 1;
   uint64_t max_memory = 0;     ///< of the decoder and any call
   uint64_t payload_bytes = 0;  ///< that `payload` takes, at most
@@ -34,8 +41,15 @@ Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
 /// Of these, the heights between the steps.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 
-/// Decodes what a view shows of the heights, which the stream holds, and keeps nothing.
-DecodedHeights decodeHeights(const tks_decoder& decoder, const View& view);
+/// Decodes what a view shows of the heights, which the stream holds. Keeps what the decoder
+/// remembers, and no heights.
+DecodedHeights decodeHeights(tks_decoder& decoder, const View& view);
+
+/// Takes the packets apart that are there. After a failure the decoder has those that it had.
+Status takePackets(tks_decoder& decoder);
+
+/// Forgets what was decoded of tracks, and remembers no more of it.
+void forget(tks_decoder& decoder);
 
 /// TKS_USAGE, with their sentences.
 Status wrongSize(uint64_t wanted, uint64_t given);

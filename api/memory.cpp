@@ -32,8 +32,8 @@ uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t com
                     bool masked, Component component) {
   const bool known =
       header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(component);
-  const TrackNeeds needs{header.extent(), header.regions.side_log2, components, masked,
-                         known,           decoder.threads};
+  const TrackNeeds needs{header.extent(), header.regions.side_log2, components,       masked,
+                         known,           decoder.threads,          decoder.remembers};
   return needs.bytes();
 }
 

@@ -29,7 +29,9 @@ std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
 
 /// What the decoder holds already.
 uint64_t heldBytes(const tks_decoder& decoder) {
-  uint64_t bytes = decoder.payload_bytes;
+  uint64_t bytes = decoder.payload_bytes + decoder.pieces.bytes();
+  for (const auto& [level, memory] : decoder.heights_memory) bytes += memory.bytes();
+  for (const auto& [level, memory] : decoder.texture_memory) bytes += memory.bytes();
   if (!decoder.heights) return bytes;
   const DecodedGeometry& geometry = decoder.heights->geometry;
   bytes +=
@@ -68,6 +70,10 @@ Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t 
     return checkBytes(decoder, request, saturatingSum(callBytes(decoder, request), beside));
   };
   Status status = check();
+  if (!status.ok() && decoder.remembers) {
+    forget(decoder);
+    status = check();
+  }
   const bool gives_way = request.part == TKS_PART_TEXTURE || request.view.window.has_value();
   if (status.ok() || !gives_way || !decoder.heights) return status;
   decoder.heights.reset();

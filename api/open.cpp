@@ -38,23 +38,6 @@ Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
   return {};
 }
 
-/// Takes the packets apart.
-Status readPayload(std::span<const uint8_t> payload, tks_decoder& decoder) {
-  const TrackCounts tracks = trackCounts(decoder.parsed.header);
-  const Result<PayloadCount> count = countPackets(payload, decoder.parsed.bytes, tracks);
-  if (!count.ok()) return count.status();
-  decoder.payload_bytes = payloadBytes(*count, tracks);
-  if (decoder.payload_bytes > decoder.max_memory) {
-    return {TKS_LIMIT, "Opening the stream takes " + describeBytes(decoder.payload_bytes) +
-                           " of memory; the limit (max_memory) is " +
-                           describeBytes(decoder.max_memory) + "."};
-  }
-  Result<Demultiplexed> taken = demultiplex(payload, decoder.parsed.bytes, tracks, count->packets);
-  if (!taken.ok()) return taken.status();
-  decoder.payload = std::move(*taken);
-  return {};
-}
-
 Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder& decoder) {
   decoder.data = data;
   tks_limits known{};
@@ -68,13 +51,41 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   const StreamHeader& header = decoder.parsed.header;
   if (Status status = checkSizes(header, known); !status.ok()) return status;
   decoder.max_memory = orDefault(known.max_memory, kDefaultMemory);
-  const size_t start = decoder.parsed.bytes;
-  const auto available =
-      static_cast<size_t>(std::min<uint64_t>(data.size() - start, header.payload_bytes));
-  return readPayload(data.subspan(start, available), decoder);
+  return takePackets(decoder);
 }
 
 }  // namespace
+
+Status takePackets(tks_decoder& decoder) {
+  const size_t start = decoder.parsed.bytes;
+  const StreamHeader& header = decoder.parsed.header;
+  const auto available =
+      static_cast<size_t>(std::min<uint64_t>(decoder.data.size() - start, header.payload_bytes));
+  const std::span<const uint8_t> payload = decoder.data.subspan(start, available);
+  const TrackCounts tracks = trackCounts(header);
+  Result<PayloadCount> count = countPackets(payload, start, tracks);
+  if (!count.ok()) return count.status();
+  const uint64_t packets = count->packets;
+  if (!decoder.pieces.empty()) {
+    count->bytes = decoder.pieces.bytes();
+    count->packets = std::max<uint64_t>(packets, header.index.size());
+  }
+  const uint64_t bytes = payloadBytes(*count, tracks);
+  if (bytes + decoder.pieces.bytes() > decoder.max_memory) {
+    return {TKS_LIMIT, "Opening the stream takes " + describeBytes(bytes) +
+                           " of memory; the limit (max_memory) is " +
+                           describeBytes(decoder.max_memory) + "."};
+  }
+  Result<Demultiplexed> taken = demultiplex(payload, start, tracks, packets);
+  if (!taken.ok()) return taken.status();
+  if (decoder.pieces.bytes() > decoder.data.size()) {
+    const Status status = addScattered(decoder.pieces, decoder.parsed, *taken);
+    if (!status.ok()) return status;
+  }
+  decoder.payload_bytes = bytes;
+  decoder.payload = std::move(*taken);
+  return {};
+}
 
 }  // namespace tetrakis::inline api
 

@@ -12,6 +12,7 @@
 #include "bench/openjpeg_peer.hpp"
 #include "bench/results.hpp"
 #include "bench/tetrakis_peer.hpp"
+#include "tetrakis/tetrakis.hpp"
 #include "tools/files/files.hpp"
 #include "tools/synth/synth.hpp"
 
@@ -231,6 +232,53 @@ Result<std::vector<ResultRow>> measure(const std::vector<Task>& tasks, int runs)
   return rows;
 }
 
+/// Decodes everything; a failure is an exception to what the bench can go on with.
+Status decodeAll(Decoder& decoder) {
+  if (const auto heights = decoder.heights(); !heights.ok()) return heights.status();
+  return decoder.texture().status();
+}
+
+/// A decoder for each of kPrefixes prefixes against one to which their bytes are appended.
+Status measurePrefixes(const Terrain& terrain, int runs, std::vector<ResultRow>& rows) {
+  constexpr size_t kPrefixes = 20;
+  const auto stream = encodeTetrakis({&terrain.heights, &terrain.image}, 16 * kJointBytes);
+  if (!stream.ok()) return stream.status();
+  const auto opened = [&](size_t i) {
+    constexpr size_t kFirst = 2048;
+    return std::span(*stream).first(kFirst + (stream->size() - kFirst) * i / kPrefixes);
+  };
+  const auto apart = [&]() -> Status {
+    for (size_t i = 0; i <= kPrefixes; ++i) {
+      Result<Decoder> decoder = Decoder::open(opened(i));
+      if (!decoder.ok()) return decoder.status();
+      if (Status status = decodeAll(*decoder); !status.ok()) return status;
+    }
+    return {};
+  };
+  const auto appended = [&]() -> Status {
+    Result<Decoder> decoder = Decoder::open(opened(0));
+    if (!decoder.ok()) return decoder.status();
+    for (size_t i = 0; i <= kPrefixes; ++i) {
+      const auto more = opened(i).subspan(opened(i > 0 ? i - 1 : 0).size());
+      if (Status status = decoder->append(more); !status.ok()) return status;
+      if (Status status = decodeAll(*decoder); !status.ok()) return status;
+    }
+    return {};
+  };
+  std::vector<double> ratios;
+  for (int i = 0; i < runs; ++i) {
+    const Result<double> alone = processorSeconds(apart), grown = processorSeconds(appended);
+    if (!alone.ok()) return alone.status();
+    if (!grown.ok()) return grown.status();
+    ratios.push_back(*alone / *grown);
+  }
+  const double ratio = median(ratios);
+  std::printf("%zu prefixes of 1 MiB: appended %.2f times as fast as decoded one by one\n",
+              kPrefixes + 1, ratio);
+  rows.push_back({"joint_1m_prefixes", "tetrakis", "append_speedup", ratio});
+  return {};
+}
+
 Status run(const Options& options) {
   if (options.heights.empty() != options.image.empty())
     return Status(TKS_USAGE, "a height file and an image go together");
@@ -238,8 +286,9 @@ Status run(const Options& options) {
   if (!terrain.ok()) return terrain.status();
   const auto tasks = makeTasks(*terrain);
   if (!tasks.ok()) return tasks.status();
-  const auto rows = measure(*tasks, options.runs);
+  auto rows = measure(*tasks, options.runs);
   if (!rows.ok()) return rows.status();
+  if (Status s = measurePrefixes(*terrain, options.runs, *rows); !s.ok()) return s;
   return options.csv.empty() ? Status() : updateResults(options.csv, "speed", *rows);
 }
 

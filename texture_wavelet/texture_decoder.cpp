@@ -124,6 +124,15 @@ class ComponentPlanes {
 
 }  // namespace
 
+uint64_t TextureMemory::bytes() const {
+  uint64_t bytes = tracks.bytes();
+  if (opening) {
+    bytes += opening->seen.size() + opening->coded.size();
+    bytes += opening->overlay.indices.size() * sizeof(ColourIndex);
+  }
+  return bytes;
+}
+
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
                      const DecodeContext<TextureMemory>& context) {
   assert(!codewords.empty() && (context.memory == nullptr || !view.window));
@@ -133,8 +142,9 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, co
   const auto opening =
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   ComponentPlanes components(header, opening->coded, view);
+  const bool growing = memory != nullptr && memory->opening != nullptr;
   const int fraction_bits =
-      components.decode(coefficients, {context.threads, memory ? &memory->track : nullptr});
+      components.decode(coefficients, {context.threads, growing ? &memory->tracks : nullptr});
   std::vector<std::vector<int32_t>> planes = components.restore(context.threads);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
   finish(header, fraction_bits, planes, context.threads, texels);

@@ -14,11 +14,13 @@
 
 namespace tetrakis::inline texture {
 
-/// What one call of decodeTexture() leaves to the next, whose only track is longer by some bytes
-/// and begins at the same address. It is empty before the first call.
+/// What one call of decodeTexture() leaves to the next, whose tracks begin with the same bytes. It
+/// is empty before the first call.
 struct TextureMemory {
   std::shared_ptr<const TextureOpening> opening;  ///< once it is whole
-  TrackMemory track;
+  TrackMemory tracks;                             ///< likewise: what exists of them follows from it
+
+  uint64_t bytes() const;
 };
 
 /// Decodes what a view shows; in a window the time follows its size if the image has regions.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -19,10 +20,17 @@ uint64_t bytesOf(const Codewords& codewords) {
 
 }  // namespace
 
+uint64_t TrackMemory::bytes() const {
+  uint64_t sum = 0;
+  for (const auto& one : tracks) sum += one ? one->bytes() : 0;
+  return sum;
+}
+
 uint64_t TrackNeeds::bytes() const {
   constexpr uint64_t kOnce = 64 << 10;  // plans and models
   const Pyramid pyramid(plane);
   uint64_t largest = 0;
+  const uint64_t count = regionCount(plane.width, plane.height, side_log2);
   for (const Region& region : largestRegions(plane.width, plane.height, side_log2)) {
     uint64_t sum = kOnce;
     for (const BandPart& part : partsOf(pyramid.subbands(), region)) {
@@ -31,8 +39,7 @@ uint64_t TrackNeeds::bytes() const {
     }
     largest = std::max(largest, sum);
   }
-  return largest *
-         std::clamp<uint64_t>(threads, 1, regionCount(plane.width, plane.height, side_log2));
+  return kept ? 2 * largest * count : largest * std::clamp<uint64_t>(threads, 1, count);
 }
 
 bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
@@ -45,21 +52,16 @@ int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const 
   const int bits = outputFractionBits(wavelet, bit_planes, bytesOf(codewords));
   const int more_bits = bits - wavelet.fraction_bits;
   if (nothingKnown(codewords)) return bits;
-  if (regions.side_log2 == 0) {
-    // The plan is known when its masks are, which come first.
-    TrackMemory* memory = context.memory;
-    if (memory == nullptr) {
-      take(0, decodeTrack(plan_of(0), bit_planes, codewords.front()), more_bits);
-      return bits;
-    }
-    if (!*memory) memory->emplace(plan_of(0), bit_planes);
-    take(0, (*memory)->decode(codewords.front()), more_bits);
-    return bits;
-  }
+  TrackMemory* const memory = context.memory;
+  if (memory != nullptr) memory->tracks.resize(codewords.size());
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
     if (codewords[i].empty() || bit_planes == 0) return;
-    const std::vector<BandPlan> plan = plan_of(i);
-    if (!plan.empty()) take(i, decodeTrack(plan, bit_planes, codewords[i]), more_bits);
+    if (memory != nullptr && memory->tracks[i])
+      return take(i, memory->tracks[i]->decode(codewords[i]), more_bits);
+    std::vector<BandPlan> plan = plan_of(i);
+    if (plan.empty()) return;
+    if (memory == nullptr) return take(i, decodeTrack(plan, bit_planes, codewords[i]), more_bits);
+    take(i, memory->tracks[i].emplace(std::move(plan), bit_planes).decode(codewords[i]), more_bits);
   });
   return bits;
 }

@@ -17,9 +17,13 @@
 
 namespace tetrakis::inline wavelet {
 
-/// What one call of a decoder leaves to the next, whose only track is longer by some bytes and
-/// begins at the same address. It is empty before the first call.
-using TrackMemory = std::optional<GrowingTrack>;
+/// What one call of a decoder leaves to the next, whose tracks begin with the same bytes: one for
+/// each track of which something is known. It is empty before the first call.
+struct TrackMemory {
+  std::vector<std::optional<GrowingTrack>> tracks;
+
+  uint64_t bytes() const;
+};
 
 /// What run() below needs for the tracks of a component.
 struct TrackNeeds {
@@ -29,8 +33,10 @@ struct TrackNeeds {
   bool masked;  ///< some samples do not exist, and their coefficients are absent
   bool known;   ///< there may be a byte of a track
   uint32_t threads;
+  bool kept;  ///< in a TrackMemory
 
-  /// The bytes that the largest track takes at most, on each thread.
+  /// The bytes that the largest track takes at most, on each thread; or that all take, twice the
+  /// largest band included, if they are kept.
   uint64_t bytes() const;
 };
 

@@ -31,10 +31,16 @@ class RangeDecoder {
 
   bool decodeUncertain(AdaptiveBit& model) { return decode(model); }
 
-  /// More bytes of the codeword have come: `bytes` is a longer view of the same memory. As if they
-  /// had been there from the start; not after exhausted().
-  void grow(std::span<const uint8_t> bytes) {
-    assert(!exhausted_ && next_ <= bytes.data() + bytes.size());
+  /// How many bytes have been read of those that the decoder was made of.
+  size_t read(std::span<const uint8_t> bytes) const {
+    return static_cast<size_t>(next_ - bytes.data());
+  }
+
+  /// More bytes of the codeword have come, of which `read` have been read. They may lie elsewhere
+  /// than those before. As if they had been there from the start; not after exhausted().
+  void grow(std::span<const uint8_t> bytes, size_t read) {
+    assert(!exhausted_ && read <= bytes.size());
+    next_ = bytes.data() + read;
     end_ = bytes.data() + bytes.size();
     for (; missing_ > 0 && next_ != end_; --missing_) {
       const uint32_t shift = 8 * (missing_ - 1);

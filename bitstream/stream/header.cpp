@@ -24,6 +24,7 @@ enum Parts : uint8_t {
 };
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
+constexpr size_t kChecksumBytes = 4;
 
 uint32_t crc32(std::span<const uint8_t> bytes) {
   uint32_t crc = 0xffffffff;
@@ -264,40 +265,48 @@ std::vector<uint8_t> writeHeader(const StreamHeader& header) {
   return std::move(out.bytes);
 }
 
-Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
+Result<uint64_t> headerBytes(std::span<const uint8_t> bytes) {
   const size_t known = std::min(bytes.size(), kMagic.size());
   if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<ptrdiff_t>(known), bytes.begin())) {
     return Status(TKS_CORRUPT, "This is not a Tetrakis stream: it does not begin with TKS 1A.");
   }
-  if (bytes.size() < kFixedBytes + 1) return needMore(kFixedBytes + 1);
-  ParsedHeader parsed;
-  StreamHeader& header = parsed.header;
-  header.version = bytes[4];
-  header.profile = bytes[5];
-  header.level = bytes[6];
-  if (header.version != kFormatVersion || header.profile != kMainProfile) {
+  if (bytes.size() < kFixedBytes + 1) return kFixedBytes + 1;
+  if (bytes[4] != kFormatVersion || bytes[5] != kMainProfile) {
     return Status(TKS_UNSUPPORTED, "The stream has format version " + std::to_string(bytes[4]) +
                                        ", profile " + std::to_string(bytes[5]) +
                                        "; this decoder knows version 1, profile 0.");
   }
   FieldReader size_reader(bytes.subspan(kFixedBytes), kFixedBytes);
   const uint64_t body_bytes = size_reader.take();
-  if (size_reader.starved()) return needMore(bytes.size() + 1);
+  if (size_reader.starved()) return bytes.size() + 1;
   if (!size_reader.ok()) return size_reader.status();
   if (body_bytes > kMaxHeaderBytes) {
     return Status(TKS_CORRUPT,
                   "Corrupt stream: the header claims " + std::to_string(body_bytes) + " bytes.");
   }
-  const size_t body_start = kFixedBytes + size_reader.position();
-  const size_t crc_start = body_start + body_bytes;
-  parsed.bytes = crc_start + 4;
-  if (bytes.size() < parsed.bytes) return needMore(parsed.bytes);
+  return kFixedBytes + size_reader.position() + body_bytes + kChecksumBytes;
+}
+
+Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
+  const Result<uint64_t> needed = headerBytes(bytes);
+  if (!needed.ok()) return needed.status();
+  if (bytes.size() < *needed) return needMore(*needed);
+  ParsedHeader parsed;
+  parsed.bytes = *needed;
+  StreamHeader& header = parsed.header;
+  header.version = bytes[4];
+  header.profile = bytes[5];
+  header.level = bytes[6];
+  const size_t crc_start = parsed.bytes - kChecksumBytes;
   uint32_t crc = 0;
-  for (size_t i = 0; i < 4; ++i) crc |= uint32_t{bytes[crc_start + i]} << (8 * i);
+  for (size_t i = 0; i < kChecksumBytes; ++i) crc |= uint32_t{bytes[crc_start + i]} << (8 * i);
   if (crc != crc32(bytes.first(crc_start))) {
     return Status(TKS_CORRUPT, "Corrupt stream: the header's checksum does not match.");
   }
-  FieldReader body(bytes.subspan(body_start, body_bytes), body_start);
+  FieldReader size_reader(bytes.subspan(kFixedBytes), kFixedBytes);
+  size_reader.take();
+  const size_t body_start = kFixedBytes + size_reader.position();
+  FieldReader body(bytes.subspan(body_start, crc_start - body_start), body_start);
   visitBody(body, header);
   if (!body.ok()) return body.status();
   if (Status meaning = checkMeaning(header); !meaning.ok()) return meaning;

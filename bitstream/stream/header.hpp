@@ -302,6 +302,10 @@ struct ParsedHeader {
   size_t bytes = 0;  ///< header bytes: the payload starts here
 };
 
+/// How many bytes the header takes. If `bytes` ends before that is known: a smaller number, but
+/// greater than bytes.size(). TKS_CORRUPT, TKS_UNSUPPORTED.
+Result<uint64_t> headerBytes(std::span<const uint8_t> bytes);
+
 /// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT,
 /// TKS_UNSUPPORTED.
 Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);

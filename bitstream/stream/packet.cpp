@@ -11,10 +11,15 @@ namespace tetrakis::inline stream {
 
 namespace {
 
+void putHead(const PacketHead& head, bool named, FieldWriter& writer) {
+  writer.put(head.head);
+  if (named) writer.put(head.track);
+  writer.bytes.push_back(head.quality);
+}
+
 void putHead(const Packet& packet, FieldWriter& writer) {
-  writer.put(packet.head());
-  if (packet.track) writer.put(*packet.track);
-  writer.bytes.push_back(packet.quality);
+  putHead({packet.head(), packet.track.value_or(0), packet.quality}, packet.track.has_value(),
+          writer);
 }
 
 }  // namespace
@@ -33,6 +38,12 @@ size_t overheadOf(const Packet& packet) {
   FieldWriter writer;
   putHead(packet, writer);
   return writer.bytes.size();
+}
+
+std::vector<uint8_t> headBytes(const PacketHead& head, bool named) {
+  FieldWriter writer;
+  putHead(head, named, writer);
+  return std::move(writer.bytes);
 }
 
 std::vector<uint8_t> multiplex(std::span<const Packet> packets,

@@ -65,6 +65,9 @@ struct PacketHead {
   Component component() const { return static_cast<Component>(head & 1); }
 };
 
+/// The bytes before a payload. named: they say which track it belongs to.
+std::vector<uint8_t> headBytes(const PacketHead& head, bool named);
+
 struct TrackCount {
   uint64_t tracks = 0;  ///< 0: the header does not announce the component
   bool named = false;   ///< packets say which track they belong to

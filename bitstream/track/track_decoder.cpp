@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/track/track_decoder.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -78,11 +79,15 @@ void GrowingTrack::restore() {
 }
 
 const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
+  assert(codeword.size() >= bytes_);
+  if (decoder_ && codeword.size() == bytes_) return state_;
+  bytes_ = codeword.size();
   if (decoder_) {
-    decoder_->grow(codeword);
+    decoder_->grow(codeword, read_);
   } else {
     decoder_.emplace(codeword);
   }
+  read_ = decoder_->read(codeword);
   while (passes_.needed()) {
     restore();
     const Pass pass = passes_.front();
@@ -90,11 +95,22 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
     state_.run(plan_, pass.band, pass.kind, pass.plane, io);
     if (io.stopped()) return state_;
     decoder_ = io.decoder;
+    read_ = decoder_->read(codeword);
     passes_.pop(state_.bands[pass.band]);
     band_.reset();
   }
   state_.complete = true;
   return state_;
+}
+
+uint64_t GrowingTrack::bytes() const {
+  uint64_t sum = 0, largest = 0;
+  for (const BandPlan& band : plan_) {
+    const uint64_t one = Band::bytesOf(band.shape, !band.absent.empty());
+    sum += one + band.absent.size() * sizeof(uint32_t);
+    largest = std::max(largest, one);
+  }
+  return sum + largest + (state_.models.size() + 1) * sizeof(BandModels);
 }
 
 }  // namespace tetrakis::inline track

@@ -27,9 +27,12 @@ class GrowingTrack {
  public:
   GrowingTrack(std::vector<BandPlan> plan, int planes);
 
-  /// codeword: a view of the same memory in all calls, never shorter; what an encoder wrote (of
+  /// codeword: begins with that of the call before, wherever it lies; what an encoder wrote (of
   /// other bytes the state may be one that no prefix has). The state is valid until the next call.
   const TrackState& decode(std::span<const uint8_t> codeword);
+
+  /// What the state takes, at most, as it is and as it was at the beginning of a pass.
+  uint64_t bytes() const;
 
  private:
   void restore();
@@ -39,6 +42,8 @@ class GrowingTrack {
   TrackState state_;
   // As they were at the beginning of the pass that is next, if it has begun.
   std::optional<RangeDecoder> decoder_;
+  size_t read_ = 0;   ///< by the decoder
+  size_t bytes_ = 0;  ///< of the codeword before
   std::optional<Band> band_;
   std::optional<BandModels> models_;
 };

@@ -113,6 +113,11 @@ DecodedHeights cutWindow(const DecodedHeights& whole, const View& view) {
 
 }  // namespace
 
+uint64_t HeightsMemory::bytes() const {
+  return valid.size() + flat.numbers.size() * sizeof(uint16_t) +
+         flat.levels.size() * sizeof(int32_t) + tracks.bytes();
+}
+
 std::vector<uint8_t> activityHints(const DecodedGeometry& geometry) {
   const std::vector<uint8_t>& marks = geometry.significant;
   const auto [width, height] = geometry.extent();
@@ -151,8 +156,10 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
   DecodedHeights decoded;
   DecodedGeometry& geometry = decoded.geometry;
   FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
+  const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
+                       taken.flat.size() == layers.flat_bytes;
   geometry = decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
-                            {context.threads, memory == nullptr ? nullptr : &memory->track});
+                            {context.threads, growing ? &memory->tracks : nullptr});
   applyTable(taken, header, layers, decoded);
   if (taken.corrections.empty() || view.level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {

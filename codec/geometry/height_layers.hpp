@@ -17,12 +17,14 @@ struct DecodedHeights {
   std::vector<int32_t> corrections;  ///< of the samples; empty where there are none
 };
 
-/// What one call of decodeHeights() leaves to the next, whose only track is longer by some bytes
-/// and begins at the same address. It is empty before the first call.
+/// What one call of decodeHeights() leaves to the next, whose tracks begin with the same bytes. It
+/// is empty before the first call.
 struct HeightsMemory {
   std::vector<uint8_t> valid;  ///< once it is whole
   FlatAreas flat;              ///< likewise
-  TrackMemory track;
+  TrackMemory tracks;          ///< likewise: what exists of them follows from those
+
+  uint64_t bytes() const;
 };
 
 /// Decodes what a view shows of the heights. In a window the time follows its size if there are

@@ -125,10 +125,19 @@ inline Result<Buffer> encode(const tks_heights* heights, const tks_image* image,
   return Buffer(buffer);
 }
 
+/// How many bytes the header of a stream takes, as far as `bytes` tell (tks_header_bytes): more
+/// than bytes.size() unless the header is whole.
+inline Result<uint64_t> headerBytes(std::span<const uint8_t> bytes) {
+  uint64_t needed = 0;
+  const tks_status status = tks_header_bytes(bytes.data(), bytes.size(), &needed);
+  if (needed == 0) return Status(status, "This is no stream that the library knows.");
+  return needed;
+}
+
 /// Decodes a stream or any prefix of one. Move only; one decoder serves one thread at a time.
 class Decoder {
  public:
-  /// `bytes` are borrowed and must outlive the decoder. TKS_TRUNCATED: too short for the header.
+  /// `bytes` are borrowed and must outlive the decoder, or its first append(). TKS_TRUNCATED: too short for the header.
   static Result<Decoder> open(std::span<const uint8_t> bytes,
                               const tks_limits& limits = makeLimits()) {
     char message[512] = "";
@@ -146,14 +155,19 @@ class Decoder {
   /// Sizes, types and metadata; its strings live as long as the decoder.
   const tks_info& info() const { return info_; }
 
+  /// More bytes of the stream, which are copied: those behind the ones that are there
+  /// (tks_append), or from an offset on (tks_put). info() follows.
+  Status append(std::span<const uint8_t> bytes) {
+    return taken(tks_append(decoder_.get(), bytes.data(), bytes.size()));
+  }
+  Status put(uint64_t offset, std::span<const uint8_t> bytes) {
+    return taken(tks_put(decoder_.get(), offset, bytes.data(), bytes.size()));
+  }
+
   /// Mip levels of heights and texture, 0 the whole image: tks_set_levels says what they are.
   /// info() follows.
   Status setLevels(uint32_t heights, uint32_t texture) {
-    const tks_status status = tks_set_levels(decoder_.get(), heights, texture);
-    if (status != TKS_OK) return failure(status);
-    if (const tks_status got = tks_get_info(decoder_.get(), &info_); got != TKS_OK)
-      return failure(got);
-    return {};
+    return taken(tks_set_levels(decoder_.get(), heights, texture));
   }
 
   /// Whether such a call stays within tks_limits.max_memory with `beside` more bytes: what the call
@@ -246,6 +260,14 @@ class Decoder {
 
   /// status: not TKS_OK.
   Status failure(tks_status status) const { return {status, tks_message(decoder_.get())}; }
+
+  /// info() follows what a call has changed.
+  Status taken(tks_status status) {
+    if (status != TKS_OK) return failure(status);
+    if (const tks_status got = tks_get_info(decoder_.get(), &info_); got != TKS_OK)
+      return failure(got);
+    return {};
+  }
 
   size_t heightCount() const { return size_t{info_.width} * info_.height; }
   size_t texelBytes() const {

@@ -3,6 +3,7 @@
 // conformance/vectors.
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 
 #include "conformance/samples/header_seal.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -41,6 +42,26 @@ void checkWindow(const tetrakis::Result<std::vector<std::byte>>& window,
     const size_t at = row * row_bytes + info.width / 3 * sample + i % sample;
     if ((*window)[i] != whole[at]) std::abort();
   }
+}
+
+/// Bytes that come in three pieces, or the last before the middle one, and are decoded in between.
+void growAndDecode(std::span<const uint8_t> bytes) {
+  const auto header = tetrakis::headerBytes(bytes);
+  if (!header || *header > bytes.size()) std::abort();
+  const size_t first = *header + (bytes.size() - *header) / 3, second = (first + bytes.size()) / 2;
+  auto decoder = tetrakis::Decoder::open(bytes.first(first), fuzzLimits());
+  if (!decoder) return;
+  const auto decode = [&] {
+    if (decoder->info().has_heights) static_cast<void>(decoder->heights());
+    if (decoder->info().has_texture) static_cast<void>(decoder->texture());
+  };
+  decode();
+  if (bytes.size() % 2 == 0) static_cast<void>(decoder->put(second, bytes.subspan(second)));
+  decode();
+  static_cast<void>(decoder->append(bytes.subspan(first, second - first)));
+  decode();
+  static_cast<void>(decoder->put(first, bytes.subspan(first)));
+  decode();
 }
 
 }  // namespace
@@ -83,5 +104,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (info.has_heights) static_cast<void>(decoder->heights());
   if (info.has_texture) static_cast<void>(decoder->texture());
   static_cast<void>(decoder->verify());
+  growAndDecode({data, size});
   return 0;
 }

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// A decoder that is given a stream bit by bit decodes what one decodes that is opened on all of it:
+// over the conformance vectors, which hold every kind of stream.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <random>
+
+#include "bitstream/stream/header.hpp"
+#include "codec/geometry/height_layers.hpp"
+#include "tests/support/stream_fixture.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+struct Vector {
+  std::string name;
+  Bytes bytes;
+};
+
+/// The vectors of at most so many bytes that are streams.
+std::vector<Vector> vectors(size_t most_bytes) {
+  std::vector<Vector> all;
+  for (const auto& entry : std::filesystem::directory_iterator(TETRAKIS_VECTORS)) {
+    if (entry.path().extension() != ".tks" || entry.file_size() > most_bytes) continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    Bytes bytes{std::istreambuf_iterator<char>(file), {}};
+    if (Stream(bytes).status() == TKS_OK)
+      all.push_back({entry.path().filename().string(), std::move(bytes)});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Vector& a, const Vector& b) { return a.name < b.name; });
+  EXPECT_GT(all.size(), 10u);
+  return all;
+}
+
+/// Of the level that is set: what a decoder gives, and what it says.
+struct Decoded {
+  std::vector<std::byte> heights, texture;
+  uint64_t available = 0, packets = 0;
+  double rmse = 0, psnr = 0;
+  bool operator==(const Decoded&) const = default;
+};
+
+Decoded decodedFrom(Stream& stream) {
+  tks_info info = {};
+  info.size = sizeof info;
+  EXPECT_EQ(tks_get_info(stream.get(), &info), TKS_OK);
+  return {stream.heights(), stream.texture(),  info.available_bytes,
+          info.packets,     info.heights_rmse, info.texture_psnr};
+}
+
+/// Appends pieces of `stride` bytes, each in memory that is gone afterwards.
+void appendAndCompare(const Vector& vector, size_t stride) {
+  const Bytes& bytes = vector.bytes;
+  uint64_t header = 0;
+  ASSERT_EQ(tks_header_bytes(bytes.data(), bytes.size(), &header), TKS_OK);
+  Bytes opening(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(header));
+  Stream growing(opening);
+  ASSERT_EQ(growing.status(), TKS_OK) << vector.name;
+  for (size_t end = opening.size(); end < bytes.size();) {
+    const size_t begin = end;
+    end = std::min(begin + stride, bytes.size());
+    {
+      const Bytes piece(bytes.begin() + static_cast<ptrdiff_t>(begin),
+                        bytes.begin() + static_cast<ptrdiff_t>(end));
+      ASSERT_EQ(tks_append(growing.get(), piece.data(), piece.size()), TKS_OK)
+          << vector.name << ": " << tks_message(growing.get());
+    }
+    if (begin == header) opening.assign(opening.size(), 0xee);  // no longer needed
+    Stream fresh(Prefix(bytes).first(end));
+    ASSERT_TRUE(decodedFrom(growing) == decodedFrom(fresh))
+        << vector.name << ": " << end << " of " << bytes.size() << " bytes, by " << stride;
+  }
+  EXPECT_EQ(tks_verify(growing.get()), tks_verify(Stream(bytes).get())) << vector.name;
+}
+
+TEST(Append, ByteByByteIsAsFromTheStart) {
+  for (const Vector& vector : vectors(400)) ASSERT_NO_FATAL_FAILURE(appendAndCompare(vector, 1));
+}
+
+TEST(Append, InPiecesIsAsFromTheStart) {
+  for (const Vector& vector : vectors(9000)) {
+    const size_t tenth = std::max<size_t>(vector.bytes.size() / 10, 1);
+    ASSERT_NO_FATAL_FAILURE(appendAndCompare(vector, tenth));
+  }
+}
+
+/// Levels are remembered apart.
+TEST(Append, LevelsInTurnAreAsFromTheStart) {
+  for (const Vector& vector : vectors(3000)) {
+    const Bytes& bytes = vector.bytes;
+    uint64_t header = 0;
+    ASSERT_EQ(tks_header_bytes(bytes.data(), bytes.size(), &header), TKS_OK);
+    Stream growing(Prefix(bytes).first(header));
+    const tks_info& info = growing.info();
+    const auto sizes = [](Stream& stream, uint32_t level) {
+      tks_info now = stream.info();
+      EXPECT_EQ(tks_set_levels(stream.get(), std::min(level, now.coarsest_level),
+                               std::min(level, now.texture_coarsest_level)),
+                TKS_OK);
+      tks_get_info(stream.get(), &now);
+      std::vector<std::byte> heights(
+          now.has_heights ? size_t{now.width} * now.height * tks_sample_bytes(now.sample) : 0);
+      if (now.has_heights) {
+        EXPECT_EQ(tks_decode_heights(stream.get(), heights.data(), heights.size()), TKS_OK);
+      }
+      std::vector<std::byte> texture(
+          now.has_texture ? size_t{now.texture_width} * now.texture_height * now.texture_channels *
+                                tks_sample_bytes(now.texture_sample)
+                          : 0);
+      if (now.has_texture) {
+        EXPECT_EQ(tks_decode_texture(stream.get(), texture.data(), texture.size()), TKS_OK);
+      }
+      heights.insert(heights.end(), texture.begin(), texture.end());
+      return heights;
+    };
+    EXPECT_GE(info.header_bytes, header);
+    for (size_t step = 1; step <= 6; ++step) {
+      const size_t begin = header + (bytes.size() - header) * (step - 1) / 6,
+                   end = header + (bytes.size() - header) * step / 6;
+      ASSERT_EQ(tks_append(growing.get(), bytes.data() + begin, end - begin), TKS_OK);
+      Stream fresh(Prefix(bytes).first(end));
+      for (const uint32_t level : {1u, 0u})
+        ASSERT_TRUE(sizes(growing, level) == sizes(fresh, level)) << vector.name << " " << end;
+    }
+  }
+}
+
+/// What the API ought to decode: of each track the bytes of whole packets, and of one that is not
+/// whole what is there, up to the first gap.
+std::array<std::vector<Bytes>, 2> tracksOf(const Bytes& bytes, const std::vector<bool>& there,
+                                           const ParsedHeader& parsed) {
+  const TrackCounts counts = trackCounts(parsed.header);
+  std::array<std::vector<Bytes>, 2> tracks = {std::vector<Bytes>(counts[0].tracks),
+                                              std::vector<Bytes>(counts[1].tracks)};
+  std::array<std::vector<bool>, 2> ended = {std::vector<bool>(counts[0].tracks),
+                                            std::vector<bool>(counts[1].tracks)};
+  size_t place = parsed.bytes;
+  for (const PacketHead& entry : parsed.header.index) {
+    if (place >= bytes.size()) break;
+    const auto c = static_cast<size_t>(entry.component());
+    place += headBytes(entry, counts[c].named).size();
+    const size_t length = entry.head >> 2;
+    size_t known = 0;
+    while (known < length && place + known < bytes.size() && there[place + known]) ++known;
+    if (!ended[c][entry.track] && (known == length || (entry.head & 2) == 0)) {
+      Bytes& track = tracks[c][entry.track];
+      for (size_t i = 0; i < known; ++i) track.push_back(bytes[place + i]);
+    }
+    if (known < length) ended[c][entry.track] = true;
+    place += length;
+  }
+  return tracks;
+}
+
+Bytes encodeRegions(const samples::Raster* heights, const samples::Raster* image,
+                    tks_encode_options options) {
+  options.regions = 16;
+  options.index = 1;
+  return encode(heights, image, options);
+}
+
+/// Decodes the tracks without the C interface.
+void expectTracks(Stream& stream, const ParsedHeader& parsed,
+                  const std::array<std::vector<Bytes>, 2>& tracks) {
+  std::array<Codewords, 2> codewords;
+  for (size_t c = 0; c < 2; ++c)
+    for (const Bytes& track : tracks[c]) codewords[c].push_back(track);
+  if (parsed.header.geometry) {
+    const DecodedGeometry expected =
+        decodeHeights(*parsed.header.geometry, parsed.header.layers, codewords[0]).geometry;
+    const std::vector<std::byte> heights = stream.heights();
+    const std::vector<int32_t> steps = wholeSteps(expected);
+    for (size_t i = 0; i < steps.size(); ++i) {
+      const double sample = parsed.header.geometry->base + steps[i] * parsed.header.geometry->step;
+      ASSERT_EQ(sampleAt(heights, stream.info().sample, i), sample) << i;
+    }
+  }
+  if (parsed.header.texture) {
+    const Texels expected = decodeTexture(*parsed.header.texture, codewords[1]);
+    const std::vector<std::byte> texture = stream.texture();
+    for (size_t i = 0; i < expected.samples.size(); ++i)
+      ASSERT_EQ(sampleAt(texture, stream.info().texture_sample, i), expected.samples[i]) << i;
+  }
+}
+
+/// Packets of regions in random orders, cut anywhere: of each track counts what has no gap.
+TEST(Put, AnyOrderDecodesWhatIsThere) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 70, 45, 1, TKS_I16}),
+                        image = samples::make({samples::Pattern::kRidges, 41, 52, 3, TKS_U8});
+  const Bytes bytes = encodeRegions(&heights, &image, lossless());
+  const auto parsed = readHeader(bytes);
+  ASSERT_TRUE(parsed.ok());
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<size_t> places;  // where pieces begin
+    for (size_t place = parsed->bytes; place < bytes.size();
+         place += 1 + random() % (bytes.size() / 9))
+      places.push_back(place);
+    std::vector<size_t> order(places.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::shuffle(order.begin(), order.end(), random);
+    Stream stream(Prefix(bytes).first(parsed->bytes));
+    std::vector<bool> there(bytes.size());
+    for (const size_t i : order) {
+      const size_t begin = places[i], next = i + 1 < places.size() ? places[i + 1] : bytes.size();
+      const size_t end = std::min(next + random() % 20, bytes.size());  // they may overlap
+      ASSERT_EQ(tks_put(stream.get(), begin, bytes.data() + begin, end - begin), TKS_OK)
+          << tks_message(stream.get());
+      for (size_t k = begin; k < end; ++k) there[k] = true;
+      ASSERT_NO_FATAL_FAILURE(expectTracks(stream, *parsed, tracksOf(bytes, there, *parsed)));
+    }
+    EXPECT_EQ(tks_verify(stream.get()), TKS_OK) << tks_message(stream.get());
+    EXPECT_EQ(squaredError(heights, stream.heights()), 0);
+    EXPECT_EQ(squaredError(image, stream.texture()), 0);
+  }
+}
+
+TEST(Put, WithoutAnIndexBytesComeInTheirOrder) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 30, 20, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, lossless());
+  Stream stream(Prefix(bytes).first(bytes.size() / 2));
+  EXPECT_EQ(tks_put(stream.get(), bytes.size() - 5, bytes.data() + bytes.size() - 5, 5), TKS_USAGE);
+  EXPECT_NE(std::string(tks_message(stream.get())).find("no front index"), std::string::npos);
+  EXPECT_EQ(tks_put(stream.get(), 0, bytes.data(), bytes.size()), TKS_OK);
+  EXPECT_EQ(squaredError(heights, stream.heights()), 0);
+}
+
+/// A packet of another stream is no packet of this one; what was there goes on.
+TEST(Put, ForeignBytesAreRefused) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 70, 45, 1, TKS_I16});
+  const Bytes bytes = encodeRegions(&heights, nullptr, lossless());
+  const size_t header = readHeader(bytes)->bytes;
+  Stream stream(Prefix(bytes).first(header + 100)), before(Prefix(bytes).first(header + 100));
+  Bytes foreign(bytes.size() - header - 200, 0);
+  EXPECT_EQ(tks_put(stream.get(), header + 200, foreign.data(), foreign.size()), TKS_CORRUPT);
+  EXPECT_TRUE(stream.heights() == before.heights());
+}
+
+TEST(Append, NonsenseIsRefused) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 30, 20, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, lossless());
+  Stream stream(bytes);
+  EXPECT_EQ(tks_append(stream.get(), nullptr, 5), TKS_USAGE);
+  EXPECT_EQ(tks_append(stream.get(), nullptr, 0), TKS_OK);
+  EXPECT_EQ(tks_append(nullptr, bytes.data(), 5), TKS_USAGE);
+  EXPECT_EQ(tks_put(stream.get(), UINT64_MAX, bytes.data(), 5), TKS_USAGE);
+}
+
+/// Where memory does not suffice to remember tracks, they are decoded from their beginning.
+TEST(Append, ForgetsWhereMemoryIsShort) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 300, 200, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, lossless());
+  const Stream whole(bytes);
+  uint64_t needed = 0;
+  ASSERT_EQ(tks_check_memory(whole.get(), TKS_PART_HEIGHTS, nullptr, 0, 0, &needed), TKS_OK);
+  tks_limits limits = {};
+  limits.size = sizeof limits;
+  limits.max_memory = needed + 6 * bytes.size() + 100000;
+  Stream stream(Prefix(bytes).first(bytes.size() / 2), &limits);
+  ASSERT_EQ(
+      tks_append(stream.get(), bytes.data() + bytes.size() / 2, bytes.size() - bytes.size() / 2),
+      TKS_OK)
+      << tks_message(stream.get());
+  EXPECT_EQ(squaredError(heights, stream.heights()), 0);
+}
+
+TEST(HeaderBytes, AreKnownFromAFewBytesOn) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 30, 20, 1, TKS_I16});
+  const Bytes bytes = encodeRegions(&heights, nullptr, lossless());
+  const size_t header = readHeader(bytes)->bytes;
+  for (size_t size = 0; size <= bytes.size(); ++size) {
+    uint64_t needed = 0;
+    const tks_status status = tks_header_bytes(bytes.data(), size, &needed);
+    ASSERT_EQ(status, size < header ? TKS_TRUNCATED : TKS_OK) << size;
+    if (size >= 16) {
+      ASSERT_EQ(needed, header);
+    }
+    ASSERT_LE(needed, header);
+    ASSERT_TRUE(needed > size || size >= header);
+  }
+  uint64_t needed = 1;
+  const uint8_t foreign[] = {'P', 'N', 'G'};
+  EXPECT_EQ(tks_header_bytes(foreign, sizeof foreign, &needed), TKS_CORRUPT);
+  EXPECT_EQ(needed, 0u);
+}
+
+}  // namespace
+}  // namespace tetrakis::test
