@@ -90,8 +90,7 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
   }
   if (o.weights != TKS_WEIGHTS_PSNR && o.weights != TKS_WEIGHTS_VISUAL)
     return misuse("The weights of the texture are unknown.");
-  if (!std::isfinite(o.parallax) || o.parallax < 0)
-    return misuse("The parallax must not be negative.");
+  if (o.camera_count > 0 && o.cameras == nullptr) return misuse("The cameras are missing.");
   return {};
 }
 
@@ -107,7 +106,7 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   if (options == nullptr) return misuse("The encoding options are missing.");
   if (heights == nullptr && image == nullptr)
     return misuse("There is nothing to encode: give heights or a texture.");
-  constexpr size_t kTargets = offsetof(tks_encode_options, parallax);
+  constexpr size_t kTargets = offsetof(tks_encode_options, threads);
   Status status = takeSized("encoding options", *options, kTargets, out.options);
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
   if (status.ok() && heights != nullptr) {

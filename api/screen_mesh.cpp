@@ -20,7 +20,7 @@
 namespace tetrakis::inline api {
 namespace {
 
-Status checkCamera(const std::string& name, const tks_camera& camera) {
+Status checkCamera(const std::string& name, const tks_screen_camera& camera) {
   constexpr uint32_t kMostPixels = 32768;
   const auto fits = [](uint32_t side) { return side >= 1 && side <= kMostPixels; };
   if (!fits(camera.width) || !fits(camera.height))
@@ -42,9 +42,10 @@ Result<std::vector<ScreenView>> viewsOf(const tks_screen& screen, const SurfaceS
   for (uint32_t i = 0; i < screen.camera_count; ++i) {
     const std::string name =
         "camera " + std::to_string(i + 1) + " of " + std::to_string(screen.camera_count);
-    const auto& given = *reinterpret_cast<const tks_camera*>(bytes + i * screen.cameras->size);
-    tks_camera camera{};
-    Status status = takeSized(name, given, offsetof(tks_camera, weight), camera);
+    const auto& given =
+        *reinterpret_cast<const tks_screen_camera*>(bytes + i * screen.cameras->size);
+    tks_screen_camera camera{};
+    Status status = takeSized(name, given, offsetof(tks_screen_camera, weight), camera);
     if (status.ok() && given.size != screen.cameras->size)
       status = {TKS_USAGE, "All cameras take structs of one size."};
     if (status.ok()) status = checkCamera(name, camera);

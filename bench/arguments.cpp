@@ -54,6 +54,10 @@ void Arguments::within(OptionText option, uint32_t& value, uint32_t least, uint3
       ->capture_default_str();
 }
 
+void Arguments::flag(OptionText option, bool& value) {
+  app_->add_flag(option.name, value, option.help);
+}
+
 void Arguments::unset(OptionText option, bool& value) {
   app_->add_flag(std::string("!") + option.name, value, option.help);
 }

@@ -42,6 +42,7 @@ class Arguments {
   void positive(OptionText option, double& value);
   void positive(OptionText option, uint64_t& value);
   void within(OptionText option, uint32_t& value, uint32_t least, uint32_t most);
+  void flag(OptionText option, bool& value);
   void unset(OptionText option, bool& value);
 
   void folders(std::vector<std::string>& folders, std::vector<std::string>& filters);

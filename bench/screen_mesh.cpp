@@ -34,7 +34,7 @@ struct Terrain {
   std::string item;
   Raster raster;
   tools::ImageFile texture;
-  tools::GroundFrame frame;  ///< of the raster's steps
+  GroundFrame frame;  ///< of the raster's steps
 };
 
 struct TerrainFiles {
@@ -96,7 +96,7 @@ class Screen {
     const auto& samples = terrain.raster.samples;
     const tools::Surface surface{
         terrain.raster.width, terrain.raster.height, {samples.begin(), samples.end()}};
-    auto cameras = tools::presetCameras("all", tools::boundsOf(surface, terrain.frame));
+    auto cameras = presetCameras("all", tools::boundsOf(surface, terrain.frame));
     if (!cameras.ok()) return cameras.status();
     screen.cameras_ = std::move(*cameras);
     auto pictures = screen.draw(tools::fullGrid(surface, terrain.frame));
@@ -105,9 +105,9 @@ class Screen {
     return screen;
   }
 
-  std::vector<tks_camera> meshCameras() const {
-    std::vector<tks_camera> cameras;
-    for (const tools::Camera& camera : cameras_)
+  std::vector<tks_screen_camera> meshCameras() const {
+    std::vector<tks_screen_camera> cameras;
+    for (const Camera& camera : cameras_)
       cameras.push_back(tools::meshCamera(camera, terrain_->frame));
     return cameras;
   }
@@ -131,11 +131,11 @@ class Screen {
 
   const Terrain* terrain_;
   std::unique_ptr<tools::Renderer> renderer_;
-  std::vector<tools::Camera> cameras_;
+  std::vector<Camera> cameras_;
   std::vector<tools::Picture> reference_;
 };
 
-tools::MeshFile placed(const PlanMesh& mesh, const tools::GroundFrame& frame) {
+tools::MeshFile placed(const PlanMesh& mesh, const GroundFrame& frame) {
   const double last_column = frame.width - 1.0, last_row = frame.height - 1.0;
   tools::MeshFile file;
   for (const auto& [x, y, z] : mesh.positions) {
@@ -165,7 +165,7 @@ class Comparison {
     texture.channels = terrain_.texture.channels;
     texture.sample = terrain_.texture.sample;
     texture.data = terrain_.texture.data.data();
-    const std::vector<tks_camera> cameras = screen_.meshCameras();
+    const std::vector<tks_screen_camera> cameras = screen_.meshCameras();
     const double spacing = 0.5 * (terrain_.frame.spacing_x + terrain_.frame.spacing_y);
     const Simplifier simplifier(terrain_.raster, terrain_.frame.metres_per_unit / spacing);
     for (const uint32_t budget : kBudgets) {

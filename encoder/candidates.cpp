@@ -9,6 +9,7 @@
 #include "codec/geometry/stored_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "encoder/order_packets.hpp"
+#include "encoder/views.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "texture_wavelet/stored_encoder.hpp"
 
@@ -25,26 +26,24 @@ uint8_t statedAfter(const EncodeInputs& inputs, const Candidate<Coded>& candidat
   return qualityOf(std::sqrt(squares / coded.counted()));
 }
 
-ComponentCurve curveIn(const std::optional<ComponentCurve>& curve) {
-  return curve ? *curve : ComponentCurve();
-}
-
 }  // namespace
 
 Candidates withCurves(const EncodeInputs& inputs, Candidates candidates) {
-  auto& [heights, texture] = candidates;
-  const Texels* texels = texture.coded ? &texture.coded->of->texels : nullptr;
-  assert((texels != nullptr) == (inputs.image != nullptr));
-  if (heights.coded && !heights.curve)
-    heights.curve = curveOfHeights(inputs, *heights.coded, texels);
+  auto& [heights, texture, errors] = candidates;
+  if (heights.coded && !heights.curve) heights.curve = curveOfHeights(inputs, *heights.coded);
   if (texture.coded && !texture.curve) texture.curve = curveOfTexture(inputs, *texture.coded);
+  if (heights.coded && texture.coded && !errors)
+    errors = std::make_shared<const PairErrors>(
+        pairErrorsOf(inputs, {*heights.coded, *heights.curve}, {*texture.coded, *texture.curve}));
   return candidates;
 }
 
 Selection orderPackets(const Candidates& candidates) {
-  const auto& [heights, texture] = candidates;
+  const auto& [heights, texture, errors] = candidates;
   assert(!heights.coded == !heights.curve && !texture.coded == !texture.curve);
-  return {heights.coded, texture.coded, allocate({curveIn(heights.curve), curveIn(texture.curve)})};
+  if (!errors)
+    return {heights.coded, texture.coded, (heights.coded ? heights.curve : texture.curve)->packets};
+  return {heights.coded, texture.coded, allocate({*heights.curve, *texture.curve}, *errors)};
 }
 
 uint8_t qualityAfter(const EncodeInputs& inputs, const HeightsCandidate& heights, uint64_t bytes) {

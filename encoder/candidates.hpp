@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "encoder/candidate.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
 #include "encoder/inputs.hpp"
 #include "encoder/selection.hpp"
+#include "ratecontrol/pair_errors.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -20,12 +22,14 @@ using TextureCandidate = Candidate<CodedTexture>;
 struct Candidates {
   HeightsCandidate heights;
   TextureCandidate texture;
+  std::shared_ptr<const PairErrors> errors = {};  ///< of both; null where there is but one
 };
 
 /// RMSE in steps, or texel units, below which the last bit is worth a try.
 inline constexpr double kNearlyExact = 0.6;
 
-/// The same with both curves.
+/// The same with both curves, and what their errors are to a viewer: as it is known already, or as
+/// it is found for these candidates.
 Candidates withCurves(const EncodeInputs& inputs, Candidates candidates);
 
 /// All packets of both, which have curves, in their joint order.

@@ -12,6 +12,7 @@
 #include "encoder/coded_texture.hpp"
 #include "encoder/meet_target.hpp"
 #include "encoder/quantised_heights.hpp"
+#include "encoder/views.hpp"
 #include "encoder/write_stream.hpp"
 
 namespace tetrakis::inline encoder {
@@ -82,6 +83,7 @@ Result<Components> quantiseAndCode(const EncodeInputs& inputs) {
 Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& inputs) {
   assert(inputs.heights != nullptr || inputs.image != nullptr);
   if (Status status = reportProgress(inputs.options, 0); !status.ok()) return status;
+  if (Status status = checkCameras(inputs); !status.ok()) return status;
   Result<Components> coded = quantiseAndCode(inputs);
   if (!coded.ok()) return coded.status();
   const Result<Selection> selection =

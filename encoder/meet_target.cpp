@@ -38,7 +38,7 @@ bool nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
 
 /// Everything without fraction bits, if that is lossless within the budget.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy) {
-  const auto& [heights, texture] = lossy;
+  const auto& [heights, texture, errors] = lossy;
   if (heights.coded && !hasLosslessWay(*heights.coded)) return {};
   const bool textures_too = texture.coded && hasLosslessWay(*texture.coded);
   if (!heights.coded && !textures_too) return {};
@@ -101,7 +101,7 @@ Candidate<Coded> preferLossless(const EncodeInputs& inputs, Candidate<Coded> los
 /// Each component by itself.
 Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
   candidates = withCurves(inputs, std::move(candidates));
-  auto& [heights, texture] = candidates;
+  auto& [heights, texture, errors] = candidates;
   if (heights.coded) {
     const std::optional<uint64_t> need = heightsNeed(inputs, heights);
     if (!need) {
@@ -121,7 +121,7 @@ Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
 /// Heights whole, because they were made for the target. Unless all is to be lossless, the texture
 /// gets what the order puts before the last of the heights' coefficients.
 Selection meetWholeHeights(const EncodeInputs& inputs, Candidates candidates) {
-  auto& [heights, texture] = candidates;
+  auto& [heights, texture, errors] = candidates;
   if (inputs.options.max_error > 0 && texture.coded) {
     candidates = withCurves(inputs, std::move(candidates));
     const uint64_t coefficients = bytesOf(heights.coded->tracks) - heights.coded->closing;

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/order_packets.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <optional>
-#include <string>
 
-#include "base/length_unit.hpp"
 #include "codec/mesh/decimation.hpp"
 #include "encoder/height_errors.hpp"
-#include "ratecontrol/screen_model.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -33,31 +27,12 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
   return squares / heights.counted() / 16;
 }
 
-/// Texels that the texture moves per metre of height error.
-double texelsPerMetre(const EncodeInputs& inputs, const tks_heights& heights,
-                      const Texels& texture) {
-  const double spacing = heights.spacing_x > 0 ? heights.spacing_x : kUnknownSpacing;
-  const double texel = spacing * (heights.width - 1) / texture.width;
-  const double parallax = inputs.options.parallax;
-  return (parallax > 0 ? parallax : kDefaultParallax) / texel;
-}
-
 }  // namespace
 
-ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights,
-                              const Texels* texture) {
+ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights) {
   const QuantisedHeights& source = *heights.of;
-  const double samples = heights.counted();
-  const double metres = source.samples->unit ? metresPerUnit(source.samples->unit).value_or(1) : 1;
-  const double step = source.steps.step * std::abs(source.samples->scale) * metres;
-  const double floor = meshFloor(source, inputs.options.triangles);
-  const auto useful = [=](double squares) { return std::max(squares / samples, floor); };
-  Pricing pricing{samples, useful};
-  std::optional<ScreenModel> model;
-  if (texture != nullptr) {
-    model.emplace(*texture, texelsPerMetre(inputs, *source.samples, *texture));
-    pricing.cost = [&](double squares) { return model->cost(useful(squares) * step * step); };
-  }
+  const Pricing pricing{heights.counted(), meshFloor(source, inputs.options.triangles),
+                        inputs.image != nullptr};
   HeightsMemory memory;
   const auto measure = [&](uint64_t bytes) {
     return squaresOf(heights, prefixAfter(heights.rated(), {}, bytes), inputs.options.threads,
@@ -67,14 +42,13 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 }
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
-  const double samples = texture.counted();
   TextureMemory memory;
   const auto measure = [&](uint64_t bytes) {
     return squaresOf(texture, prefixAfter(texture.rated(), {}, bytes), inputs.options.threads,
                      &memory);
   };
   return curveOf(texture.rated(), auditScope(inputs, texture.of->texels.samples.size()), measure,
-                 {samples, [=](double squares) { return squares / samples; }});
+                 {texture.counted(), 0, inputs.heights != nullptr});
 }
 
 }  // namespace tetrakis::inline encoder

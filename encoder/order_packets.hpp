@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file finds out what every byte of a coded component is worth to a viewer. It tells rate
-// control how to measure heights and textures, and how to price their errors in one unit.
+// This file finds out what the bytes of a coded component take off its errors. It tells rate
+// control how to measure heights and textures.
 #pragma once
 
 #include "encoder/coded_heights.hpp"
@@ -10,9 +10,7 @@
 
 namespace tetrakis::inline encoder {
 
-/// texture: the image of the inputs, which heights are seen with; null: there is none.
-ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights,
-                              const Texels* texture);
+ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights);
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture);
 

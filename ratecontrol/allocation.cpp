@@ -3,48 +3,77 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <utility>
 
 namespace tetrakis::inline ratecontrol {
 
 namespace {
 
-struct Priced {
-  double slope;  // distortion removed per byte
-  std::vector<Packet> packets;
-};
+/// One component on its way through its points.
+class Progress {
+ public:
+  Progress(const ComponentCurve& curve, std::vector<PairErrors::Place> places)
+      : curve_(curve), places_(std::move(places)), next_(curve.packets.begin()) {}
 
-std::vector<Priced> price(const ComponentCurve& curve) {
-  std::vector<Priced> out;
-  auto next = curve.packets.begin();
-  uint64_t sent = 0;
-  for (size_t i = 1; i < curve.points.size(); ++i) {
-    const RatePoint &a = curve.points[i - 1], &b = curve.points[i];
-    std::vector<Packet> packets;
-    for (; sent < b.bytes && next != curve.packets.end(); ++next) {
-      sent += next->end - next->begin;
-      packets.push_back(*next);
+  bool done() const { return at_ + 1 >= curve_.points.size(); }
+  const PairErrors::Place& place() const { return places_[worthFrom()]; }
+
+  /// The steepest slope to a point further on, of 1, 2, 4, ... of them; error: of a place.
+  template <class Error>
+  double slope(Error&& error) const {
+    double steepest = -std::numeric_limits<double>::infinity();
+    const size_t from = std::min(worthFrom(), curve_.points.size() - 2);
+    const double now = error(places_[from]);
+    for (size_t step = 1;; step *= 2) {
+      const size_t to = std::min(from + step, curve_.points.size() - 1);
+      const auto bytes = static_cast<double>(curve_.points[to].bytes - curve_.points[from].bytes);
+      steepest = std::max(steepest, (now - error(places_[to])) / bytes);
+      if (to + 1 == curve_.points.size()) return steepest;
     }
-    assert(a.bytes < b.bytes && sent == b.bytes);
-    out.push_back({(a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes),
-                   std::move(packets)});
   }
-  return out;
-}
+
+  /// Takes the packets up to the next point.
+  void advance(std::vector<Packet>& order) {
+    const uint64_t end = curve_.points[++at_].bytes;
+    for (; sent_ < end && next_ != curve_.packets.end(); ++next_) {
+      sent_ += next_->end - next_->begin;
+      order.push_back(*next_);
+    }
+    assert(sent_ == end);
+  }
+
+ private:
+  /// The opening is worth what comes behind it.
+  size_t worthFrom() const { return std::max(at_, curve_.opened); }
+
+  const ComponentCurve& curve_;
+  std::vector<PairErrors::Place> places_;  ///< of the points
+  std::vector<Packet>::const_iterator next_;
+  size_t at_ = 0;
+  uint64_t sent_ = 0;
+};
 
 }  // namespace
 
-std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves) {
+std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves,
+                             const PairErrors& errors) {
+  std::vector<PairErrors::Place> heights, textures;
+  for (const RatePoint& p : curves[0].points) heights.push_back(errors.heightsAt(p.distortion));
+  for (const RatePoint& p : curves[1].points) textures.push_back(errors.textureAt(p.distortion));
+  Progress geometry(curves[0], std::move(heights)), texture(curves[1], std::move(textures));
   std::vector<Packet> order;
-  const std::vector<Priced> geometry = price(curves[0]);
-  const std::vector<Priced> texture = price(curves[1]);
-  // Convex curves have falling slopes, so a merge keeps each codeword in order.
-  size_t g = 0, t = 0;
-  while (g < geometry.size() || t < texture.size()) {
-    const bool take_geometry =
-        t == texture.size() || (g < geometry.size() && geometry[g].slope >= texture[t].slope);
-    const Priced& next = take_geometry ? geometry[g++] : texture[t++];
-    order.insert(order.end(), next.packets.begin(), next.packets.end());
+  using Place = PairErrors::Place;
+  while (!geometry.done() || !texture.done()) {
+    bool take_geometry = texture.done();
+    if (!geometry.done() && !texture.done()) {
+      const double g =
+          geometry.slope([&](const Place& place) { return errors.at(place, texture.place()); });
+      const double t =
+          texture.slope([&](const Place& place) { return errors.at(geometry.place(), place); });
+      take_geometry = g >= t;
+    }
+    (take_geometry ? geometry : texture).advance(order);
   }
   return order;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -36,25 +37,68 @@ uint8_t statedQuality(double squares, const Pricing& pricing) {
   return qualityOf(std::sqrt(squares / pricing.samples));
 }
 
+double costOf(double squares, const Pricing& pricing) {
+  return std::max(squares / pricing.samples, pricing.floor);
+}
+
+/// points: of a hull.
+size_t openedAt(const std::vector<RatePoint>& points, uint64_t opening) {
+  size_t first = 0;
+  while (first + 1 < points.size() && points[first].bytes < opening) ++first;
+  return first;
+}
+
+/// Where a packet is divided, so that no step of the allocation is long: single passes over the
+/// finest bands take a quarter of all bytes so far. Divided packets that stay neighbours are joined
+/// again.
+std::vector<uint64_t> divided(uint64_t begin, uint64_t end) {
+  constexpr uint64_t kLeast = 256;  // bytes: the head takes 2 % of that
+  constexpr double kShare = 0.06;   // of the track's bytes so far
+  const auto most = std::max(kLeast, static_cast<uint64_t>(kShare * static_cast<double>(begin)));
+  const uint64_t parts = std::max<uint64_t>(1, (end - begin) / most);
+  std::vector<uint64_t> ends;
+  for (uint64_t i = 1; i <= parts; ++i) ends.push_back(begin + (end - begin) * i / parts);
+  return ends;
+}
+
+/// Of the last point within so many bytes.
+uint8_t qualityWithin(const std::map<uint64_t, uint8_t>& quality, uint64_t bytes) {
+  return std::prev(quality.upper_bound(bytes))->second;
+}
+
+/// The place of so many bytes on the chord of two points.
+RatePoint between(const RatePoint& a, const RatePoint& b, uint64_t bytes) {
+  const double rest = static_cast<double>(b.bytes - bytes) / static_cast<double>(b.bytes - a.bytes);
+  return {bytes, b.distortion + (a.distortion - b.distortion) * rest};
+}
+
 /// points: of the only track, audited.
 ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> points,
                           const Pricing& pricing) {
   std::map<uint64_t, uint8_t> quality;
   for (RatePoint& point : points) {
     quality[point.bytes] = statedQuality(point.distortion, pricing);
-    point.distortion = pricing.cost(point.distortion);
+    point.distortion = costOf(point.distortion, pricing);
   }
   favour(points, coded.opening);
-  ComponentCurve curve{lowerHull(points, kPacketGrowth), {}};
+  const std::vector<RatePoint> hull = lowerHull(points, kPacketGrowth);
+  ComponentCurve curve{{hull.front()}, {}};
   uint64_t begin = 0;
-  for (size_t i = 1; i < curve.points.size(); ++i) {
-    for (const RatePoint& end : packetEnds(points, curve.points[i - 1], curve.points[i])) {
-      curve.packets.push_back(
-          {coded.component, end.dips, quality[end.bytes], begin, end.bytes, {}});
-      begin = end.bytes;
+  for (size_t i = 1; i < hull.size(); ++i) {
+    for (const RatePoint& end : packetEnds(points, hull[i - 1], hull[i])) {
+      const bool divisible = pricing.shared && !end.dips && begin >= coded.opening;
+      for (const uint64_t part : divisible ? divided(begin, end.bytes) : std::vector{end.bytes}) {
+        curve.packets.push_back(
+            {coded.component, end.dips, qualityWithin(quality, part), begin, part, {}});
+        begin = part;
+        if (divisible) curve.points.push_back(between(hull[i - 1], hull[i], part));
+      }
     }
+    if (curve.points.back().bytes < begin) curve.points.push_back(hull[i]);
   }
-  assert(begin == curve.points.back().bytes);
+  assert(begin == hull.back().bytes);
+  curve.points.back() = hull.back();
+  curve.opened = openedAt(curve.points, coded.opening);
   return curve;
 }
 
@@ -62,9 +106,11 @@ ComponentCurve curveOfMany(const CodedTracks& coded, const Pricing& pricing) {
   OrderedTracks tracks = orderTracks(coded);
   for (size_t i = 0; i < tracks.packets.size(); ++i)
     tracks.packets[i].quality = statedQuality(tracks.points[i + 1].distortion, pricing);
-  for (RatePoint& point : tracks.points) point.distortion = pricing.cost(point.distortion);
+  for (RatePoint& point : tracks.points) point.distortion = costOf(point.distortion, pricing);
   favour(tracks.points, coded.opening);
-  return {lowerHull(tracks.points, 0), std::move(tracks.packets)};
+  ComponentCurve curve{lowerHull(tracks.points, 0), std::move(tracks.packets)};
+  curve.opened = openedAt(curve.points, coded.opening);
+  return curve;
 }
 
 }  // namespace

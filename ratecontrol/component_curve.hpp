@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // This file cuts a coded component into packets and says what their bytes are worth. The account of
-// the tracks is audited and thinned to its hull, errors are priced in the unit that all components
-// share, and every packet states the quality that it leads to.
+// the tracks is audited and thinned to its hull, and every packet states the quality that it leads
+// to. What the errors of a component are worth beside those of another one is not its business:
+// ratecontrol/pair_errors.hpp.
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <vector>
 
 #include "bitstream/stream/packet.hpp"
@@ -14,18 +15,19 @@
 
 namespace tetrakis::inline ratecontrol {
 
-/// One component as the allocation sees it: its packets in their order, and the hull in a
-/// distortion common to all components, whose points lie at ends of packets.
+/// One component as the allocation sees it: its packets in their order, and the hull of its mean
+/// squared errors, whose points lie at ends of packets.
 struct ComponentCurve {
   std::vector<RatePoint> points;  ///< from {0, ...}; convex; fewer than two: no packets
   std::vector<Packet> packets;
+  size_t opened = 0;  ///< the first point behind the opening
 };
 
-/// What squared errors of a component's samples mean.
+/// Which errors count, and beside what.
 struct Pricing {
-  double samples = 1;  ///< over which the stated quality is a mean
-  /// A sum of squared errors in the distortion that all components share. It rises.
-  std::function<double(double squares)> cost;
+  double samples = 1;   ///< over which errors are means
+  double floor = 0;     ///< mean squared error below which less is worth nothing
+  bool shared = false;  ///< another component's packets come between: long ones are divided
 };
 
 /// Several tracks are ordered among each other by their accounts (ratecontrol/track_order.hpp); a

@@ -139,6 +139,24 @@ typedef enum tks_weights {
                             less, in colour differences much less; costs up to 1.2 dB of PSNR */
 } tks_weights;
 
+/* A pinhole camera that looks at the heights with their texture. In metres, x east, y up, z south;
+ * the origin is the middle of the heights at height 0. Where the spacing of the heights is unknown,
+ * samples are 30 metres apart. */
+typedef struct tks_camera {
+  const char* name;                /* UTF-8, for messages; NULL: its number, from 1 */
+  double eye[3], target[3], up[3]; /* up: not along the line of sight */
+  double fov_y;                    /* degrees from lower to upper edge, above 0, below 180 */
+  uint32_t width, height;          /* pixels, 1 to 8192 */
+  double weight;                   /* of its picture beside others, not negative, one above 0 */
+} tks_camera;
+
+/* How far a picture of decoded samples is from that of the original ones. heights: samples as in
+ * tks_heights.data; texels: as in tks_image.data. Writes the squared error, summed over pixels and
+ * over R, G and B of 0 to 255 each, and of how many such values it is the sum. Returns 0, anything
+ * else if it cannot draw: then the encoder does without pictures. */
+typedef int (*tks_picture_error)(void* user, const void* heights, const void* texels,
+                                 double* squares, double* values);
+
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
 typedef struct tks_encode_options {
   size_t size;       /* sizeof(tks_encode_options) */
@@ -150,8 +168,6 @@ typedef struct tks_encode_options {
   int lossless;      /* everything comes back bit for bit, floats by their bit patterns (NaN: see
                         tks_heights) */
   uint32_t triangles;/* meshes will be drawn with at most this many triangles; 0: no bound */
-  double parallax;   /* screen-space weight of heights: texture metres shifted per metre of height
-                        error (cotangent of the view's elevation); 0: the default oblique view */
   uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
   uint32_t regions;  /* side of the spatial regions by which windows can be decoded, in samples (of
                         either component): a power of two from 16 to 2^20; 1: none; 0: chosen, none
@@ -160,6 +176,16 @@ typedef struct tks_encode_options {
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;
+  const tks_camera* cameras; /* what viewers will see: bytes go where these pictures need them. With
+                                heights and texture alone; NULL: a mix of views from all sides, for
+                                a viewer of whom nothing is known. One that is below the ground,
+                                sees none of it or breaks the rules above: TKS_USAGE, with its
+                                name */
+  uint32_t camera_count;
+  tks_picture_error picture_error; /* a renderer that judges about 70 pairs of heights and textures
+                                      in the place of the encoder's own model of the cameras; NULL:
+                                      none */
+  void* picture_user;
 } tks_encode_options;
 
 /* Bytes allocated by the library; release with tks_free_buffer. */
@@ -369,19 +395,20 @@ tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t ma
                            tks_mesh* out);
 void tks_free_mesh(tks_mesh* mesh);
 
-/* A camera that a mesh is made for. */
-typedef struct tks_camera {
-  size_t size;            /* sizeof(tks_camera) */
+/* A camera that a mesh is made for, as a renderer has it (tks_camera: as people place it). */
+typedef struct tks_screen_camera {
+  size_t size;            /* sizeof(tks_screen_camera) */
   uint32_t width, height; /* of its picture, in pixels: 1 to 32768 */
   double clip[16];        /* that of tks_view_mesh: columns, rows and heights to clip coordinates,
                              whose y points up in the picture */
   double weight;          /* of its picture beside those of other cameras; 0: 1 */
-} tks_camera;
+} tks_screen_camera;
 
 /* What a mesh will be drawn for. */
 typedef struct tks_screen {
   size_t size;               /* sizeof(tks_screen) */
-  const tks_camera* cameras; /* `camera_count` of them, each as long as the first one's size says */
+  const tks_screen_camera* cameras; /* `camera_count` of them, each as long as the first one's size
+                                       says */
   uint32_t camera_count;     /* 0: no cameras; all ground counts alike, as on a map */
   const tks_image* texture;  /* what covers the ground, such as the decoded texture; NULL: unknown,
                                 taken for details of a sample's size everywhere */

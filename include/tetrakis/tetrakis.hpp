@@ -94,8 +94,8 @@ inline tks_heights makeHeights() {
   heights.scale = 1;
   return heights;
 }
-inline tks_camera makeCamera() {
-  tks_camera camera{};
+inline tks_screen_camera makeScreenCamera() {
+  tks_screen_camera camera{};
   camera.size = sizeof camera;
   return camera;
 }
@@ -228,7 +228,7 @@ class Decoder {
 
   /// The best mesh for cameras with at most max_triangles (tks_decode_screen_mesh). texture: what
   /// covers the ground; null: unknown.
-  Result<Mesh> screenMesh(std::span<const tks_camera> cameras, uint32_t max_triangles,
+  Result<Mesh> screenMesh(std::span<const tks_screen_camera> cameras, uint32_t max_triangles,
                           const tks_image* texture = nullptr) {
     const tks_screen screen = {sizeof screen, cameras.data(), static_cast<uint32_t>(cameras.size()),
                                texture};

@@ -360,7 +360,7 @@ TEST(DecodeMemory, MeshesForCamerasStayBelowTheLimitThatLetsThemPass) {
   const Raster heights = make({Pattern::kRidges, 500, 400, 1, TKS_U16});
   const Raster image = make({Pattern::kRidges, 300, 300, 3, TKS_U8});
   const tks_image texture = image.image();
-  tks_camera camera = {};
+  tks_screen_camera camera = {};
   camera.size = sizeof camera;
   camera.width = 2000;
   camera.height = 1000;

@@ -19,8 +19,8 @@ using samples::Raster;
 
 /// From the south: rows farther off are smaller, and 10^5 steps of height move the ground by half
 /// of the picture.
-tks_camera cameraOver(uint32_t width, uint32_t height) {
-  tks_camera camera = {};
+tks_screen_camera cameraOver(uint32_t width, uint32_t height) {
+  tks_screen_camera camera = {};
   camera.size = sizeof camera;
   camera.width = 96;
   camera.height = 64;
@@ -53,7 +53,7 @@ class ScreenMeshStream : public testing::Test {
  protected:
   Raster heights_ = make({Pattern::kRidges, 60, 47, 1, TKS_U16, 3});
   Bytes bytes_ = encode(&heights_, nullptr, lossless());
-  tks_camera camera_ = cameraOver(60, 47);
+  tks_screen_camera camera_ = cameraOver(60, 47);
   std::array<uint8_t, 4> texels_ = {0, 200, 90, 10};
   tks_image image_ = {};
   tks_screen screen_ = {sizeof(tks_screen), &camera_, 1, nullptr};
@@ -84,9 +84,9 @@ TEST_F(ScreenMeshStream, EveryPrefixGivesAMeshOfNoMoreTriangles) {
 
 TEST_F(ScreenMeshStream, TwoCamerasOfOneWeightAreTheSameInAnyOrder) {
   Stream stream(bytes_);
-  tks_camera beside = camera_;
+  tks_screen_camera beside = camera_;
   beside.clip[3] = -2;
-  std::array<tks_camera, 2> both = {camera_, beside};
+  std::array<tks_screen_camera, 2> both = {camera_, beside};
   screen_ = {sizeof screen_, both.data(), 2, nullptr};
   const DrawnMesh one = decode(stream, &screen_, 200);
   std::swap(both[0], both[1]);
@@ -112,7 +112,7 @@ TEST_F(ScreenMeshStream, RefusesWithASentence) {
     EXPECT_TRUE(drawn.mesh.vertices.empty());
   };
   refused("triangle", 0);
-  const tks_camera sound = camera_;
+  const tks_screen_camera sound = camera_;
   camera_.clip[5] = std::numeric_limits<double>::quiet_NaN();
   refused("camera 1 of 1");
   camera_ = sound;

@@ -93,8 +93,7 @@ TEST_F(Arguments, Options) {
       [](Call& c) { c.options.lossless = 0, c.options.max_error = -1; },
       [](Call& c) { c.options.lossless = 0, c.options.max_error = kInfinity; },
       [](Call& c) { c.options.lossless = 0, c.options.bytes = 5; },
-      [](Call& c) { c.options.parallax = -1; },
-      [](Call& c) { c.options.parallax = kNan; },
+      [](Call& c) { c.options.camera_count = 1; },
       [](Call& c) { c.options.progress = [](void*, double) { return 1; }; },
   };
   for (size_t i = 0; i < std::size(spoils); ++i) {

@@ -205,15 +205,65 @@ TEST(StreamRate, ThreadsAndRepetitionChangeNothing) {
   }
 }
 
-/// The screen-space weight moves bytes from one track to the other.
-TEST(StreamRate, ParallaxShiftsBytesToHeights) {
+/// Seen at a flat angle, heights matter more than from above, where they still matter.
+TEST(StreamRate, CamerasShareTheBytes) {
   const Raster heights = terrain(), image = photograph();
-  const auto geometryBytes = [&](double parallax) {
+  const auto geometryBytes = [&](double up, double back) {
+    tks_camera camera = {"one", {0, up, back}, {0, 0, 0}, {0, 1, -0.01}, 40, 768, 512, 1};
     tks_encode_options options = budget(8000);
-    options.parallax = parallax;
+    options.cameras = &camera;
+    options.camera_count = 1;
     return Stream(encode(&heights, &image, options)).info().geometry_bytes;
   };
-  EXPECT_LT(geometryBytes(0.05), geometryBytes(5));
+  const uint64_t above = geometryBytes(1e5, 1), aside = geometryBytes(3e4, 6e4);
+  EXPECT_LT(above, aside);
+  EXPECT_GT(above, 0u);
+}
+
+/// A renderer that sees squared errors of either component.
+struct Taste {
+  double heights, texels;
+  const Raster *surface, *photo;
+  size_t asked = 0;
+};
+
+template <class T>
+double squaresOfSamples(const Raster& raster, const void* shown) {
+  double sum = 0;
+  for (size_t i = 0; i < raster.data.size() / sizeof(T); ++i) {
+    const auto truth = static_cast<double>(reinterpret_cast<const T*>(raster.data.data())[i]);
+    const double error = static_cast<double>(static_cast<const T*>(shown)[i]) - truth;
+    sum += error * error;
+  }
+  return sum;
+}
+
+int errorByTaste(void* user, const void* heights, const void* texels, double* sum, double* values) {
+  auto& likes = *static_cast<Taste*>(user);
+  ++likes.asked;
+  *sum = likes.heights * squaresOfSamples<uint16_t>(*likes.surface, heights) +
+         likes.texels * squaresOfSamples<uint8_t>(*likes.photo, texels);
+  *values = 1;
+  return 0;
+}
+
+/// The encoder asks a renderer for pairs of samples as the caller gave them, and shares the bytes
+/// by what it says. One that fails is done without.
+TEST(StreamRate, RenderersShareTheBytes) {
+  const Raster heights = terrain(), image = photograph();
+  tks_encode_options options = budget(8000);
+  options.picture_error = errorByTaste;
+  const auto geometryBytes = [&](double likes_heights) {
+    Taste taste{likes_heights, 1, &heights, &image};
+    options.picture_user = &taste;
+    const Bytes stream = encode(&heights, &image, options);
+    EXPECT_GT(taste.asked, 4u);
+    EXPECT_LE(taste.asked, 90u);
+    return Stream(stream).info().geometry_bytes;
+  };
+  EXPECT_LT(geometryBytes(1e-4), geometryBytes(100));
+  options.picture_error = [](void*, const void*, const void*, double*, double*) { return 1; };
+  EXPECT_FALSE(encode(&heights, &image, options).empty());
 }
 
 TEST(StreamRate, ProgressRisesFromZeroToOne) {

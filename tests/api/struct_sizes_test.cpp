@@ -119,7 +119,7 @@ TEST_F(StructSizes, OptionsOfEverySize) {
   for (size_t size = sizeof(size_t); size <= sizeof options_ + kBeyond; ++size) {
     Sized<tks_encode_options> sized(options_, size);
     const Outcome outcome = encode(&heights_, &image_, sized.get());
-    if (size < offsetof(tks_encode_options, parallax)) {
+    if (size < offsetof(tks_encode_options, threads)) {
       EXPECT_EQ(outcome.status, TKS_USAGE) << size;
       continue;
     }

@@ -80,13 +80,13 @@ TEST_F(CliView, TheCameraSeesTheSamePictureOfThePart) {
   ASSERT_TRUE(stream.ok());
   const auto texture = tools::decodeImage(stream->decoder);
   ASSERT_TRUE(texture.ok());
-  const tools::GroundFrame frame = tools::frameOf(stream->decoder.info());
+  const GroundFrame frame = tools::frameOf(stream->decoder.info());
   const auto whole = stream->decoder.budgetMesh(0);
   ASSERT_TRUE(whole);
   std::map<uint32_t, uint32_t> vertices;  // of the whole mesh, by sample
   for (uint32_t v = 0; v < whole->vertexCount(); ++v) vertices[whole->gridIndices()[v]] = v;
   // All vertices, so that the range of depths is the same, and the triangles of `mesh`.
-  const auto picture = [&](const Mesh& mesh, const tools::Camera& camera) {
+  const auto picture = [&](const Mesh& mesh, const Camera& camera) {
     tools::MeshFile file = tools::placeMesh(*whole, frame);
     file.texture = &*texture;
     file.triangles.clear();

@@ -32,7 +32,7 @@ void printMesh(const std::string& name, const Result<Mesh>& mesh) {
 void printScreenMesh(const std::string& name, Decoder& decoder) {
   const tks_info& info = decoder.info();
   if (!info.has_heights) return;
-  tks_camera camera = makeCamera();
+  tks_screen_camera camera = makeScreenCamera();
   camera.width = 300;
   camera.height = 200;
   const double clip[16] = {

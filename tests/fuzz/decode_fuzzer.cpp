@@ -87,7 +87,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (first) checkWindow(decoder->heights(column), *first, info);
     checkMesh(decoder->codedMesh(), info);
     checkMesh(decoder->budgetMesh(100), info);
-    tks_camera camera = tetrakis::makeCamera();
+    tks_screen_camera camera = tetrakis::makeScreenCamera();
     camera.width = camera.height = 40;
     camera.clip[0] = camera.clip[5] = 2.0 / info.width;
     camera.clip[6] = 0.01;

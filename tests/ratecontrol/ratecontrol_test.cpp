@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Convex hulls, marginal allocation, the audit of rate points, and the screen model.
+// Convex hulls, marginal allocation, the audit of rate points, and what cameras see.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "conformance/samples/terrain_samples.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/hull.hpp"
-#include "ratecontrol/screen_model.hpp"
+#include "ratecontrol/pair_errors.hpp"
+#include "ratecontrol/screen_points.hpp"
 
 namespace tetrakis {
 namespace {
@@ -91,38 +94,108 @@ ComponentCurve curveOf(Component component, const std::vector<RatePoint>& points
   return curve;
 }
 
-/// Distortion left after the packets in `order` have used at most `budget` payload bytes, packets
-/// being divisible.
-double leftAfter(const std::array<ComponentCurve, kComponents>& curves, uint64_t first,
-                 uint64_t second) {
-  const auto at = [](const ComponentCurve& curve, uint64_t bytes) {
-    size_t i = 1;
-    while (i + 1 < curve.points.size() && curve.points[i].bytes < bytes) ++i;
-    const RatePoint &a = curve.points[i - 1], &b = curve.points[i];
-    return a.distortion - slope(a, b) * static_cast<double>(std::min(bytes, b.bytes) - a.bytes);
-  };
-  return at(curves[0], first) + at(curves[1], second);
+/// Mean squared error at so many bytes, packets being divisible.
+double squareAt(const ComponentCurve& curve, uint64_t bytes) {
+  size_t i = 1;
+  while (i + 1 < curve.points.size() && curve.points[i].bytes < bytes) ++i;
+  const RatePoint &a = curve.points[i - 1], &b = curve.points[i];
+  return a.distortion - slope(a, b) * static_cast<double>(std::min(bytes, b.bytes) - a.bytes);
 }
 
-TEST(Allocation, NoSplitOfAnyPrefixIsBetter) {
+std::vector<double> nodesOf(const ComponentCurve& curve) {
+  std::vector<double> nodes;
+  for (size_t i = 0; i + 1 < curve.points.size(); i += 4)
+    nodes.push_back(curve.points[i].distortion);
+  return nodes;
+}
+
+/// Errors of a picture that are as `model` says of the squared errors of both.
+template <class Model>
+PairErrors errorsBy(const std::array<ComponentCurve, kComponents>& curves, Model&& model) {
+  PairNodes nodes = {nodesOf(curves[0]), nodesOf(curves[1])};
+  std::vector<double> errors;
+  for (size_t g = 0; g <= nodes.heights.size(); ++g)
+    for (size_t t = 0; t <= nodes.textures.size(); ++t)
+      errors.push_back(model(g < nodes.heights.size() ? nodes.heights[g] : 0,
+                             t < nodes.textures.size() ? nodes.textures[t] : 0));
+  return {std::move(nodes), std::move(errors)};
+}
+
+/// At most `bound` above the best split of any prefix.
+template <class Model>
+void expectBestSplits(Model&& model, double bound) {
   const std::array<ComponentCurve, kComponents> curves = {
       curveOf(Component::kGeometry, bumpyCurve(70, 9)),
       curveOf(Component::kTexture, bumpyCurve(130, 40))};
+  const PairErrors errors = errorsBy(curves, model);
+  const auto error = [&](uint64_t first, uint64_t second) {
+    return errors.at(errors.heightsAt(squareAt(curves[0], first)),
+                     errors.textureAt(squareAt(curves[1], second)));
+  };
   std::array<uint64_t, kComponents> sent = {};
-  for (const Packet& packet : allocate(curves)) {
+  double before = error(0, 0);
+  for (const Packet& packet : allocate(curves, errors)) {
     const auto component = static_cast<size_t>(packet.component);
     ASSERT_EQ(packet.begin, sent[component]);
     sent[component] = packet.end;
     const uint64_t total = sent[0] + sent[1];
-    const double ours = leftAfter(curves, sent[0], sent[1]);
+    const double ours = error(sent[0], sent[1]);
+    EXPECT_LE(ours, before + 1e-9) << "more bytes are worse";
+    before = ours;
     for (uint64_t first = 0; first <= std::min<uint64_t>(total, curves[0].points.back().bytes);
          first += 10) {
       if (total - first > curves[1].points.back().bytes) continue;
-      EXPECT_LE(ours, leftAfter(curves, first, total - first) + 1e-9);
+      EXPECT_LE(ours, error(first, total - first) * (1 + bound) + 1e-9) << total << " bytes";
     }
   }
   EXPECT_EQ(sent[0], curves[0].points.back().bytes);
   EXPECT_EQ(sent[1], curves[1].points.back().bytes);
+}
+
+TEST(Allocation, NoSplitOfAnyPrefixIsMuchBetterWhereErrorsAdd) {
+  expectBestSplits([](double h, double t) { return h + t; }, 0.03);
+}
+
+/// Texels in the wrong place are worth little: the slopes of either depend on how far the other is.
+TEST(Allocation, NoSplitOfAnyPrefixIsMuchBetterWhereErrorsInteract) {
+  expectBestSplits(
+      [](double h, double t) {
+        const double moved = 1 - std::exp(-h / 3);
+        return t + 60 * moved * (50 - t) / 50;
+      },
+      0.05);
+}
+
+TEST(Allocation, OpeningsComeBeforeWhatNeedsThem) {
+  std::array<ComponentCurve, kComponents> curves = {
+      curveOf(Component::kGeometry, {{0, 10}, {1000, 10}, {1100, 1}, {1300, 0}}),
+      curveOf(Component::kTexture, bumpyCurve(130, 1e-3))};
+  curves[0] = {{{0, 10}, {1000, 10}, {1100, 1}, {1300, 0}}, {}, 1};
+  for (size_t i = 1; i < 4; ++i)
+    curves[0].packets.push_back({Component::kGeometry,
+                                 false,
+                                 0,
+                                 curves[0].points[i - 1].bytes,
+                                 curves[0].points[i].bytes,
+                                 {}});
+  const PairErrors errors({{10, 1}, {1e-3}}, {10.001, 10, 1.001, 1, 1e-3, 0});
+  EXPECT_EQ(allocate(curves, errors).front().component, Component::kGeometry);
+}
+
+TEST(PairErrors, MeetsItsNodesAndStaysBetweenThem) {
+  const PairErrors errors({{100, 10, 1}, {50, 5}}, {90, 70, 65, 60, 30, 20, 55, 12, 2, 51, 8, 0});
+  const auto at = [&](double h, double t) {
+    return errors.at(errors.heightsAt(h), errors.textureAt(t));
+  };
+  EXPECT_DOUBLE_EQ(at(100, 50), 90);
+  EXPECT_DOUBLE_EQ(at(1e9, 1e9), 90);  // nothing is worse than the first bytes
+  EXPECT_DOUBLE_EQ(at(10, 5), 30);
+  EXPECT_DOUBLE_EQ(at(1, 0), 2);
+  EXPECT_DOUBLE_EQ(at(0, 0), 0);
+  EXPECT_DOUBLE_EQ(at(0.5, 0), 1);  // in proportion behind the last node
+  EXPECT_NEAR(at(std::sqrt(1000), 50), std::sqrt(90.0 * 60), 1e-9);
+  for (double h = 200; h > 1e-3; h *= 0.8)
+    for (double t = 80; t > 1e-3; t *= 0.8) EXPECT_LE(at(h * 0.9, t * 0.9), at(h, t) + 1e-9);
 }
 
 TEST(JoinNeighbours, KeepsBytesQualityStepsAndWholePackets) {
@@ -187,6 +260,69 @@ TEST(Audit, LargeTracksAreCorrectedOnlyWithoutABudget) {
   EXPECT_NEAR(audit(track, {1 << 20}, twice).front().distortion, 2000, 1e-6);
 }
 
+/// A plain of 65 x 65 samples a metre apart, with a wall of that height along the middle row.
+Relief walled(float height) {
+  Relief relief{{65, 65, 1, 1, 1}, std::vector<float>(size_t{65} * 65)};
+  for (size_t x = 0; x < 65; ++x) relief.heights[size_t{32} * 65 + x] = height;
+  return relief;
+}
+
+Camera lookingAt(std::array<double, 3> eye, std::array<double, 3> target) {
+  Camera camera;
+  camera.eye = eye;
+  camera.target = target;
+  camera.up = {0, 1, -0.01};
+  return camera;
+}
+
+TEST(GroundRays, MeetTheGroundWhereItIs) {
+  const GroundRays ground(walled(0));
+  for (double x = -31.7; x < 32; x += 7.3) {
+    for (double z = -31.2; z < 32; z += 5.9) {
+      const Vec3 eye{3, 40, 50};
+      const auto hit = ground.hit({eye, subtract({x, 0, z}, eye)});
+      ASSERT_TRUE(hit);
+      EXPECT_NEAR(hit->column, x + 32, 1e-9);
+      EXPECT_NEAR(hit->row, z + 32, 1e-9);
+      EXPECT_NEAR(hit->far, 1, 1e-9);
+    }
+  }
+  EXPECT_FALSE(ground.hit({{0, 10, 0}, {0, 1, 0}}));
+  EXPECT_FALSE(ground.hit({{0, 10, 100}, {0, 0, 1}}));
+  EXPECT_EQ(*GroundRays(walled(7)).heightAt(0.25, 0.5), 3.5);
+  EXPECT_FALSE(ground.heightAt(33, 0));
+}
+
+/// Brute force: the ray is above the ground until it meets the triangle that is found. It starts
+/// above the grid, as from beside it rays also come in below the ground.
+TEST(GroundRays, FindTheFirstTriangle) {
+  Relief relief{{33, 20, 3, 5, 1}, std::vector<float>(size_t{33} * 20)};
+  for (uint32_t i = 0; i < relief.heights.size(); ++i)
+    relief.heights[i] = static_cast<float>(samples::hash(i, 5, 1) % 30);
+  const GroundRays ground(relief);
+  const auto heightOn = [](const GroundHit& hit) {
+    return hit.at + hit.slope_c * hit.column + hit.slope_r * hit.row;
+  };
+  size_t hits = 0;
+  for (uint32_t i = 0; i < 400; ++i) {
+    const auto random = [&](uint32_t k) { return samples::hash(i, k, 9) % 1000 / 500.0 - 1; };
+    const Ray ray{{45 * random(1), 31 + 20 * (random(2) + 1), 45 * random(3)},
+                  {random(4), -0.3 - 0.3 * (random(5) + 1), random(6)}};
+    const auto hit = ground.hit(ray);
+    const double end = hit ? hit->far : 300;
+    if (hit) {
+      ++hits;
+      EXPECT_NEAR(heightOn(*hit), ray.origin[1] + hit->far * ray.direction[1], 1e-6);
+    }
+    for (double t = 0; t < end - 0.02; t += 0.01) {
+      const Vec3 p = add(ray.origin, scale(ray.direction, t));
+      const auto height = ground.heightAt(p[0], p[2]);
+      ASSERT_GE(p[1], height.value_or(-1e9) - 0.2) << "ray " << i << " at " << t;
+    }
+  }
+  EXPECT_GT(hits, 100u);
+}
+
 Texels stripes(uint32_t period) {
   Texels texels{64, 64, 1, 8, std::vector<uint16_t>(64 * 64)};
   for (uint32_t i = 0; i < 64 * 64; ++i)
@@ -194,26 +330,80 @@ Texels stripes(uint32_t period) {
   return texels;
 }
 
-TEST(ScreenModel, CostRisesAndSaturates) {
-  const ScreenModel model(stripes(16), 0.5);
-  EXPECT_EQ(model.cost(0), 0);
-  double before = 0, rise = 1e300;
-  for (double mse = 1; mse < 1e7; mse *= 2) {
-    const double cost = model.cost(mse);
-    EXPECT_GE(cost, before);
-    EXPECT_LE((cost - before) / mse, rise);  // concave
-    rise = (cost - before) / mse;
-    before = cost;
-  }
-  EXPECT_NEAR(before, 2 * 60 * 60, 2 * 60 * 60 * 0.1);  // twice the variance of the stripes
+/// What a wall hides counts nothing: no point of the picture lies behind it.
+TEST(ScreenPoints, HiddenGroundIsNotSeen) {
+  const ScreenPoints points({lookingAt({0, 3, 40}, {0, 2, 0})}, 2000);
+  const auto behind = [&](float wall) {
+    const auto seen = points.seenOf(GroundRays(walled(wall)), {64, 64});
+    return std::count_if(seen.begin(), seen.end(),
+                         [](const SeenPoint& s) { return s.ground && s.v < 31.0 / 64; });
+  };
+  EXPECT_GT(behind(0), 50);
+  EXPECT_EQ(behind(20), 0);
 }
 
-TEST(ScreenModel, FollowsParallaxAndTexture) {
-  EXPECT_GT(ScreenModel(stripes(16), 1.0).cost(1), ScreenModel(stripes(16), 0.5).cost(1));
-  EXPECT_GT(ScreenModel(stripes(8), 0.5).cost(1), ScreenModel(stripes(32), 0.5).cost(1));
+TEST(ScreenPoints, CamerasThatSeeNothingAreNamed) {
+  const ScreenPoints points(
+      {lookingAt({0, 30, 40}, {0, 0, 0}), lookingAt({0, 30, 40}, {0, 60, 90})}, 200);
+  EXPECT_EQ(points.blindCameras(points.seenOf(GroundRays(walled(1)), {64, 64})),
+            std::vector<size_t>{1});
+}
+
+/// Error of the picture where the plain is at another height.
+double errorOfShift(const Texels& texels, float shift, const std::vector<Camera>& cameras) {
+  const ScreenPoints points(cameras, 3000);
+  const ScreenTexture texture(texels, texels.extent());
+  const auto picture = [&](float height) {
+    Relief relief = walled(0);
+    std::fill(relief.heights.begin(), relief.heights.end(), height);
+    return points.seenOf(GroundRays(relief), texels.extent());
+  };
+  const auto here = picture(0), there = picture(shift);
+  const auto colours = points.coloursOf(here, texture), moved = points.coloursOf(there, texture);
+  return points.errorInside({here, colours}, {there, moved});
+}
+
+TEST(ScreenPoints, HeightErrorsMoveTheTexture) {
+  const std::vector<Camera> aside = {lookingAt({60, 40, 0}, {0, 0, 0})};
+  EXPECT_EQ(errorOfShift(stripes(16), 0, aside), 0);
+  double before = 0;
+  for (const float shift : {0.25f, 0.5f, 1.0f, 2.0f}) {
+    const double error = errorOfShift(stripes(16), shift, aside);
+    EXPECT_GT(error, 1.5 * before);
+    before = error;
+  }
+  EXPECT_GT(errorOfShift(stripes(8), 0.5, aside), errorOfShift(stripes(32), 0.5, aside));
   Texels flat = stripes(16);
-  std::fill(flat.samples.begin(), flat.samples.end(), 90);
-  EXPECT_EQ(ScreenModel(flat, 1.0).cost(1e6), 0);
+  std::fill(flat.samples.begin(), flat.samples.end(), uint16_t{90});
+  EXPECT_NEAR(errorOfShift(flat, 5, aside), 0, 1e-6);
+}
+
+/// The error over two cameras is the mean of their errors, which are squares, by their weights.
+TEST(ScreenPoints, CamerasAverageTheirSquares) {
+  Camera aside = lookingAt({60, 40, 0}, {0, 0, 0}), above = lookingAt({1, 80, 0}, {0, 0, 0});
+  aside.weight = 3;
+  const double a = errorOfShift(stripes(16), 1, {aside});
+  const double b = errorOfShift(stripes(16), 1, {above});
+  EXPECT_NEAR(errorOfShift(stripes(16), 1, {aside, above}), (3 * a + b) / 4, 0.06 * a);
+  above.weight = 0;
+  EXPECT_NEAR(errorOfShift(stripes(16), 1, {aside, above}), a, 1e-9);
+}
+
+/// From far away fine stripes are grey: their errors do not survive on the screen.
+TEST(ScreenPoints, FarTexturesAreSeenAtCoarseLevels) {
+  const auto errorOfGrey = [](uint32_t period, double height) {
+    const ScreenPoints points({lookingAt({0, height, 1}, {0, 0, 0})}, 3000);
+    const Texels texels = stripes(period);
+    Texels grey = texels;
+    std::fill(grey.samples.begin(), grey.samples.end(), uint16_t{120});
+    const auto seen = points.seenOf(GroundRays(walled(0)), texels.extent());
+    const auto colours = points.coloursOf(seen, {texels, texels.extent()});
+    const auto plain = points.coloursOf(seen, {grey, texels.extent()});
+    return points.errorInside({seen, colours}, {seen, plain});
+  };
+  EXPECT_NEAR(errorOfGrey(2, 40), 3600 / 3, 100);  // a triangle wave between texels
+  EXPECT_LT(errorOfGrey(2, 4000), 100);
+  EXPECT_GT(errorOfGrey(32, 4000), 1500);
 }
 
 }  // namespace

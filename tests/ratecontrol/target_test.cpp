@@ -147,7 +147,7 @@ TEST(ComponentCurve, PacketsCoverTheTracksAndTheOpeningComesFirst) {
     const std::vector<EncodedTrack> tracks = tracksWithOpening(count, 50);
     const CodedTracks coded{Component::kTexture, tracks, 50};
     const auto measure = [](uint64_t) { return 1.0; };
-    const Pricing pricing{100, [](double squares) { return squares / 100; }};
+    const Pricing pricing{100};
     const ComponentCurve curve = curveOf(coded, {1 << 20, 9000}, measure, pricing);
     ASSERT_GE(curve.packets.size(), 2u);
     EXPECT_EQ(curve.points[1].bytes, 50u) << "worth the most of all";

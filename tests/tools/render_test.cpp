@@ -346,20 +346,6 @@ TEST(Cameras, AllIsTheThreeViewsAndOthersAreRefused) {
   EXPECT_EQ(presetCameras("top", nowhere).status().code(), TKS_USAGE);
 }
 
-TEST(Cameras, ParallaxIsTheCotangentOfTheElevation) {
-  const auto parallax = [](const char* view) {
-    return parallaxOf(*presetCameras(view, kTerrains[0]));
-  };
-  EXPECT_EQ(parallax("top"), 0);
-  EXPECT_NEAR(parallax("oblique"), 1 / std::tan(35 * std::numbers::pi / 180), 1e-9);
-  EXPECT_GT(parallax("low"), parallax("oblique"));
-  EXPECT_NEAR(parallax("all"), (parallax("oblique") + parallax("low")) / 3, 1e-9);
-  Camera level;
-  level.target = {1, 0, 0};
-  EXPECT_EQ(parallaxOf({level}), 20);
-  EXPECT_EQ(parallaxOf({}), 0);
-}
-
 class CameraFiles : public testing::Test {
  protected:
   ~CameraFiles() override { std::filesystem::remove(path_); }
@@ -412,6 +398,7 @@ TEST_F(CameraFiles, SaysWhichFieldIsWrong) {
       {eye + target + R"(, "height": 8193)", "height"},
       {eye + target + R"(, "height": 10.5)", "height"},
       {eye + target + R"(, "name": 7)", "name"},
+      {eye + target + R"(, "weight": -1)", "weight"},
   };
   for (const auto& [fields, culprit] : cases) {
     const Result<std::vector<Camera>> cameras = read(R"({"cameras": [{)" + fields + "}]}");

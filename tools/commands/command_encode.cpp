@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/length_unit.hpp"
@@ -18,14 +19,11 @@
 #include "tools/files/memory_limit.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
+#include "tools/report/picture_judge.hpp"
 #include "tools/report/report.hpp"
 
 namespace tetrakis::tools {
 namespace {
-
-/// A camera straight above sees no parallax at all, but 0 would mean "the default view": use a
-/// millimetre a metre.
-constexpr double kLeastParallax = 1e-3;
 
 std::string voidNote(const HeightFile& heights) {
   const Surface surface = heightsOf(heights);
@@ -79,11 +77,25 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   return inputs;
 }
 
-Result<double> parallax(const EncodeArguments& arguments, const HeightFile& heights) {
-  const Result<std::vector<Camera>> cameras =
-      chooseCameras(arguments.cameras, boundsOf(heightsOf(heights), frameOf(heights)));
-  if (!cameras.ok()) return cameras.status();
-  return std::max(parallaxOf(*cameras), kLeastParallax);
+/// Those that are asked for; none: the library looks from all sides.
+Result<std::vector<Camera>> wantedCameras(const EncodeArguments& arguments,
+                                          const Reference& inputs) {
+  const bool rendered = arguments.engine == "rendered";
+  if (!inputs.heights || (arguments.cameras.isDefault() && !rendered)) return std::vector<Camera>();
+  const Bounds bounds = boundsOf(heightsOf(*inputs.heights), frameOf(*inputs.heights));
+  if (arguments.cameras.isDefault()) return unknownViewer(bounds);
+  return chooseCameras(arguments.cameras, bounds);
+}
+
+/// The renderer that looks at the pictures; nothing: the library models them, or there are none.
+Result<std::optional<PictureJudge>> wantedJudge(const EncodeArguments& arguments,
+                                                const Reference& inputs,
+                                                const std::vector<Camera>& cameras) {
+  if (arguments.engine != "rendered" || !inputs.heights || !inputs.image)
+    return std::optional<PictureJudge>();
+  Result<PictureJudge> judge = PictureJudge::create(*inputs.heights, *inputs.image, cameras);
+  if (!judge.ok()) return judge.status();
+  return std::optional<PictureJudge>(std::move(*judge));
 }
 
 /// As tks_encode_options says it; the library refuses sides that it does not take.
@@ -115,11 +127,6 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
     if (*bound == 0)
       return Status(TKS_USAGE, "--max-error must be positive; --lossless keeps everything");
     options.max_error = *bound;
-  }
-  if (!arguments.cameras.isDefault() && inputs.heights) {
-    const Result<double> seen = parallax(arguments, *inputs.heights);
-    if (!seen.ok()) return seen.status();
-    options.parallax = *seen;
   }
   return options;
 }
@@ -173,6 +180,17 @@ tks_image view(const ImageFile& file) {
 Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet) {
   Result<tks_encode_options> options = encodeOptions(arguments, inputs);
   if (!options.ok()) return options.status();
+  const Result<std::vector<Camera>> cameras = wantedCameras(arguments, inputs);
+  if (!cameras.ok()) return cameras.status();
+  const std::vector<tks_camera> told = toldCameras(*cameras);
+  options->cameras = told.data();
+  options->camera_count = static_cast<uint32_t>(told.size());
+  Result<std::optional<PictureJudge>> judge = wantedJudge(arguments, inputs, *cameras);
+  if (!judge.ok()) return judge.status();
+  if (judge->has_value()) {
+    options->picture_error = &PictureJudge::error;
+    options->picture_user = &**judge;
+  }
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;

@@ -36,6 +36,10 @@ void addTargets(CLI::App& verb, EncodeArguments& arguments) {
 void addTuning(CLI::App& verb, EncodeArguments& arguments) {
   addTriangles(verb, arguments.triangles, "Meshes will be drawn with at most so many triangles");
   addCameraOptions(verb, arguments.cameras);
+  verb.add_option("--engine", arguments.engine,
+                  "What looks at the pictures: modelled (fast), or rendered (needs EGL)")
+      ->check(silent(CLI::IsMember({"modelled", "rendered"})))
+      ->type_name("ENGINE");
   verb.add_option("--regions", arguments.regions,
                   "Spatial regions, for windows: auto, off, or their side (a power of two)")
       ->type_name("SIDE");

@@ -17,7 +17,7 @@ struct EncodeArguments {
   std::string max_error;
   bool lossless = false;
   uint32_t triangles = 0, threads = hardwareThreads();
-  std::string regions = "auto", weights = "psnr";
+  std::string regions = "auto", weights = "psnr", engine = "modelled";
   double step = 0;
   std::optional<double> scale, offset, nodata;
   std::string spacing;

@@ -4,15 +4,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "ground/vec3.hpp"
 #include "tools/render/render.hpp"
-#include "tools/render/vec3.hpp"
 
 namespace tetrakis::tools {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr uint32_t kLargestSide = 8192;
 
 /// Reads fields of one camera; the first that is wrong stays in `problem`.
 class FieldReader {
@@ -38,11 +36,19 @@ class FieldReader {
     if (!(out > 0 && out < 180)) complain(key, "must lie between 0 and 180 degrees");
   }
 
+  void weight(const char* key, double& out) {
+    const Json* value = find(key, false);
+    if (!value) return;
+    if (!value->is_number()) return complain(key, "must be a number");
+    out = value->get<double>();
+    if (!(out >= 0) || !std::isfinite(out)) complain(key, "must not be negative");
+  }
+
   void side(const char* key, uint32_t& out) {
     const Json* value = find(key, false);
     if (!value) return;
     const bool fits = value->is_number_unsigned() && value->get<uint64_t>() >= 1 &&
-                      value->get<uint64_t>() <= kLargestSide;
+                      value->get<uint64_t>() <= kLargestPicture;
     if (!fits) return complain(key, "must be a whole number from 1 to 8192");
     out = value->get<uint32_t>();
   }
@@ -84,6 +90,7 @@ Result<Camera> readCamera(const Json& object, size_t index) {
   reader.angle("fov_y", camera.fov_y);
   reader.side("width", camera.width);
   reader.side("height", camera.height);
+  reader.weight("weight", camera.weight);
   const Vec3 direction = normalized(subtract(camera.target, camera.eye));
   if (length(direction) == 0) reader.complain("target", "must differ from \"eye\"");
   if (!(length(cross(direction, normalized(camera.up))) > 1e-9))

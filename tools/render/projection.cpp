@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/render/vec3.hpp"
+#include "ground/vec3.hpp"
 
 namespace tetrakis::tools {
 namespace {

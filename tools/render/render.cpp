@@ -10,6 +10,7 @@
 #include <new>
 #include <utility>
 
+#include "ground/sky.hpp"
 #include "tools/render/egl_context.hpp"
 #include "tools/render/gl_name.hpp"
 #include "tools/render/gl_program.hpp"
@@ -220,14 +221,6 @@ class Target {
   GlFramebuffer framebuffer_;
   GlRenderbuffer colour_, depth_;
 };
-
-/// The sky of a picture, from the top row to the bottom row.
-std::array<uint32_t, 3> skyAt(uint32_t row, uint32_t rows) {
-  constexpr std::array<uint32_t, 3> kZenith{172, 199, 226}, kHorizon{240, 243, 245};
-  std::array<uint32_t, 3> sky;
-  for (size_t c = 0; c < 3; ++c) sky[c] = (kZenith[c] * (rows - row) + kHorizon[c] * row) / rows;
-  return sky;
-}
 
 /// Averages kSamples x kSamples samples, the sky where nothing was drawn.
 Picture resolve(const std::vector<uint8_t>& samples, const Camera& camera) {

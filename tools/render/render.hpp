@@ -9,38 +9,15 @@
 #include <vector>
 
 #include "base/status.hpp"
+#include "ground/camera.hpp"
 #include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 
-/// A pinhole camera in the axes of MeshFile (metres, y up). fov_y in degrees.
-struct Camera {
-  std::string name;
-  std::array<double, 3> eye{}, target{}, up{0, 1, 0};
-  double fov_y = 40;
-  uint32_t width = 768, height = 512;
-};
-
-/// Axis-aligned bounds of a terrain in the axes of MeshFile.
-struct Bounds {
-  std::array<double, 3> low{}, high{};
-};
-
-/// Named view of a terrain, from the south, north up: "oblique" (sees all of it, 35 degrees above
-/// the horizon), "low" (from just above the highest ground, sees about a tenth before the sky),
-/// "top" (sees all of it, straight down). "all" gives the three. Other names, or bounds that are
-/// not finite: TKS_USAGE.
-Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& bounds);
-
 /// Cameras from a JSON file: {"cameras": [{"name", "eye": [x,y,z], "target": [x,y,z], "up"?,
-/// "fov_y"?, "width"?, "height"?}]}. Pictures have 1 to 8192 pixels a side, fov_y is in (0, 180).
-/// TKS_IO: cannot be read; TKS_USAGE: says which camera and which field is wrong.
+/// "fov_y"?, "width"?, "height"?, "weight"?}]}, as checkCamera() takes them.
+/// TKS_IO: cannot be read; TKS_USAGE: says which camera and what is wrong.
 Result<std::vector<Camera>> readCameras(const std::string& path);
-
-/// Mean over the cameras of cot(elevation) at the target: metres that a height error of one metre
-/// appears to move along the ground (tks_encode_options::parallax). 0 for a view from the top; a
-/// camera counts at most 20 (less than 3 degrees above the horizon). 0 without cameras.
-double parallaxOf(const std::vector<Camera>& cameras);
 
 /// RGBA8 picture, row by row from the top. RGB is the terrain before a pale sky, alpha how much of
 /// the pixel the terrain covers: 0 where nothing was drawn.

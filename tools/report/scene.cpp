@@ -70,12 +70,6 @@ void rasterizeTriangle(const Corner& a, const Corner& b, const Corner& c, Surfac
     }
 }
 
-GroundFrame knownFrame(GroundFrame frame) {
-  if (!(frame.spacing_x > 0)) frame.spacing_x = kUnknownSpacing;
-  if (!(frame.spacing_y > 0)) frame.spacing_y = kUnknownSpacing;
-  return frame;
-}
-
 }  // namespace
 
 GroundFrame frameOf(const HeightFile& heights) {
@@ -192,6 +186,22 @@ Bounds boundsOf(const Surface& heights, const GroundFrame& frame) {
   const double x = (frame.width - 1.0) * frame.spacing_x / 2;
   const double z = (frame.height - 1.0) * frame.spacing_y / 2;
   return {{-x, low * frame.metres_per_unit, -z}, {x, high * frame.metres_per_unit, z}};
+}
+
+std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras) {
+  std::vector<tks_camera> told;
+  for (const Camera& camera : cameras) {
+    tks_camera& c = told.emplace_back();
+    c.name = camera.name.c_str();
+    std::copy(camera.eye.begin(), camera.eye.end(), c.eye);
+    std::copy(camera.target.begin(), camera.target.end(), c.target);
+    std::copy(camera.up.begin(), camera.up.end(), c.up);
+    c.fov_y = camera.fov_y;
+    c.width = camera.width;
+    c.height = camera.height;
+    c.weight = camera.weight;
+  }
+  return told;
 }
 
 Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ground/frame.hpp"
 #include "tetrakis/tetrakis.hpp"
 #include "tools/files/files.hpp"
 #include "tools/render/render.hpp"
@@ -20,18 +21,7 @@ struct Surface {
   std::vector<double> values;
 };
 
-/// How the sample grid lies in space. Column c, row r and height h, in the unit of the stream, are
-/// at ((c - (width - 1) / 2) * spacing_x,
-///     h * metres_per_unit,
-///     (r - (height - 1) / 2) * spacing_y).
-struct GroundFrame {
-  uint32_t width = 0, height = 0;
-  double spacing_x = 1, spacing_y = 1;  ///< metres
-  double metres_per_unit = 1;
-};
-
-/// The frame of a height field. Spacing 0 (unknown) becomes kUnknownSpacing, a unit that is no
-/// length counts as metres.
+/// The frame of a height field (knownFrame()); a unit that is no length counts as metres.
 GroundFrame frameOf(const HeightFile& heights);
 GroundFrame frameOf(const tks_info& info);
 
@@ -66,6 +56,9 @@ struct CameraChoice {
   std::string view;
   bool isDefault() const { return file.empty() && view.empty(); }
 };
+/// As encoders are told of them; the names are those of `cameras`, which outlive the result.
+std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras);
+
 Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds);
 
 }  // namespace tetrakis::tools

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "ground/vec3.hpp"
 #include "tools/files/stream.hpp"
-#include "tools/render/vec3.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -84,8 +84,8 @@ Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice
   return std::move(*mesh);
 }
 
-tks_camera meshCamera(const Camera& camera, const GroundFrame& frame) {
-  tks_camera result = makeCamera();
+tks_screen_camera meshCamera(const Camera& camera, const GroundFrame& frame) {
+  tks_screen_camera result = makeScreenCamera();
   result.width = camera.width;
   result.height = camera.height;
   const std::array<double, 16> clip = clipOf(camera, frame);
@@ -95,7 +95,7 @@ tks_camera meshCamera(const Camera& camera, const GroundFrame& frame) {
 
 Result<Mesh> meshForCameras(Decoder& decoder, uint32_t triangles, const CameraChoice& choice,
                             const ImageFile* texture) {
-  std::vector<tks_camera> cameras;
+  std::vector<tks_screen_camera> cameras;
   if (!choice.isDefault()) {
     const Result<std::vector<Camera>> chosen = camerasOver(decoder, choice);
     if (!chosen.ok()) return chosen.status();

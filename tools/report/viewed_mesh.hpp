@@ -17,7 +17,7 @@ std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame);
 Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice);
 
 /// The camera for tks_decode_screen_mesh, over the heights of this frame.
-tks_camera meshCamera(const Camera& camera, const GroundFrame& frame);
+tks_screen_camera meshCamera(const Camera& camera, const GroundFrame& frame);
 
 /// The mesh of at most `triangles` > 0 triangles that is best for the chosen cameras; nothing
 /// chosen: for a map. texture: what covers the ground, or null. TKS_USAGE with the name of a camera

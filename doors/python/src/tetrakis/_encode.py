@@ -185,7 +185,6 @@ def encode(
     texture_registration: Optional[str] = None,
     texture_geo_keys: Optional[str] = None,
     triangles: Optional[int] = None,
-    parallax: Optional[float] = None,
     weights: str = "psnr",
     regions: Optional[int] = None,
     index: bool = False,
@@ -221,8 +220,7 @@ def encode(
         description, geo_keys: as tks_heights in tetrakis.h has them.
 
     How it is coded
-        triangles: meshes will have at most so many. parallax: metres that the texture shifts per
-            metre of height error. weights: "psnr", or "visual" for the eye.
+        triangles: meshes will have at most so many. weights: "psnr", or "visual" for the eye.
         regions: side in samples of the regions by which windows decode, a power of two from 16;
             1: none; chosen unless given. index: write where every packet lies.
         threads: how many may work; the bytes never depend on it.
@@ -236,7 +234,6 @@ def encode(
     options = c.EncodeOptions(
         size=ctypes.sizeof(c.EncodeOptions),
         triangles=values.unsigned(triangles, "triangles"),
-        parallax=values.real(parallax or 0, "parallax"),
         threads=values.unsigned(threads, "threads"),
         regions=values.unsigned(regions, "regions"),
         index=bool(index),

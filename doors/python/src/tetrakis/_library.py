@@ -23,6 +23,9 @@ from ctypes import (
 from pathlib import Path
 
 PROGRESS = CFUNCTYPE(c_int, c_void_p, c_double)
+PICTURE_ERROR = CFUNCTYPE(
+    c_int, c_void_p, c_void_p, c_void_p, POINTER(c_double), POINTER(c_double)
+)
 GEOTRANSFORM = c_double * 6
 
 REGISTRATIONS = (None, "area", "point")
@@ -77,6 +80,21 @@ class Image(ctypes.Structure):
     ]
 
 
+class Camera(ctypes.Structure):
+    """tks_camera."""
+
+    _fields_ = [
+        ("name", c_char_p),
+        ("eye", c_double * 3),
+        ("target", c_double * 3),
+        ("up", c_double * 3),
+        ("fov_y", c_double),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("weight", c_double),
+    ]
+
+
 class EncodeOptions(ctypes.Structure):
     """tks_encode_options."""
 
@@ -87,13 +105,16 @@ class EncodeOptions(ctypes.Structure):
         ("max_error", c_double),
         ("lossless", c_int),
         ("triangles", c_uint32),
-        ("parallax", c_double),
         ("threads", c_uint32),
         ("regions", c_uint32),
         ("index", c_int),
         ("weights", c_int),
         ("progress", PROGRESS),
         ("user", c_void_p),
+        ("cameras", POINTER(Camera)),
+        ("camera_count", c_uint32),
+        ("picture_error", PICTURE_ERROR),
+        ("picture_user", c_void_p),
     ]
 
 
@@ -193,8 +214,8 @@ class Mesh(ctypes.Structure):
     ]
 
 
-class Camera(ctypes.Structure):
-    """tks_camera."""
+class ScreenCamera(ctypes.Structure):
+    """tks_screen_camera."""
 
     _fields_ = [
         ("size", c_size_t),
@@ -210,7 +231,7 @@ class Screen(ctypes.Structure):
 
     _fields_ = [
         ("size", c_size_t),
-        ("cameras", POINTER(Camera)),
+        ("cameras", POINTER(ScreenCamera)),
         ("camera_count", c_uint32),
         ("texture", POINTER(Image)),
     ]
@@ -219,13 +240,14 @@ class Screen(ctypes.Structure):
 STRUCTS = {
     "tks_heights": Heights,
     "tks_image": Image,
+    "tks_camera": Camera,
     "tks_encode_options": EncodeOptions,
     "tks_buffer": Buffer,
     "tks_limits": Limits,
     "tks_info": StreamInfo,
     "tks_window": Window,
     "tks_mesh": Mesh,
-    "tks_camera": Camera,
+    "tks_screen_camera": ScreenCamera,
     "tks_screen": Screen,
 }
 

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <utility>
 
-#include "tools/render/render.hpp"
-#include "tools/render/vec3.hpp"
+#include "ground/camera.hpp"
+#include "ground/vec3.hpp"
 
-namespace tetrakis::tools {
+namespace tetrakis::inline ground {
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
@@ -178,29 +178,71 @@ Bounds withExtent(Bounds bounds) {
   return bounds;
 }
 
+/// (x, y, z) turned by so many quarters about the vertical.
+Vec3 turned(const Vec3& v, int quarters) {
+  switch (quarters) {
+    case 1:
+      return {v[2], v[1], -v[0]};
+    case 2:
+      return {-v[0], v[1], -v[2]};
+    case 3:
+      return {-v[2], v[1], v[0]};
+    default:
+      return v;
+  }
+}
+
+/// The view from four sides, each of a quarter of the weight.
+std::vector<Camera> fromFourSides(Camera (*view)(const Bounds&), const Bounds& bounds) {
+  constexpr const char* kSides[] = {"", "-east", "-north", "-west"};
+  std::vector<Camera> cameras;
+  for (int side = 0; side < 4; ++side) {
+    // The terrain is turned before the camera, and the camera back.
+    const Vec3 a = turned(bounds.low, (4 - side) % 4), b = turned(bounds.high, (4 - side) % 4);
+    Bounds box;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(a[axis], b[axis]);
+      box.high[axis] = std::max(a[axis], b[axis]);
+    }
+    Camera camera = view(box);
+    camera.name += kSides[side];
+    camera.eye = turned(camera.eye, side);
+    camera.target = turned(camera.target, side);
+    camera.up = turned(camera.up, side);
+    camera.weight = 0.25;
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+Status checkBounds(const Bounds& bounds) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(bounds.low[axis]) || !std::isfinite(bounds.high[axis]))
+      return Status(TKS_USAGE, "the terrain has no finite bounds to place a camera by");
+  return Status();
+}
+
 }  // namespace
 
 Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& given) {
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(given.low[axis]) || !std::isfinite(given.high[axis]))
-      return Status(TKS_USAGE, "the terrain has no finite bounds to place a camera by");
+  if (Status status = checkBounds(given); !status.ok()) return status;
   const Bounds bounds = withExtent(given);
   if (view == "oblique") return std::vector{obliqueView(bounds)};
   if (view == "low") return std::vector{lowView(bounds)};
   if (view == "top") return std::vector{topView(bounds)};
   if (view == "all") return std::vector{obliqueView(bounds), lowView(bounds), topView(bounds)};
-  return Status(TKS_USAGE, "no view is called '" + view + "': use oblique, low, top or all");
+  if (view == "orbit") return fromFourSides(obliqueView, bounds);
+  return Status(TKS_USAGE, "no view is called '" + view + "': use oblique, low, top, orbit or all");
 }
 
-double parallaxOf(const std::vector<Camera>& cameras) {
-  constexpr double kMost = 20;
-  double sum = 0;
-  for (const Camera& camera : cameras) {
-    const Vec3 ray = subtract(camera.target, camera.eye);
-    const double along = std::sqrt(ray[0] * ray[0] + ray[2] * ray[2]), down = std::abs(ray[1]);
-    sum += along < kMost * down ? along / down : kMost;
-  }
-  return cameras.empty() ? 0 : sum / static_cast<double>(cameras.size());
+Result<std::vector<Camera>> unknownViewer(const Bounds& given) {
+  if (Status status = checkBounds(given); !status.ok()) return status;
+  const Bounds bounds = withExtent(given);
+  std::vector<Camera> cameras = fromFourSides(obliqueView, bounds);
+  const std::vector<Camera> low = fromFourSides(lowView, bounds);
+  cameras.insert(cameras.end(), low.begin(), low.end());
+  cameras.push_back(topView(bounds));
+  return cameras;
 }
 
-}  // namespace tetrakis::tools
+}  // namespace tetrakis::inline ground

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace tetrakis::tools {
+namespace tetrakis::inline ground {
 
 using Vec3 = std::array<double, 3>;
 
@@ -45,4 +45,4 @@ inline ViewAxes viewAxes(const Vec3& eye, const Vec3& target, const Vec3& up) {
   return {right, cross(right, forward), forward};
 }
 
-}  // namespace tetrakis::tools
+}  // namespace tetrakis::inline ground

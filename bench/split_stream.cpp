@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/split_stream.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace tetrakis::bench {
+
+Result<SplitStream> SplitStream::take(std::span<const uint8_t> stream) {
+  Result<ParsedHeader> parsed = readHeader(stream);
+  if (!parsed.ok()) return parsed.status();
+  const TrackCounts counts = trackCounts(parsed->header);
+  if (counts[0].tracks != 1 || counts[1].tracks != 1)
+    return Status(TKS_UNSUPPORTED, "Only a stream of two tracks can be split anew.");
+  Result<Demultiplexed> payload = demultiplex(stream.subspan(parsed->bytes), parsed->bytes, counts);
+  if (!payload.ok()) return payload.status();
+  SplitStream taken;
+  taken.header_ = std::move(parsed->header);
+  taken.header_.index.clear();
+  taken.header_.lossless = 0;
+  taken.payload_ = std::move(*payload);
+  return taken;
+}
+
+Split SplitStream::most() const {
+  const auto bytes = [&](Component component) {
+    return payload_.codewordsOf(component).front().size();
+  };
+  return {bytes(Component::kGeometry), bytes(Component::kTexture)};
+}
+
+Split SplitStream::shipped(uint64_t payload) const {
+  Split split;
+  for (const PacketHead& head : payload_.heads) {
+    const uint64_t taken = std::min(head.head >> 2, payload - split.total());
+    (head.component() == Component::kGeometry ? split.heights : split.texture) += taken;
+  }
+  const Split all = most();
+  return {std::min(split.heights, all.heights), std::min(split.texture, all.texture)};
+}
+
+std::vector<uint8_t> SplitStream::cut(const Split& split) const {
+  constexpr uint8_t kUnstated = 128;
+  const std::array<Codewords, kComponents> codewords = {payload_.codewordsOf(Component::kGeometry),
+                                                        payload_.codewordsOf(Component::kTexture)};
+  std::vector<Packet> packets;
+  const std::array<uint64_t, kComponents> wanted = {split.heights, split.texture};
+  for (size_t c = 0; c < kComponents; ++c) {
+    const uint64_t bytes = std::min<uint64_t>(wanted[c], codewords[c].front().size());
+    if (bytes > 0) packets.push_back({static_cast<Component>(c), false, kUnstated, 0, bytes, {}});
+  }
+  const std::vector<uint8_t> payload = multiplex(packets, codewords, UINT64_MAX >> 1);
+  StreamHeader header = header_;
+  header.payload_bytes = payload.size();
+  std::vector<uint8_t> stream = writeHeader(header);
+  stream.insert(stream.end(), payload.begin(), payload.end());
+  return stream;
+}
+
+}  // namespace tetrakis::bench

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/views.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "base/length_unit.hpp"
+#include "base/samples.hpp"
+#include "codec/geometry/voids.hpp"
+#include "encoder/height_errors.hpp"
+#include "ratecontrol/screen_points.hpp"
+
+namespace tetrakis::inline encoder {
+
+namespace {
+
+/// Points of all pictures. Twice as many change the mean loss by less than 0.01 dB.
+constexpr size_t kPoints = 6144;
+
+/// A unit that is no length counts as metres.
+double metresIn(const char* unit) {
+  return unit != nullptr ? metresPerUnit(unit).value_or(1) : 1;
+}
+
+GroundFrame frameOf(const tks_heights& heights) {
+  return knownFrame({heights.width, heights.height, heights.spacing_x, heights.spacing_y,
+                     metresIn(heights.unit)});
+}
+
+/// The heights that a view of a coarser level shows, and between them those of straight lines.
+std::vector<float> spread(const std::vector<float>& shown, Extent whole, const View& view) {
+  const Extent coarse = view.extentIn(whole);
+  const uint32_t step = view.step();
+  std::vector<float> heights;
+  heights.reserve(whole.samples());
+  std::vector<float> row(coarse.width);
+  for (uint32_t y = 0; y < whole.height; ++y) {
+    const float* north = &shown[size_t{y >> view.level} * coarse.width];
+    const bool below = (y >> view.level) + 1 < coarse.height;
+    const float* south = below ? north + coarse.width : north;
+    const float part = static_cast<float>(y % step) / static_cast<float>(step);
+    for (uint32_t x = 0; x < coarse.width; ++x) row[x] = north[x] + (south[x] - north[x]) * part;
+    for (uint32_t x = 0; x < whole.width; ++x) {
+      const uint32_t west = x >> view.level, east = std::min(west + 1, coarse.width - 1);
+      heights.push_back(row[west] + (row[east] - row[west]) * static_cast<float>(x % step) /
+                                        static_cast<float>(step));
+    }
+  }
+  return heights;
+}
+
+/// samples: of the type and size of `like`. valid: as findVoids() has it.
+Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid) {
+  Relief relief{frameOf(like), {}};
+  const double metres = relief.frame.metres_per_unit;
+  relief.heights.resize(size_t{like.width} * like.height);
+  withSampleType(like.sample, [&](auto type) {
+    const auto* from = static_cast<const decltype(type)*>(samples);
+    for (size_t i = 0; i < relief.heights.size(); ++i) {
+      const double height = static_cast<double>(from[i]) * like.scale + like.offset;
+      const bool is_void = !valid.empty() && !valid[i];
+      relief.heights[i] =
+          is_void ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height * metres);
+    }
+  });
+  return relief;
+}
+
+std::string nameOf(const tks_camera& camera, uint32_t index) {
+  const std::string number = std::to_string(index + 1);
+  return camera.name != nullptr && *camera.name != 0 ? camera.name : number;
+}
+
+std::vector<Camera> givenCameras(const tks_encode_options& options) {
+  std::vector<Camera> cameras;
+  for (uint32_t i = 0; i < options.camera_count; ++i) {
+    const tks_camera& given = options.cameras[i];
+    Camera camera;
+    camera.name = nameOf(given, i);
+    std::copy_n(given.eye, 3, camera.eye.begin());
+    std::copy_n(given.target, 3, camera.target.begin());
+    std::copy_n(given.up, 3, camera.up.begin());
+    camera.fov_y = given.fov_y;
+    camera.width = given.width;
+    camera.height = given.height;
+    camera.weight = given.weight;
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
+/// Those of the options, or for any viewer; none if the terrain has no bounds.
+std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& ground) {
+  if (inputs.options.camera_count > 0) return givenCameras(inputs.options);
+  const Result<std::vector<Camera>> cameras = unknownViewer(ground.bounds());
+  return cameras.ok() ? *cameras : std::vector<Camera>();
+}
+
+Status blames(const Camera& camera, const char* what) {
+  return {TKS_USAGE, "Camera '" + camera.name + "' " + what + "."};
+}
+
+/// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
+/// `ratio` times the bytes of the one before, up to the first beyond the budget. Tracks are coded
+/// to twice the budget: with a ratio of 2 the nodes that matter to it do not depend on it.
+std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t budget) {
+  constexpr double kFirst = 64;  // bytes
+  const std::vector<RatePoint>& points = curve.points;
+  std::vector<size_t> nodes = {curve.opened};
+  double next = kFirst;
+  for (size_t i = curve.opened + 1; i < points.size(); ++i) {
+    const double bytes =
+        static_cast<double>(points[i].bytes) - static_cast<double>(points[curve.opened].bytes);
+    const bool last = i + 1 == points.size();
+    if (bytes < next && !last) continue;
+    const RatePoint& before = points[nodes.back()];
+    if (!(points[i].distortion > 0 && points[i].distortion < before.distortion)) continue;
+    nodes.push_back(i);
+    next = std::max(bytes, next) * ratio;
+    if (points[i].bytes >= budget) break;
+  }
+  return nodes;
+}
+
+/// The pairs that are looked at: points of either curve.
+struct Nodes {
+  std::vector<size_t> heights, textures;
+  std::vector<double> square_metres;  ///< errors of the heights
+};
+
+std::vector<double> squaresAt(const ComponentCurve& curve, const std::vector<size_t>& nodes) {
+  std::vector<double> squares;
+  for (const size_t node : nodes) squares.push_back(curve.points[node].distortion);
+  return squares;
+}
+
+/// What decoders show of the inputs after the bytes of some nodes; calls must come with rising
+/// nodes, the last one for the original.
+class Decoded {
+ public:
+  Decoded(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
+          const Rated<CodedTexture>& texture)
+      : inputs_(inputs), heights_(heights), texture_(texture) {}
+
+  struct Samples {
+    std::vector<std::byte> data;  ///< of the type of the inputs
+    std::vector<uint8_t> valid;   ///< empty: all are
+  };
+  Samples heightsAt(size_t point, const View& view) {
+    const CodedHeights& coded = heights_.coded;
+    const uint64_t bytes = heights_.curve.points[point].bytes;
+    const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
+    HeightsMemory* memory = view.isWhole() ? &heights_memory_ : nullptr;
+    DecodedHeights shown =
+        decodeHeights(coded.header, coded.layers, prefix, view, {inputs_.options.threads, memory});
+    std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
+                                   shown.geometry.heights.size());
+    fromSteps(shown, coded.header, coded.layers, samples.data());
+    return {std::move(samples), std::move(shown.geometry.valid)};
+  }
+  /// Voids have every sample of their border.
+  Relief reliefAt(size_t point) {
+    const tks_heights& whole = *inputs_.heights;
+    const Extent extent{whole.width, whole.height};
+    View view;
+    if (heights_.coded.of->steps.valid.empty())
+      view = enoughOf(extent, kSamplesPerByte * heights_.curve.points[point].bytes);
+    const Samples samples = heightsAt(point, view);
+    tks_heights shown = whole;
+    shown.width = view.extentIn(extent).width;
+    shown.height = view.extentIn(extent).height;
+    Relief relief = reliefOf(shown, samples.data.data(), samples.valid);
+    relief.frame = frameOf(whole);
+    if (view.level > 0) relief.heights = spread(relief.heights, extent, view);
+    return relief;
+  }
+  Relief original() const {
+    return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
+  }
+
+  ScreenTexture textureAt(size_t point) {
+    const CodedTexture& coded = texture_.coded;
+    const Extent whole = coded.header.extent();
+    View view;
+    if (!coded.header.direct())
+      view = enoughOf(whole, kTexelsPerByte * texture_.curve.points[point].bytes);
+    return {texelsAt(point, view), whole, view.level};
+  }
+  Texels texelsAt(size_t point, const View& view) {
+    const CodedTexture& coded = texture_.coded;
+    const uint64_t bytes = texture_.curve.points[point].bytes;
+    const Codewords prefix = prefixAfter(coded.rated(), texture_.curve.packets, bytes);
+    TextureMemory* memory = view.level == 0 ? &texture_memory_ : nullptr;
+    return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, memory});
+  }
+
+ private:
+  static constexpr uint64_t kTexelsPerByte = 8, kSamplesPerByte = 16, kLeast = 4096;
+
+  /// What few bytes can show is shown by the coarser levels as well, in less time: one that every
+  /// wavelet has, of at least so many samples.
+  static View enoughOf(Extent whole, uint64_t samples) {
+    View view;
+    const uint64_t enough = std::max(samples, kLeast);
+    while (view.extentIn(whole).samples() / 4 >= enough &&
+           std::min(whole.width, whole.height) >> (view.level + 1) >= 32)
+      ++view.level;
+    return view;
+  }
+
+  const EncodeInputs& inputs_;
+  Rated<CodedHeights> heights_;
+  Rated<CodedTexture> texture_;
+  HeightsMemory heights_memory_;
+  TextureMemory texture_memory_;
+};
+
+/// Those of outlines, of the surfaces before the original, which is the last.
+std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenTexture& texture,
+                                  const std::vector<std::vector<SeenPoint>>& seen,
+                                  const std::vector<double>& squares) {
+  std::vector<std::vector<Colour>> colours;
+  std::vector<ScreenPoints::Pictures> pictures;
+  colours.reserve(seen.size());
+  for (const auto& surface : seen) {
+    colours.push_back(points.coloursOf(surface, texture));
+    pictures.push_back({surface, colours.back()});
+  }
+  const ScreenPoints::Pictures truth = pictures.back();
+  pictures.pop_back();
+  std::vector<double> errors = points.errorsOfOutlines(truth, pictures, squares);
+  errors.push_back(0);
+  return errors;
+}
+
+/// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
+/// texture is looked at through all of them.
+std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
+                                   Decoded& decoded, const Nodes& nodes, const Texels& texels) {
+  const ScreenPoints points(cameras, kPoints);
+  std::vector<std::vector<SeenPoint>> seen;
+  for (const size_t node : nodes.heights)
+    seen.push_back(points.seenOf(GroundRays(decoded.reliefAt(node)), texels.extent()));
+  seen.push_back(points.seenOf(ground, texels.extent()));
+  const size_t columns = nodes.textures.size() + 1;
+  std::vector<double> errors(seen.size() * columns);
+  const ScreenTexture whole(texels, texels.extent());
+  const std::vector<Colour> truth = points.coloursOf(seen.back(), whole);
+  const std::vector<double> outlines = outlineErrors(points, whole, seen, nodes.square_metres);
+  for (size_t t = 0; t < columns; ++t) {
+    const auto look = [&](const ScreenTexture& texture) {
+      for (size_t g = 0; g < seen.size(); ++g) {
+        const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
+        errors[g * columns + t] =
+            points.errorInside({seen.back(), truth}, {seen[g], colours}) + outlines[g];
+      }
+    };
+    t + 1 < columns ? look(decoded.textureAt(nodes.textures[t])) : look(whole);
+  }
+  return errors;
+}
+
+std::vector<std::byte> bytesOfTexels(const Texels& texels, tks_sample sample) {
+  std::vector<std::byte> bytes(texels.samples.size() * tks_sample_bytes(sample));
+  withSampleType(sample, [&](auto type) {
+    auto* to = reinterpret_cast<decltype(type)*>(bytes.data());
+    std::transform(texels.samples.begin(), texels.samples.end(), to,
+                   [](uint16_t v) { return static_cast<decltype(type)>(v); });
+  });
+  return bytes;
+}
+
+/// Errors of all pairs of nodes by the caller's renderer; none if it failed.
+std::vector<double> renderedErrors(const EncodeInputs& inputs, Decoded& decoded,
+                                   const Nodes& nodes) {
+  const tks_encode_options& options = inputs.options;
+  std::vector<Decoded::Samples> surfaces;
+  for (const size_t node : nodes.heights) surfaces.push_back(decoded.heightsAt(node, {}));
+  const size_t rows = nodes.heights.size() + 1, columns = nodes.textures.size() + 1;
+  std::vector<double> errors(rows * columns);
+  for (size_t t = 0; t < columns; ++t) {
+    std::vector<std::byte> texels;
+    if (t + 1 < columns)
+      texels = bytesOfTexels(decoded.texelsAt(nodes.textures[t], {}), inputs.image->sample);
+    for (size_t g = 0; g < rows; ++g) {
+      if (g + 1 == rows && t + 1 == columns) continue;  // the originals themselves
+      const void* heights = g + 1 < rows ? surfaces[g].data.data() : inputs.heights->data;
+      const void* texture = t + 1 < columns ? texels.data() : inputs.image->data;
+      double squares = 0, values = 0;
+      const int failed =
+          options.picture_error(options.picture_user, heights, texture, &squares, &values);
+      if (failed != 0 || !(squares >= 0) || !(values > 0)) return {};
+      errors[g * columns + t] = squares / values;
+    }
+  }
+  return errors;
+}
+
+/// As if both errors were seen as large as they are at first, and added.
+PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
+  const auto first = [](const ComponentCurve& curve) {
+    const double square = curve.points[curve.opened].distortion;
+    return std::vector<double>{square > 0 ? square : 1};
+  };
+  return {{first(heights), first(texture)}, {2, 1, 1, 0}};
+}
+
+}  // namespace
+
+Status checkCameras(const EncodeInputs& inputs) {
+  const tks_encode_options& options = inputs.options;
+  if (options.camera_count == 0) return {};
+  const std::vector<Camera> cameras = givenCameras(options);
+  for (const Camera& camera : cameras)
+    if (Status status = checkCamera(camera); !status.ok()) return status;
+  if (std::all_of(cameras.begin(), cameras.end(), [](const Camera& c) { return c.weight == 0; }))
+    return {TKS_USAGE, "No camera has a weight above 0."};
+  if (inputs.heights == nullptr) return {};
+  const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
+  if (!valid.ok()) return valid.status();
+  const GroundRays ground(reliefOf(*inputs.heights, inputs.heights->data, *valid));
+  for (const Camera& camera : cameras) {
+    const auto height = ground.heightAt(camera.eye[0], camera.eye[2]);
+    if (camera.eye[1] < height.value_or(ground.bounds().low[1]))
+      return blames(camera, "is below the ground");
+  }
+  const ScreenPoints points(cameras, kPoints);
+  const std::vector<size_t> blind = points.blindCameras(points.seenOf(ground, {1, 1}));
+  return blind.empty() ? Status() : blames(cameras[blind.front()], "sees no ground");
+}
+
+PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
+                        const Rated<CodedTexture>& texture) {
+  // Pictures that are drawn take long: fewer of them.
+  const double ratio = inputs.options.picture_error != nullptr ? 4 : 2;
+  const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
+  Decoded decoded(inputs, heights, texture);
+  const GroundRays ground(decoded.original());
+  const std::vector<Camera> cameras = camerasOf(inputs, ground);
+  const CodedHeights& coded = heights.coded;
+  const double metres =
+      coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
+  Nodes nodes = {nodesOf(heights.curve, ratio, budget), nodesOf(texture.curve, ratio, budget), {}};
+  PairNodes squares = {squaresAt(heights.curve, nodes.heights),
+                       squaresAt(texture.curve, nodes.textures)};
+  for (const double square : squares.heights)
+    nodes.square_metres.push_back(square * metres * metres);
+  const bool exact = squares.heights.front() <= 0 || squares.textures.front() <= 0;
+  if (exact) return unseen(heights.curve, texture.curve);
+  std::vector<double> errors;
+  if (inputs.options.picture_error != nullptr) {
+    Decoded for_renderer(inputs, heights, texture);
+    errors = renderedErrors(inputs, for_renderer, nodes);
+  }
+  if (errors.empty() && !cameras.empty())
+    errors = modelledErrors(cameras, ground, decoded, nodes, texture.coded.of->texels);
+  if (errors.empty() || errors.front() <= 0) return unseen(heights.curve, texture.curve);
+  return {std::move(squares), std::move(errors)};
+}
+
+}  // namespace tetrakis::inline encoder

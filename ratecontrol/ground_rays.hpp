@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where rays meet a height field: the two triangles of every cell, with the diagonals of the
+// tetrakis tiling. A pyramid of the highest vertices lets rays pass over what lies below them
+// (A. Tevs, I. Ihrke, H.-P. Seidel 2008: maximum mipmaps).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "ground/frame.hpp"
+#include "ground/vec3.hpp"
+
+namespace tetrakis::inline ratecontrol {
+
+/// Heights in metres, row by row; NaN: void.
+struct Relief {
+  GroundFrame frame;
+  std::vector<float> heights;
+};
+
+/// In the axes of GroundFrame.
+struct Ray {
+  Vec3 origin{}, direction{};
+};
+
+/// A point of the ground and the plane of its triangle: height = at + slope_c c + slope_r r.
+struct GroundHit {
+  double column = 0, row = 0;
+  double far = 0;  ///< in lengths of the ray's direction
+  double at = 0, slope_c = 0, slope_r = 0;
+};
+
+class GroundRays {
+ public:
+  explicit GroundRays(Relief relief);
+
+  /// The first triangle that the ray meets, from either side; none touches a void.
+  std::optional<GroundHit> hit(const Ray& ray) const;
+
+  /// Where the ray meets the plane of a hit, in columns and rows; nothing if it runs along it.
+  std::optional<std::array<double, 2>> onPlane(const GroundHit& plane, const Ray& ray) const;
+
+  /// Height of the ground between the samples; nothing beyond the border and at voids.
+  std::optional<double> heightAt(double x, double z) const;
+
+  const GroundFrame& frame() const { return relief_.frame; }
+  const Bounds& bounds() const { return bounds_; }
+
+ private:
+  struct Level {
+    uint32_t width = 0, height = 0;  ///< in cells of this level
+    std::vector<float> highest;
+  };
+  struct Path;  ///< a ray in columns and rows
+
+  std::optional<GroundHit> hitInCell(uint32_t column, uint32_t row, const Path& path, double enter,
+                                     double leave) const;
+
+  Relief relief_;
+  std::vector<Level> levels_;  ///< from single cells up
+  Bounds bounds_;
+};
+
+}  // namespace tetrakis::inline ratecontrol

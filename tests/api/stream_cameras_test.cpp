@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras that the encoder is told of: those that can look at the ground share the bytes of every
+// terrain, however odd it is, and each of the others is refused by its name.
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// From above, to the north. The ground is a kilometre wide, and 255 metres high at most.
+tks_camera above() {
+  return {"eagle", {0, 5000, 1}, {0, 0, 0}, {0, 1, 0}, 40, 768, 512, 1};
+}
+
+/// One sentence, or nothing if the stream was made.
+std::string refusal(const tks_heights* heights, const tks_image* image,
+                    const tks_encode_options& options) {
+  tks_buffer buffer = {};
+  char message[256] = "";
+  const tks_status status = tks_encode(heights, image, &options, &buffer, message, sizeof message);
+  EXPECT_TRUE(status == TKS_OK || status == TKS_USAGE);
+  EXPECT_EQ(status == TKS_OK, message[0] == '\0');
+  tks_free_buffer(&buffer);
+  return message;
+}
+
+class Cameras : public testing::Test {
+ protected:
+  Raster surface_ = make({Pattern::kRidges, 33, 40, 1, TKS_U8});
+  Raster picture_ = make({Pattern::kRidges, 50, 30, 3, TKS_U8});
+
+  std::string told(const std::vector<tks_camera>& cameras) {
+    tks_encode_options options = budget(2000);
+    options.cameras = cameras.data();
+    options.camera_count = static_cast<uint32_t>(cameras.size());
+    const tks_heights heights = surface_.heights();
+    const tks_image image = picture_.image();
+    return refusal(&heights, &image, options);
+  }
+};
+
+TEST_F(Cameras, ThoseThatCannotLookAreNamed) {
+  const std::function<void(tks_camera&)> spoils[] = {
+      [](tks_camera& c) { c.eye[0] = kNan; },
+      [](tks_camera& c) { c.eye[1] = kInfinity; },
+      [](tks_camera& c) { c.target[2] = kNan; },
+      [](tks_camera& c) { c.up[1] = kNan; },
+      [](tks_camera& c) { c.up[1] = 0; },
+      [](tks_camera& c) { c.up[1] = 5000, c.up[2] = 1; },
+      [](tks_camera& c) { c.target[1] = 5000, c.target[2] = 1; },
+      [](tks_camera& c) { c.fov_y = 0; },
+      [](tks_camera& c) { c.fov_y = 180; },
+      [](tks_camera& c) { c.fov_y = kNan; },
+      [](tks_camera& c) { c.width = 0; },
+      [](tks_camera& c) { c.height = 8193; },
+      [](tks_camera& c) { c.weight = -1; },
+      [](tks_camera& c) { c.weight = kNan; },
+      [](tks_camera& c) { c.weight = kInfinity; },
+      [](tks_camera& c) { c.target[1] = 1e4; },                    // looks up
+      [](tks_camera& c) { c.eye[0] = c.target[0] = 1e9; },         // looks down beside the ground
+      [](tks_camera& c) { c.eye[1] = -1e6; },                      // below the ground, looks up
+      [](tks_camera& c) { c.eye[0] = 1e5, c.eye[1] = -1e5; },      // and beside it
+      [](tks_camera& c) { c.eye[1] = 1e300, c.eye[0] = -1e300; },  // sees nothing of so far a place
+  };
+  EXPECT_EQ(told({above()}), "");
+  for (size_t i = 0; i < std::size(spoils); ++i) {
+    tks_camera camera = above();
+    spoils[i](camera);
+    const std::string message = told({above(), camera});
+    EXPECT_EQ(message.find("Camera 'eagle' "), 0u) << "case " << i << ": " << message;
+    EXPECT_EQ(message.find('.'), message.size() - 1) << message;
+    camera.name = nullptr;
+    EXPECT_EQ(told({above(), camera}).find("Camera '2' "), 0u) << "case " << i;
+  }
+}
+
+TEST_F(Cameras, WeightsAreRelative) {
+  tks_camera camera = above();
+  camera.weight = 0;
+  EXPECT_NE(told({camera}), "");
+  EXPECT_EQ(told({camera, above()}), "");
+  for (const double weight : {1e-320, 1e-9, 1e308}) {
+    camera.weight = weight;
+    EXPECT_EQ(told({camera, camera}), "") << weight;
+    EXPECT_EQ(told({above(), camera}), "") << weight;
+  }
+  const auto with = [&](double weight) {
+    std::vector<tks_camera> cameras = {above(), above()};
+    cameras[1].eye[0] = 3000;
+    for (tks_camera& c : cameras) c.weight = weight;
+    tks_encode_options options = budget(2000);
+    options.cameras = cameras.data();
+    options.camera_count = 2;
+    return encode(&surface_, &picture_, options);
+  };
+  EXPECT_EQ(with(1), with(1e308));
+}
+
+/// With cameras and without, terrain of every shape becomes a stream within its budget.
+TEST(CamerasOfOddTerrain, ShareItsBytes) {
+  const std::pair<uint32_t, uint32_t> sides[] = {{2, 2}, {2, 90}, {90, 2}, {35, 34}};
+  const std::pair<uint32_t, uint32_t> textures[] = {{1, 1}, {1, 70}, {70, 61}};
+  for (const auto& [width, height] : sides) {
+    for (const auto& [columns, rows] : textures) {
+      const Raster surface = make({Pattern::kRidges, width, height, 1, TKS_I16});
+      const Raster picture = make({Pattern::kRidges, columns, rows, 4, TKS_U8});
+      for (const double spacing : {0.0, 1e-30, 1e300}) {
+        tks_heights heights = surface.heights();
+        heights.spacing_x = spacing;
+        const tks_image image = picture.image();
+        EXPECT_EQ(refusal(&heights, &image, budget(700)), "") << width << " " << columns;
+      }
+    }
+  }
+}
+
+TEST(CamerasOfOddTerrain, VoidsAndEnormousHeightsAreSeen) {
+  const Raster picture = make({Pattern::kRidges, 70, 60, 3, TKS_U8});
+  const tks_image image = picture.image();
+  std::vector<float> samples(20 * 25);
+  tks_heights heights = {};
+  heights.size = sizeof heights;
+  heights.width = 20;
+  heights.height = 25;
+  heights.sample = TKS_F32;
+  heights.data = samples.data();
+  const auto fill = [&](const std::function<double(size_t)>& height) {
+    for (size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(height(i));
+  };
+  const std::function<double(size_t)> terrains[] = {
+      [](size_t) { return kNan; },
+      [](size_t i) { return i == 77 ? 5 : kNan; },
+      [](size_t i) { return i % 2 ? 5.0 * static_cast<double>(i % 7) : kNan; },
+      [](size_t) { return 0; },
+      [](size_t i) { return i % 3 ? 3e38 : -3e38; },
+      [](size_t i) { return static_cast<double>(i % 5) * 1e-40; },
+  };
+  for (size_t t = 0; t < std::size(terrains); ++t) {
+    fill(terrains[t]);
+    for (const double scale : {1.0, 1e300}) {
+      heights.scale = scale;
+      EXPECT_EQ(refusal(&heights, &image, budget(900)), "") << t << " at " << scale;
+    }
+  }
+}
+
+/// Where one component is alone there is nothing to share, but cameras are checked.
+TEST_F(Cameras, OneComponentAloneDoesWithout) {
+  tks_camera camera = above();
+  tks_encode_options options = budget(900);
+  options.cameras = &camera;
+  options.camera_count = 1;
+  const tks_heights heights = surface_.heights();
+  const tks_image image = picture_.image();
+  EXPECT_EQ(refusal(&heights, nullptr, options), "");
+  EXPECT_EQ(refusal(nullptr, &image, options), "");
+  EXPECT_EQ(encode(&surface_, nullptr, options), encode(&surface_, nullptr, budget(900)));
+  EXPECT_EQ(encode(nullptr, &picture_, options), encode(nullptr, &picture_, budget(900)));
+  camera.weight = -1;
+  EXPECT_NE(refusal(&heights, nullptr, options), "");
+  EXPECT_NE(refusal(nullptr, &image, options), "");
+}
+
+}  // namespace
+}  // namespace tetrakis::test

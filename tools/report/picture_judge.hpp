@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rendered engine of screen distortion (thesis 6.1): draws what decoders show and compares it
+// with the original, for an encoder that asks (tks_encode_options.picture_error).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tools/files/files.hpp"
+#include "tools/render/render.hpp"
+#include "tools/report/scene.hpp"
+
+namespace tetrakis::tools {
+
+class PictureJudge {
+ public:
+  /// heights, image: the originals, which outlive this. TKS_UNSUPPORTED without a renderer.
+  static Result<PictureJudge> create(const HeightFile& heights, const ImageFile& image,
+                                     std::vector<Camera> cameras);
+
+  /// tks_picture_error; user: a judge.
+  static int error(void* user, const void* heights, const void* texels, double* squares,
+                   double* values);
+
+ private:
+  PictureJudge(const HeightFile& heights, const ImageFile& image)
+      : heights_(&heights), image_(&image) {}
+
+  Result<std::vector<Picture>> draw(const HeightFile& heights, const ImageFile& image);
+
+  const HeightFile* heights_;
+  const ImageFile* image_;
+  std::vector<Camera> cameras_;
+  std::unique_ptr<Renderer> renderer_;
+  std::vector<Picture> truth_;
+};
+
+}  // namespace tetrakis::tools
