@@ -17,15 +17,21 @@ uint32_t magnitudeOf(int32_t value) {
   return static_cast<uint32_t>(value < 0 ? -int64_t{value} : int64_t{value});
 }
 
-/// Calls take(row, marks) for the coefficients of all rows of a subband; marks: 1 for those that
-/// are coded.
+/// Of large bands the first kStrip of every kPeriod rows tell what all of them cost.
+constexpr uint32_t kLargeRows = 256, kPeriod = 64, kStrip = 16;
+
+/// Calls take(row, marks) for the coefficients of a subband's rows; marks: 1 for those that are
+/// coded. Returns for how many rows each one stands.
 template <class Take>
-void forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32_t> coefficients,
-                const Take& take) {
+double forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32_t> coefficients,
+                  const Take& take) {
   const Pyramid& pyramid = layout.pyramid();
   const Subband& band = layout.subbands()[index];
   std::vector<uint8_t> coded(band.width, 1);
+  uint32_t rows = 0;
   for (uint32_t y = 0; y < band.height; ++y) {
+    if (band.height >= kLargeRows && y % kPeriod >= kStrip) continue;
+    ++rows;
     const size_t line = size_t{band.planeRow(y)} * pyramid.plane().width;
     if (!pyramid.valid().all()) {
       const uint8_t* const valid = pyramid.valid().from(line);
@@ -40,6 +46,7 @@ void forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32_t
     }
     take(coefficients.subspan(pyramid.indexOf(band, y), band.width), coded);
   }
+  return static_cast<double>(band.height) / std::max(rows, 1u);
 }
 
 /// Of numbers of bits, by the neighbours' magnitudes.
@@ -114,9 +121,12 @@ PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficient
   for (size_t i = 0; i < layout.subbands().size(); ++i) {
     const double weight = layout.energy(i);
     BandCost band(layout.subbands()[i].width, step / std::sqrt(weight), weight);
-    forEachRow(layout, i, coefficients,
-               [&](const auto& row, const auto& coded) { band.take(row, coded, cost); });
-    cost.bits += band.entropy();
+    PlaneCost taken;
+    const double each =
+        forEachRow(layout, i, coefficients,
+                   [&](const auto& row, const auto& coded) { band.take(row, coded, taken); });
+    cost.bits += each * (taken.bits + band.entropy());
+    cost.squares += each * taken.squares;
   }
   return cost;
 }
@@ -127,13 +137,16 @@ double stepFor(const PlaneLayout& layout, std::span<const int32_t> coefficients,
   std::array<double, kOctaves> counts{};
   for (size_t i = 0; i < layout.subbands().size(); ++i) {
     const double norm = std::sqrt(layout.energy(i));
-    forEachRow(layout, i, coefficients, [&](const auto& row, const auto& coded) {
-      for (size_t x = 0; x < row.size(); ++x) {
-        const double size = norm * magnitudeOf(row[x]);
-        if (coded[x] != 0 && size >= 1)
-          ++counts[static_cast<size_t>(std::min(std::ilogb(size), kOctaves - 1))];
-      }
-    });
+    std::array<uint64_t, kOctaves> taken{};
+    const double each =
+        forEachRow(layout, i, coefficients, [&](const auto& row, const auto& coded) {
+          for (size_t x = 0; x < row.size(); ++x) {
+            const double size = norm * magnitudeOf(row[x]);
+            if (coded[x] != 0 && size >= 1)
+              ++taken[static_cast<size_t>(std::min(std::ilogb(size), kOctaves - 1))];
+          }
+        });
+    for (size_t k = 0; k < kOctaves; ++k) counts[k] += each * static_cast<double>(taken[k]);
   }
   int octave = kOctaves;
   double significant = 0, cost = 0;

@@ -235,8 +235,8 @@ tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
  * new bytes and for one inverse transform. For that the decoder keeps the coefficients of each
  * level that is decoded, about 16 bytes a sample; where limits.max_memory does not allow for them,
  * it decodes from the beginning. tks_get_info tells what is known now.
- * TKS_CORRUPT: these bytes belong to no stream. TKS_LIMIT: as of tks_open. In both cases the decoder
- * goes on with what it had, and takes no more bytes. */
+ * TKS_CORRUPT: these bytes belong to no stream. TKS_LIMIT: as of tks_open. In both cases the
+ * decoder goes on with what it had, and takes no more bytes. */
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
 
 /* The same with bytes from anywhere in a stream that has a front index (tks_encode_options.index):

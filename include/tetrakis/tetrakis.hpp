@@ -137,7 +137,8 @@ inline Result<uint64_t> headerBytes(std::span<const uint8_t> bytes) {
 /// Decodes a stream or any prefix of one. Move only; one decoder serves one thread at a time.
 class Decoder {
  public:
-  /// `bytes` are borrowed and must outlive the decoder, or its first append(). TKS_TRUNCATED: too short for the header.
+  /// `bytes` are borrowed and must outlive the decoder, or its first append(). TKS_TRUNCATED: too
+  /// short for the header.
   static Result<Decoder> open(std::span<const uint8_t> bytes,
                               const tks_limits& limits = makeLimits()) {
     char message[512] = "";
