@@ -85,6 +85,14 @@ TEST_F(Cameras, ThoseThatCannotLookAreNamed) {
   }
 }
 
+/// The ground is about 17 of its 393216 pixels.
+TEST_F(Cameras, OneThatSeesLittleGroundSees) {
+  tks_camera camera = above();
+  camera.eye[1] = 2e5;
+  EXPECT_EQ(told({camera}), "");
+  EXPECT_EQ(told({above(), camera}), "");
+}
+
 TEST_F(Cameras, WeightsAreRelative) {
   tks_camera camera = above();
   camera.weight = 0;
