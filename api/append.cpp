@@ -72,7 +72,8 @@ tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes) {
     const auto needed = tetrakis::headerBytes({data, size});
     if (!needed.ok()) return needed.status();
     *bytes = *needed;
-    return {*needed <= size ? TKS_OK : TKS_TRUNCATED, ""};
+    if (*needed > size) return {TKS_TRUNCATED, "The header is cut short."};
+    return {};
   });
   return status.code();
 }
