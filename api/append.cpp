@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // More bytes of a stream that is open: in their order, or from anywhere.
-#include <array>
 #include <limits>
 #include <map>
 #include <string>
@@ -35,7 +34,8 @@ Status put(tks_decoder& decoder, uint64_t place, std::span<const uint8_t> bytes)
             "The stream has no front index, so that its bytes come in their order: byte " +
                 std::to_string(decoder.data.size()) + " is the next."};
   }
-  if (decoder.pieces.bytes() + decoder.data.size() + bytes.size() > decoder.max_memory) {
+  const uint64_t held = decoder.pieces.empty() ? decoder.data.size() : decoder.pieces.bytes();
+  if (held + bytes.size() > decoder.max_memory) {
     return {TKS_LIMIT, "The bytes of the stream take more memory than the limit (max_memory) of " +
                            describeBytes(decoder.max_memory) + "."};
   }

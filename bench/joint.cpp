@@ -66,35 +66,9 @@ class Judge {
   std::map<Split, double> seen_;
 };
 
-tks_heights viewOf(const tools::HeightFile& file) {
-  tks_heights heights = makeHeights();
-  heights.width = file.width;
-  heights.height = file.height;
-  heights.sample = file.sample;
-  heights.data = file.data.data();
-  heights.scale = file.scale;
-  heights.offset = file.offset;
-  heights.spacing_x = file.spacing_x;
-  heights.spacing_y = file.spacing_y;
-  heights.unit = file.unit.empty() ? nullptr : file.unit.c_str();
-  heights.has_nodata = file.nodata.has_value();
-  heights.nodata = file.nodata.value_or(0);
-  return heights;
-}
-
-tks_image viewOf(const tools::ImageFile& file) {
-  tks_image image = makeImage();
-  image.width = file.width;
-  image.height = file.height;
-  image.channels = file.channels;
-  image.sample = file.sample;
-  image.data = file.data.data();
-  return image;
-}
-
 Result<Buffer> encodeTerrain(const tools::Reference& original, Knows knows) {
-  const tks_heights heights = viewOf(*original.heights);
-  const tks_image image = viewOf(*original.image);
+  const tks_heights heights = tools::asHeights(*original.heights);
+  const tks_image image = tools::asImage(*original.image);
   tks_encode_options options = makeEncodeOptions();
   options.bytes = kMostBytes + 8192;  // for the header and heads
   options.regions = 1;

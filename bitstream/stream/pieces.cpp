@@ -2,7 +2,6 @@
 #include "bitstream/stream/pieces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <set>
 #include <string>
@@ -49,8 +48,7 @@ namespace {
 /// What a component's tracks need before any of their coefficients can be told: the first track
 /// begins with it.
 uint64_t openingBytes(const StreamHeader& header, Component component) {
-  if (component == Component::kGeometry)
-    return header.layers.validity_bytes + header.layers.flat_bytes + header.layers.table_bytes;
+  if (component == Component::kGeometry) return header.layers.openingBytes();
   return header.texture ? header.texture->alpha_bytes + header.texture->overlay_bytes : 0;
 }
 

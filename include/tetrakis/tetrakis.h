@@ -217,8 +217,8 @@ typedef struct tks_limits {
 typedef struct tks_decoder tks_decoder;
 
 /* Opens the first `size` bytes of a stream. The data must outlive the decoder, or its first
- * tks_append or tks_put. A prefix too short
- * to hold the header gives TKS_TRUNCATED with the number of bytes needed in the message. */
+ * tks_append or tks_put. A prefix too short to hold the header gives TKS_TRUNCATED with the number
+ * of bytes needed in the message. */
 tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
                     char* message, size_t message_size);
 void tks_close(tks_decoder* decoder);
@@ -231,12 +231,12 @@ tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
 
 /* More bytes of the stream have come: those that follow what the decoder has. It keeps a copy, and
  * from then on needs the bytes given to tks_open no more. Every call decodes what it would of a
- * decoder opened on all bytes; tracks go on where they were, so that decoding takes time for the
- * new bytes and for one inverse transform. For that the decoder keeps the coefficients of each
- * level that is decoded, about 16 bytes a sample; where limits.max_memory does not allow for them,
- * it decodes from the beginning. tks_get_info tells what is known now.
- * TKS_CORRUPT: these bytes belong to no stream. TKS_LIMIT: as of tks_open. In both cases the
- * decoder goes on with what it had, and takes no more bytes. */
+ * decoder opened on all bytes. Tracks go on where they were, so that decoding takes time for the
+ * new bytes and for one inverse transform; this call copies all bytes that are there. For that the
+ * decoder keeps the coefficients of each level that is decoded, about 16 bytes a sample; where
+ * limits.max_memory does not allow for them, it decodes from the beginning. tks_get_info tells what
+ * is known now. TKS_CORRUPT: these bytes belong to no stream. TKS_LIMIT: as of tks_open. In both
+ * cases the decoder goes on with what it had, and takes no more bytes. */
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
 
 /* The same with bytes from anywhere in a stream that has a front index (tks_encode_options.index):

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -218,6 +219,32 @@ TEST(Put, AnyOrderDecodesWhatIsThere) {
     EXPECT_EQ(squaredError(heights, stream.heights()), 0);
     EXPECT_EQ(squaredError(image, stream.texture()), 0);
   }
+}
+
+/// Coefficients that come before the mask of voids, in the last bytes first, wait for it.
+TEST(Put, CoefficientsWaitForTheMask) {
+  samples::Raster raster = samples::make({samples::Pattern::kRidges, 70, 45, 1, TKS_F32});
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (size_t i = 0; i < 70 * 45; ++i)
+    if (i % 70 + i / 70 < 40) std::memcpy(raster.data.data() + 4 * i, &nan, sizeof nan);
+  const Bytes bytes = encodeRegions(&raster, nullptr, lossless());
+  const auto parsed = readHeader(bytes);
+  ASSERT_TRUE(parsed.ok());
+  ASSERT_GT(parsed->header.layers.validity_bytes, 0u);
+  Stream stream(Prefix(bytes).first(parsed->bytes)), unsent(Prefix(bytes).first(parsed->bytes));
+  const size_t piece = (bytes.size() - parsed->bytes) / 7;
+  const size_t masked = parsed->bytes + 1 + parsed->header.layers.validity_bytes;
+  for (size_t end = bytes.size(); end > parsed->bytes;) {
+    const size_t begin = std::max(end - std::min(end, piece), parsed->bytes);
+    ASSERT_EQ(tks_put(stream.get(), begin, bytes.data() + begin, end - begin), TKS_OK);
+    const std::vector<std::byte> heights = stream.heights();
+    if (begin > masked) {
+      ASSERT_TRUE(heights == unsent.heights()) << begin;
+    }
+    end = begin;
+  }
+  EXPECT_TRUE(stream.heights() == Stream(bytes).heights());
+  EXPECT_EQ(tks_verify(stream.get()), TKS_OK);
 }
 
 TEST(Put, WithoutAnIndexBytesComeInTheirOrder) {

@@ -131,52 +131,6 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   return options;
 }
 
-const char* textOrUnknown(const std::string& text) {
-  return text.empty() ? nullptr : text.c_str();
-}
-
-/// Into the fields that heights and images have alike; `place` outlives them.
-template <class T>
-void setPlace(const Georeference& place, T& raster) {
-  raster.has_geotransform = place.geotransform.has_value();
-  if (place.geotransform)
-    std::copy(place.geotransform->begin(), place.geotransform->end(), raster.geotransform);
-  raster.registration = place.registration;
-  raster.crs = textOrUnknown(place.crs);
-  raster.geo_keys = textOrUnknown(place.geo_keys);
-}
-
-tks_heights view(const HeightFile& file, double step) {
-  tks_heights heights = makeHeights();
-  heights.width = file.width;
-  heights.height = file.height;
-  heights.sample = file.sample;
-  heights.data = file.data.data();
-  heights.scale = file.scale;
-  heights.offset = file.offset;
-  heights.step = step;
-  heights.spacing_x = file.spacing_x;
-  heights.spacing_y = file.spacing_y;
-  heights.unit = textOrUnknown(file.unit);
-  heights.vertical_datum = textOrUnknown(file.vertical_datum);
-  heights.description = textOrUnknown(file.description);
-  setPlace(file, heights);
-  heights.has_nodata = file.nodata.has_value();
-  heights.nodata = file.nodata.value_or(0);
-  return heights;
-}
-
-tks_image view(const ImageFile& file) {
-  tks_image image = makeImage();
-  image.width = file.width;
-  image.height = file.height;
-  image.channels = file.channels;
-  image.sample = file.sample;
-  image.data = file.data.data();
-  setPlace(file.place, image);
-  return image;
-}
-
 Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet) {
   Result<tks_encode_options> options = encodeOptions(arguments, inputs);
   if (!options.ok()) return options.status();
@@ -194,9 +148,9 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;
-  const tks_heights heights =
-      inputs.heights ? view(*inputs.heights, arguments.step) : tks_heights{};
-  const tks_image image = inputs.image ? view(*inputs.image) : tks_image{};
+  tks_heights heights = inputs.heights ? asHeights(*inputs.heights) : tks_heights{};
+  heights.step = arguments.step;
+  const tks_image image = inputs.image ? asImage(*inputs.image) : tks_image{};
   Result<Buffer> stream = tetrakis::encode(inputs.heights ? &heights : nullptr,
                                            inputs.image ? &image : nullptr, *options);
   if (!stream) return stream.status();

@@ -66,6 +66,10 @@ struct ImageFile {
   Georeference place{};
 };
 
+/// What a file holds, its georeference included, as the encoder takes it. The file outlives it.
+tks_heights asHeights(const HeightFile& file);
+tks_image asImage(const ImageFile& file);
+
 /// A mesh ready to be written: positions in metres, x east, y up, z south (glTF axes), texture
 /// coordinates with (0, 0) at the image's top left corner (glTF convention).
 struct MeshFile {

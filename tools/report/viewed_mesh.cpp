@@ -39,16 +39,6 @@ Status checkSight(Decoder& decoder, const std::vector<Camera>& cameras) {
   return Status();
 }
 
-tks_image imageOf(const ImageFile& file) {
-  tks_image image = makeImage();
-  image.width = file.width;
-  image.height = file.height;
-  image.channels = file.channels;
-  image.sample = file.sample;
-  image.data = file.data.data();
-  return image;
-}
-
 }  // namespace
 
 std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame) {
@@ -103,7 +93,7 @@ Result<Mesh> meshForCameras(Decoder& decoder, uint32_t triangles, const CameraCh
     for (const Camera& camera : *chosen)
       cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
   }
-  const tks_image image = texture != nullptr ? imageOf(*texture) : tks_image();
+  const tks_image image = texture != nullptr ? asImage(*texture) : tks_image();
   return decoder.screenMesh(cameras, triangles, texture != nullptr ? &image : nullptr);
 }
 
