@@ -7,6 +7,7 @@
 #include "codec/geometry/stored_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/hull.hpp"
+#include "wavelet/priority_map_encoder.hpp"
 #include "wavelet/rounding_choice.hpp"
 
 namespace tetrakis::inline encoder {
@@ -49,10 +50,12 @@ void putTable(const QuantisedHeights& heights, GeometryLayers& layers, EncodedTr
   for (const RatePoint& point : track.points) {
     const bool before = point.bytes <= layers.table_after;
     if (before) {
-      points.push_back({point.bytes, point.distortion + heights.without_table, point.dips});
+      points.push_back({point.bytes, point.distortion + heights.without_table, point.dips,
+                        point.beyond});
     }
     if (point.bytes >= layers.table_after)
-      points.push_back({point.bytes + table.size(), point.distortion, point.dips});
+      points.push_back(
+          {point.bytes + table.size(), point.distortion, point.dips, point.beyond});
   }
   track.points = std::move(points);
 }
@@ -69,7 +72,7 @@ void joinAccount(const QuantisedHeights& heights, const HeightLayers& layers, En
     const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
     const double unknown =
         track.points.front().distortion + voids * heights.validityWorth() + squaresOf(layers.flat);
-    track.points.insert(track.points.begin(), {0, unknown});
+    track.points.insert(track.points.begin(), {0, unknown, false, track.points.front().beyond});
   }
   if (!layers.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
 }
@@ -151,7 +154,10 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
     const double missing = roundedBits(plane, layers.wavelet) * of->counted();
     layers.wavelet.rounded_bytes = roundedBytes(coefficients, missing);
   }
-  return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+  CodedHeights coded =
+      joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+  if (options.priorities != nullptr) coded.header.priorities = headerOf(*options.priorities);
+  return coded;
 }
 
 CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
@@ -159,6 +165,7 @@ CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
       replaced.of, replaced.header, replaced.layers, {}, 0, QuantisedHeights::kSomething};
   stored.header.wavelet = {};
   stored.header.regions = {};
+  stored.header.priorities = {};
   stored.header.planes = GeometryHeader::kStoredPlanes;
   stored.layers.corrections = CorrectionKind::kNone;
   stored.layers.coefficient_bytes = 0;

@@ -80,10 +80,13 @@ Result<Components> quantiseAndCode(const EncodeInputs& inputs) {
 
 }  // namespace
 
-Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& inputs) {
-  assert(inputs.heights != nullptr || inputs.image != nullptr);
-  if (Status status = reportProgress(inputs.options, 0); !status.ok()) return status;
-  if (Status status = checkCameras(inputs); !status.ok()) return status;
+Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
+  assert(given.heights != nullptr || given.image != nullptr);
+  if (Status status = reportProgress(given.options, 0); !status.ok()) return status;
+  if (Status status = checkCameras(given); !status.ok()) return status;
+  const ViewPriorities priorities = prioritiesOf(given);
+  EncodeInputs inputs = given;
+  inputs.priorities = &priorities;
   Result<Components> coded = quantiseAndCode(inputs);
   if (!coded.ok()) return coded.status();
   const Result<Selection> selection =

@@ -41,12 +41,15 @@ Purpose purposeOf(const EncodeInputs& inputs) {
 /// alone.
 CoefficientOptions heightOptions(const EncodeInputs& inputs) {
   assert(inputs.heights != nullptr);
-  const auto& [heights, image, options] = inputs;
+  const auto& [heights, image, options, priorities] = inputs;
   const bool large = uint64_t{heights->width} * heights->height > kOneRegionHeights;
-  return {
+  CoefficientOptions coefficients{
       limitOf(inputs),
       regionLog2(heights->width, heights->height, options.regions, large && options.max_error == 0),
       options.threads};
+  if (priorities != nullptr && !priorities->heights.empty())
+    coefficients.priorities = &priorities->heights;
+  return coefficients;
 }
 
 TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) {
@@ -58,6 +61,8 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
   texture.threads = options.threads;
   texture.visual = options.weights == TKS_WEIGHTS_VISUAL;
   if (inputs.budgeted()) texture.room = options.bytes;
+  if (inputs.priorities != nullptr && !inputs.priorities->texture.empty())
+    texture.priorities = &inputs.priorities->texture;
   if (options.psnr > 0) texture.mean_square = worstMeanSquare(texels.most(), options.psnr);
   return texture;
 }

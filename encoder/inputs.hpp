@@ -11,8 +11,14 @@
 #include "tetrakis/tetrakis.h"
 #include "texture_wavelet/texture_source.hpp"
 #include "wavelet/filter_choice.hpp"
+#include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline encoder {
+
+/// What comes earlier in each component; empty maps: nothing.
+struct ViewPriorities {
+  PriorityMap heights, texture;
+};
 
 /// The caller's heights, image and options, which outlive this. Exactly one of bytes, psnr,
 /// max_error and lossless is set.
@@ -20,6 +26,7 @@ struct EncodeInputs {
   const tks_heights* heights;  ///< null: there are none
   const tks_image* image;      ///< null: there is none
   const tks_encode_options& options;
+  const ViewPriorities* priorities = nullptr;  ///< null: none; else it outlives this as well
 
   bool budgeted() const { return options.bytes != 0; }
 };

@@ -21,7 +21,7 @@ class Records {
  public:
   void add(const RatePoint& point, double dip = kSparseDip) {
     if (points_.empty() || point.distortion < points_.back().distortion) {
-      points_.push_back({point.bytes, point.distortion, dips_ || point.dips});
+      points_.push_back({point.bytes, point.distortion, dips_ || point.dips, point.beyond});
       dips_ = false;
     } else {
       dips_ |= point.dips || point.distortion > dip * points_.back().distortion;
@@ -81,21 +81,22 @@ class Correction {
   Correction(std::span<const RatePoint> points, size_t measurements, const Measure& measure) {
     for (size_t i = 0; i < measurements; ++i) {
       const RatePoint& point = points[(points.size() - 1) * (i + 1) / (measurements + 1)];
-      if (point.distortion <= 0) continue;
+      const double squares = point.squares();
+      if (squares <= 0) continue;
       const double measured = measure(point.bytes);
-      if (measured > 0)
-        knots_.push_back({std::log(point.distortion), std::log(measured / point.distortion)});
+      if (measured > 0) knots_.push_back({std::log(squares), std::log(measured / squares)});
     }
   }
-  double operator()(double distortion) const {
-    if (distortion <= 0 || knots_.empty()) return distortion;
-    const double x = std::log(distortion);  // knots fall in x
+  /// What it is to be multiplied with.
+  double operator()(double squares) const {
+    if (squares <= 0 || knots_.empty()) return 1;
+    const double x = std::log(squares);  // knots fall in x
     const auto after =
         std::find_if(knots_.begin(), knots_.end(), [&](const Knot& k) { return k.x < x; });
-    if (after == knots_.begin()) return distortion * std::exp(knots_.front().ratio);
-    if (after == knots_.end()) return distortion * std::exp(knots_.back().ratio);
+    if (after == knots_.begin()) return std::exp(knots_.front().ratio);
+    if (after == knots_.end()) return std::exp(knots_.back().ratio);
     const Knot &a = *(after - 1), &b = *after;
-    return distortion * std::exp(a.ratio + (b.ratio - a.ratio) * (a.x - x) / (a.x - b.x));
+    return std::exp(a.ratio + (b.ratio - a.ratio) * (a.x - x) / (a.x - b.x));
   }
 
  private:
@@ -113,7 +114,11 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
   std::vector<RatePoint> corrected = track.points;
   if (scope.budget == UINT64_MAX) {
     const Correction correction(track.points, kLargeMeasurements, measure);
-    for (RatePoint& point : corrected) point.distortion = correction(point.distortion);
+    for (RatePoint& point : corrected) {
+      const double factor = correction(point.squares());
+      point.distortion *= factor;
+      point.beyond *= factor;
+    }
   }
   return falling(corrected);
 }

@@ -77,7 +77,7 @@ ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> point
                           const Pricing& pricing) {
   std::map<uint64_t, uint8_t> quality;
   for (RatePoint& point : points) {
-    quality[point.bytes] = statedQuality(point.distortion, pricing);
+    quality[point.bytes] = statedQuality(point.squares(), pricing);
     point.distortion = costOf(point.distortion, pricing);
   }
   favour(points, coded.opening);
@@ -105,7 +105,7 @@ ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> point
 ComponentCurve curveOfMany(const CodedTracks& coded, const Pricing& pricing) {
   OrderedTracks tracks = orderTracks(coded);
   for (size_t i = 0; i < tracks.packets.size(); ++i)
-    tracks.packets[i].quality = statedQuality(tracks.points[i + 1].distortion, pricing);
+    tracks.packets[i].quality = statedQuality(tracks.points[i + 1].squares(), pricing);
   for (RatePoint& point : tracks.points) point.distortion = costOf(point.distortion, pricing);
   favour(tracks.points, coded.opening);
   ComponentCurve curve{lowerHull(tracks.points, 0), std::move(tracks.packets)};

@@ -50,7 +50,7 @@ std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RateP
   RatePoint before = from, last = from;  // the point before, the end of the packet before
   const auto end = [&](const RatePoint& point, bool dips) {
     last = point;
-    ends.push_back({point.bytes, point.distortion, dips});
+    ends.push_back({point.bytes, point.distortion, dips, point.beyond});
   };
   const auto is_short = [&](const RatePoint& point) {
     return point.bytes - last.bytes < leastPart(last.bytes);

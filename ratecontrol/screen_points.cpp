@@ -176,6 +176,38 @@ std::vector<double> ScreenPoints::errorsOfOutlines(const Pictures& truth,
   return errors;
 }
 
+std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const GroundRays& ground,
+                                                        const ScreenTexture& texture,
+                                                        Extent texels, double shift) const {
+  const double columns = ground.frame().width - 1.0, rows = ground.frame().height - 1.0;
+  const std::vector<SeenPoint> seen = seenOf(ground, texels);
+  std::vector<Worth> worths;
+  for (const View& view : views_) {
+    const auto begin = seen.begin() + static_cast<ptrdiff_t>(view.begin);
+    const auto end = seen.begin() + static_cast<ptrdiff_t>(view.end);
+    const auto covered =
+        static_cast<double>(std::count_if(begin, end, [](const auto& s) { return s.ground; }));
+    for (size_t i = view.begin; i < view.end; ++i) {
+      const SeenPoint& s = seen[i];
+      if (!s.ground) continue;
+      const GroundHit plane = *ground.hit(points_[i].ray);
+      const double weight = view.weight / covered;
+      Worth worth{plane.column, plane.row, 0, weight * std::exp2(-2 * s.level)};
+      const Colour truth = texture.at(s.u, s.v, s.level);
+      for (const double rise : {-shift, shift}) {
+        GroundHit moved = plane;
+        moved.at += rise;
+        const auto place = ground.onPlane(moved, points_[i].ray);
+        if (!place) continue;
+        const Colour shown = texture.at((*place)[0] / columns, (*place)[1] / rows, s.level);
+        worth.heights += weight * squaresBetween(shown, truth) / (6 * shift * shift);
+      }
+      worths.push_back(worth);
+    }
+  }
+  return worths;
+}
+
 std::vector<size_t> ScreenPoints::blindCameras(const std::vector<SeenPoint>& seen) const {
   std::vector<size_t> blind;
   for (const View& view : views_) {

@@ -58,6 +58,17 @@ class ScreenPoints {
   std::vector<double> errorsOfOutlines(const Pictures& truth, const std::vector<Pictures>& others,
                                        const std::vector<double>& squares) const;
 
+  /// What errors at the ground of a point take off its picture, as parts of the error over all
+  /// cameras.
+  struct Worth {
+    double column = 0, row = 0;  ///< of the grid, as GroundHit has them
+    double heights = 0;          ///< of a height error of so many metres, per square metre
+    double texture = 0;          ///< of squared errors of texels
+  };
+  /// Of the points that show ground. shift: of the surface, in metres.
+  std::vector<Worth> worthsOf(const GroundRays& ground, const ScreenTexture& texture, Extent texels,
+                              double shift) const;
+
   /// Places in the list of cameras of those that have a weight and see no ground.
   std::vector<size_t> blindCameras(const std::vector<SeenPoint>& seen) const;
 

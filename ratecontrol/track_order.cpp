@@ -19,7 +19,7 @@ constexpr double kRegionGrowth = 0.04;
 struct Piece {
   double slope;  ///< distortion removed per byte
   Packet packet;
-  double removed;
+  double removed, beyond;  ///< RatePoint
 };
 
 Piece pieceBetween(const RatePoint& a, const RatePoint& b, Component component, size_t track) {
@@ -27,7 +27,8 @@ Piece pieceBetween(const RatePoint& a, const RatePoint& b, Component component, 
   const double removed = a.distortion - b.distortion;
   return {removed / static_cast<double>(b.bytes - a.bytes),
           {component, b.dips, 0, a.bytes, b.bytes, static_cast<uint32_t>(track)},
-          removed};
+          removed,
+          a.beyond - b.beyond};
 }
 
 void appendHull(std::span<const RatePoint> points, Component component, size_t track,
@@ -71,15 +72,19 @@ OrderedTracks orderTracks(const CodedTracks& coded) {
   OrderedTracks order;
   order.packets.resize(pieces.size());
   order.points.resize(pieces.size() + 1);
-  double left = 0;
+  double left = 0, beyond = 0;
   uint64_t bytes = 0;
-  for (const EncodedTrack& track : coded.tracks) left += track.points.back().distortion;
+  for (const EncodedTrack& track : coded.tracks) {
+    left += track.points.back().distortion;
+    beyond += track.points.back().beyond;
+  }
   for (const Piece& piece : pieces) bytes += piece.packet.end - piece.packet.begin;
-  order.points.back() = {bytes, left};
+  order.points.back() = {bytes, left, false, beyond};
   for (size_t i = pieces.size(); i-- > 0;) {
     left += pieces[i].removed;
+    beyond += pieces[i].beyond;
     bytes -= pieces[i].packet.end - pieces[i].packet.begin;
-    order.points[i] = {bytes, left};
+    order.points[i] = {bytes, left, false, beyond};
     order.packets[i] = pieces[i].packet;
   }
   assert(bytes == 0);

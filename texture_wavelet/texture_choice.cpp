@@ -113,11 +113,13 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
   return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
 }
 
-/// Drawn, or by wavelet.
+/// Drawn, or by wavelet: without priorities then, because drawn textures have none, and what counts
+/// differently cannot be compared.
 EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
-                              const TextureOptions& options) {
+                              TextureOptions options) {
   std::optional<EncodedTexture> drawn = encodeDrawn(source.texels);
   if (!drawn) return encodePhotograph(source, purpose, options, {});
+  options.priorities = nullptr;
   const bool whole = bytesOf(drawn->tracks) <= options.room && options.mean_square == 0;
   const auto contest = whole ? contestWhole : contestCut;
   Contest result = contest(*drawn, source, purpose, options);

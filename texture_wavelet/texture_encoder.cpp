@@ -15,6 +15,7 @@
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "texture_wavelet/visual_weights.hpp"
+#include "wavelet/priority_map_encoder.hpp"
 #include "wavelet/rounding_choice.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -123,7 +124,7 @@ void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track
   if (opening.empty()) return;
   track.codeword.insert(track.codeword.begin(), opening.begin(), opening.end());
   for (RatePoint& point : track.points) point.bytes += opening.size();
-  track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth});
+  track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth, false, track.points.front().beyond});
 }
 
 /// The mask of a cut-out goes first, then the overlay: without them alphas are all wrong, and
@@ -148,6 +149,8 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
   const TexturePlan plan(header, coded);
   const PlaneLayout& layout = plan.layout();
   const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
+  const std::array<double, kPriorities> worth =
+      worthOf(priorityMapOf(header.priorities, header.extent()));
   assert(planes.size() == header.components());
   std::vector<TrackSource> sources(plan.regions().size());
   for (size_t i = 0; i < sources.size(); ++i) sources[i].plan = plan.bands(plan.parts(i));
@@ -164,7 +167,7 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
         const int level = layout.subbands()[part.subband].level;
         const double energy = energiesOf(planes.size(), colour, level)[c];
         sources[i].bands.push_back(
-            {layout.gather(planes[c], part), layout.energy(part.subband) * energy * unit});
+            {layout.gather(planes[c], part), layout.energy(part.subband) * energy * unit, worth});
       }
     });
     planes[c] = std::vector<int32_t>();  // {} would keep its memory
@@ -198,6 +201,7 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
   TextureHeader& header = encoded.header;
   header.hidden = hidden;
+  if (options.priorities != nullptr) header.priorities = headerOf(*options.priorities);
   if (options.visual) header.weights = visualWeights(header.components());
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
   std::vector<uint8_t> mask, overlay;

@@ -18,7 +18,8 @@ uint32_t modelsOf(uint32_t component, uint32_t channels) {
 }  // namespace
 
 TexturePlan::TexturePlan(const TextureHeader& header, Mask coded)
-    : layout_(specOf(header.wavelet), header.extent(), coded),
+    : layout_(specOf(header.wavelet), header.extent(), coded, {},
+              priorityMapOf(header.priorities, header.extent())),
       regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
       weights_(header.weights) {
   for (uint32_t c = 0; c < header.components(); ++c)
@@ -32,6 +33,7 @@ std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const 
     const auto first = static_cast<int>(bands.size());
     std::vector<BandPlan> plan = layout_.plan(parts, first, component.priority, component.models);
     if (c == 0) layout_.markAbsent(parts, plan);
+    if (c == 0) layout_.markTiers(parts, plan);
     for (size_t i = 0; i < plan.size(); ++i) {
       BandPlan& band = plan[i];
       const Subband& subband = layout_.subbands()[parts[i].subband];
@@ -39,6 +41,7 @@ std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const 
       if (first > 0) {
         band.component = static_cast<int>(bands.size() - parts.size());
         band.absent = bands[i].absent;
+        band.tiers = bands[i].tiers;
       }
       bands.push_back(std::move(band));
     }

@@ -10,6 +10,7 @@
 
 #include "base/texels.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
+#include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline texture {
 
@@ -32,6 +33,7 @@ struct TextureOptions {
   bool visual = false;          ///< what is seen comes first, not what is off most
   uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
   double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
+  const PriorityMap* priorities = nullptr;  ///< what comes earlier; null: nothing
 };
 
 }  // namespace tetrakis::inline texture

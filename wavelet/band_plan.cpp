@@ -31,8 +31,11 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
 
 }  // namespace
 
-PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid, HeldSamples held)
-    : pyramid_(plane, valid, held), norms_(spec, pyramid_.levels()) {}
+PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid, HeldSamples held,
+                         const PriorityMap& priorities)
+    : pyramid_(plane, valid, held), norms_(spec, pyramid_.levels()) {
+  if (!priorities.empty()) priorities_.emplace(priorities);
+}
 
 std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region) {
   std::vector<BandPart> parts;
@@ -98,6 +101,32 @@ void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan
         bands[i].absent[shape.word(row, first / 32)] = word;
       }
     }
+  }
+}
+
+void PlaneLayout::markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
+  if (!priorities_) return;
+  assert(bands.size() == parts.size());
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const BandPart& part = parts[i];
+    const Subband& subband = subbands()[part.subband];
+    const BandShape& shape = bands[i].shape;
+    if (shape.empty()) continue;
+    BandTiers tiers;
+    tiers.members.assign(kPriorities * shape.wordCells(), 0);
+    for (uint32_t row = 0; row < part.rows; ++row) {
+      const uint32_t y = subband.planeRow(part.row + row);
+      for (uint32_t column = 0; column < part.columns; ++column) {
+        const size_t word = shape.word(row, column / 32);
+        const uint32_t bit = uint32_t{1} << column % 32;
+        if (!bands[i].absent.empty() && (bands[i].absent[word] & bit) != 0) continue;
+        const uint32_t x = subband.sampleColumn(part.column + column);
+        const uint8_t tier = priorities_->at(x, y, subband.level);
+        tiers.members[tier * shape.wordCells() + word] |= bit;
+      }
+    }
+    tiers.markBlocks(shape);
+    bands[i].tiers = std::make_shared<const BandTiers>(std::move(tiers));
   }
 }
 

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "bitstream/track/regions.hpp"
 #include "bitstream/track/track.hpp"
 #include "wavelet/norms.hpp"
+#include "wavelet/priority_map.hpp"
 #include "wavelet/pyramid.hpp"
 
 namespace tetrakis::inline wavelet {
@@ -33,7 +35,8 @@ std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& r
 class PlaneLayout {
  public:
   /// The bytes of the mask, and what is held, outlive the layout.
-  PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid = {}, HeldSamples held = {});
+  PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid = {}, HeldSamples held = {},
+              const PriorityMap& priorities = {});
 
   const Pyramid& pyramid() const { return pyramid_; }
   const std::vector<Subband>& subbands() const { return pyramid_.subbands(); }
@@ -53,12 +56,16 @@ class PlaneLayout {
   /// the parts.
   void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
+  /// Says which priority each coefficient has that exists. Comes after markAbsent().
+  void markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
+
   /// Returns the coefficients of a part of a transformed plane, in the cell layout of its shape.
   std::vector<int32_t> gather(std::span<const int32_t> plane, const BandPart& part) const;
 
  private:
   Pyramid pyramid_;
   SynthesisNorms norms_;
+  std::optional<CoefficientPriorities> priorities_;
 };
 
 }  // namespace tetrakis::inline wavelet

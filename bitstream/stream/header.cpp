@@ -207,10 +207,22 @@ Status checkTexture(const StreamHeader& header) {
   if (t.sample != TKS_U8 && t.sample != TKS_U16) {
     return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
   }
-  if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0)) {
-    return {TKS_CORRUPT, "Corrupt stream: a drawn or stored texture has regions or weights."};
+  if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0 || !t.priorities.none())) {
+    return {TKS_CORRUPT,
+            "Corrupt stream: a drawn or stored texture has regions, weights or priorities."};
   }
   return {};
+}
+
+Status checkPriorities(const StreamHeader& header) {
+  const auto sound = [](const auto& c) {
+    if (!c || c->priorities.none()) return true;
+    const int log2 = c->priorities.tile_log2;
+    return uint64_t{tilesAlong(c->width, log2)} * tilesAlong(c->height, log2) <=
+           PriorityHeader::kMostTiles;
+  };
+  if (sound(header.geometry) && sound(header.texture)) return {};
+  return {TKS_CORRUPT, "Corrupt stream: its map of priorities has more than 65536 tiles."};
 }
 
 Status checkMeaning(const StreamHeader& header) {
@@ -222,6 +234,7 @@ Status checkMeaning(const StreamHeader& header) {
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (Status regions = checkRegions(header); !regions.ok()) return regions;
   if (Status stored = checkStored(header); !stored.ok()) return stored;
+  if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
   return checkTexture(header);
 }
 

@@ -64,6 +64,27 @@ struct RegionHeader {
   }
 };
 
+/// Tiles of the samples of a component that come earlier than others: wavelet/priority_map.hpp.
+struct PriorityHeader {
+  uint8_t tile_log2 = 0;  ///< sides of the tiles; 0: none, all have the same priority
+  std::string code;       ///< of the map, empty or not
+
+  bool none() const { return tile_log2 == 0; }
+
+  template <class V>
+  void visit(V& v) {
+    v.u8("tile_log2", tile_log2, kLeastTileLog2, kMostRegionLog2);
+    v.text("priority_map", code);
+  }
+  static constexpr uint8_t kLeastTileLog2 = 4;
+  static constexpr uint64_t kMostTiles = 65536;
+};
+
+/// The tiles of a side of a plane.
+inline uint32_t tilesAlong(uint32_t side, int tile_log2) {
+  return ((side - 1) >> tile_log2) + 1;
+}
+
 /// What corrections are added to.
 enum class CorrectionKind : uint8_t {
   kNone = 0,
@@ -80,6 +101,7 @@ struct GeometryHeader {
   double base = 0, step = 1;
   double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
   WaveletHeader wavelet;
+  PriorityHeader priorities;
   RegionHeader regions;  ///< a part of the header of its own
 
   template <class V>
@@ -87,7 +109,10 @@ struct GeometryHeader {
     v.varint("geometry_width", width, 2, kMaxSide);
     v.varint("geometry_height", height, 2, kMaxSide);
     v.u8("geometry_sample", sample, 0, TKS_F32);
-    v.u8("geometry_planes", planes, 0, kStoredPlanes);
+    auto coding = static_cast<uint8_t>(planes + (priorities.none() ? 0 : kWithPriorities));
+    v.u8("geometry_planes", coding, 0, kWithPriorities + kStoredPlanes - 1);
+    planes = coding % kWithPriorities;
+    if (coding >= kWithPriorities) priorities.visit(v);
     v.u8("exact", exact, 0, 1);
     v.f64("base", base);
     v.f64("step", step);
@@ -100,6 +125,7 @@ struct GeometryHeader {
   /// In the place of a number of bit-planes: the samples are stored
   /// (bitstream/coder/byte_planes.hpp).
   static constexpr uint8_t kStoredPlanes = 31;
+  static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes
 };
 
 /// A point of the polyline that stands for a table of values while that is missing.
@@ -232,6 +258,7 @@ struct TextureHeader {
   std::array<uint16_t, 4> centre{};   ///< one per component
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
+  PriorityHeader priorities;
   RegionHeader regions;  ///< a part of the header of its own
   BandWeights weights;
   /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
@@ -255,10 +282,14 @@ struct TextureHeader {
     v.u8("texture_sample", sample, 0, TKS_U16);
     const uint8_t overlaid = kDrawnPlanes + 1;
     auto coding =
-        static_cast<uint8_t>(stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0));
-    v.u8("texture_planes", coding, 0, kStoredTexture);
+        static_cast<uint8_t>((stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
+                             (priorities.none() ? 0 : kWithPriorities));
+    v.u8("texture_planes", coding, 0, kWithPriorities + kStoredTexture - 1);
+    const bool ordered = coding >= kWithPriorities;
+    coding %= kWithPriorities;
     planes = coding % overlaid;
     stored = coding == kStoredTexture;
+    if (ordered) priorities.visit(v);
     if (direct()) return;
     wavelet.visit(v);
     if (kind > 4) {
@@ -283,6 +314,7 @@ struct TextureHeader {
   /// Without a transform: drawn or stored.
   bool direct() const { return planes == kDrawnPlanes; }
 
+  static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
   static constexpr int64_t kMaxPriority = 128;
   static constexpr uint8_t kOrders = 6;      ///< of channels
   static constexpr uint8_t kMostShears = 8;  ///< sets of shears

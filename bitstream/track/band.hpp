@@ -10,7 +10,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "base/zeroed_array.hpp"
 
@@ -58,19 +60,50 @@ struct Neighbours {
   }
 };
 
+/// Priorities that a coefficient may have (bitstream/track/priority_map.hpp).
+inline constexpr size_t kPriorities = 8;
+
+/// The coefficients of one priority in a band: they have passes of their own.
+struct Tier {
+  int plane = 31;                  ///< bit-plane of the last pass; nothing is known below
+  bool nonzero = false;            ///< it holds a significant coefficient
+  uint32_t significant_count = 0;  ///< coefficients that are significant
+};
+
+/// Which coefficients of a band are in which tier. Those that do not exist are in none.
+struct BandTiers {
+  std::vector<uint32_t> members;  ///< of each tier a bit map (BandShape::word), one behind another
+  std::vector<uint8_t> blocks;    ///< tiers that a block has coefficients of: bit t for tier t
+  std::vector<uint8_t> near;      ///< the same of a block and the eight around it
+
+  uint64_t bytes() const {
+    return members.size() * sizeof(uint32_t) + blocks.size() + near.size();
+  }
+  /// What the tiers of a band of that shape take.
+  static uint64_t bytesOf(const BandShape& shape);
+  /// blocks and near, from the members.
+  void markBlocks(const BandShape& shape);
+};
+
 struct Band {
   static constexpr uint32_t kBlockRows = 8;  ///< blocks are one word wide
 
   Band() = default;
-  /// absent_cells: bit map of the coefficients that do not exist; empty: all do.
+  /// absent_cells: bit map of the coefficients that do not exist; empty: all do. band_tiers: null:
+  /// all coefficients are in tier 0.
   Band(const BandShape& band_shape, Orientation band_orientation,
-       std::span<const uint32_t> absent_cells = {});
+       std::span<const uint32_t> absent_cells = {},
+       std::shared_ptr<const BandTiers> band_tiers = nullptr);
 
-  /// Bytes that a band of that shape allocates. masked: some of its coefficients may be absent.
+  /// Bytes that a band of that shape allocates, without its tiers, which its plan has as well.
+  /// masked: some of its coefficients may be absent.
   static uint64_t bytesOf(const BandShape& band_shape, bool masked);
 
   uint32_t blockRows() const { return (shape.rows + kBlockRows - 1) / kBlockRows; }
   uint8_t& block(uint32_t y, uint32_t x) { return block_nonzero[size_t{y} * shape.words() + x]; }
+  uint8_t tierBlocks(uint32_t y, uint32_t x) const {
+    return tiers->blocks[size_t{y} * shape.words() + x];
+  }
 
   /// The columns of a word that exist.
   uint32_t existing(uint32_t row, uint32_t index) const {
@@ -78,8 +111,22 @@ struct Band {
     return absent.size() == 0 ? valid : valid & ~absent[shape.word(row, index)];
   }
 
-  /// Nothing is known of the next bit-plane yet.
-  void clearVisited();
+  /// The columns of a word that are in a tier.
+  uint32_t members(size_t of, uint32_t row, uint32_t index) const {
+    return tiers == nullptr ? existing(row, index)
+                            : tiers->members[of * shape.wordCells() + shape.word(row, index)];
+  }
+
+  /// Nothing is known of the next bit-plane of a tier yet.
+  void clearVisited(size_t of = 0);
+  /// All is known of a bit-plane of a tier: nothing is significant there.
+  void markVisited(size_t of);
+
+  bool nonzero() const {
+    bool any = false;
+    for (const Tier& one : tier) any |= one.nonzero;
+    return any;
+  }
 
   /// The columns of a word that have a significant neighbour. Significant ones themselves may or
   /// may not be among them.
@@ -116,16 +163,15 @@ struct Band {
 
   BandShape shape;
   Orientation orientation = Orientation::kLL;
-  int plane = 31;                     ///< bit-plane of the last pass; nothing is known below
-  bool nonzero = false;               ///< the band holds a significant coefficient
-  uint32_t significant_count = 0;     ///< coefficients that are significant
+  std::array<Tier, kPriorities> tier;
+  std::shared_ptr<const BandTiers> tiers;  ///< null: all coefficients are in tier 0
   ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
-  ZeroedArray<uint8_t> scaled;        ///< magnitude >> plane, held below 2^7
+  ZeroedArray<uint8_t> scaled;  ///< magnitude >> plane, held below 2^7; of the last pass's tier
   ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1
   ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
-  ZeroedArray<uint32_t> visited;      ///< bit map: bit `plane` of the magnitude is known, or absent
+  ZeroedArray<uint32_t> visited;  ///< bit map: bit `plane` of its tier is known, or absent
   ZeroedArray<uint32_t> absent;       ///< bit map: does not exist; without elements: all do
-  ZeroedArray<uint8_t> block_nonzero;  ///< the block holds a significant coefficient
+  ZeroedArray<uint8_t> block_nonzero;  ///< tiers of which the block holds a significant one
 };
 
 }  // namespace tetrakis::inline track

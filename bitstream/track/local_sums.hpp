@@ -39,4 +39,17 @@ void localSums(const Band& band, size_t first, LocalSums& sums) {
   }
 }
 
+/// Of one coefficient, in units of 2^plane.
+inline uint8_t localSum(const Band& band, size_t cell, int plane) {
+  const Neighbours neighbours(band.shape, band.orientation);
+  const auto scaled = [&](ptrdiff_t offset) {
+    return band.magnitude[cell + static_cast<size_t>(offset)] >> plane;
+  };
+  uint32_t sum = 0;
+  for (const ptrdiff_t near : neighbours.near)
+    sum += std::min<uint32_t>(2 * std::min(scaled(near), 0x7fu), kMostLocal);
+  for (const ptrdiff_t far : neighbours.far) sum += std::min<uint32_t>(scaled(far), kMostLocal);
+  return static_cast<uint8_t>(sum);
+}
+
 }  // namespace tetrakis::inline track

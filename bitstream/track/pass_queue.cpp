@@ -26,59 +26,68 @@ int delayOf(PassKind kind, size_t density) {
   return (kind == PassKind::kLikely ? kLikelyDelay : kRestDelay)[density];
 }
 
-/// Greater keys first; of equal ones the higher plane, then the lower band, then the lower kind.
+/// Greater keys first; of equal ones the higher plane, then the lower band, then the higher tier,
+/// then the lower kind.
 bool isLater(const Pass& a, const Pass& b) {
   if (a.key != b.key) return a.key < b.key;
   if (a.plane != b.plane) return a.plane < b.plane;
   if (a.band != b.band) return a.band > b.band;
+  if (a.tier != b.tier) return a.tier < b.tier;
   return a.kind > b.kind;
-}
-
-uint32_t existingOf(const BandPlan& plan) {
-  uint32_t count = plan.shape.rows * plan.shape.columns;
-  for (uint32_t word : plan.absent) count -= static_cast<uint32_t>(std::popcount(word));
-  return count;
 }
 
 }  // namespace
 
-PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes) : progress_(plan.size()) {
+PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
+    : progress_(kPriorities * plan.size()) {
   assert(planes >= 0 && plan.size() <= UINT16_MAX);
   if (planes == 0) return;
   for (size_t band = 0; band < plan.size(); ++band) {
-    if (plan[band].vacant()) continue;
-    progress_[band] = {plan[band].log_norm, plan[band].needed, existingOf(plan[band]), 0};
-    needed_ += plan[band].needed;
-    push(static_cast<uint16_t>(band), planes - 1, PassKind::kLikely, 0);
+    for (uint8_t tier = 0; tier < kPriorities; ++tier) {
+      const uint32_t members = plan[band].members(tier);
+      if (members == 0) continue;
+      const Pass first = {static_cast<uint16_t>(band), tier, static_cast<uint8_t>(planes - 1),
+                          PassKind::kLikely};
+      progressOf(first) = {plan[band].log_norm + 16 * tier, plan[band].needed, members, 0};
+      needed_ += plan[band].needed;
+      push(first, 0);
+    }
   }
 }
 
-void PassQueue::push(uint16_t band, int plane, PassKind kind, uint32_t significant) {
-  assert(plane >= 0 && plane < 30);
-  Progress& progress = progress_[band];
+void PassQueue::push(Pass pass, uint32_t significant) {
+  assert(pass.plane < 30);
+  Progress& progress = progressOf(pass);
   assert(significant <= progress.coefficients);
   const uint32_t rarity = progress.coefficients / std::max(significant, 1u);
   const auto density = std::min(static_cast<size_t>(std::bit_width(rarity)), kDensities - 1);
-  const int key = 16 * plane + progress.log_norm - delayOf(kind, density);
+  pass.key = 16 * pass.plane + progress.log_norm - delayOf(pass.kind, density);
   ++progress.open;
-  pending_.push_back({band, static_cast<uint8_t>(plane), kind, key});
+  pending_.push_back(pass);
   std::push_heap(pending_.begin(), pending_.end(), isLater);
 }
 
 void PassQueue::pop(const Band& band) {
-  assert(!pending_.empty() && progress_[pending_.front().band].open > 0);
+  assert(!pending_.empty() && progressOf(pending_.front()).open > 0);
   std::pop_heap(pending_.begin(), pending_.end(), isLater);
   const Pass done = pending_.back();
   pending_.pop_back();
-  if (--progress_[done.band].open > 0) return;
+  Progress& progress = progressOf(done);
+  if (--progress.open > 0) return;
+  const uint32_t significant = band.tier[done.tier].significant_count;
+  Pass next = done;
   if (done.kind == PassKind::kLikely) {
-    push(done.band, done.plane, PassKind::kRest, band.significant_count);
-    push(done.band, done.plane, PassKind::kRefine, band.significant_count);
+    next.kind = PassKind::kRest;
+    push(next, significant);
+    next.kind = PassKind::kRefine;
+    push(next, significant);
   } else if (done.plane > 0) {
-    push(done.band, done.plane - 1, PassKind::kLikely, band.significant_count);
+    next.kind = PassKind::kLikely;
+    --next.plane;
+    push(next, significant);
   } else {
-    assert(needed_ >= progress_[done.band].needed);
-    needed_ -= progress_[done.band].needed;
+    assert(needed_ >= progress.needed);
+    needed_ -= progress.needed;
   }
 }
 

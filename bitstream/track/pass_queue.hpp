@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of a track's passes: always the one that promises the most. It follows from the norms
-// of the bands and from how many of their coefficients are known to be significant, so it costs no
-// bits, and each pass improves the surface or image by about the same factor as its neighbours.
+// of the bands, from the priorities of their tiers, and from how many of their coefficients are
+// known to be significant, so it costs no bits, and each pass improves the surface or image by
+// about the same factor as its neighbours.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +11,6 @@
 #include "bitstream/track/track.hpp"
 
 namespace tetrakis::inline track {
-
-struct Pass {
-  uint16_t band;
-  uint8_t plane;
-  PassKind kind;
-  int key;  ///< 16 log2 of norm * 2^plane, less a delay
-};
 
 class PassQueue {
  public:
@@ -32,17 +26,18 @@ class PassQueue {
 
  private:
   struct Progress {
-    int log_norm = 0;
+    int log_norm = 0;  ///< and the priority
     bool needed = false;
     uint32_t coefficients = 0;  ///< that exist
     uint8_t open = 0;           ///< passes of the plane that are not coded yet
   };
 
-  void push(uint16_t band, int plane, PassKind kind, uint32_t significant);
+  Progress& progressOf(const Pass& pass) { return progress_[kPriorities * pass.band + pass.tier]; }
+  void push(Pass pass, uint32_t significant);
 
-  std::vector<Progress> progress_;  ///< of each band
+  std::vector<Progress> progress_;  ///< of each tier of each band
   std::vector<Pass> pending_;       ///< a heap
-  size_t needed_ = 0;               ///< needed bands with passes left
+  size_t needed_ = 0;               ///< tiers of needed bands with passes left
 };
 
 }  // namespace tetrakis::inline track

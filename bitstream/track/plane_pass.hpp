@@ -14,9 +14,9 @@
 //   bool magnitudeBit(AdaptiveBit&, size_t cell, int plane)   bit `plane` of the magnitude
 //   bool refinedBit(AdaptiveBit&, size_t cell, int plane)     the same of a significant one
 //   bool signBit(AdaptiveBit&, size_t cell, bool flip)        negative, xor flip
-//   bool blockBit(AdaptiveBit&, uint32_t y, uint32_t x, int plane)   a magnitude of the block
-//                                                                    reaches 2^plane
-//   bool bandBit(AdaptiveBit&, int plane)                     a magnitude of the band does
+//   bool blockBit(AdaptiveBit&, uint32_t y, uint32_t x, int plane)   a magnitude of the block's
+//                                                                    tier reaches 2^plane
+//   bool bandBit(AdaptiveBit&, int plane)                     a magnitude of the band's tier does
 //   bool groupBit(AdaptiveBit&, size_t cell, int plane)       one of four cells does
 //   bool placeBit(AdaptiveBit&, size_t cell, uint32_t bit, int plane)   bit of the place of the
 //                                                                       first of four that does
@@ -45,8 +45,10 @@ enum class PassKind : uint8_t { kLikely = 0, kRest = 1, kRefine = 2 };
 template <class Io>
 class PlanePass {
  public:
-  PlanePass(Band& band, BandModels& models, const HintBands& hints, Io& io)
+  /// The pass is one of a tier of the band.
+  PlanePass(Band& band, size_t tier, BandModels& models, const HintBands& hints, Io& io)
       : band_(band),
+        tier_(tier),
         models_(models),
         hints_(hints),
         io_(io),
@@ -56,9 +58,10 @@ class PlanePass {
   void run(PassKind kind, int plane) {
     plane_ = plane;
     if (kind == PassKind::kLikely) beginPlane();
-    if (!band_.nonzero) {
-      if (kind != PassKind::kRest || !bandBecomesNonzero()) return;
+    if (!band_.tier[tier_].nonzero) {
+      if (kind != PassKind::kRest || !tierBecomesNonzero()) return;
     }
+    if (band_.tiers != nullptr) scaleAround();
     switch (kind) {
       case PassKind::kLikely:
         return blocks<PassKind::kLikely>();
@@ -71,8 +74,9 @@ class PlanePass {
 
  private:
   void beginPlane() {
-    band_.plane = plane_;
-    if (!band_.nonzero) return;
+    band_.tier[tier_].plane = plane_;
+    if (band_.tiers != nullptr) return band_.clearVisited(tier_);
+    if (!band_.tier[tier_].nonzero) return;
     band_.clearVisited();
     for (uint32_t row = 0; row < band_.shape.rows; ++row) {
       for (uint32_t x = 0; x < band_.shape.words(); ++x) {
@@ -84,10 +88,27 @@ class PlanePass {
     }
   }
 
-  bool bandBecomesNonzero() {
+  bool tierBecomesNonzero() {
     const bool bit = io_.bandBit(models_.band, plane_);
-    band_.nonzero = bit && !io_.stopped();
-    return band_.nonzero;
+    if (io_.stopped()) return false;
+    band_.tier[tier_].nonzero = bit;
+    if (!bit) band_.markVisited(tier_);
+    return bit;
+  }
+
+  /// Other tiers are known down to other planes: what is in and around the blocks of this one is
+  /// scaled for its plane.
+  void scaleAround() {
+    const BandShape& shape = band_.shape;
+    for (uint32_t row = 0; row < shape.rows; ++row) {
+      const uint8_t* near = &band_.tiers->near[size_t{row / Band::kBlockRows} * shape.words()];
+      for (uint32_t x = 0; x < shape.words(); ++x) {
+        if (((near[x] >> tier_) & 1) == 0 || band_.significant[shape.word(row, x)] == 0) continue;
+        const size_t first = shape.cell(row, 32 * x);
+        for (size_t i = first; i < first + 32; ++i)
+          band_.scaled[i] = static_cast<uint8_t>(std::min(band_.magnitude[i] >> plane_, 0x7fu));
+      }
+    }
   }
 
   template <PassKind kKind>
@@ -102,23 +123,26 @@ class PlanePass {
 
   template <PassKind kKind>
   void block(uint32_t y, uint32_t x) {
+    if (band_.tiers != nullptr && ((band_.tierBlocks(y, x) >> tier_) & 1) == 0) return;
     uint8_t& nonzero = band_.block(y, x);
+    const auto mine = static_cast<uint8_t>(1u << tier_);
     const uint32_t begin = y * Band::kBlockRows,
                    end = std::min(begin + Band::kBlockRows, band_.shape.rows);
-    if (!nonzero) {
+    if ((nonzero & mine) == 0) {
       if (kKind != PassKind::kRest || isVacant(begin, end, x)) return;
       const bool bit = band_.block_nonzero.size() == 1 ||
                        io_.blockBit(models_.block[blockContext(y, x)], y, x, plane_);
       if (io_.stopped()) return;
       if (!bit) return markVisited(begin, end, x);
-      nonzero = 1;
+      nonzero |= mine;
     }
-    const uint32_t valid = band_.shape.valid(x);
     for (uint32_t row = begin; row < end && !io_.stopped(); ++row) {
+      const uint32_t members =
+          band_.tiers == nullptr ? band_.shape.valid(x) : band_.members(tier_, row, x);
       if (kKind == PassKind::kRefine) {
-        refinementRow(row, x);
+        refinementRow(row, x, members);
       } else {
-        significanceRow<kKind>(row, x, valid);
+        significanceRow<kKind>(row, x, members);
       }
     }
   }
@@ -132,7 +156,8 @@ class PlanePass {
 
   void markVisited(uint32_t begin, uint32_t end, uint32_t x) {
     for (uint32_t row = begin; row < end; ++row) {
-      band_.visited[band_.shape.word(row, x)] = ~uint32_t{0};
+      band_.visited[band_.shape.word(row, x)] |=
+          band_.tiers == nullptr ? ~uint32_t{0} : band_.members(tier_, row, x);
     }
   }
 
@@ -140,7 +165,7 @@ class PlanePass {
     const uint32_t columns = band_.shape.words();
     const auto at = [&](uint32_t by, uint32_t bx) -> int {
       const size_t i = size_t{by} * columns + bx;
-      return bx < columns && i < band_.block_nonzero.size() ? band_.block_nonzero[i] : 0;
+      return bx < columns && i < band_.block_nonzero.size() ? band_.block_nonzero[i] != 0 : 0;
     };
     return at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
   }
@@ -164,12 +189,13 @@ class PlanePass {
     LocalSums sums;
   };
 
+  /// members: columns of the tier.
   template <PassKind kKind>
-  void significanceRow(uint32_t row, uint32_t x, uint32_t valid) {
+  void significanceRow(uint32_t row, uint32_t x, uint32_t members) {
     Row r;
     r.word = band_.shape.word(row, x);
     r.visited = band_.visited[r.word];
-    const uint32_t free = ~band_.significant[r.word] & ~r.visited & valid;
+    const uint32_t free = ~band_.significant[r.word] & ~r.visited & members;
     if (free == 0) return;
     r.near = band_.nearSignificant(r.word);
     r.todo = kKind == PassKind::kLikely ? free & r.near : free;
@@ -253,7 +279,7 @@ class PlanePass {
     band_.scaled[cell] = 1;
     band_.sign[cell] = static_cast<int8_t>(1 - 2 * negative);
     band_.significant[r.word] |= uint32_t{1} << i;
-    ++band_.significant_count;
+    ++band_.tier[tier_].significant_count;
     r.near |= uint32_t{2} << i;
     r.reach.two |= uint32_t{6} << i;
     r.reach.three |= uint32_t{14} << i;
@@ -262,9 +288,9 @@ class PlanePass {
     return true;
   }
 
-  void refinementRow(uint32_t row, uint32_t x) {
+  void refinementRow(uint32_t row, uint32_t x, uint32_t members) {
     const size_t word = band_.shape.word(row, x);
-    const uint32_t todo = band_.significant[word] & ~band_.visited[word];
+    const uint32_t todo = band_.significant[word] & ~band_.visited[word] & members;
     if (todo == 0) return;
     const size_t first = band_.shape.cell(row, 32 * x);
     LocalSums sums;
@@ -306,6 +332,7 @@ class PlanePass {
   static constexpr size_t kRowDecisions = 8 * 10;
 
   Band& band_;
+  size_t tier_;
   BandModels& models_;
   HintBands hints_;
   Io& io_;

@@ -30,14 +30,21 @@ Reconstruction::Reconstruction(const Band& band, int fraction_bits)
       fraction_bits_(fraction_bits),
       neighbours_(band.shape, band.orientation),
       weights_(weightsOf(band.orientation)) {
+  const size_t tiers = band.tiers == nullptr ? 1 : kPriorities;
+  for (size_t tier = 0; tier < tiers; ++tier) tables_.push_back(tablesOf(band.tier[tier].plane));
+}
+
+Reconstruction::TierTables Reconstruction::tablesOf(int plane_of_tier) const {
+  TierTables both;
   for (int above = 0; above < 2; ++above) {
-    const int plane = band.plane + above;
+    const int plane = plane_of_tier + above;
     if (plane == 0) continue;  // nothing is left open
-    PlaneTables& tables = tables_[static_cast<size_t>(above)];
+    PlaneTables& tables = both[static_cast<size_t>(above)];
     for (size_t i = 0; i < kCentroid.size(); ++i) tables.rest[i] = fraction(kCentroid[i], plane);
     for (int hint = -kMostHint; hint <= kMostHint; ++hint)
       tables.guess[static_cast<size_t>(hint + kMostHint)] = fraction(hint, plane);
   }
+  return both;
 }
 
 void Reconstruction::row(uint32_t row, int32_t* values) const {
@@ -49,10 +56,47 @@ void Reconstruction::row(uint32_t row, int32_t* values) const {
     const uint32_t beside = band_.nearSignificant(word) & valid & ~here;
     int32_t* out = values + 32 * x;
     std::fill_n(out, count, 0);
+    if (band_.tiers != nullptr) {
+      for (size_t tier = 0; tier < kPriorities && (here | beside) != 0; ++tier)
+        tierRow(tier, row, x, out);
+      continue;
+    }
     if ((here & visited) != 0) significant<0>(first, here & visited, out);
     if ((here & ~visited) != 0) significant<1>(first, here & ~visited, out);
     if (beside != 0) insignificant(first, beside, visited, out);
   }
+}
+
+/// 32 columns of a tier, whose neighbours may be known down to other planes.
+void Reconstruction::tierRow(size_t tier, uint32_t row, uint32_t word, int32_t* out) const {
+  const size_t index = band_.shape.word(row, word), first = band_.shape.cell(row, 32 * word);
+  const uint32_t known = band_.significant[index] | band_.nearSignificant(index);
+  for (uint32_t todo = known & band_.members(tier, row, word); todo != 0; todo &= todo - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(todo));
+    const size_t cell = first + i, above = ~(band_.visited[index] >> i) & 1;
+    const int plane = band_.tier[tier].plane + static_cast<int>(above);
+    const PlaneTables& tables = tables_[tier][above];
+    if (((band_.significant[index] >> i) & 1) == 0) {
+      out[i] = besideTiers(cell, plane, tables);
+      continue;
+    }
+    const auto open = static_cast<uint32_t>(tables.rest[kLocalClass[localSum(band_, cell, plane)]]);
+    const uint32_t value = (band_.magnitude[cell] << fraction_bits_) + open;
+    out[i] = static_cast<int32_t>(band_.sign[cell] < 0 ? 0u - value : value);
+  }
+}
+
+/// An insignificant coefficient. Neighbours count that are about as large as it may be at least.
+int32_t Reconstruction::besideTiers(size_t cell, int plane, const PlaneTables& tables) const {
+  const auto sign = [&](ptrdiff_t offset) {
+    const size_t i = cell + static_cast<size_t>(offset);
+    return (uint64_t{band_.magnitude[i]} << 1) >> plane != 0 ? int{band_.sign[i]} : 0;
+  };
+  const auto &near = neighbours_.near, &far = neighbours_.far;
+  const int hint = weights_.along * (sign(near[0]) + sign(near[1])) +
+                   weights_.across * (sign(near[2]) + sign(near[3])) +
+                   weights_.diagonal * (sign(far[0]) + sign(far[1]) + sign(far[2]) + sign(far[3]));
+  return tables.guess[static_cast<size_t>(hint + kMostHint)];
 }
 
 /// sixtyfourths / 64 of the open interval in output units, rounded towards zero. It reaches from
@@ -69,7 +113,7 @@ template <int kAbove>
 void Reconstruction::significant(size_t first, uint32_t columns, int32_t* out) const {
   LocalSums sums;
   localSums<kAbove>(band_, first, sums);
-  const std::array<int32_t, BandModels::kLocal>& rest = tables_[kAbove].rest;
+  const std::array<int32_t, BandModels::kLocal>& rest = tables_[0][kAbove].rest;
   const uint32_t* magnitude = band_.magnitude.data() + first;
   const int8_t* sign = band_.sign.data() + first;
   for (; columns != 0; columns &= columns - 1) {
@@ -95,7 +139,7 @@ void Reconstruction::insignificant(size_t first, uint32_t columns, uint32_t visi
   for (; columns != 0; columns &= columns - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(columns));
     const size_t above = ~(visited >> i) & 1;
-    out[i] = tables_[above].guess[static_cast<size_t>(hints[i])];
+    out[i] = tables_[0][above].guess[static_cast<size_t>(hints[i])];
   }
 }
 

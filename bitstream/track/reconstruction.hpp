@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/band_models.hpp"
@@ -37,6 +38,14 @@ class Reconstruction {
     std::array<int32_t, 2 * kMostHint + 1> guess{};  ///< [hint + kMostHint]: of insignificant ones
   };
 
+  /// What is left open of the coefficients of a tier. [0]: known down to its plane, [1]: to the one
+  /// above.
+  using TierTables = std::array<PlaneTables, 2>;
+  TierTables tablesOf(int plane) const;
+
+  void tierRow(size_t tier, uint32_t row, uint32_t word, int32_t* out) const;
+  int32_t besideTiers(size_t cell, int plane, const PlaneTables& tables) const;
+
   template <int kAbove>
   void significant(size_t first, uint32_t columns, int32_t* out) const;
   void insignificant(size_t first, uint32_t columns, uint32_t visited, int32_t* out) const;
@@ -46,7 +55,7 @@ class Reconstruction {
   int fraction_bits_;
   Neighbours neighbours_;
   SignWeights weights_;
-  std::array<PlaneTables, 2> tables_;  ///< [0]: known down to band.plane, [1]: to the one above
+  std::vector<TierTables> tables_;  ///< of each tier that the band may have
 };
 
 /// Reconstruction point of a magnitude known down to bit-plane `plane`, not knowing its

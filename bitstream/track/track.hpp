@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "bitstream/track/band.hpp"
@@ -25,10 +26,23 @@ struct BandPlan {
   std::array<int, 2> siblings = {kNone, kNone};  ///< the other details of the level
   /// Bit map (BandShape::word) of the coefficients that do not exist; empty: all do.
   std::vector<uint32_t> absent = {};
+  /// The tiers of those that do; null: all are in tier 0.
+  std::shared_ptr<const BandTiers> tiers = nullptr;
   bool needed = true;  ///< by a decoder
 
   /// There is no coefficient to code.
   bool vacant() const;
+  /// The coefficients of a tier.
+  uint32_t members(size_t tier) const;
+};
+
+/// A pass over a tier of a band.
+struct Pass {
+  uint16_t band;
+  uint8_t tier;
+  uint8_t plane;
+  PassKind kind;
+  int key = 0;  ///< 16 log2 of norm * 2^plane, and the tier's priority, less a delay
 };
 
 /// Bit-planes a coefficient may have: magnitudes stay below 2^30.
@@ -40,12 +54,13 @@ struct TrackState {
 
   /// Runs one pass of a band of the plan that the state was made from.
   template <class Io>
-  void run(const std::vector<BandPlan>& plan, size_t index, PassKind kind, int plane, Io& io) {
-    const BandPlan& band = plan[index];
+  void run(const std::vector<BandPlan>& plan, const Pass& pass, Io& io) {
+    const BandPlan& band = plan[pass.band];
     const auto at = [&](int i) { return i < 0 ? nullptr : &bands[static_cast<size_t>(i)]; };
     const HintBands hints{
         at(band.parent), at(band.component), {at(band.siblings[0]), at(band.siblings[1])}};
-    PlanePass<Io>(bands[index], models[band.models], hints, io).run(kind, plane);
+    PlanePass<Io>(bands[pass.band], pass.tier, models[band.models], hints, io)
+        .run(pass.kind, pass.plane);
   }
 
   std::vector<Band> bands;

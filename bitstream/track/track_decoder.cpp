@@ -53,7 +53,7 @@ TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
   PassQueue passes(plan, planes);
   while (passes.needed()) {
     const Pass pass = passes.front();
-    state.run(plan, pass.band, pass.kind, pass.plane, io);
+    state.run(plan, pass, io);
     if (io.stopped()) return state;
     assert(pass.band < state.bands.size());
     passes.pop(state.bands[pass.band]);
@@ -92,7 +92,7 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
     restore();
     const Pass pass = passes_.front();
     DecodingIo io{{*decoder_}};
-    state_.run(plan_, pass.band, pass.kind, pass.plane, io);
+    state_.run(plan_, pass, io);
     if (io.stopped()) return state_;
     decoder_ = io.decoder;
     read_ = decoder_->read(codeword);
@@ -108,6 +108,7 @@ uint64_t GrowingTrack::bytes() const {
   for (const BandPlan& band : plan_) {
     const uint64_t one = Band::bytesOf(band.shape, !band.absent.empty());
     sum += one + band.absent.size() * sizeof(uint32_t);
+    if (band.tiers != nullptr) sum += band.tiers->bytes();
     largest = std::max(largest, one);
   }
   return sum + largest + (state_.models.size() + 1) * sizeof(BandModels);

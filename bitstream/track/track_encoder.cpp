@@ -26,15 +26,29 @@ double squared(double x) {
   return x * x;
 }
 
-/// Which bit-planes of a block, and of a band, hold a bit of some magnitude.
+/// The coefficients of a tier in a word, where all of them are in tier 0 unless there are tiers.
+uint32_t membersOf(const BandPlan& plan, size_t tier, uint32_t row, uint32_t word) {
+  if (plan.tiers == nullptr) return tier == 0 ? plan.shape.valid(word) : 0;
+  return plan.tiers->members[tier * plan.shape.wordCells() + plan.shape.word(row, word)];
+}
+
+size_t tiersOf(const BandPlan& plan) {
+  return plan.tiers == nullptr ? 1 : kPriorities;
+}
+
+/// Which bit-planes of a block, and of a band, hold a bit of some magnitude of a tier.
 struct Occupancy {
-  Occupancy(const BandShape& shape, const std::vector<int32_t>& values)
-      : blocks(size_t{(shape.rows + Band::kBlockRows - 1) / Band::kBlockRows} * shape.words(), 0) {
+  Occupancy(const BandPlan& plan, size_t tier, const std::vector<int32_t>& values)
+      : blocks(size_t{(plan.shape.rows + Band::kBlockRows - 1) / Band::kBlockRows} *
+                   plan.shape.words(),
+               0) {
+    const BandShape& shape = plan.shape;
     for (uint32_t row = 0; row < shape.rows; ++row) {
-      const int32_t* from = values.data() + shape.cell(row, 0);
       uint32_t* to = blocks.data() + size_t{row / Band::kBlockRows} * shape.words();
-      for (uint32_t column = 0; column < shape.columns; ++column) {
-        to[column / 32] |= magnitudeOf(from[column]);
+      for (uint32_t word = 0; word < shape.words(); ++word) {
+        const int32_t* from = values.data() + shape.cell(row, 32 * word);
+        for (uint32_t todo = membersOf(plan, tier, row, word); todo != 0; todo &= todo - 1)
+          to[word] |= magnitudeOf(from[std::countr_zero(todo)]);
       }
     }
     for (uint32_t block : blocks) band |= block;
@@ -49,10 +63,12 @@ class EncodingIo {
  public:
   using Plenty = EncodingIo&;
   static constexpr bool hasPlenty(size_t) { return false; }
-  void select(const BandShape& shape, const BandSource& source, const Occupancy& occupancy) {
+  void select(const BandShape& shape, const BandSource& source, size_t tier,
+              const Occupancy& occupancy) {
     words_ = shape.words();
     values_ = source.values.data();
-    weight_ = source.weight;
+    plain_ = source.weight;
+    weight_ = source.weight * source.seen[tier];
     occupancy_ = &occupancy;
   }
   bool magnitudeBit(AdaptiveBit& model, size_t cell, int plane) {
@@ -91,19 +107,23 @@ class EncodingIo {
   bool stopped() const { return false; }
   void learned(size_t cell, uint32_t before, uint32_t after, int plane) {
     const double truth = magnitudeOf(values_[cell]);
-    distortion_ += weight_ * (squared(truth - typicalMagnitude(after, plane)) -
-                              squared(truth - typicalMagnitude(before, plane + 1)));
+    const double change = squared(truth - typicalMagnitude(after, plane)) -
+                          squared(truth - typicalMagnitude(before, plane + 1));
+    distortion_ += weight_ * change;
+    squares_ += plain_ * change;
     if (distortion_ < best_) best_ = distortion_;
     dips_ |= distortion_ > kDip * best_;
   }
-  void start(double energy) {
-    distortion_ = best_ = energy;
-    least_ = energy * 1e-12;
+  void start(const RatePoint& nothing) {
+    distortion_ = best_ = nothing.distortion;
+    squares_ = nothing.squares();
+    least_ = distortion_ * 1e-12;
   }
   /// The point reached now, with the dips since the last call. Only the end of a track is exact:
   /// the sums here are not.
   RatePoint point() {
-    return {decidedBytes(), std::max(distortion_, least_), std::exchange(dips_, false)};
+    return {decidedBytes(), std::max(distortion_, least_), std::exchange(dips_, false),
+            squares_ - distortion_};
   }
   uint64_t decidedBytes() const { return encoder_.decidedBytes(); }
   std::vector<uint8_t> finish() { return encoder_.finish(); }
@@ -121,21 +141,39 @@ class EncodingIo {
 
   RangeEncoder encoder_;
   double distortion_ = 0, best_ = 0, least_ = 0;
+  double squares_ = 0;  ///< whatever viewers see of them
   bool dips_ = false;
   uint32_t words_ = 0;
   const int32_t* values_ = nullptr;
-  double weight_ = 1;
+  double weight_ = 1, plain_ = 1;
   const Occupancy* occupancy_ = nullptr;
 };
 
-double energyOf(const TrackSource& track) {
-  double energy = 0;
-  for (const BandSource& source : track.bands) {
-    double band = 0;
-    for (int32_t value : source.values) band += squared(value);
-    energy += source.weight * band;
+/// Of the coefficients of a tier.
+double squaresOf(const BandPlan& plan, const BandSource& source, size_t tier) {
+  double squares = 0;
+  for (uint32_t row = 0; row < plan.shape.rows; ++row) {
+    for (uint32_t word = 0; word < plan.shape.words(); ++word) {
+      const int32_t* from = source.values.data() + plan.shape.cell(row, 32 * word);
+      for (uint32_t todo = membersOf(plan, tier, row, word); todo != 0; todo &= todo - 1)
+        squares += squared(from[std::countr_zero(todo)]);
+    }
   }
-  return energy;
+  return squares;
+}
+
+/// The account before the first byte.
+RatePoint nothingOf(const TrackSource& track) {
+  double energy = 0, squares = 0;
+  for (size_t i = 0; i < track.bands.size(); ++i) {
+    const BandSource& source = track.bands[i];
+    for (size_t tier = 0; tier < tiersOf(track.plan[i]); ++tier) {
+      const double part = source.weight * squaresOf(track.plan[i], source, tier);
+      energy += source.seen[tier] * part;
+      squares += part;
+    }
+  }
+  return {0, energy, false, squares - energy};
 }
 
 /// Drops what is no improvement: a later point with no more bytes or no less distortion wins or
@@ -158,14 +196,18 @@ class TrackCoder {
  public:
   explicit TrackCoder(const TrackSource& source) : source_(source) {
     assert(source.plan.size() == source.bands.size());
-    occupancy_.reserve(source.plan.size());
-    for (size_t i = 0; i < source.plan.size(); ++i)
-      occupancy_.emplace_back(source.plan[i].shape, source.bands[i].values);
+    occupancy_.resize(source.plan.size());
+    for (size_t i = 0; i < source.plan.size(); ++i) {
+      for (size_t tier = 0; tier < tiersOf(source.plan[i]); ++tier)
+        occupancy_[i].emplace_back(source.plan[i], tier, source.bands[i].values);
+    }
   }
 
   int planes() const {
     uint32_t all = 0;
-    for (const Occupancy& o : occupancy_) all |= o.band;
+    for (const auto& band : occupancy_) {
+      for (const Occupancy& tier : band) all |= tier.band;
+    }
     return std::bit_width(all);
   }
 
@@ -173,10 +215,10 @@ class TrackCoder {
     track_.planes = planes;
     state_.emplace(source_.plan, planes);
     passes_.emplace(source_.plan, planes);
-    const double energy = energyOf(source_);
-    io_.start(energy);
-    track_.points.push_back({0, energy});
-    nothing_to_say_ = energy == 0;
+    const RatePoint nothing = nothingOf(source_);
+    io_.start(nothing);
+    track_.points.push_back(nothing);
+    nothing_to_say_ = nothing.squares() == 0;
   }
 
   int firstKey() const { return done() ? kNoKey : passes_->front().key; }
@@ -192,8 +234,9 @@ class TrackCoder {
     assert(state_ && passes_);
     while (!done() && firstKey() >= least_key && bytes() <= limit && distortion() > enough) {
       const Pass pass = passes_->front();
-      io_.select(source_.plan[pass.band].shape, source_.bands[pass.band], occupancy_[pass.band]);
-      state_->run(source_.plan, pass.band, pass.kind, pass.plane, io_);
+      io_.select(source_.plan[pass.band].shape, source_.bands[pass.band], pass.tier,
+                 occupancy_[pass.band][pass.tier]);
+      state_->run(source_.plan, pass, io_);
       passes_->pop(state_->bands[pass.band]);
       append(track_.points, io_.point());
     }
@@ -204,7 +247,7 @@ class TrackCoder {
     track_.codeword = io_.finish();
     RatePoint last = track_.points.back();
     last.bytes = track_.codeword.size();
-    if (track_.complete) last.distortion = 0;
+    if (track_.complete) last.distortion = last.beyond = 0;
     while (track_.points.size() > 1 && track_.points.back().bytes >= last.bytes)
       track_.points.pop_back();
     if (last.bytes > 0) track_.points.push_back(last);
@@ -217,7 +260,7 @@ class TrackCoder {
 
  private:
   const TrackSource& source_;
-  std::vector<Occupancy> occupancy_;
+  std::vector<std::vector<Occupancy>> occupancy_;  ///< of each band and tier
   std::optional<TrackState> state_;
   std::optional<PassQueue> passes_;
   bool nothing_to_say_ = false;

@@ -3,6 +3,7 @@
 // worth it, and measures what every byte buys.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -16,9 +17,14 @@ namespace tetrakis::inline track {
 /// the first `bytes` bytes of the codeword.
 struct RatePoint {
   uint64_t bytes;
-  double distortion;  ///< weighted squared error of the coefficients
+  double distortion;  ///< weighted squared error of the coefficients, by what viewers see of it
   /// Between the point before and this one, some prefix is noticeably worse than the best so far.
   bool dips = false;
+  /// The same wherever it is, less what distortion has: nothing unless there are priorities.
+  double beyond = 0;
+
+  /// All squared errors alike.
+  double squares() const { return distortion + beyond; }
 };
 
 struct EncodedTrack {
@@ -40,6 +46,8 @@ uint64_t exactBytes(std::span<const EncodedTrack> tracks);
 struct BandSource {
   std::vector<int32_t> values;
   double weight = 1;  ///< squared error in the output per squared error of a coefficient
+  /// What viewers see of it in each tier, against the mean of all samples.
+  std::array<double, kPriorities> seen = {1, 1, 1, 1, 1, 1, 1, 1};
 };
 
 /// What one track is made of: bands[i] belongs to plan[i].

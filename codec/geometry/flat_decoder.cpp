@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/decision_decoding.hpp"
+#include "bitstream/coder/decision_decoding.hpp"
 #include "codec/geometry/flat_pass.hpp"
 
 namespace tetrakis::inline geometry {

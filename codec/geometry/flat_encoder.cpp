@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bitstream/stream/header.hpp"
-#include "codec/geometry/decision_encoding.hpp"
+#include "bitstream/coder/decision_encoding.hpp"
 #include "codec/geometry/flat_pass.hpp"
 
 namespace tetrakis::inline geometry {

@@ -34,7 +34,7 @@ class Significance {
       if (parts[i].subband >= subbands) continue;
       const Subband& subband = pyramid_.subbands()[parts[i].subband];
       mark(state.bands[i], subband, parts[i]);
-      if (state.bands[i].nonzero && subband.orientation != Orientation::kLL)
+      if (state.bands[i].nonzero() && subband.orientation != Orientation::kLL)
         quiet_[track] = std::min(quiet_[track], subband.level - 1 - level_);
     }
   }
@@ -90,7 +90,9 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
                              const ViewSynthesis& synthesis) {
   std::vector<BandPlan> plan = layout.plan(parts, 0, 0, 0);
   keepNeeded(synthesis, parts, plan);
-  if (!plan.empty()) layout.markAbsent(parts, plan);
+  if (plan.empty()) return plan;
+  layout.markAbsent(parts, plan);
+  layout.markTiers(parts, plan);
   return plan;
 }
 
@@ -101,7 +103,8 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
                                const DecodeContext<TrackMemory>& context) {
   auto& [valid, flat] = known;
   const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.extent(), valid, flat.held());
+  const PlaneLayout layout(spec, header.extent(), valid, flat.held(),
+                           priorityMapOf(header.priorities, header.extent()));
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
   assert(codewords.size() == regions.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/geometry_encoder.hpp"
 
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -43,9 +44,13 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   std::vector<int32_t> levels = flat.levels;
   for (int32_t& h : levels)
     h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
-  const PlaneLayout layout(spec, heights.extent(), heights.valid, {flat.numbers, levels});
+  static const PriorityMap kAlike;
+  const PriorityMap& priorities = options.priorities == nullptr ? kAlike : *options.priorities;
+  const PlaneLayout layout(spec, heights.extent(), heights.valid, {flat.numbers, levels},
+                           priorities);
   forwardWavelet(spec, layout.pyramid(), plane, options.threads);
   const double unit = std::exp2(-2 * wavelet.fraction_bits);
+  const std::array<double, kPriorities> worth = worthOf(priorities);
   const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);
   assert(!regions.empty());
   std::vector<TrackSource> tracks(regions.size());
@@ -54,9 +59,10 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
     TrackSource& track = tracks[i];
     track.plan = layout.plan(parts, 0, 0, 0);
     layout.markAbsent(parts, track.plan);
+    layout.markTiers(parts, track.plan);
     for (size_t k = 0; k < parts.size(); ++k) {
       track.bands.push_back(
-          {layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit});
+          {layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit, worth});
       if (!flat.empty()) clearAbsent(track.plan[k], track.bands[k].values);
     }
   });

@@ -9,6 +9,7 @@
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/flat_areas.hpp"
+#include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline geometry {
 
@@ -17,6 +18,8 @@ struct CoefficientOptions {
   int region_log2 = 0;              ///< bitstream/track/regions.hpp; 0: one track
   uint32_t threads = 1;             ///< nothing depends on them
   const FlatAreas* flat = nullptr;  ///< areas that are known, and not coded; null: there are none
+  /// What comes earlier; null: nothing.
+  const PriorityMap* priorities = nullptr;
 };
 
 /// Codes heights in steps. Returns one track for each of regionsOf(). wavelet: from

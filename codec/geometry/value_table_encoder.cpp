@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/value_table_encoder.hpp"
 
-#include "codec/geometry/decision_encoding.hpp"
+#include "bitstream/coder/decision_encoding.hpp"
 #include "codec/geometry/value_table_pass.hpp"
 
 namespace tetrakis::inline geometry {

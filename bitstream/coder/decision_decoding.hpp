@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `Io` of passes whose decisions are a codeword of their own (value_table_pass.hpp,
-// flat_pass.hpp), on the decoder's side. On the encoder's: decision_encoding.hpp.
+// The `Io` of passes whose decisions are a codeword of their own (codec/geometry/flat_pass.hpp,
+// wavelet/priority_pass.hpp), on the decoder's side. On the encoder's: decision_encoding.hpp.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "bitstream/coder/range_decoder.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coder {
 
 class DecisionDecoding {
  public:
@@ -21,4 +21,4 @@ class DecisionDecoding {
   RangeDecoder decoder_;
 };
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coder

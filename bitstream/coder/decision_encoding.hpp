@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `Io` of passes whose decisions are a codeword of their own (value_table_pass.hpp,
-// flat_pass.hpp), on the encoder's side. On the decoder's: decision_decoding.hpp.
+// The `Io` of passes whose decisions are a codeword of their own (codec/geometry/flat_pass.hpp,
+// wavelet/priority_pass.hpp), on the encoder's side. On the decoder's: decision_decoding.hpp.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "bitstream/coder/range_encoder.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coder {
 
 class DecisionEncoding {
  public:
@@ -27,4 +27,4 @@ class DecisionEncoding {
   RangeEncoder encoder_;
 };
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coder

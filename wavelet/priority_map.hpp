@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A priority map orders the coefficients of a plane over the ground: those of a tile of priority p
+// come p bit-planes earlier than those of priority 0 (as the regions of interest of JPEG 2000 do).
+// Encoders make it of what cameras see; without one all coefficients have priority 0.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/track/band.hpp"
+
+namespace tetrakis::inline wavelet {
+
+/// Square tiles of the samples of a plane, the last of a row or column cut at its border.
+struct PriorityMap {
+  Extent plane;
+  int tile_log2 = 0;                ///< sides of the tiles
+  std::vector<uint8_t> priorities;  ///< row by row, each less than kPriorities; empty: no map
+
+  bool empty() const { return priorities.empty(); }
+  uint32_t columns() const { return tilesAlong(plane.width, tile_log2); }
+  uint32_t rows() const { return tilesAlong(plane.height, tile_log2); }
+};
+
+/// What a squared error counts in each tier, so that it counts 1 in the mean over all tiles:
+/// multiples of 4^priority.
+std::array<double, kPriorities> worthOf(const PriorityMap& map);
+
+/// The map that a header of a plane describes. Safe on any code.
+PriorityMap priorityMapOf(const PriorityHeader& header, Extent plane);
+
+/// The priorities of coefficients: means over the tiles around them.
+class CoefficientPriorities {
+ public:
+  explicit CoefficientPriorities(const PriorityMap& map);
+
+  /// Of a coefficient of a level whose sample lies at (x, y).
+  uint8_t at(uint32_t x, uint32_t y, int level) const;
+
+ private:
+  Extent plane_;
+  int tile_log2_;
+  uint32_t stride_;
+  /// [y * stride_ + x]: the sum of 4^priority of all tiles above and left of the tile (x, y).
+  std::vector<uint64_t> sums_;
+};
+
+}  // namespace tetrakis::inline wavelet

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes a priority map down for a header.
+#pragma once
+
+#include "wavelet/priority_map.hpp"
+
+namespace tetrakis::inline wavelet {
+
+/// None for a map without tiles.
+PriorityHeader headerOf(const PriorityMap& map);
+
+}  // namespace tetrakis::inline wavelet
