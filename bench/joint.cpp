@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_joint DIR...: bytes shared between heights and texture (thesis, chapter 6). For every
-// terrain with a texture and every number of bytes: the best pair of prefixes of the two tracks,
-// found by rendering many, and how far from it the order of the encoder and fixed splits are.
+// terrain with a texture and every number of bytes: the picture that each order of the encoder
+// gives, and how far it is from the best pair of prefixes of its two tracks, found by rendering
+// many; how far fixed splits of the default tracks are; and what it gains that the encoder is told
+// the cameras.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +12,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bench/arguments.hpp"
@@ -24,6 +28,7 @@ namespace tetrakis::bench {
 namespace {
 
 constexpr uint64_t kLeastBytes = 2048, kMostBytes = 262144;
+constexpr uint64_t kLeastGain = 8192, kMostGain = 131072;  // where gains are counted
 constexpr int kFixed = 9;  // splits of 10/90 to 90/10
 
 struct Options {
@@ -31,7 +36,7 @@ struct Options {
   uint32_t grid = 8;
   double spacing = 0;
   bool rendered = false;
-  std::string csv;
+  std::string view = "all", csv;
 };
 
 /// What the encoder knows of the judge.
@@ -66,14 +71,15 @@ class Judge {
   std::map<Split, double> seen_;
 };
 
-Result<Buffer> encodeTerrain(const tools::Reference& original, Knows knows) {
+Result<Buffer> encodeTerrain(const tools::Reference& original, Knows knows,
+                             const std::string& view) {
   const tks_heights heights = tools::asHeights(*original.heights);
   const tks_image image = tools::asImage(*original.image);
   tks_encode_options options = makeEncodeOptions();
   options.bytes = kMostBytes + 8192;  // for the header and heads
   options.regions = 1;
   const auto cameras = tools::chooseCameras(
-      {"", "all"},
+      {"", view},
       tools::boundsOf(tools::heightsOf(*original.heights), tools::frameOf(*original.heights)));
   if (!cameras.ok()) return cameras.status();
   const std::vector<tks_camera> those = tools::toldCameras(*cameras);
@@ -93,12 +99,13 @@ Result<Buffer> encodeTerrain(const tools::Reference& original, Knows knows) {
   return std::move(*stream);
 }
 
-Result<Judge> judgeOf(const Terrain& terrain, std::span<const uint8_t> stream) {
+Result<Judge> judgeOf(const Terrain& terrain, const std::string& view,
+                      std::span<const uint8_t> stream) {
   const Result<Decoder> decoder = Decoder::open(stream);
   if (!decoder) return decoder.status();
   Result<tools::Comparer> comparer = tools::Comparer::create(terrain.original, decoder->info());
   if (!comparer.ok()) return comparer.status();
-  if (Status status = comparer->look({"", "all"}); !status.ok()) return status;
+  if (Status status = comparer->look({"", view}); !status.ok()) return status;
   Result<SplitStream> tracks = SplitStream::take(stream);
   if (!tracks.ok()) return tracks.status();
   return Judge(std::move(*comparer), std::move(*tracks));
@@ -163,7 +170,7 @@ Result<Best> bestPair(Judge& judge, uint64_t bytes, std::vector<double> shares) 
   return Best{shares[static_cast<size_t>(top)], psnrs[static_cast<size_t>(top)]};
 }
 
-/// dB below the best pair, over the numbers of bytes.
+/// dB below the best pair, or above another order, over the numbers of bytes.
 struct Losses {
   std::string name;
   std::vector<double> values;
@@ -174,50 +181,65 @@ struct Losses {
     return sum / static_cast<double>(values.size());
   }
   double worst() const { return *std::max_element(values.begin(), values.end()); }
+  double least() const { return *std::min_element(values.begin(), values.end()); }
 };
 
-/// An order of the encoder: a name, and the stream that has it.
+/// An order of the encoder: a name, and a judge of the stream that has it.
 struct Order {
   std::string name;
-  SplitStream stream;
+  Judge judge;
 };
 
-Result<std::vector<Order>> ordersOf(const Terrain& terrain, bool rendered) {
+Result<std::vector<Order>> ordersOf(const Terrain& terrain, const Options& options) {
   std::vector<std::pair<const char*, Knows>> kinds = {{"default", Knows::kNothing},
                                                       {"told", Knows::kCameras}};
-  if (rendered) kinds.push_back({"rendered", Knows::kPictures});
+  if (options.rendered) kinds.push_back({"rendered", Knows::kPictures});
   std::vector<Order> orders;
   for (const auto& [name, knows] : kinds) {
-    const Result<Buffer> stream = encodeTerrain(terrain.original, knows);
+    const Result<Buffer> stream = encodeTerrain(terrain.original, knows, options.view);
     if (!stream.ok()) return stream.status();
-    Result<SplitStream> split = SplitStream::take(stream->bytes());
-    if (!split.ok()) return split.status();
-    orders.push_back({name, std::move(*split)});
+    Result<Judge> judge = judgeOf(terrain, options.view, stream->bytes());
+    if (!judge.ok()) return judge.status();
+    orders.push_back({name, std::move(*judge)});
   }
   return orders;
 }
 
-/// One line of the table; appends to the losses of the orders and of the fixed splits behind them.
-Status measureBytes(Judge& judge, const std::vector<Order>& orders, uint64_t bytes,
-                    const std::vector<double>& shares, std::vector<Losses>& losses) {
-  const Result<Best> best = bestPair(judge, bytes, shares);
-  if (!best.ok()) return best.status();
-  std::printf("  %7llu %7.2f %6.1f%%", static_cast<unsigned long long>(bytes), best->psnr,
-              100 * best->share);
+/// What is measured of a terrain over the numbers of bytes.
+struct Measured {
+  std::vector<Losses> orders;  ///< against the best pair of the order's own tracks
+  std::vector<Losses> fixed;   ///< against that of the default ones
+  std::vector<Losses> gains;   ///< what an order is above the default one, at 8 to 128 kB
+};
+
+/// One line of the table. Maps of priorities count among the bytes.
+Status measureBytes(std::vector<Order>& orders, uint64_t all_bytes,
+                    const std::vector<double>& shares, Measured& measured) {
+  std::printf("  %7llu", static_cast<unsigned long long>(all_bytes));
+  double default_psnr = 0, best_psnr = 0;
   for (size_t i = 0; i < orders.size(); ++i) {
-    const Split split = orders[i].stream.shipped(bytes);
+    Judge& judge = orders[i].judge;
+    const uint64_t bytes = all_bytes - judge.tracks().mapBytes();
+    const Result<Best> best = bestPair(judge, bytes, shares);
+    if (!best.ok()) return best.status();
+    const Split split = judge.tracks().shipped(bytes);
     const Result<double> psnr = judge.screenPsnr(split);
     if (!psnr.ok()) return psnr.status();
-    losses[i].values.push_back(best->psnr - *psnr);
-    std::printf(" %8.3f %5.1f%%", best->psnr - *psnr,
-                100.0 * static_cast<double>(split.heights) / static_cast<double>(split.total()));
+    if (i == 0) std::tie(default_psnr, best_psnr) = std::pair(*psnr, best->psnr);
+    measured.orders[i].values.push_back(best->psnr - *psnr);
+    const bool counts = i > 0 && all_bytes >= kLeastGain && all_bytes <= kMostGain;
+    if (counts) measured.gains[i - 1].values.push_back(*psnr - default_psnr);
+    std::printf(" %7.2f %6.3f %5.1f%% %5.1f%%", *psnr, best->psnr - *psnr,
+                100.0 * static_cast<double>(split.heights) / static_cast<double>(split.total()),
+                100 * best->share);
   }
   double least = std::numeric_limits<double>::infinity();
+  Judge& judge = orders.front().judge;
   for (int i = 1; i <= kFixed; ++i) {
-    const Result<double> psnr = judge.screenPsnr(splitOf(bytes, i / 10.0, judge.tracks().most()));
+    const Result<double> psnr = judge.screenPsnr(splitOf(all_bytes, i / 10.0, judge.tracks().most()));
     if (!psnr.ok()) return psnr.status();
-    const double loss = best->psnr - *psnr;
-    losses[orders.size() + static_cast<size_t>(i) - 1].values.push_back(loss);
+    const double loss = best_psnr - *psnr;
+    measured.fixed[static_cast<size_t>(i) - 1].values.push_back(loss);
     least = std::min(least, loss);
   }
   std::printf(" %8.3f\n", least);
@@ -225,34 +247,51 @@ Status measureBytes(Judge& judge, const std::vector<Order>& orders, uint64_t byt
   return {};
 }
 
+void report(const Terrain& terrain, const Measured& measured, std::vector<ResultRow>& rows) {
+  std::printf("  mean/worst loss:");
+  for (const auto* losses : {&measured.orders, &measured.fixed}) {
+    for (const Losses& loss : *losses) {
+      std::printf("  %s %.3f/%.3f", loss.name.c_str(), loss.mean(), loss.worst());
+      rows.push_back({terrain.name, loss.name, "mean_loss_db", loss.mean()});
+      rows.push_back({terrain.name, loss.name, "worst_loss_db", loss.worst()});
+    }
+  }
+  std::printf("\n  mean/least gain:");
+  for (const Losses& gain : measured.gains) {
+    std::printf("  %s %.3f/%.3f", gain.name.c_str(), gain.mean(), gain.least());
+    rows.push_back({terrain.name, gain.name, "mean_gain_db", gain.mean()});
+    rows.push_back({terrain.name, gain.name, "least_gain_db", gain.least()});
+  }
+  std::printf("\n");
+}
+
 Status measureTerrain(const Terrain& terrain, const Options& options,
                       std::vector<ResultRow>& rows) {
-  const Result<std::vector<Order>> orders = ordersOf(terrain, options.rendered);
+  Result<std::vector<Order>> orders = ordersOf(terrain, options);
   if (!orders.ok()) return orders.status();
-  Result<Judge> judge = judgeOf(terrain, orders->front().stream.cut({kMostBytes, kMostBytes}));
-  if (!judge.ok()) return judge.status();
-  std::printf("%s\n  %7s %7s %7s", terrain.name.c_str(), "bytes", "best dB", "heights");
-  std::vector<Losses> losses;
+  std::printf("%s, view %s\n  %7s", terrain.name.c_str(), options.view.c_str(), "bytes");
+  Measured measured;
   for (const Order& order : *orders) {
-    std::printf(" %8s %6s", order.name.c_str(), "");
-    losses.push_back({order.name, {}});
+    std::printf(" %7s %6s %6s %6s", order.name.c_str(), "loss", "split", "best");
+    measured.orders.push_back({order.name, {}});
+    if (measured.orders.size() > 1) measured.gains.push_back({order.name, {}});
   }
   std::printf(" %8s\n", "fixed");
-  for (int i = 1; i <= kFixed; ++i) losses.push_back({"fixed_" + std::to_string(10 * i), {}});
+  for (int i = 1; i <= kFixed; ++i)
+    measured.fixed.push_back({"fixed_" + std::to_string(10 * i), {}});
   const std::vector<double> shares = sharesOf(options.grid);
   for (uint64_t bytes = kLeastBytes; bytes <= kMostBytes; bytes *= 2) {
-    const Split most = judge->tracks().most();
-    if (bytes > most.total()) break;
-    if (Status status = measureBytes(*judge, *orders, bytes, shares, losses); !status.ok())
+    const bool enough = std::all_of(orders->begin(), orders->end(), [&](const Order& order) {
+      return bytes <= order.judge.tracks().most().total();
+    });
+    if (!enough) break;
+    if (Status status = measureBytes(*orders, bytes, shares, measured); !status.ok())
       return status;
   }
-  std::printf("  mean/worst loss:");
-  for (const Losses& loss : losses) {
-    std::printf("  %s %.3f/%.3f", loss.name.c_str(), loss.mean(), loss.worst());
-    rows.push_back({terrain.name, loss.name, "mean_loss_db", loss.mean()});
-    rows.push_back({terrain.name, loss.name, "worst_loss_db", loss.worst()});
-  }
-  std::printf("\n  %zu renderings\n", judge->renderings());
+  report(terrain, measured, rows);
+  size_t renderings = 0;
+  for (const Order& order : *orders) renderings += order.judge.renderings();
+  std::printf("  %zu renderings\n", renderings);
   return {};
 }
 
@@ -307,6 +346,8 @@ int main(int argc, char** argv) {
                    options.grid, 2, 200);
   arguments.positive({"--spacing", "Metres per sample, instead of what the files say"},
                      options.spacing);
+  arguments.text({"--view", "Preset cameras that are told and judge: all, low, oblique, top"},
+                 options.view);
   arguments.flag({"--rendered", "Also the order of `encode --engine rendered`"}, options.rendered);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;

@@ -23,6 +23,14 @@ Result<SplitStream> SplitStream::take(std::span<const uint8_t> stream) {
   return taken;
 }
 
+uint64_t SplitStream::mapBytes() const {
+  const auto of = [](const auto& component) {
+    const PriorityHeader& map = component->priorities;
+    return map.none() ? size_t{0} : map.code.size() + 2;  // tile_log2 and the length
+  };
+  return of(header_.geometry) + of(header_.texture);
+}
+
 Split SplitStream::most() const {
   const auto bytes = [&](Component component) {
     return payload_.codewordsOf(component).front().size();

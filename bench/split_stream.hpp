@@ -25,6 +25,8 @@ class SplitStream {
   /// stream: holds both components, each in one track.
   static Result<SplitStream> take(std::span<const uint8_t> stream);
 
+  /// Bytes of the header that say what comes earlier (wavelet/priority_map.hpp).
+  uint64_t mapBytes() const;
   /// All there is of either track.
   Split most() const;
   /// What the stream's own order gives either track with the first `payload` bytes, heads left out.

@@ -12,6 +12,7 @@
 #include "encoder/coded_texture.hpp"
 #include "encoder/meet_target.hpp"
 #include "encoder/quantised_heights.hpp"
+#include "encoder/view_priorities.hpp"
 #include "encoder/views.hpp"
 #include "encoder/write_stream.hpp"
 

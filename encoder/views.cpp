@@ -13,6 +13,7 @@
 #include "base/samples.hpp"
 #include "codec/geometry/voids.hpp"
 #include "encoder/height_errors.hpp"
+#include "encoder/view_inputs.hpp"
 #include "ratecontrol/screen_points.hpp"
 
 namespace tetrakis::inline encoder {
@@ -21,20 +22,8 @@ namespace {
 
 /// Points of all pictures. Twice as many change the mean loss by less than 0.01 dB.
 constexpr size_t kPoints = 6144;
-/// Those that say what is seen of each tile.
-constexpr size_t kMapPoints = 1 << 16;
 /// Of one picture: about each pixel of 768 x 512.
 constexpr size_t kManyPoints = 1 << 19;
-
-/// A unit that is no length counts as metres.
-double metresIn(const char* unit) {
-  return unit != nullptr ? metresPerUnit(unit).value_or(1) : 1;
-}
-
-GroundFrame frameOf(const tks_heights& heights) {
-  return knownFrame({heights.width, heights.height, heights.spacing_x, heights.spacing_y,
-                     metresIn(heights.unit)});
-}
 
 /// The heights that a view of a coarser level shows, and between them those of straight lines.
 std::vector<float> spread(const std::vector<float>& shown, Extent whole, const View& view) {
@@ -56,46 +45,6 @@ std::vector<float> spread(const std::vector<float>& shown, Extent whole, const V
     }
   }
   return heights;
-}
-
-/// samples: of the type and size of `like`. valid: as findVoids() has it.
-Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid) {
-  Relief relief{frameOf(like), {}};
-  const double metres = relief.frame.metres_per_unit;
-  relief.heights.resize(size_t{like.width} * like.height);
-  withSampleType(like.sample, [&](auto type) {
-    const auto* from = static_cast<const decltype(type)*>(samples);
-    for (size_t i = 0; i < relief.heights.size(); ++i) {
-      const double height = static_cast<double>(from[i]) * like.scale + like.offset;
-      const bool is_void = !valid.empty() && !valid[i];
-      relief.heights[i] =
-          is_void ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height * metres);
-    }
-  });
-  return relief;
-}
-
-std::string nameOf(const tks_camera& camera, uint32_t index) {
-  const std::string number = std::to_string(index + 1);
-  return camera.name != nullptr && *camera.name != 0 ? camera.name : number;
-}
-
-std::vector<Camera> givenCameras(const tks_encode_options& options) {
-  std::vector<Camera> cameras;
-  for (uint32_t i = 0; i < options.camera_count; ++i) {
-    const tks_camera& given = options.cameras[i];
-    Camera camera;
-    camera.name = nameOf(given, i);
-    std::copy_n(given.eye, 3, camera.eye.begin());
-    std::copy_n(given.target, 3, camera.target.begin());
-    std::copy_n(given.up, 3, camera.up.begin());
-    camera.fov_y = given.fov_y;
-    camera.width = given.width;
-    camera.height = given.height;
-    camera.weight = given.weight;
-    cameras.push_back(std::move(camera));
-  }
-  return cameras;
 }
 
 /// Those of the options, or for any viewer; none if the terrain has no bounds.
@@ -314,83 +263,7 @@ PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) 
   return {{first(heights), first(texture)}, {2, 1, 1, 0}};
 }
 
-/// A map of tiles whose sides are powers of two, a few on a side.
-PriorityMap tilesOf(Extent plane) {
-  const uint32_t most = getenv("T_TILES") ? atoi(getenv("T_TILES")) : 24;
-  PriorityMap map{plane, PriorityHeader::kLeastTileLog2, {}};
-  while (std::max(map.columns(), map.rows()) > most) ++map.tile_log2;
-  return map;
-}
-
-/// Errors of a tile are worth 4 times as much for each priority. worths: of the tiles, summed.
-PriorityMap mapOf(PriorityMap map, const std::vector<double>& worths) {
-  const double edge = static_cast<double>(uint64_t{1} << map.tile_log2);
-  const auto side = [&](uint32_t index, uint32_t length) {
-    return std::min(edge, length - edge * index);
-  };
-  std::vector<double> densities;
-  for (uint32_t y = 0; y < map.rows(); ++y) {
-    for (uint32_t x = 0; x < map.columns(); ++x) {
-      const double samples = side(x, map.plane.width) * side(y, map.plane.height);
-      // Narrow tiles are seen by few points: they count like the others.
-      densities.push_back(worths[densities.size()] / std::max(samples, edge * edge / 4));
-    }
-  }
-  const double most = *std::max_element(densities.begin(), densities.end());
-  if (!(most > 0)) return {};
-  const double top = kPriorities - 1;
-  const double scale = getenv("T_SCALE") ? atof(getenv("T_SCALE")) : 1;
-  for (const double density : densities) {
-    const double priority = density > 0 ? top + scale * std::log2(density / most) / 2 : 0;
-    map.priorities.push_back(static_cast<uint8_t>(std::clamp(std::round(priority), 0.0, top)));
-  }
-  const uint8_t least = *std::min_element(map.priorities.begin(), map.priorities.end());
-  for (uint8_t& priority : map.priorities) priority = static_cast<uint8_t>(priority - least);
-  return *std::max_element(map.priorities.begin(), map.priorities.end()) > 0 ? map : PriorityMap{};
-}
-
 }  // namespace
-
-ViewPriorities prioritiesOf(const EncodeInputs& inputs) {
-  const auto& [heights, image, options, none] = inputs;
-  const bool alike = options.psnr > 0 || options.max_error > 0;
-  if (options.camera_count == 0 || heights == nullptr || image == nullptr || alike) return {};
-  if (getenv("T_OFF")) return {};
-  const Result<std::vector<uint8_t>> valid = findVoids(*heights);
-  if (!valid.ok()) return {};
-  const GroundRays ground(reliefOf(*heights, heights->data, *valid));
-  const std::shared_ptr<const TextureSource> source = quantiseTexture(*image);
-  const Texels& texels = source->texels;
-  const ScreenPoints points(givenCameras(options), kMapPoints);
-  const double range = ground.bounds().high[1] - ground.bounds().low[1];
-  const double part = getenv("T_SHIFT") ? atof(getenv("T_SHIFT")) : 0.005;
-  ViewPriorities maps{tilesOf({heights->width, heights->height}), tilesOf(texels.extent())};
-  std::vector<double> of_heights(size_t{maps.heights.columns()} * maps.heights.rows());
-  std::vector<double> of_texture(size_t{maps.texture.columns()} * maps.texture.rows());
-  const ScreenTexture shown(texels, texels.extent());
-  for (const auto& worth : points.worthsOf(ground, shown, texels.extent(), range * part)) {
-    const auto add = [&](const PriorityMap& map, double value, std::vector<double>& sums) {
-      const auto place = [&](double at, uint32_t grid, uint32_t side) {
-        const double sample = at / (grid - 1.0) * side;
-        return std::min(static_cast<uint32_t>(std::max(sample, 0.0)), side - 1) >> map.tile_log2;
-      };
-      const uint32_t x = place(worth.column, heights->width, map.plane.width);
-      const uint32_t y = place(worth.row, heights->height, map.plane.height);
-      sums[size_t{y} * map.columns() + x] += value;
-    };
-    add(maps.heights, worth.heights, of_heights);
-    add(maps.texture, worth.texture, of_texture);
-  }
-  maps.heights = mapOf(std::move(maps.heights), of_heights);
-  maps.texture = mapOf(std::move(maps.texture), of_texture);
-  if (getenv("T_NOH")) maps.heights = {};
-  if (getenv("T_NOT")) maps.texture = {};
-  if (getenv("T_DUMP"))
-    for (const PriorityMap* m : {&maps.heights, &maps.texture})
-      for (size_t i = 0; i < m->priorities.size(); ++i)
-        fprintf(stderr, "%d%s", m->priorities[i], (i + 1) % m->columns() ? "" : "\n");
-  return maps;
-}
 
 Status checkCameras(const EncodeInputs& inputs) {
   const tks_encode_options& options = inputs.options;

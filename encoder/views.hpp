@@ -19,10 +19,6 @@ namespace tetrakis::inline encoder {
 /// (checkCamera()), is below the ground, or sees none of it; or if all weights are 0.
 Status checkCameras(const EncodeInputs& inputs);
 
-/// What the cameras of the options look at. Maps without tiles where there is none, where only one
-/// component is coded, or where a target is one of all samples alike (a PSNR, a largest error).
-ViewPriorities prioritiesOf(const EncodeInputs& inputs);
-
 /// A component as it is coded, with the curve of its packets.
 template <class Coded>
 struct Rated {

@@ -26,6 +26,11 @@ double squaresBetween(const Colour& a, const Colour& b) {
   return squares;
 }
 
+/// Pixels that an edge errs by which moves by `shift` pixels, as pixels smooth it.
+double smoothedEdge(double shift) {
+  return shift < 1 ? shift - shift * shift / 3 : 1 - 1 / (3 * shift);
+}
+
 }  // namespace
 
 ScreenPoints::ScreenPoints(const std::vector<Camera>& cameras, size_t count) {
@@ -168,41 +173,60 @@ std::vector<double> ScreenPoints::errorsOfOutlines(const Pictures& truth,
       }
       if (!(error > 0 && metres > 0)) continue;
       const double shift = std::sqrt(squares[g]) * count / metres;  // pixels
-      const double edge = shift < 1 ? shift - shift * shift / 3 : 1 - 1 / (3 * shift);
-      const double smoothed = (1 + 3 * edge) / 4;
+      const double smoothed = (1 + 3 * smoothedEdge(shift)) / 4;
       errors[g] += view.weight / weights * smoothed * error / shifts * std::sqrt(squares[g]);
     }
   }
   return errors;
 }
 
-std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const GroundRays& ground,
-                                                        const ScreenTexture& texture,
-                                                        Extent texels, double shift) const {
-  const double columns = ground.frame().width - 1.0, rows = ground.frame().height - 1.0;
-  const std::vector<SeenPoint> seen = seenOf(ground, texels);
+double ScreenPoints::inside(const Point& point, const SeenPoint& seen, const GroundHit& plane,
+                            const Surface& surface) const {
+  const GroundFrame& frame = surface.ground.frame();
+  const Colour truth = surface.texture.at(seen.u, seen.v, seen.level);
+  double squares = 0;
+  for (const double rise : {-surface.shift, surface.shift}) {
+    GroundHit moved = plane;
+    moved.at += rise;
+    const auto place = surface.ground.onPlane(moved, point.ray);
+    if (!place) continue;
+    const double u = (*place)[0] / (frame.width - 1.0), v = (*place)[1] / (frame.height - 1.0);
+    squares += squaresBetween(surface.texture.at(u, v, seen.level), truth) / 2;
+  }
+  return squares;
+}
+
+double ScreenPoints::outline(const Point& point, const SeenPoint& seen, const GroundHit& plane,
+                             const Surface& surface) const {
+  constexpr double kFarther = 1.1;
+  const GroundFrame& frame = surface.ground.frame();
+  const Ray above{point.ray.origin, subtract(point.ray.direction, point.down)};
+  const auto behind = surface.ground.hit(above);
+  if (behind && behind->far < kFarther * plane.far) return 0;
+  Colour beyond = point.sky;
+  if (behind)
+    beyond = surface.texture.at(behind->column / (frame.width - 1.0),
+                                behind->row / (frame.height - 1.0), seen.level);
+  const Colour truth = surface.texture.at(seen.u, seen.v, seen.level);
+  return squaresBetween(beyond, truth) * smoothedEdge(surface.shift / seen.metres);
+}
+
+std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const Surface& surface,
+                                                        Extent texels) const {
+  const std::vector<SeenPoint> seen = seenOf(surface.ground, texels);
   std::vector<Worth> worths;
   for (const View& view : views_) {
     const auto begin = seen.begin() + static_cast<ptrdiff_t>(view.begin);
     const auto end = seen.begin() + static_cast<ptrdiff_t>(view.end);
-    const auto covered =
-        static_cast<double>(std::count_if(begin, end, [](const auto& s) { return s.ground; }));
+    const auto covered = std::count_if(begin, end, [](const auto& s) { return s.ground; });
+    const double weight = view.weight / static_cast<double>(std::max<ptrdiff_t>(covered, 1));
     for (size_t i = view.begin; i < view.end; ++i) {
-      const SeenPoint& s = seen[i];
-      if (!s.ground) continue;
-      const GroundHit plane = *ground.hit(points_[i].ray);
-      const double weight = view.weight / covered;
-      Worth worth{plane.column, plane.row, 0, weight * std::exp2(-2 * s.level)};
-      const Colour truth = texture.at(s.u, s.v, s.level);
-      for (const double rise : {-shift, shift}) {
-        GroundHit moved = plane;
-        moved.at += rise;
-        const auto place = ground.onPlane(moved, points_[i].ray);
-        if (!place) continue;
-        const Colour shown = texture.at((*place)[0] / columns, (*place)[1] / rows, s.level);
-        worth.heights += weight * squaresBetween(shown, truth) / (6 * shift * shift);
-      }
-      worths.push_back(worth);
+      const auto hit = seen[i].ground ? surface.ground.hit(points_[i].ray) : std::nullopt;
+      if (!hit) continue;
+      const double moved = inside(points_[i], seen[i], *hit, surface) +
+                           outline(points_[i], seen[i], *hit, surface);
+      worths.push_back({hit->column, hit->row, weight * moved,
+                        weight * std::exp2(-2 * seen[i].level)});
     }
   }
   return worths;

@@ -58,16 +58,20 @@ class ScreenPoints {
   std::vector<double> errorsOfOutlines(const Pictures& truth, const std::vector<Pictures>& others,
                                        const std::vector<double>& squares) const;
 
-  /// What errors at the ground of a point take off its picture, as parts of the error over all
-  /// cameras.
-  struct Worth {
-    double column = 0, row = 0;  ///< of the grid, as GroundHit has them
-    double heights = 0;          ///< of a height error of so many metres, per square metre
-    double texture = 0;          ///< of squared errors of texels
+  /// Terrain that is looked at, and a typical error of its heights, in metres.
+  struct Surface {
+    const GroundRays& ground;
+    const ScreenTexture& texture;
+    double shift;
   };
-  /// Of the points that show ground. shift: of the surface, in metres.
-  std::vector<Worth> worthsOf(const GroundRays& ground, const ScreenTexture& texture, Extent texels,
-                              double shift) const;
+  /// What errors cost where a point shows the ground, as parts of the error over all cameras: of
+  /// heights that are off by the shift; of texels, per square. What the pixels of a point do not
+  /// resolve they average.
+  struct Worth {
+    double column = 0, row = 0;  ///< GroundHit
+    double heights = 0, texture = 0;
+  };
+  std::vector<Worth> worthsOf(const Surface& surface, Extent texels) const;
 
   /// Places in the list of cameras of those that have a weight and see no ground.
   std::vector<size_t> blindCameras(const std::vector<SeenPoint>& seen) const;
@@ -92,6 +96,12 @@ class ScreenPoints {
   Outline outlineOf(const View& view, const Pictures& a, const Pictures& b) const;
 
   void addPoints(const Camera& camera, size_t count);
+  /// Squared changes of a point's colour if the surface rises or falls: of the ground that it
+  /// shows, and of what it shows instead where an outline is.
+  double inside(const Point& point, const SeenPoint& seen, const GroundHit& plane,
+                const Surface& surface) const;
+  double outline(const Point& point, const SeenPoint& seen, const GroundHit& plane,
+                 const Surface& surface) const;
 
   std::vector<Point> points_;
   std::vector<View> views_;
