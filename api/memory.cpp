@@ -27,14 +27,23 @@ uint64_t area(const auto& extent) {
   return uint64_t{extent.width} * extent.height;
 }
 
+/// A map of priorities and its sums.
+uint64_t mapBytes(const auto& header) {
+  const int log2 = header.priorities.tile_log2;
+  const uint64_t columns = tilesAlong(header.width, log2), rows = tilesAlong(header.height, log2);
+  return columns * rows + (columns + 1) * (rows + 1) * sizeof(uint64_t);
+}
+
 /// The state of the tracks that are decoded at a time.
 uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t components,
                     bool masked, Component component) {
   const bool known =
       header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(component);
-  const TrackNeeds needs{header.extent(), header.regions.side_log2, components,       masked,
-                         known,           decoder.threads,          decoder.remembers};
-  return needs.bytes();
+  const bool ordered = !header.priorities.none();
+  const TrackNeeds needs{
+      header.extent(), header.regions.side_log2, components,       masked, ordered,
+      known,           decoder.threads,          decoder.remembers};
+  return needs.bytes() + (ordered ? mapBytes(header) : 0);
 }
 
 /// What there is for each track all the time.

@@ -29,7 +29,7 @@ namespace {
 
 constexpr uint64_t kLeastBytes = 2048, kMostBytes = 262144;
 constexpr uint64_t kLeastGain = 8192, kMostGain = 131072;  // where gains are counted
-constexpr int kFixed = 9;  // splits of 10/90 to 90/10
+constexpr int kFixed = 9;                                  // splits of 10/90 to 90/10
 
 struct Options {
   std::vector<std::string> folders, filters;
@@ -236,7 +236,8 @@ Status measureBytes(std::vector<Order>& orders, uint64_t all_bytes,
   double least = std::numeric_limits<double>::infinity();
   Judge& judge = orders.front().judge;
   for (int i = 1; i <= kFixed; ++i) {
-    const Result<double> psnr = judge.screenPsnr(splitOf(all_bytes, i / 10.0, judge.tracks().most()));
+    const Result<double> psnr =
+        judge.screenPsnr(splitOf(all_bytes, i / 10.0, judge.tracks().most()));
     if (!psnr.ok()) return psnr.status();
     const double loss = best_psnr - *psnr;
     measured.fixed[static_cast<size_t>(i) - 1].values.push_back(loss);
@@ -285,8 +286,7 @@ Status measureTerrain(const Terrain& terrain, const Options& options,
       return bytes <= order.judge.tracks().most().total();
     });
     if (!enough) break;
-    if (Status status = measureBytes(*orders, bytes, shares, measured); !status.ok())
-      return status;
+    if (Status status = measureBytes(*orders, bytes, shares, measured); !status.ok()) return status;
   }
   report(terrain, measured, rows);
   size_t renderings = 0;

@@ -60,7 +60,16 @@ std::vector<VectorCase> refusedHeaders() {
   refuse("scale", "a scale of NaN", [](StreamHeader& h) { h.metadata.scale = kNaN; });
   refuse("max_error", "a largest error of NaN",
          [](StreamHeader& h) { h.geometry->max_error = kNaN; });
-  refuse("planes", "32 bit-planes of heights", [](StreamHeader& h) { h.geometry->planes = 32; });
+  refuse("planes", "stored heights with a map of priorities",
+         [](StreamHeader& h) { h.geometry->planes = 63; });
+  refuse("tiles", "a map of more than 65536 tiles", [](StreamHeader& h) {
+    h = heightsHeader(4097, 4096, TKS_I16, 8);
+    h.geometry->priorities = {4, "map"};
+  });
+  refuse("drawn_priorities", "a drawn texture with a map of priorities", [](StreamHeader& h) {
+    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+    h.texture->priorities = {4, "map"};
+  });
   refuse("stored_flat", "stored heights with flat areas", [](StreamHeader& h) {
     h.geometry->planes = GeometryHeader::kStoredPlanes;
     h.layers.flat_bytes = 5;

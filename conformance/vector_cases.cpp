@@ -397,6 +397,28 @@ std::vector<VectorCase> waterCases() {
 }
 
 /// The part of the header that says where things lie.
+/// Coefficients have priorities, by what a camera sees.
+std::vector<VectorCase> toldCases() {
+  const auto told = [](const std::string& name, const std::string& purpose,
+                       const tks_encode_options& options) {
+    VectorCase both = heightsCase(name, purpose, {Pattern::kRidges, 120, 90, 1, TKS_I16}, options);
+    both.texture = {Pattern::kRidges, 100, 130, 3, TKS_U8};
+    both.told = true;
+    return both;
+  };
+  VectorCase masked = asCutout(
+      withVoids(told("told_masks_120x90_100x130",
+                     "maps of priorities beside voids and a cut-out; mixed blocks", budget(6000)),
+                samples::VoidShape::kCoast, -32768),
+      samples::VoidShape::kCoast);
+  masked.texture->channels = 4;
+  return {told("told_120x90_100x130", "maps of priorities: heights and texture to the last bit",
+               lossless()),
+          told("told_regions_120x90_100x130", "maps of priorities over several tracks",
+               inRegions(budget(9000), 32)),
+          masked};
+}
+
 std::vector<VectorCase> placedCases() {
   VectorCase joint = heightsCase("placed_joint_20x15_40x31", "georeference of heights and texture",
                                  {Pattern::kRidges, 20, 15, 1, TKS_I16}, indexed(lossless()));
@@ -472,6 +494,21 @@ void placeBoth(bool has_heights, tks_heights& heights, tks_image& image) {
   }
 }
 
+/// It sees a sixth of the ground on each side, and is above any 16-bit height. Samples of unknown
+/// spacing are 30 m apart.
+tks_camera cameraAbove(const tks_heights& heights) {
+  const double x = -0.3 * 30 * heights.width, z = -0.3 * 30 * heights.height;
+  tks_camera camera = {};
+  const double eye[] = {x, 40000, z}, target[] = {x, 0, z}, up[] = {0, 0, -1};
+  std::copy_n(eye, 3, camera.eye);
+  std::copy_n(target, 3, camera.target);
+  std::copy_n(up, 3, camera.up);
+  camera.fov_y = 1;
+  camera.width = camera.height = 128;
+  camera.weight = 1;
+  return camera;
+}
+
 }  // namespace
 
 std::vector<VectorCase> vectorCases() {
@@ -484,6 +521,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
   for (VectorCase& next : waterCases()) all.push_back(std::move(next));
+  for (VectorCase& next : toldCases()) all.push_back(std::move(next));
   for (VectorCase& next : placedCases()) all.push_back(std::move(next));
   for (VectorCase& next : craftedCases()) all.push_back(std::move(next));
   for (VectorCase& next : unusualAndRefusedCases()) all.push_back(std::move(next));
@@ -515,8 +553,14 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     image = picture.image();
   }
   if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);
+  tks_encode_options options = vector_case.options;
+  const tks_camera above = cameraAbove(heights);
+  if (vector_case.told) {
+    options.cameras = &above;
+    options.camera_count = 1;
+  }
   const auto stream = encode(vector_case.heights ? &heights : nullptr,
-                             vector_case.texture ? &image : nullptr, vector_case.options);
+                             vector_case.texture ? &image : nullptr, options);
   if (!stream)
     return Status(stream.status().code(), vector_case.name + ": " + stream.status().message());
   std::vector<uint8_t> bytes(stream->bytes().begin(), stream->bytes().end());

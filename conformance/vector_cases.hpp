@@ -33,6 +33,7 @@ struct VectorCase {
   int exponent = 0;                           ///< float heights are multiplied by 2^exponent
   uint32_t spikes = 0;                        ///< one in so many heights stands out of a plain
   bool placed = false;                        ///< heights and texture have a georeference
+  bool told = false;                          ///< a camera looks down on the north-west
   std::vector<uint8_t> stream;  ///< not empty: nothing is encoded, these are the bytes
   bool dense = false;           ///< cuts lie close to each other in the middle
   int damaged_byte = -1;        ///< inverted after encoding; such a stream must not open

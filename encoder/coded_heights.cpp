@@ -50,12 +50,11 @@ void putTable(const QuantisedHeights& heights, GeometryLayers& layers, EncodedTr
   for (const RatePoint& point : track.points) {
     const bool before = point.bytes <= layers.table_after;
     if (before) {
-      points.push_back({point.bytes, point.distortion + heights.without_table, point.dips,
-                        point.beyond});
+      points.push_back(
+          {point.bytes, point.distortion + heights.without_table, point.dips, point.beyond});
     }
     if (point.bytes >= layers.table_after)
-      points.push_back(
-          {point.bytes + table.size(), point.distortion, point.dips, point.beyond});
+      points.push_back({point.bytes + table.size(), point.distortion, point.dips, point.beyond});
   }
   track.points = std::move(points);
 }

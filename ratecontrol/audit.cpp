@@ -110,7 +110,10 @@ class Correction {
 
 std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                              const Measure& measure) {
-  if (scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);
+  // Measures know nothing of priorities.
+  const bool alike = std::all_of(track.points.begin(), track.points.end(),
+                                 [](const RatePoint& point) { return point.beyond == 0; });
+  if (alike && scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);
   std::vector<RatePoint> corrected = track.points;
   if (scope.budget == UINT64_MAX) {
     const Correction correction(track.points, kLargeMeasurements, measure);

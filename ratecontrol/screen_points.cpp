@@ -223,10 +223,10 @@ std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const Surface& surface,
     for (size_t i = view.begin; i < view.end; ++i) {
       const auto hit = seen[i].ground ? surface.ground.hit(points_[i].ray) : std::nullopt;
       if (!hit) continue;
-      const double moved = inside(points_[i], seen[i], *hit, surface) +
-                           outline(points_[i], seen[i], *hit, surface);
-      worths.push_back({hit->column, hit->row, weight * moved,
-                        weight * std::exp2(-2 * seen[i].level)});
+      const double moved =
+          inside(points_[i], seen[i], *hit, surface) + outline(points_[i], seen[i], *hit, surface);
+      worths.push_back(
+          {hit->column, hit->row, weight * moved, weight * std::exp2(-2 * seen[i].level)});
     }
   }
   return worths;

@@ -124,7 +124,8 @@ void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track
   if (opening.empty()) return;
   track.codeword.insert(track.codeword.begin(), opening.begin(), opening.end());
   for (RatePoint& point : track.points) point.bytes += opening.size();
-  track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth, false, track.points.front().beyond});
+  track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth, false,
+                                             track.points.front().beyond});
 }
 
 /// The mask of a cut-out goes first, then the overlay: without them alphas are all wrong, and

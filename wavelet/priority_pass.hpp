@@ -62,8 +62,8 @@ class PriorityPass {
     const bool up = either ? io_.decide(up_[busy], wanted > priority) : priority == 0;
     const int room = up ? kHighest - priority : priority;
     int off = 1;
-    while (off < room && io_.decide(more_[static_cast<size_t>(off)],
-                                    std::abs(wanted - priority) > off))
+    while (off < room &&
+           io_.decide(more_[static_cast<size_t>(off)], std::abs(wanted - priority) > off))
       ++off;
     return up ? priority + off : priority - off;
   }

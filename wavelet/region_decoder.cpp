@@ -36,6 +36,7 @@ uint64_t TrackNeeds::bytes() const {
     for (const BandPart& part : partsOf(pyramid.subbands(), region)) {
       if (known) sum += components * Band::bytesOf(part.shape(), masked);
       if (masked) sum += components * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
+      if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all components
     }
     largest = std::max(largest, sum);
   }

@@ -30,8 +30,9 @@ struct TrackNeeds {
   Extent plane;
   int side_log2;  ///< of the regions; 0: there is one track
   uint32_t components;
-  bool masked;  ///< some samples do not exist, and their coefficients are absent
-  bool known;   ///< there may be a byte of a track
+  bool masked;   ///< some samples do not exist, and their coefficients are absent
+  bool ordered;  ///< coefficients have priorities
+  bool known;    ///< there may be a byte of a track
   uint32_t threads;
   bool kept;  ///< in a TrackMemory
 

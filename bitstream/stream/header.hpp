@@ -281,9 +281,9 @@ struct TextureHeader {
     channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
     v.u8("texture_sample", sample, 0, TKS_U16);
     const uint8_t overlaid = kDrawnPlanes + 1;
-    auto coding =
-        static_cast<uint8_t>((stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
-                             (priorities.none() ? 0 : kWithPriorities));
+    auto coding = static_cast<uint8_t>(
+        (stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
+        (priorities.none() ? 0 : kWithPriorities));
     v.u8("texture_planes", coding, 0, kWithPriorities + kStoredTexture - 1);
     const bool ordered = coding >= kWithPriorities;
     coding %= kWithPriorities;

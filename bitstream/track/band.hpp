@@ -76,9 +76,7 @@ struct BandTiers {
   std::vector<uint8_t> blocks;    ///< tiers that a block has coefficients of: bit t for tier t
   std::vector<uint8_t> near;      ///< the same of a block and the eight around it
 
-  uint64_t bytes() const {
-    return members.size() * sizeof(uint32_t) + blocks.size() + near.size();
-  }
+  uint64_t bytes() const { return members.size() * sizeof(uint32_t) + blocks.size() + near.size(); }
   /// What the tiers of a band of that shape take.
   static uint64_t bytesOf(const BandShape& shape);
   /// blocks and near, from the members.
@@ -165,12 +163,12 @@ struct Band {
   Orientation orientation = Orientation::kLL;
   std::array<Tier, kPriorities> tier;
   std::shared_ptr<const BandTiers> tiers;  ///< null: all coefficients are in tier 0
-  ZeroedArray<uint32_t> magnitude;    ///< known bits, unknown ones zero
+  ZeroedArray<uint32_t> magnitude;         ///< known bits, unknown ones zero
   ZeroedArray<uint8_t> scaled;  ///< magnitude >> plane, held below 2^7; of the last pass's tier
-  ZeroedArray<int8_t> sign;           ///< -1, 0 while insignificant, 1
-  ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
-  ZeroedArray<uint32_t> visited;  ///< bit map: bit `plane` of its tier is known, or absent
-  ZeroedArray<uint32_t> absent;       ///< bit map: does not exist; without elements: all do
+  ZeroedArray<int8_t> sign;     ///< -1, 0 while insignificant, 1
+  ZeroedArray<uint32_t> significant;   ///< bit map: magnitude is not zero
+  ZeroedArray<uint32_t> visited;       ///< bit map: bit `plane` of its tier is known, or absent
+  ZeroedArray<uint32_t> absent;        ///< bit map: does not exist; without elements: all do
   ZeroedArray<uint8_t> block_nonzero;  ///< tiers of which the block holds a significant one
 };
 

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <utility>
 
-#include "bitstream/stream/header.hpp"
 #include "bitstream/coder/decision_encoding.hpp"
+#include "bitstream/stream/header.hpp"
 #include "codec/geometry/flat_pass.hpp"
 
 namespace tetrakis::inline geometry {

@@ -42,6 +42,12 @@ bool Band::empty() const {
                      [](const Coefficient& c) { return c.absent; });
 }
 
+uint32_t Band::existing(int priority) const {
+  return static_cast<uint32_t>(
+      std::count_if(coefficients.begin(), coefficients.end(),
+                    [&](const Coefficient& c) { return !c.absent && c.priority == priority; }));
+}
+
 Coefficient& Band::at(int r, int a) {
   return coefficients.at(size_t(r) * columns + a);
 }
@@ -63,7 +69,8 @@ Neighbours Band::neighboursOf(int r, int a) const {
 
 bool Band::blockMarked(int row, int column) const {
   if (row < 0 || row >= blockRows() || column < 0 || column >= blockColumns()) return false;
-  return blocks.at(size_t(row) * blockColumns() + column);
+  const auto& of = blocks.at(size_t(row) * blockColumns() + column);
+  return std::find(of.begin(), of.end(), true) != of.end();
 }
 
 int32_t Band::value(int r, int a, int e) const {
@@ -76,9 +83,12 @@ int32_t Band::value(int r, int a, int e) const {
   }
   if (c.plane == 0) return 0;
   const SignWeights w = weightsOf(orientation);
-  int t = w.along * (n.along[0].sign + n.along[1].sign) +
-          w.across * (n.across[0].sign + n.across[1].sign);
-  for (const Coefficient& far : n.far) t += w.far * far.sign;
+  const auto signOf = [&](const Coefficient& neighbour) {
+    return (2 * uint64_t{neighbour.magnitude}) >> c.plane > 0 ? neighbour.sign : 0;
+  };
+  int t = w.along * (signOf(n.along[0]) + signOf(n.along[1])) +
+          w.across * (signOf(n.across[0]) + signOf(n.across[1]));
+  for (const Coefficient& far : n.far) t += w.far * signOf(far);
   const int64_t size = fraction(static_cast<uint64_t>(std::abs(t)), c.plane, e);
   return static_cast<int32_t>(t < 0 ? -size : size);
 }

@@ -98,12 +98,14 @@ Surface decodeSurface(const GeometryHeader& header,
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   surface.plane = std::move(known);
   surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
+  const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     const size_t track = surface.parts.size();
     surface.parts.push_back(partsOf(subbands, region));
     std::vector<Band>& bands = surface.bands.emplace_back();
     bands = bandsOf(header.wavelet, surface.parts.back(), 0);
     markAbsent(surface.parts.back(), surface.plane, bands);
+    setPriorities(surface.parts.back(), priorities, bands);
     dropFiner(surface.parts.back(), level, bands);
     decodeTrack(coefficients[track], header.planes, bands);
   }

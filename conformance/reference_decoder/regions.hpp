@@ -11,6 +11,17 @@
 
 namespace tetrakis::reference {
 
+/// FORMAT 5.2: priorities of tiles, row by row; without any all coefficients have priority 0.
+struct PriorityMap {
+  int width = 0, height = 0, tileLog2 = 0;
+  std::vector<int> tiles;
+
+  int columns() const { return ((width - 1) >> tileLog2) + 1; }
+  int rows() const { return ((height - 1) >> tileLog2) + 1; }
+};
+
+PriorityMap priorityMapOf(const PriorityHeader& header, int width, int height);
+
 /// Which coefficients a track holds.
 struct Region {
   bool base;                  ///< LL and every level from firstLevel on, of the whole plane
@@ -37,6 +48,9 @@ std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& 
 
 /// FORMAT 7, "Places": coefficients of voids do not exist.
 void markAbsent(const std::vector<Part>& parts, const Plane& plane, std::span<Band> bands);
+
+/// FORMAT 5.2: the priorities of coefficients, those of a plane of W x H samples.
+void setPriorities(const std::vector<Part>& parts, const PriorityMap& map, std::span<Band> bands);
 
 /// FORMAT 7.1: marks the bands that a level does not need.
 void dropFiner(const std::vector<Part>& parts, int level, std::span<Band> bands);

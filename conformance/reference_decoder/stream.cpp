@@ -35,13 +35,27 @@ WaveletHeader readWavelet(Reader& in) {
   return w;
 }
 
+/// FORMAT 2, table Priorities.
+PriorityHeader readPriorities(Reader& in, int width, int height) {
+  PriorityHeader priorities;
+  priorities.tileLog2 = in.u8(4, 20);
+  const auto code = in.take(in.varint(0, UINT64_MAX));
+  priorities.code.assign(code.begin(), code.end());
+  const int64_t columns = ((width - 1) >> priorities.tileLog2) + 1;
+  const int64_t rows = ((height - 1) >> priorities.tileLog2) + 1;
+  if (columns * rows > 65536) in.fail(Outcome::kCorrupt);
+  return priorities;
+}
+
 /// FORMAT 2, table Geometry.
 GeometryHeader readGeometry(Reader& in) {
   GeometryHeader g;
   g.width = static_cast<int>(in.varint(2, 1 << 20));
   g.height = static_cast<int>(in.varint(2, 1 << 20));
   g.sample = in.u8(kU8, kF32);
-  g.planes = in.u8(0, 31);
+  const int coding = in.u8(0, 62);
+  g.planes = coding % 32;
+  if (coding >= 32) g.priorities = readPriorities(in, g.width, g.height);
   in.u8(0, 1);  // exact
   g.base = in.f64();
   g.step = in.f64();
@@ -125,9 +139,11 @@ TextureHeader readTexture(Reader& in) {
   t.channels = t.components + cutout;
   t.sample = in.u8(kU8, kU16);
   if (t.sample == kI8) in.fail(Outcome::kCorrupt);
-  const int coding = in.u8(0, 63);
+  const int all = in.u8(0, 126), coding = all % 64;
   t.planes = coding % 32;
   t.stored = coding == 63;
+  if (all >= 64) t.priorities = readPriorities(in, t.width, t.height);
+  if (all >= 64 && t.planes == kDrawnPlanes) in.fail(Outcome::kCorrupt);
   if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
   if (cutout) {

@@ -27,10 +27,17 @@ struct RegionHeader {
   int log2 = 0;
 };
 
+/// FORMAT 2, table Priorities.
+struct PriorityHeader {
+  int tileLog2 = 0;  ///< 0: none
+  std::vector<uint8_t> code;
+};
+
 struct GeometryHeader {
   int width = 0, height = 0, sample = 0, planes = 0;
   double base = 0, step = 1;
   WaveletHeader wavelet;
+  PriorityHeader priorities;
   RegionHeader regions;
 };
 
@@ -60,6 +67,7 @@ struct TextureHeader {
   uint64_t overlayBytes = 0;  ///< 0: no overlay
   bool hidden = false;
   WaveletHeader wavelet;
+  PriorityHeader priorities;
   RegionHeader regions;
   std::array<int, 4> centre = {}, priority = {};
   /// [component][level - 1][1 for HH], as many levels as the header tells.

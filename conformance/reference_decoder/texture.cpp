@@ -127,6 +127,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     coded.valid.resize(overlay.size(), 1);
     for (size_t i = 0; i < overlay.size(); ++i) coded.valid[i] &= !overlay[i];
   }
+  const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
   std::vector<std::vector<Part>> parts;
   std::vector<std::vector<Band>> bands;
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
@@ -136,6 +137,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
       const auto own =
           std::span(bands.back()).subspan(c * parts.back().size(), parts.back().size());
       markAbsent(parts.back(), coded, own);
+      setPriorities(parts.back(), priorities, own);
       dropFiner(parts.back(), level, own);
     }
     decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());

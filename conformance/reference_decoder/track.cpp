@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -19,6 +20,7 @@ enum Kind { kLikely, kRest, kRefine };
 struct Pass {
   int key, plane;
   size_t band;
+  int priority;
   Kind kind;
 };
 
@@ -27,7 +29,9 @@ class PassOrder {
  public:
   PassOrder(int planes, const std::vector<Band>& bands) : bands_(bands) {
     for (size_t b = 0; b < bands.size() && planes > 0; ++b) {
-      if (!bands[b].empty()) makePending(b, planes - 1, kLikely);
+      for (int priority = 0; priority < 8; ++priority) {
+        if (bands[b].existing(priority) > 0) makePending({0, planes - 1, b, priority, kLikely});
+      }
     }
   }
 
@@ -38,37 +42,41 @@ class PassOrder {
 
   Pass next() const {
     return *std::min_element(pending_.begin(), pending_.end(), [](const Pass& x, const Pass& y) {
-      return std::tuple(-x.key, -x.plane, x.band, x.kind) <
-             std::tuple(-y.key, -y.plane, y.band, y.kind);
+      return std::tuple(-x.key, -x.plane, x.band, -x.priority, x.kind) <
+             std::tuple(-y.key, -y.plane, y.band, -y.priority, y.kind);
     });
   }
 
   void hasRun(const Pass& pass) {
-    const auto same = [&](const Pass& p) { return p.band == pass.band; };
+    const auto same = [&](const Pass& p) {
+      return p.band == pass.band && p.priority == pass.priority;
+    };
     pending_.erase(std::find_if(pending_.begin(), pending_.end(),
                                 [&](const Pass& p) { return same(p) && p.kind == pass.kind; }));
     if (pass.kind == kLikely) {
-      makePending(pass.band, pass.plane, kRest);
-      makePending(pass.band, pass.plane, kRefine);
+      makePending({0, pass.plane, pass.band, pass.priority, kRest});
+      makePending({0, pass.plane, pass.band, pass.priority, kRefine});
     } else if (pass.plane > 0 && std::none_of(pending_.begin(), pending_.end(), same)) {
-      makePending(pass.band, pass.plane - 1, kLikely);
+      makePending({0, pass.plane - 1, pass.band, pass.priority, kLikely});
     }
   }
 
  private:
-  void makePending(size_t band, int plane, Kind kind) {
+  /// The key of the pass is not known yet.
+  void makePending(Pass pass) {
     constexpr int kLikelyDelay[] = {0, 1, 2, 2, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4};
     constexpr int kRestDelay[] = {6, 6, 7, 8, 8, 9, 10, 10, 11, 12, 14, 14, 15, 16, 16};
-    uint32_t existing = 0, significant = 0;
-    for (const Coefficient& c : bands_[band].coefficients) {
-      existing += !c.absent;
-      significant += c.magnitude > 0;
-    }
+    const Band& band = bands_[pass.band];
+    uint32_t significant = 0;
+    for (const Coefficient& c : band.coefficients)
+      significant += c.priority == pass.priority && c.magnitude > 0;
+    const uint32_t existing = band.existing(pass.priority);
     const int d = std::min<int>(std::bit_width(existing / std::max(1u, significant)), 15);
-    const int delay = kind == kRefine   ? 12
-                      : kind == kLikely ? kLikelyDelay[d - 1]
-                                        : kRestDelay[d - 1];
-    pending_.push_back({16 * plane + bands_[band].logNorm - delay, plane, band, kind});
+    const int delay = pass.kind == kRefine   ? 12
+                      : pass.kind == kLikely ? kLikelyDelay[d - 1]
+                                             : kRestDelay[d - 1];
+    pass.key = 16 * (pass.plane + pass.priority) + band.logNorm - delay;
+    pending_.push_back(pass);
   }
 
   const std::vector<Band>& bands_;
@@ -85,15 +93,17 @@ class TrackDecoder {
   bool run(const Pass& pass) {
     pass_ = pass;
     Band& band = bands_.at(pass.band);
-    if (!band.marked) {
+    if (!band.marked.at(pass.priority)) {
       if (pass.kind != kRest) return true;
       const std::optional<int> answer = models().band.decode(decoder_);
       if (!answer) return false;
       if (*answer == 0) {
-        for (Coefficient& c : band.coefficients) c.plane = pass.plane;
+        for (Coefficient& c : band.coefficients) {
+          if (c.priority == pass.priority) c.plane = pass.plane;
+        }
         return true;
       }
-      band.marked = true;
+      band.marked.at(pass.priority) = true;
     }
     for (int row = 0; row < band.blockRows(); ++row) {
       for (int column = 0; column < band.blockColumns(); ++column) {
@@ -120,7 +130,8 @@ class TrackDecoder {
   bool existsIn(int blockRow, int blockColumn) {
     for (int r = 8 * blockRow; r < std::min(8 * blockRow + 8, band().rows); ++r) {
       for (int a = 32 * blockColumn; a < std::min(32 * blockColumn + 32, band().columns); ++a) {
-        if (!band().at(r, a).absent) return true;
+        const Coefficient& c = band().at(r, a);
+        if (!c.absent && c.priority == pass_.priority) return true;
       }
     }
     return false;
@@ -128,18 +139,20 @@ class TrackDecoder {
 
   bool runBlock(int row, int column) {
     std::optional<int> answer = 1;
-    if (!band().blockMarked(row, column)) {
+    auto& marked = band().blocks.at(size_t(row) * band().blockColumns() + column);
+    if (!marked.at(pass_.priority)) {
       if (pass_.kind != kRest) return true;
       answer = decodeBlock(row, column);
       if (!answer) return false;
-      if (*answer) band().blocks.at(size_t(row) * band().blockColumns() + column) = true;
+      if (*answer) marked.at(pass_.priority) = true;
     }
     const int rowEnd = std::min(8 * row + 8, band().rows);
     const int columnEnd = std::min(32 * column + 32, band().columns);
     for (int r = 8 * row; r < rowEnd; ++r) {
       for (int a = 32 * column; a < columnEnd; ++a) {
         if (*answer == 0) {
-          band().at(r, a).plane = pass_.plane;
+          Coefficient& c = band().at(r, a);
+          if (c.priority == pass_.priority) c.plane = pass_.plane;
         } else if (!visit(r, a)) {
           return false;
         }
@@ -151,11 +164,23 @@ class TrackDecoder {
   /// FORMAT 6: which coefficients a pass decides on.
   bool visit(int r, int a) {
     const Coefficient& c = band().at(r, a);
-    if (c.absent || c.plane <= pass_.plane) return true;
+    if (!isOpen(c)) return true;
     if ((c.magnitude > 0) != (pass_.kind == kRefine)) return true;
     if (pass_.kind == kRefine) return refine(r, a);
-    if (pass_.kind == kLikely && levelAt(r, a) == 0) return true;
+    if (pass_.kind == kLikely && isQuiet(r, a)) return true;
     return pass_.kind == kRest && isGroup(r, a) ? decodeGroup(r, a) : decodeSignificance(r, a);
+  }
+
+  /// FORMAT 6, "open" and "quiet".
+  bool isOpen(const Coefficient& c) const {
+    return !c.absent && c.priority == pass_.priority && c.plane > pass_.plane;
+  }
+  bool isQuiet(int r, int a) {
+    const Neighbours n = band().neighboursOf(r, a);
+    const auto significant = [](const Coefficient& c) { return c.magnitude > 0; };
+    return std::none_of(std::begin(n.along), std::end(n.along), significant) &&
+           std::none_of(std::begin(n.across), std::end(n.across), significant) &&
+           std::none_of(std::begin(n.far), std::end(n.far), significant);
   }
 
   int levelAt(int r, int a) { return activity(band().neighboursOf(r, a), pass_.plane); }
@@ -165,8 +190,7 @@ class TrackDecoder {
     if (a % 4 != 0 || a + 4 > band().columns) return false;
     for (int i = a; i < a + 4; ++i) {
       const Coefficient& c = band().at(r, i);
-      if (c.absent || c.plane <= pass_.plane || c.magnitude > 0) return false;
-      if (levelAt(r, i) > 0) return false;
+      if (!isOpen(c) || c.magnitude > 0 || !isQuiet(r, i)) return false;
     }
     return true;
   }
@@ -244,7 +268,7 @@ class TrackDecoder {
     const std::optional<int> bit = models().sign[std::abs(context)].decode(decoder_);
     if (!bit) return false;
     const bool negative = (*bit == 1) != (context < 0);
-    band().at(r, a) = {1u << pass_.plane, negative ? -1 : 1, pass_.plane};
+    band().at(r, a) = {1u << pass_.plane, negative ? -1 : 1, pass_.plane, pass_.priority};
     return true;
   }
 

@@ -3,6 +3,7 @@
 // sections 4 to 6).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,6 +17,7 @@ struct Coefficient {
   uint32_t magnitude = 0;
   int sign = 0;   ///< -1, 0 (insignificant), 1
   int plane = 0;  ///< the bits from here upwards are known
+  int priority = 0;
   bool absent = false;
 };
 
@@ -29,13 +31,15 @@ struct Band {
 
   /// Whether no coefficient exists.
   bool empty() const;
+  /// How many coefficients of a priority do.
+  uint32_t existing(int priority) const;
   int blockRows() const { return (rows + 7) / 8; }
   int blockColumns() const { return (columns + 31) / 32; }
   Coefficient& at(int r, int a);
   /// The coefficient in row r, column a; outside the band one that is insignificant.
   Coefficient get(int r, int a) const;
   Neighbours neighboursOf(int r, int a) const;
-  /// Whether the block holds a significant coefficient; outside the band none does.
+  /// Whether the block holds a significant coefficient of any priority; outside the band none does.
   bool blockMarked(int row, int column) const;
   /// FORMAT 6, "Value", in units of 2^-e.
   int32_t value(int r, int a, int e) const;
@@ -49,8 +53,8 @@ struct Band {
   std::vector<size_t> siblings;              ///< likewise
   std::vector<Coefficient> coefficients;     ///< row by row
   bool needed = true;                        ///< its passes have to be decoded (FORMAT 7.1)
-  bool marked = false;                       ///< holds a significant coefficient
-  std::vector<bool> blocks;                  ///< likewise each block, row by row
+  std::array<bool, 8> marked = {};           ///< holds a significant one of a priority
+  std::vector<std::array<bool, 8>> blocks;   ///< likewise each block, row by row
 };
 
 /// Runs the passes over the bands, up to the last one of a needed band or to the first decision
