@@ -401,21 +401,21 @@ std::vector<VectorCase> waterCases() {
 std::vector<VectorCase> toldCases() {
   const auto told = [](const std::string& name, const std::string& purpose,
                        const tks_encode_options& options) {
-    VectorCase both = heightsCase(name, purpose, {Pattern::kRidges, 120, 90, 1, TKS_I16}, options);
-    both.texture = {Pattern::kRidges, 100, 130, 3, TKS_U8};
+    VectorCase both = heightsCase(name, purpose, {Pattern::kRidges, 90, 67, 1, TKS_I16}, options);
+    both.texture = {Pattern::kRidges, 60, 80, 3, TKS_U8};
     both.told = true;
     return both;
   };
   VectorCase masked = asCutout(
-      withVoids(told("told_masks_120x90_100x130",
-                     "maps of priorities beside voids and a cut-out; mixed blocks", budget(6000)),
+      withVoids(told("told_masks_90x67_60x80", "maps of priorities beside voids and a cut-out",
+                     budget(5000)),
                 samples::VoidShape::kCoast, -32768),
       samples::VoidShape::kCoast);
   masked.texture->channels = 4;
-  return {told("told_120x90_100x130", "maps of priorities: heights and texture to the last bit",
+  return {told("told_90x67_60x80", "maps of priorities: heights and texture to the last bit",
                lossless()),
-          told("told_regions_120x90_100x130", "maps of priorities over several tracks",
-               inRegions(budget(9000), 32)),
+          told("told_regions_90x67_60x80", "maps of priorities over several tracks",
+               inRegions(budget(7000), 32)),
           masked};
 }
 
