@@ -176,8 +176,9 @@ typedef struct tks_encode_options {
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;
-  const tks_camera* cameras; /* what viewers will see: bytes go where these pictures need them. With
-                                heights and texture alone; NULL: a mix of views from all sides, for
+  const tks_camera* cameras; /* what viewers will see: bytes go where these pictures need them, and
+                                ground that they look at comes first. With heights and texture
+                                alone; NULL: a mix of views from all sides, for
                                 a viewer of whom nothing is known. One that is below the ground,
                                 sees none of it or breaks the rules above: TKS_USAGE, with its
                                 name */

@@ -109,6 +109,29 @@ void expectWindows(const Bytes& bytes) {
   }
 }
 
+/// Coefficients that a camera does not look at come later; windows know nothing of that.
+TEST(RegionStream, WindowsFitWhereCamerasWereTold) {
+  const tks_camera corner = {nullptr, {-300, 3000, -200}, {-300, 0, -200}, {0, 0, -1}, 10, 128, 128,
+                             1};
+  const Raster surface = make({Pattern::kRidges, 71, 50, 1, TKS_U8});
+  const Raster picture = make({Pattern::kRidges, 60, 80, 3, TKS_U8});
+  for (const uint32_t side : {1u, 16u, 32u}) {
+    for (tks_encode_options options : {lossless(), budget(2500)}) {
+      options.regions = side;
+      const Bytes alike = encode(&surface, &picture, options);
+      options.cameras = &corner;
+      options.camera_count = 1;
+      const Bytes told = encode(&surface, &picture, options);
+      EXPECT_NE(told, alike);
+      expectWindows(told);
+      if (options.lossless == 0) continue;
+      Stream stream(told);
+      EXPECT_EQ(stream.heights(), surface.data);
+      EXPECT_EQ(stream.texture(), picture.data);
+    }
+  }
+}
+
 TEST(RegionStream, RestoresAndItsWindowsFit) {
   for (const tks_sample sample : {TKS_U8, TKS_I16, TKS_U32, TKS_F32}) {
     for (const auto& [width, height] : {std::pair{24u, 24u}, {71u, 50u}, {130u, 9u}}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras that the encoder is told of: those that can look at the ground share the bytes of every
 // terrain, however odd it is, and each of the others is refused by its name.
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -177,6 +178,63 @@ TEST_F(Cameras, OneComponentAloneDoesWithout) {
   camera.weight = -1;
   EXPECT_NE(refusal(&heights, nullptr, options), "");
   EXPECT_NE(refusal(nullptr, &image, options), "");
+}
+
+/// Squared errors of the north-western and of the south-eastern quarter.
+std::array<double, 2> squaresOfQuarters(const Raster& truth, const std::vector<std::byte>& shown) {
+  std::array<double, 2> sums{};
+  for (uint32_t y = 0; y < truth.height; ++y) {
+    for (uint32_t x = 0; x < truth.width; ++x) {
+      const bool north = y < truth.height / 2, west = x < truth.width / 2;
+      if (north != west) continue;
+      for (uint32_t c = 0; c < truth.channels; ++c) {
+        const size_t i = (size_t{y} * truth.width + x) * truth.channels + c;
+        const double error =
+            sampleAt(shown, truth.sample, i) - sampleAt(truth.data, truth.sample, i);
+        sums[north ? 0 : 1] += error * error;
+      }
+    }
+  }
+  return sums;
+}
+
+TEST(ToldStreams, ComeFirstWhereTheCameraLooks) {
+  const Raster surface = make({Pattern::kRidges, 200, 180, 1, TKS_U8});
+  const Raster picture = make({Pattern::kRidges, 160, 180, 3, TKS_U8});
+  const tks_camera corner = {
+      nullptr, {-1500, 8000, -1350}, {-1500, 0, -1350}, {0, 0, -1}, 15, 256, 256, 1};
+  tks_encode_options options = budget(6000);
+  Stream alike(encode(&surface, &picture, options));
+  options.cameras = &corner;
+  options.camera_count = 1;
+  const Bytes bytes = encode(&surface, &picture, options);
+  Stream told(bytes);
+  const auto heights = squaresOfQuarters(surface, told.heights());
+  const auto texture = squaresOfQuarters(picture, told.texture());
+  EXPECT_LT(heights[0], squaresOfQuarters(surface, alike.heights())[0] / 2);
+  EXPECT_LT(texture[0], squaresOfQuarters(picture, alike.texture())[0] / 2);
+  EXPECT_LT(heights[0], heights[1]);
+  EXPECT_LT(texture[0], texture[1]);
+}
+
+/// Decoders that remember tracks show what others show.
+TEST(ToldStreams, GrowByteByByte) {
+  const Raster surface = make({Pattern::kRidges, 50, 45, 1, TKS_U8});
+  const Raster picture = make({Pattern::kRidges, 40, 50, 3, TKS_U8});
+  const tks_camera corner = {nullptr, {-300, 3000, -200}, {-300, 0, -200}, {0, 0, -1}, 10, 128, 128,
+                             1};
+  tks_encode_options options = budget(1500);
+  options.cameras = &corner;
+  options.camera_count = 1;
+  const Bytes bytes = encode(&surface, &picture, options);
+  const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+  Stream growing(Prefix(bytes).first(header));
+  for (size_t size = header + 1; size <= bytes.size(); ++size) {
+    ASSERT_EQ(tks_append(growing.get(), &bytes[size - 1], 1), TKS_OK);
+    Stream fresh(Prefix(bytes).first(size));
+    ASSERT_EQ(growing.heights(), fresh.heights()) << size;
+    ASSERT_EQ(growing.texture(), fresh.texture()) << size;
+  }
 }
 
 }  // namespace
