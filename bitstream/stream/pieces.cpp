@@ -66,13 +66,13 @@ void dropUnopened(const StreamHeader& header, Demultiplexed& payload) {
 }  // namespace
 
 Status addScattered(const Pieces& pieces, const ParsedHeader& parsed, Demultiplexed& payload) {
-  const std::vector<PacketHead>& index = parsed.header.index;
+  const std::vector<IndexEntry>& index = parsed.header.index;
   const uint64_t end = parsed.bytes + parsed.header.payload_bytes;
   std::set<std::pair<Component, uint32_t>> ended;  // tracks whose next byte is missing
   uint64_t place = parsed.bytes;
   // The encoder may have cut the payload to a budget; the index then runs ahead of the packets.
   for (size_t i = 0; i < index.size() && place < end; ++i) {
-    const PacketHead& entry = index[i];
+    const PacketHead& entry = index[i].packet;
     const auto component = static_cast<size_t>(entry.component());
     const TrackCount& tracks = payload.counts[component];
     if (entry.track >= tracks.tracks) {
