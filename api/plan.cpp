@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which bytes of a stream a viewer should fetch next.
+#include <algorithm>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 #include "api/message.hpp"
 #include "api/screen_camera.hpp"

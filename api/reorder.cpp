@@ -2,9 +2,13 @@
 // The packets of a stream in another order: nothing is decoded or encoded but a coarse surface, for
 // what is hidden.
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <new>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "api/message.hpp"
 #include "api/screen_camera.hpp"

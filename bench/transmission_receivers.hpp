@@ -50,8 +50,8 @@ enum class TileCodec { kTetrakis, kJpeg2000 };
 
 /// A pyramid of tiles, each a file of its own: 128 x 128 heights and the texels over them, coarse
 /// levels first, at each level the tiles that the camera sees. All files together take `bytes`, of
-/// which `heights_share` for heights. Tetrakis tiles show what there is of them, JPEG 2000 tiles when
-/// they are whole.
+/// which `heights_share` for heights. Tetrakis tiles show what there is of them, JPEG 2000 tiles
+/// when they are whole.
 Result<std::unique_ptr<Receiver>> tileReceiver(const Ground& truth, TileCodec codec, uint64_t bytes,
                                                double heights_share);
 

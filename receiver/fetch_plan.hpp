@@ -26,8 +26,8 @@ struct Sighting {
 /// What is not there of the bytes from a place on, up to another one, in their order.
 using Missing = std::function<std::vector<ByteRange>(uint64_t begin, uint64_t end)>;
 
-/// Bytes to fetch, and what one of the first of them takes off the error of the picture beside other
-/// ranges; 0: nothing in this view.
+/// Bytes to fetch, and what one of the first of them takes off the error of the picture beside
+/// other ranges; 0: nothing in this view.
 struct FetchRange {
   uint64_t begin = 0, end = 0;
   double gain = 0;

@@ -11,7 +11,7 @@
 
 namespace tetrakis::inline receiver {
 
-/// Heights at every `step`-th column and row of a grid, none of them NaN, in the unit of the matrix.
+/// Heights at every `step`-th column and row of a grid, none of them NaN, in the matrix's unit.
 struct CoarseGround {
   uint32_t columns = 0, rows = 0, step = 1;
   std::vector<float> heights;

@@ -437,8 +437,8 @@ tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen
 /* Bytes of a stream, `size` of them from `offset` on. */
 typedef struct tks_range {
   uint64_t offset, size;
-  double gain; /* what one of its first bytes takes off the squared error of the picture, beside other
-                  ranges of the plan; 0: nothing of it is seen */
+  double gain; /* what one of its first bytes takes off the squared error of the picture, beside
+                  other ranges of the plan; 0: nothing of it is seen */
 } tks_range;
 
 /* Allocated by the library; release with tks_free_ranges. */
@@ -452,8 +452,8 @@ typedef struct tks_ranges {
  * stream without a front index (tks_encode_options.index) is fetched in its order.
  *
  * A packet is worth what the index states, times what errors of its region cost in this picture: a
- * texel by the pixels that show it, a height by the pixels and by the square of the distance that it
- * moves them, which falls with the parallax and rises as the viewer comes near. Detail finer than a
+ * texel by the pixels that show it, a height by the pixels and by the square of how far it moves
+ * them, which falls with the parallax and rises as the viewer comes near. Detail finer than a
  * pixel, what lies outside the picture or behind coarse ground, and heights finer than a mesh of
  * `triangles` (0: any number) shows, are worth nothing: their gain is 0 and they come last. The
  * masks that begin a component come first. Ranges do not overlap; neighbours are one, unless the

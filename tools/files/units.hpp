@@ -18,8 +18,8 @@ Result<double> parseLength(const std::string& text, const std::string& unit);
 /// iB, in upper or lower case. TKS_USAGE if `text` is none, or beyond 64 bits.
 Result<uint64_t> parseSize(const std::string& text);
 
-/// Something a second: digits with a point or without, then nothing or k, M or G for powers of 1000,
-/// and "/s" or nothing. `of`: what is counted, such as "bit", whose name may stand before "/s".
+/// Something a second: digits with a point or without, then nothing or k, M or G for powers of
+/// 1000, and "/s" or nothing. `of`: what is counted, such as "bit"; it may stand before "/s".
 /// TKS_USAGE if `text` is none, or 0.
 Result<double> parseRate(const std::string& text, const std::string& of);
 
