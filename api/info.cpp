@@ -27,8 +27,11 @@ Status verify(const tks_decoder& decoder) {
   // The encoder may cut the payload to a budget; the index then runs ahead of the packets.
   const auto& index = header.index;
   const auto& heads = decoder.payload.heads;
-  if (!index.empty() &&
-      (heads.size() > index.size() || !std::equal(heads.begin(), heads.end(), index.begin()))) {
+  if (!index.empty() && (heads.size() > index.size() ||
+                         !std::equal(heads.begin(), heads.end(), index.begin(),
+                                     [](const PacketHead& head, const IndexEntry& told) {
+                                       return head == told.packet;
+                                     }))) {
     return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
   }
   return {};

@@ -3,7 +3,6 @@
 #include "codec/mesh/screen_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "api/memory.hpp"
 #include "api/message.hpp"
+#include "api/screen_camera.hpp"
 #include "api/sized.hpp"
 #include "api/surface_mesh.hpp"
 #include "base/samples.hpp"
@@ -19,19 +19,6 @@
 
 namespace tetrakis::inline api {
 namespace {
-
-Status checkCamera(const std::string& name, const tks_screen_camera& camera) {
-  constexpr uint32_t kMostPixels = 32768;
-  const auto fits = [](uint32_t side) { return side >= 1 && side <= kMostPixels; };
-  if (!fits(camera.width) || !fits(camera.height))
-    return {TKS_USAGE, "The picture of " + name + " takes sides of 1 to " +
-                           std::to_string(kMostPixels) + " pixels."};
-  if (!std::all_of(camera.clip, camera.clip + 16, [](double v) { return std::isfinite(v); }))
-    return {TKS_USAGE, "The matrix of " + name + " must be finite."};
-  if (!std::isfinite(camera.weight) || camera.weight < 0)
-    return {TKS_USAGE, "The weight of " + name + " must be finite and not negative."};
-  return {};
-}
 
 /// The caller's cameras, for heights in steps.
 Result<std::vector<ScreenView>> viewsOf(const tks_screen& screen, const SurfaceScale& scale) {
@@ -45,10 +32,9 @@ Result<std::vector<ScreenView>> viewsOf(const tks_screen& screen, const SurfaceS
     const auto& given =
         *reinterpret_cast<const tks_screen_camera*>(bytes + i * screen.cameras->size);
     tks_screen_camera camera{};
-    Status status = takeSized(name, given, offsetof(tks_screen_camera, weight), camera);
+    Status status = takeCamera(name, given, camera);
     if (status.ok() && given.size != screen.cameras->size)
       status = {TKS_USAGE, "All cameras take structs of one size."};
-    if (status.ok()) status = checkCamera(name, camera);
     if (!status.ok()) return status;
     ScreenView view{camera.width, camera.height, {}, camera.weight > 0 ? camera.weight : 1};
     std::copy_n(camera.clip, 16, view.clip.begin());

@@ -11,6 +11,7 @@
 #include "encoder/order_packets.hpp"
 #include "encoder/views.hpp"
 #include "ratecontrol/allocation.hpp"
+#include "ratecontrol/packet_slopes.hpp"
 #include "texture_wavelet/stored_encoder.hpp"
 
 namespace tetrakis::inline encoder {
@@ -24,6 +25,11 @@ uint8_t statedAfter(const EncodeInputs& inputs, const Candidate<Coded>& candidat
   const Codewords prefix = prefixAfter(coded.rated(), candidate.curve->packets, bytes);
   const double squares = squaresOf(coded, prefix, inputs.options.threads);
   return qualityOf(std::sqrt(squares / coded.counted()));
+}
+
+template <class Coded>
+const ComponentCurve* curveIn(const Candidate<Coded>& candidate) {
+  return candidate.curve ? &*candidate.curve : nullptr;
 }
 
 }  // namespace
@@ -41,9 +47,11 @@ Candidates withCurves(const EncodeInputs& inputs, Candidates candidates) {
 Selection orderPackets(const Candidates& candidates) {
   const auto& [heights, texture, errors] = candidates;
   assert(!heights.coded == !heights.curve && !texture.coded == !texture.curve);
-  if (!errors)
-    return {heights.coded, texture.coded, (heights.coded ? heights.curve : texture.curve)->packets};
-  return {heights.coded, texture.coded, allocate({*heights.curve, *texture.curve}, *errors)};
+  Selection selection = {heights.coded, texture.coded, {}};
+  selection.packets = errors ? allocate({*heights.curve, *texture.curve}, *errors)
+                             : (heights.coded ? heights.curve : texture.curve)->packets;
+  stateSlopes(selection.packets, {curveIn(heights), curveIn(texture)}, errors.get());
+  return selection;
 }
 
 uint8_t qualityAfter(const EncodeInputs& inputs, const HeightsCandidate& heights, uint64_t bytes) {

@@ -28,6 +28,16 @@ Metadata metadataOf(const tks_heights& heights) {
           text(heights.crs)};
 }
 
+std::vector<IndexEntry> indexOf(const std::vector<Packet>& packets) {
+  double steepest = 0;
+  for (const Packet& packet : packets) steepest = std::max(steepest, packet.slope);
+  std::vector<IndexEntry> index;
+  for (const Packet& packet : packets)
+    index.push_back({{packet.head(), packet.track.value_or(0), packet.quality},
+                     slopeByte(packet.slope, steepest)});
+  return index;
+}
+
 StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
                         uint64_t payload_bytes, bool lossless) {
   const tks_encode_options& options = inputs.options;
@@ -43,10 +53,7 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
   }
   if (selection.texture) header.texture = selection.texture->header;
   header.georeference = georeferenceOf(inputs.heights, inputs.image);
-  if (options.index != 0) {
-    for (const Packet& packet : selection.packets)
-      header.index.push_back({packet.head(), packet.track.value_or(0), packet.quality});
-  }
+  if (options.index != 0) header.index = indexOf(selection.packets);
   return header;
 }
 

@@ -54,6 +54,12 @@ class Progress {
   uint64_t sent_ = 0;
 };
 
+double meanSlope(const Packet& a, const Packet& b) {
+  const auto bytes_a = static_cast<double>(a.end - a.begin),
+             bytes_b = static_cast<double>(b.end - b.begin);
+  return (a.slope * bytes_a + b.slope * bytes_b) / (bytes_a + bytes_b);
+}
+
 }  // namespace
 
 std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves,
@@ -89,9 +95,11 @@ std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
                             joined.back().track == packet.track;
     if (same_track && !joined.back().whole && !packet.whole &&
         before[component] - packet.quality <= kQualitySteps) {
-      assert(joined.back().end == packet.begin);
-      joined.back().end = packet.end;
-      joined.back().quality = packet.quality;
+      Packet& last = joined.back();
+      assert(last.end == packet.begin);
+      last.slope = meanSlope(last, packet);
+      last.end = packet.end;
+      last.quality = packet.quality;
     } else {
       before[component] = stated[component];
       joined.push_back(packet);

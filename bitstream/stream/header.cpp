@@ -51,11 +51,12 @@ void visitIndex(V& v, StreamHeader& header) {
   uint64_t count = header.index.size();
   v.varint("packets", count, 1, kMaxHeaderBytes / 2);
   header.index.resize(v.ok() ? count : 0);
-  for (PacketHead& entry : header.index) {
-    v.varint("index_head", entry.head, 0, UINT64_MAX);
-    if (namesRegions(header, entry.component()))
-      v.varint("index_region", entry.track, 0, UINT32_MAX);
-    v.u8("index_quality", entry.quality, 0, 255);
+  for (auto& [packet, slope] : header.index) {
+    v.varint("index_head", packet.head, 0, UINT64_MAX);
+    if (namesRegions(header, packet.component()))
+      v.varint("index_region", packet.track, 0, UINT32_MAX);
+    v.u8("index_quality", packet.quality, 0, 255);
+    v.u8("index_slope", slope, 0, 255);
     if (!v.ok()) break;
   }
 }

@@ -352,7 +352,7 @@ struct StreamHeader {
   std::optional<TextureHeader> texture;
   Metadata metadata;
   Georeference georeference;
-  std::vector<PacketHead> index;  ///< the heads of all packets, ahead of time
+  std::vector<IndexEntry> index;  ///< of all packets, ahead of time
 };
 
 /// Tracks of each component; see demultiplex().

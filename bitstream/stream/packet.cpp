@@ -34,6 +34,17 @@ double rmseOf(uint8_t quality) {
   return quality == 0 ? 0.0 : std::exp2((quality - 64) / 8.0);
 }
 
+uint8_t slopeByte(double slope, double steepest) {
+  assert(!std::isnan(slope) && slope <= steepest);
+  if (!(slope > 0)) return 0;
+  return static_cast<uint8_t>(
+      std::clamp(std::round(255 + 4 * std::log2(slope / steepest)), 1.0, 255.0));
+}
+
+double slopeOf(uint8_t slope) {
+  return slope == 0 ? 0.0 : std::exp2((slope - 255) / 4.0);
+}
+
 size_t overheadOf(const Packet& packet) {
   FieldWriter writer;
   putHead(packet, writer);

@@ -34,6 +34,7 @@ struct Packet {
   uint8_t quality = 0;
   uint64_t begin = 0, end = 0;    ///< bytes of the track's codeword
   std::optional<uint32_t> track;  ///< number of the track; nothing: the component has but one
+  double slope = 0;               ///< what a byte takes off the error; only the front index says it
 
   uint64_t head() const {
     return (end - begin) << 2 | static_cast<uint64_t>(whole) << 1 |
@@ -64,6 +65,18 @@ struct PacketHead {
 
   Component component() const { return static_cast<Component>(head & 1); }
 };
+
+/// What the front index says of a packet.
+struct IndexEntry {
+  PacketHead packet;
+  uint8_t slope = 0;  ///< slopeOf()
+  bool operator==(const IndexEntry&) const = default;
+};
+
+/// What a byte of a packet takes off the error, beside the steepest packet, to its byte and back:
+/// quarters of an octave. The least is 0 and comes back as 0.
+uint8_t slopeByte(double slope, double steepest);
+double slopeOf(uint8_t slope);
 
 /// The bytes before a payload. named: they say which track it belongs to.
 std::vector<uint8_t> headBytes(const PacketHead& head, bool named);

@@ -43,14 +43,25 @@ std::span<const uint8_t> Pieces::from(uint64_t place) const {
                                     : std::span<const uint8_t>();
 }
 
-namespace {
+std::vector<ByteRange> Pieces::missing(ByteRange wanted) const {
+  std::vector<ByteRange> gaps;
+  uint64_t at = wanted.begin;
+  auto run = runs_.upper_bound(at);
+  if (run != runs_.begin()) --run;
+  for (; run != runs_.end() && run->first < wanted.end; ++run) {
+    if (run->first > at) gaps.push_back({at, run->first});
+    at = std::max(at, run->first + run->second.size());
+  }
+  if (at < wanted.end) gaps.push_back({at, wanted.end});
+  return gaps;
+}
 
-/// What a component's tracks need before any of their coefficients can be told: the first track
-/// begins with it.
 uint64_t openingBytes(const StreamHeader& header, Component component) {
   if (component == Component::kGeometry) return header.layers.openingBytes();
   return header.texture ? header.texture->alpha_bytes + header.texture->overlay_bytes : 0;
 }
+
+namespace {
 
 /// Nothing counts of tracks whose component's opening is not there.
 void dropUnopened(const StreamHeader& header, Demultiplexed& payload) {
@@ -66,13 +77,13 @@ void dropUnopened(const StreamHeader& header, Demultiplexed& payload) {
 }  // namespace
 
 Status addScattered(const Pieces& pieces, const ParsedHeader& parsed, Demultiplexed& payload) {
-  const std::vector<PacketHead>& index = parsed.header.index;
+  const std::vector<IndexEntry>& index = parsed.header.index;
   const uint64_t end = parsed.bytes + parsed.header.payload_bytes;
   std::set<std::pair<Component, uint32_t>> ended;  // tracks whose next byte is missing
   uint64_t place = parsed.bytes;
   // The encoder may have cut the payload to a budget; the index then runs ahead of the packets.
   for (size_t i = 0; i < index.size() && place < end; ++i) {
-    const PacketHead& entry = index[i];
+    const PacketHead& entry = index[i].packet;
     const auto component = static_cast<size_t>(entry.component());
     const TrackCount& tracks = payload.counts[component];
     if (entry.track >= tracks.tracks) {

@@ -196,7 +196,8 @@ void skipIndex(Reader& in, const Stream& stream) {
   for (uint64_t left = in.varint(1, 1 << 19); left > 0; --left) {
     const uint64_t head = in.varint(0, UINT64_MAX);
     if (namesTracks(stream, head & 1)) in.varint(0, UINT32_MAX);
-    in.byte();
+    in.byte();  // quality
+    in.byte();  // slope
   }
 }
 

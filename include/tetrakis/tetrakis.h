@@ -435,6 +435,47 @@ typedef struct tks_screen {
 tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen,
                                   uint32_t max_triangles, tks_mesh* out);
 
+/* Bytes of a stream, `size` of them from `offset` on. */
+typedef struct tks_range {
+  uint64_t offset, size;
+  double gain; /* what one of its first bytes takes off the squared error of the picture, beside
+                  other ranges of the plan; 0: nothing of it is seen */
+} tks_range;
+
+/* Allocated by the library; release with tks_free_ranges. */
+typedef struct tks_ranges {
+  size_t count;
+  tks_range* ranges;
+} tks_ranges;
+
+/* What to fetch next: the ranges of at most `bytes` bytes that are not there yet and help a view
+ * most, the most helpful first. Hand them to tks_put as they come, in any order, and ask again. A
+ * stream without a front index (tks_encode_options.index) is fetched in its order.
+ *
+ * A packet is worth what the index states, times what errors of its region cost in this picture: a
+ * texel by the pixels that show it, a height by the pixels and by the square of how far it moves
+ * them, which falls with the parallax and rises as the viewer comes near. Detail finer than a
+ * pixel, what lies outside the picture or behind coarse ground, and heights finer than a mesh of
+ * `triangles` (0: any number) shows, are worth nothing: their gain is 0 and they come last. The
+ * masks that begin a component come first. Ranges do not overlap; neighbours are one, unless the
+ * gain of only one of them is 0. All plans until nothing is missing cover every byte of the stream
+ * once.
+ *
+ * view: NULL: all ground counts alike. Its weight is not looked at; its columns and rows are those
+ * of the heights, or of a texture without heights. Decodes a coarse mip level of the heights, which
+ * says what hides what. TKS_USAGE, TKS_UNSUPPORTED: as tks_decode_screen_mesh of a camera. */
+tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, uint64_t bytes,
+                    uint32_t triangles, tks_ranges* out);
+void tks_free_ranges(tks_ranges* ranges);
+
+/* The stream that is open, with its packets in the order that helps these cameras most: as tks_plan
+ * chooses, with what they see together, by their weights, and the stream's own triangle budget. No
+ * packet changes, so that the whole decodes to the same; every prefix is a stream. What a prefix
+ * lacks stays behind what it has. Bytes beyond a gap are left out. TKS_USAGE: there is no front
+ * index, or no camera; else as tks_plan. Not part of the library that only decodes. */
+tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
+                       uint32_t camera_count, tks_buffer* out);
+
 /* A mesh kept in a quadtree, about 5 bytes a vertex, to be drawn from many views. It depends on
  * neither the decoder nor its data; several threads may view one tree at a time. */
 typedef struct tks_mesh_tree tks_mesh_tree;

@@ -246,6 +246,26 @@ class Decoder {
     return meshTree(TKS_MESH_BUDGET, max_triangles);
   }
 
+  /// What to fetch next for a view (null: all ground alike): tks_plan says what comes first.
+  Result<std::vector<tks_range>> plan(const tks_screen_camera* view, uint64_t bytes,
+                                      uint32_t triangles = 0) {
+    tks_ranges ranges{};
+    const tks_status status = tks_plan(decoder_.get(), view, bytes, triangles, &ranges);
+    if (status != TKS_OK) return failure(status);
+    std::vector<tks_range> result(ranges.ranges, ranges.ranges + ranges.count);
+    tks_free_ranges(&ranges);
+    return result;
+  }
+
+  /// The same packets in the order that helps cameras most (tks_reorder).
+  Result<Buffer> reordered(std::span<const tks_screen_camera> cameras) {
+    tks_buffer buffer{};
+    const tks_status status =
+        tks_reorder(decoder_.get(), cameras.data(), static_cast<uint32_t>(cameras.size()), &buffer);
+    if (status != TKS_OK) return failure(status);
+    return Buffer(buffer);
+  }
+
   /// Checks the syntax of the whole stream. TKS_TRUNCATED if it ends early.
   Status verify() {
     const tks_status status = tks_verify(decoder_.get());

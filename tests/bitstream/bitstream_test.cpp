@@ -137,7 +137,7 @@ StreamHeader sampleHeader() {
   header.texture->channels = 3;
   header.metadata.crs = "EPSG:32633";
   header.metadata.spacing_x = 30;
-  header.index = {{40, 3}, {81, 0}};
+  header.index = {{{40, 0, 3}, 200}, {{81, 0, 0}, 0}};
   return header;
 }
 

@@ -141,7 +141,7 @@ std::array<std::vector<Bytes>, 2> tracksOf(const Bytes& bytes, const std::vector
   std::array<std::vector<bool>, 2> ended = {std::vector<bool>(counts[0].tracks),
                                             std::vector<bool>(counts[1].tracks)};
   size_t place = parsed.bytes;
-  for (const PacketHead& entry : parsed.header.index) {
+  for (const auto& [entry, slope] : parsed.header.index) {
     if (place >= bytes.size()) break;
     const auto c = static_cast<size_t>(entry.component());
     place += headBytes(entry, counts[c].named).size();

@@ -35,6 +35,8 @@ void addTruncate(CLI::App& app, CommandLine& line);
 void addInfo(CLI::App& app, CommandLine& line);
 void addCompare(CLI::App& app, CommandLine& line);
 void addVerify(CLI::App& app, CommandLine& line);
+void addPlan(CLI::App& app, CommandLine& line);
+void addReorder(CLI::App& app, CommandLine& line);
 void addProfile(CLI::App& app, CommandLine& line);
 void addSynth(CLI::App& app, CommandLine& line);
 void addView(CLI::App& app, CommandLine& line);

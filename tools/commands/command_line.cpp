@@ -46,6 +46,8 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addInfo(app, line);
   addCompare(app, line);
   addVerify(app, line);
+  addReorder(app, line);
+  addPlan(app, line);
   addProfile(app, line);
   addSynth(app, line);
   addView(app, line);

@@ -70,6 +70,22 @@ Result<uint64_t> parseSize(const std::string& text) {
   return count << bits;
 }
 
+Result<double> parseRate(const std::string& text, const std::string& of) {
+  std::string_view rest = text;
+  std::optional<double> rate = takeNumber(rest);
+  constexpr std::string_view kPowers = "kMG";
+  if (const size_t power = rest.empty() ? kPowers.npos : kPowers.find(rest[0]);
+      rate && power != kPowers.npos) {
+    *rate *= std::pow(1000, static_cast<double>(power) + 1);
+    rest.remove_prefix(1);
+  }
+  if (rest.starts_with(of)) rest.remove_prefix(of.size());
+  if (!rate || !(*rate > 0) || !std::isfinite(*rate) || (!rest.empty() && rest != "/s"))
+    return Status(TKS_USAGE,
+                  "'" + text + "' is no rate; write for example 256k/s or 256k" + of + "/s");
+  return *rate;
+}
+
 Result<std::array<double, 2>> parseSpacing(const std::string& text) {
   std::string_view rest = text;
   const std::optional<double> x = takeNumber(rest);

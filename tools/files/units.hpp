@@ -18,6 +18,11 @@ Result<double> parseLength(const std::string& text, const std::string& unit);
 /// iB, in upper or lower case. TKS_USAGE if `text` is none, or beyond 64 bits.
 Result<uint64_t> parseSize(const std::string& text);
 
+/// Something a second: digits with a point or without, then nothing or k, M or G for powers of
+/// 1000, and "/s" or nothing. `of`: what is counted, such as "bit"; it may stand before "/s".
+/// TKS_USAGE if `text` is none, or 0.
+Result<double> parseRate(const std::string& text, const std::string& of);
+
 /// "S" or "X,Y": two positive numbers, metres per sample along rows and columns.
 Result<std::array<double, 2>> parseSpacing(const std::string& text);
 

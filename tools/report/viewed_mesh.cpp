@@ -12,7 +12,6 @@
 #include "tools/files/stream.hpp"
 
 namespace tetrakis::tools {
-namespace {
 
 Result<std::vector<Camera>> camerasOver(Decoder& decoder, const CameraChoice& choice) {
   Result<std::vector<float>> heights = decoder.surface();
@@ -21,6 +20,8 @@ Result<std::vector<Camera>> camerasOver(Decoder& decoder, const CameraChoice& ch
   const Surface surface{info.width, info.height, {heights->begin(), heights->end()}};
   return chooseCameras(choice, boundsOf(surface, frameOf(info)));
 }
+
+namespace {
 
 Status seesNothing(const Camera& camera) {
   return Status(TKS_USAGE, "the camera '" + camera.name + "' sees no ground");

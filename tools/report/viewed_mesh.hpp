@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "tools/report/scene.hpp"
 
@@ -11,6 +12,9 @@ namespace tetrakis::tools {
 
 /// Clip coordinates of (column, row, height, 1) for tks_view_mesh: row by row, the third row zero.
 std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame);
+
+/// The chosen cameras, over the decoded surface.
+Result<std::vector<Camera>> camerasOver(Decoder& decoder, const CameraChoice& choice);
 
 /// The mesh of a decoded surface, coded or of every sample, as far as the one chosen camera sees
 /// it. TKS_USAGE for several cameras, or if no ground is in view.

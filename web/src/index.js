@@ -9,7 +9,7 @@ export {TksError, groundScale};
 
 /** The first request: a picture of most terrains. */
 const FIRST_BYTES = 4096;
-/** Each prefix is decoded from its beginning; with this growth all of them take 4/3 of the last. */
+/** Each frame takes an inverse transform and a mesh anew: with this growth they are few. */
 const GROWTH = 4;
 const MEMORY = 2 ** 30;
 

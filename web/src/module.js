@@ -6,7 +6,8 @@ import {TksError} from './error.js';
 const SAMPLES = [
   Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array,
 ];
-const TRUNCATED = 4;
+/** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
+const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
 const MESSAGE_BYTES = 400;
 
@@ -66,25 +67,53 @@ function levelFor(width, height, most, coarsest) {
   return level;
 }
 
-/** One opened prefix. Close it. */
+/**
+ * A stream that is open, as far as its bytes have come. It decodes on from where it was when more
+ * of them do. Close it.
+ */
 class Opened {
-  constructor(instance, address, size, memory) {
+  #header;  // a copy, which the decoder reads until it gets more bytes
+  /** bytes: at least those of the header. */
+  constructor(instance, bytes, memory) {
     this.instance = instance;
     const {calls} = instance;
+    const needed = Opened.#headerBytes(instance, bytes);
+    const header = bytes.subarray(0, needed);
+    this.size = header.length;
+    this.#header = calls.malloc(Math.max(this.size, 1));
+    if (this.#header === 0) throw new TksError('memory', 'There is no memory for the header.');
+    instance.view(Uint8Array, this.#header, this.size).set(header);
     instance.with(4 + MESSAGE_BYTES, (out) => {
-      const status = calls.web_open(address, size, memory, out, out + 4, MESSAGE_BYTES);
-      if (status !== 0) throw this.#refusal(status, instance.text(out + 4));
+      const status = calls.web_open(this.#header, this.size, memory, out, out + 4, MESSAGE_BYTES);
+      if (status !== 0) {
+        calls.free(this.#header);
+        throw Object.assign(TksError.ofStatus(status, instance.text(out + 4)), {needed});
+      }
       [this.decoder] = instance.view(Uint32Array, out, 1);
     });
   }
-  /** `needed`: how many bytes the header is known to take; the sentence of the library says it. */
-  #refusal(status, message) {
-    const error = TksError.ofStatus(status, message);
-    if (status === TRUNCATED) error.needed = Number(/at least (\d+)/.exec(message)?.[1] ?? 0);
-    return error;
+  /** Of what is no header so many bytes that decoders refuse them. */
+  static #headerBytes(instance, bytes) {
+    const first = bytes.subarray(0, MOST_BEFORE_BODY);
+    return instance.with(8 + first.length, (out) => {
+      instance.view(Uint8Array, out + 8, first.length).set(first);
+      instance.calls.tks_header_bytes(out + 8, first.length, out);
+      return instance.view(Uint32Array, out, 1)[0] || first.length;  // below 2^21
+    });
+  }
+  /** The bytes that follow those that are there. */
+  append(bytes) {
+    if (bytes.length === 0) return;
+    const {instance} = this;
+    instance.with(bytes.length, (address) => {
+      instance.view(Uint8Array, address, bytes.length).set(bytes);
+      this.check(instance.calls.tks_append(this.decoder, address, bytes.length));
+    });
+    this.size += bytes.length;
   }
   close() {
     this.instance.calls.tks_close(this.decoder);
+    this.instance.calls.free(this.#header);
   }
   check(status) {
     if (status === 0) return;
@@ -252,9 +281,13 @@ function partsOf(opened, info, request) {
   return parts;
 }
 
-/** Decodes prefixes of one stream. Its bytes live here; an instance that aborted is replaced. */
+/**
+ * Decodes prefixes of one stream. Its bytes live here, so that a shorter prefix than the one before
+ * can be decoded anew, and an instance that aborted be replaced.
+ */
 export class Decoder {
   #instance = null;
+  #opened = null;
   #bytes = new Uint8Array(0);
   #length = 0;
 
@@ -274,23 +307,33 @@ export class Decoder {
     this.#length = length;
   }
 
+  /** The first `size` bytes, opened: those behind the ones that were open cost what they tell. */
+  #prefix(size) {
+    if (this.#opened && this.#opened.size > size) this.#close();
+    this.#instance ??= new Instance(this.module);
+    this.#opened ??= new Opened(this.#instance, this.#bytes.subarray(0, size), this.memory);
+    this.#opened.append(this.#bytes.subarray(this.#opened.size, size));
+    this.#opened.setLevels(0, 0);
+    return this.#opened;
+  }
+  #close() {
+    const opened = this.#opened;
+    this.#opened = null;
+    opened?.close();
+  }
+
   /** Calls `use` with the first `bytes` bytes opened. */
   opened(bytes, use) {
-    const size = Math.min(bytes, this.#length);
     try {
-      const instance = (this.#instance ??= new Instance(this.module));
-      return instance.with(size, (address) => {
-        instance.view(Uint8Array, address, size).set(this.#bytes.subarray(0, size));
-        const opened = new Opened(instance, address, size, this.memory);
-        try {
-          return use(opened);
-        } finally {
-          if (this.#instance) opened.close();
-        }
-      });
+      try {
+        return use(this.#prefix(Math.min(bytes, this.#length)));
+      } catch (error) {
+        if (error instanceof TksError) this.#close();  // it may take no more bytes
+        throw error;
+      }
     } catch (error) {
       if (error instanceof TksError) throw error;
-      this.#instance = null;
+      this.#opened = this.#instance = null;
       throw new TksError('memory', 'The decoder ran out of memory. Ask for fewer texels, samples ' +
         'or triangles.', {cause: error});
     }

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which bytes of a stream a viewer should fetch next.
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "api/message.hpp"
+#include "api/screen_camera.hpp"
+#include "api/sighting.hpp"
+
+namespace tetrakis::inline api {
+namespace {
+
+/// Without a camera all ground counts alike.
+Result<Sighting> sightingIn(tks_decoder& decoder, const tks_screen_camera* given,
+                            uint32_t triangles) {
+  Sighting sighting;
+  sighting.triangles = triangles;
+  if (given == nullptr) return sighting;
+  tks_screen_camera camera{};
+  if (Status status = takeCamera("the view", *given, camera); !status.ok()) return status;
+  const Result<CoarseGround> ground = coarseGround(decoder);
+  if (!ground.ok()) return ground.status();
+  return sightingOf(*ground, camera, triangles);
+}
+
+std::vector<ByteRange> missingIn(const tks_decoder& decoder, ByteRange wanted) {
+  if (!decoder.pieces.empty()) return decoder.pieces.missing(wanted);
+  wanted.begin = std::max<uint64_t>(wanted.begin, decoder.data.size());
+  return wanted.begin < wanted.end ? std::vector{wanted} : std::vector<ByteRange>();
+}
+
+Status plan(tks_decoder& decoder, const Sighting& sighting, uint64_t bytes, tks_ranges& out) {
+  const auto missing = [&](uint64_t begin, uint64_t end) {
+    return missingIn(decoder, {begin, end});
+  };
+  const auto ranges = planFetch(decoder.parsed, sighting, missing, bytes);
+  if (!ranges.ok()) return ranges.status();
+  if (ranges->empty()) return {};
+  out.ranges = static_cast<tks_range*>(std::malloc(ranges->size() * sizeof(tks_range)));
+  if (out.ranges == nullptr) throw std::bad_alloc();
+  for (const FetchRange& range : *ranges)
+    out.ranges[out.count++] = {range.begin, range.end - range.begin, range.gain};
+  return {};
+}
+
+}  // namespace
+}  // namespace tetrakis::inline api
+
+tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, uint64_t bytes,
+                    uint32_t triangles, tks_ranges* out) {
+  if (out == nullptr) return TKS_USAGE;
+  *out = {};
+  return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
+    if (tetrakis::Status status = tetrakis::checkPlanMemory(*decoder); !status.ok()) return status;
+    const auto sighting = tetrakis::sightingIn(*decoder, view, triangles);
+    if (!sighting.ok()) return sighting.status();
+    return tetrakis::plan(*decoder, *sighting, bytes, *out);
+  });
+}
+
+void tks_free_ranges(tks_ranges* ranges) {
+  if (ranges == nullptr) return;
+  std::free(ranges->ranges);
+  *ranges = {};
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a camera of the caller's sees of the ground that the decoder knows so far.
+#pragma once
+
+#include "api/decoder.hpp"
+#include "receiver/fetch_plan.hpp"
+
+namespace tetrakis::inline api {
+
+/// The ground at a coarse mip level, from what is there; flat where nothing is.
+Result<CoarseGround> coarseGround(tks_decoder& decoder);
+
+/// camera: one that takeCamera() took.
+Sighting sightingOf(const CoarseGround& ground, const tks_screen_camera& camera,
+                    uint32_t triangles);
+
+/// TKS_LIMIT with a sentence if choosing packets takes more than the limit.
+Status checkPlanMemory(const tks_decoder& decoder);
+
+}  // namespace tetrakis::inline api

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which bytes of a stream with a front index help a view most (thesis 1.2.5: a static source, a
+// dynamic view). What a packet is worth is the slope that the index states, times what an error in
+// its region costs in the picture beside what it costs on average in those that the encoder thought
+// of. The server knows nothing of it: it hands out byte ranges.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/pieces.hpp"
+#include "receiver/ground_sight.hpp"
+
+namespace tetrakis::inline receiver {
+
+/// What a receiver looks at. Without points all ground counts alike.
+struct Sighting {
+  uint32_t columns = 0, rows = 0;  ///< of the points, which lie over all of the ground
+  std::vector<SeenPoint> points;
+  uint32_t triangles = 0;  ///< that meshes will have; 0: any number
+};
+
+/// What is not there of the bytes from a place on, up to another one, in their order.
+using Missing = std::function<std::vector<ByteRange>(uint64_t begin, uint64_t end)>;
+
+/// Bytes to fetch, and what one of the first of them takes off the error of the picture beside
+/// other ranges; 0: nothing in this view.
+struct FetchRange {
+  uint64_t begin = 0, end = 0;
+  double gain = 0;
+};
+
+/// What is missing of so many bytes that help most, those that help most first. The opening of a
+/// component comes before the rest, and each track in its order. Neighbours are one range, in the
+/// place of the one that helps more. TKS_CORRUPT where the index names a track that there is not.
+/// Without an index: the bytes in their order.
+Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed, const Sighting& sighting,
+                                          const Missing& missing, uint64_t bytes);
+
+/// What some viewer sees, and how much that counts.
+struct WeightedSighting {
+  Sighting sighting;
+  double weight = 1;
+};
+
+/// The numbers of the packets of an index in the order that helps all of these most. Errors as of
+/// planFetch().
+Result<std::vector<size_t>> orderFor(const StreamHeader& header,
+                                     std::span<const WeightedSighting> sightings);
+
+/// Bytes that a plan takes at most, whatever it is for.
+uint64_t planBytes(const StreamHeader& header);
+
+}  // namespace tetrakis::inline receiver

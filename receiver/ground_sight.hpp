@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What errors of the ground cost in one picture, point by point, as far as coarse heights tell it
+// (thesis 6.1): how many pixels show the ground around a point, and how far a height error moves it
+// on the screen. All in derivatives of the camera's matrix, which knows neither metres nor angles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tetrakis::inline receiver {
+
+/// Heights at every `step`-th column and row of a grid, none of them NaN, in the matrix's unit.
+struct CoarseGround {
+  uint32_t columns = 0, rows = 0, step = 1;
+  std::vector<float> heights;
+};
+
+/// Takes (column, row, height, 1) to clip coordinates, as tks_screen_camera.
+struct Eye {
+  std::array<double, 16> clip{};
+  uint32_t width = 0, height = 0;  ///< of the picture, in pixels
+};
+
+/// What a point of the ground is to a picture.
+struct SeenPoint {
+  double pixels = 0;    ///< that one sample of the grid covers; 0: hidden, or outside
+  double parallax = 0;  ///< squared pixels that a height error of 1 moves the point by
+};
+
+/// One a point of the ground, row by row. A point is hidden where a straight walk to the eye goes
+/// below coarse ground. Without such an eye (a map) nothing is hidden.
+std::vector<SeenPoint> sightOf(const CoarseGround& ground, const Eye& eye);
+
+}  // namespace tetrakis::inline receiver

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+// tks_plan and tks_reorder: which bytes help a view, and the same packets in another order.
+#include <cmath>
+#include <limits>
+
+#include "conformance/samples/header_seal.hpp"
+#include "receiver/ground_sight.hpp"
+#include "tests/support/hostile_streams.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+tks_screen_camera cameraOf(const std::array<double, 16>& clip) {
+  tks_screen_camera camera = {};
+  camera.size = sizeof camera;
+  camera.width = 320;
+  camera.height = 200;
+  std::copy(clip.begin(), clip.end(), camera.clip);
+  return camera;
+}
+
+/// A map of columns x0 … x1 and rows y0 … y1.
+tks_screen_camera mapOf(double x0, double y0, double x1, double y1) {
+  const double x = 2 / (x1 - x0), y = 2 / (y1 - y0);
+  return cameraOf(
+      {x, 0, 0, -x * (x0 + x1) / 2, 0, -y, 0, y * (y0 + y1) / 2, 0, 0, 0, 0, 0, 0, 0, 1});
+}
+
+/// From (column, row, height) down the rows, a right angle wide.
+tks_screen_camera alongRows(double column, double row, double height) {
+  return cameraOf({1, 0, 0, -column, 0, 0, 1, -height, 0, 0, 0, 0, 0, 1, 0, -row});
+}
+
+Bytes encodeRegions(const Raster* heights, const Raster* image, tks_encode_options options) {
+  options.regions = 16;
+  options.index = 1;
+  return encode(heights, image, options);
+}
+
+struct Both {
+  Raster heights = make({Pattern::kRidges, 90, 70, 1, TKS_I16});
+  Raster image = make({Pattern::kRidges, 61, 75, 3, TKS_U8});
+  Bytes bytes = encodeRegions(&heights, &image, lossless());
+  size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+};
+
+class Ranges {
+ public:
+  Ranges(Stream& stream, const tks_screen_camera* view, uint64_t bytes, uint32_t triangles = 0) {
+    EXPECT_EQ(tks_plan(stream.get(), view, bytes, triangles, &ranges_), TKS_OK)
+        << tks_message(stream.get());
+  }
+  Ranges(const Ranges&) = delete;
+  Ranges& operator=(const Ranges&) = delete;
+  ~Ranges() { tks_free_ranges(&ranges_); }
+
+  std::span<const tks_range> all() const { return {ranges_.ranges, ranges_.count}; }
+  uint64_t bytes() const {
+    uint64_t sum = 0;
+    for (const tks_range& range : all()) sum += range.size;
+    return sum;
+  }
+
+ private:
+  tks_ranges ranges_ = {};
+};
+
+void put(Stream& stream, const Bytes& bytes, const tks_range& range) {
+  ASSERT_LE(range.offset + range.size, bytes.size());
+  ASSERT_EQ(tks_put(stream.get(), range.offset, bytes.data() + range.offset, range.size), TKS_OK)
+      << tks_message(stream.get());
+}
+
+/// Ranges neither overlap nor touch, unless only one of two helps.
+void expectMerged(std::span<const tks_range> ranges) {
+  for (const tks_range& a : ranges) {
+    EXPECT_GT(a.size, 0u);
+    for (const tks_range& b : ranges)
+      EXPECT_FALSE(a.offset + a.size == b.offset && (a.gain > 0) == (b.gain > 0));
+  }
+}
+
+/// From a cache of `known` bytes on, in steps of `step` bytes, while the view changes.
+void expectCoverage(const Both& terrain, size_t known, uint64_t step) {
+  const std::array<tks_screen_camera, 3> views = {mapOf(0, 0, 30, 20), alongRows(45, -20, 900),
+                                                  mapOf(50, 40, 89, 69)};
+  Stream stream(Prefix(terrain.bytes).first(known));
+  std::vector<bool> there(terrain.bytes.size());
+  std::fill(there.begin(), there.begin() + static_cast<ptrdiff_t>(known), true);
+  for (size_t lap = 0;; ++lap) {
+    const Ranges plan(stream, lap % 4 == 3 ? nullptr : &views[lap % 4], step, lap % 2 ? 500 : 0);
+    ASSERT_LE(plan.bytes(), step);
+    expectMerged(plan.all());
+    if (plan.all().empty()) break;
+    for (const tks_range& range : plan.all()) {
+      for (uint64_t i = range.offset; i < range.offset + range.size; ++i) {
+        ASSERT_FALSE(there[i]) << "asked twice for byte " << i;
+        there[i] = true;
+      }
+      ASSERT_NO_FATAL_FAILURE(put(stream, terrain.bytes, range));
+    }
+    ASSERT_LT(lap, 10 * terrain.bytes.size());
+  }
+  EXPECT_EQ(std::count(there.begin(), there.end(), false), 0);
+  EXPECT_EQ(tks_verify(stream.get()), TKS_OK) << tks_message(stream.get());
+  EXPECT_EQ(squaredError(terrain.heights, stream.heights()), 0);
+  EXPECT_EQ(squaredError(terrain.image, stream.texture()), 0);
+}
+
+TEST(Plan, CoversEveryByteOnceAndASecondLapIsEmpty) {
+  const Both terrain;
+  const size_t size = terrain.bytes.size();
+  for (const size_t known : {terrain.header, terrain.header + 1, terrain.header + size / 5, size})
+    for (const uint64_t step : {uint64_t{313}, uint64_t{4000}, UINT64_MAX})
+      ASSERT_NO_FATAL_FAILURE(expectCoverage(terrain, known, step)) << known << " " << step;
+}
+
+/// Squared error over the samples x0 … x1 − 1, y0 … y1 − 1.
+double errorIn(const Raster& raster, const std::vector<std::byte>& decoded, const tks_window& w) {
+  double sum = 0;
+  for (uint32_t y = w.y; y < w.y + w.height; ++y) {
+    for (uint32_t i = w.x * raster.channels; i < (w.x + w.width) * raster.channels; ++i) {
+      const size_t at = size_t{y} * raster.width * raster.channels + i;
+      const double d =
+          sampleAt(decoded, raster.sample, at) - sampleAt(raster.data, raster.sample, at);
+      sum += d * d;
+    }
+  }
+  return sum;
+}
+
+TEST(Plan, WhatIsSeenComesFirst) {
+  const Raster image = make({Pattern::kRidges, 128, 128, 3, TKS_U8});
+  const Bytes bytes = encodeRegions(nullptr, &image, lossless());
+  const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+  const tks_window corner = {70, 75, 40, 40};
+  const tks_screen_camera view = mapOf(70, 75, 110, 115);
+  Stream stream(Prefix(bytes).first(header));
+  const size_t budget = bytes.size() / 10;
+  const Ranges plan(stream, &view, budget);
+  ASSERT_EQ(plan.bytes(), budget);
+  for (const tks_range& range : plan.all()) ASSERT_NO_FATAL_FAILURE(put(stream, bytes, range));
+  Stream prefix(Prefix(bytes).first(header + budget));
+  EXPECT_LT(errorIn(image, stream.texture(), corner),
+            0.4 * errorIn(image, prefix.texture(), corner));
+  for (size_t i = 1; i < plan.all().size(); ++i)
+    EXPECT_FALSE(plan.all()[i - 1].gain == 0 && plan.all()[i].gain > 0);
+  const Ranges rest(stream, &view, UINT64_MAX);
+  EXPECT_EQ(rest.all().back().gain, 0);
+}
+
+TEST(Plan, DetailBelowAPixelAndBelowTheMeshComesLast) {
+  const Both terrain;
+  Stream stream(Prefix(terrain.bytes).first(terrain.header));
+  const auto helpful = [&](const tks_screen_camera& view, uint32_t triangles) {
+    const Ranges plan(stream, &view, UINT64_MAX, triangles);
+    uint64_t bytes = 0;
+    for (const tks_range& range : plan.all()) bytes += range.gain > 0 ? range.size : 0;
+    return bytes;
+  };
+  tks_screen_camera near = mapOf(0, 0, 89, 69);
+  near.clip[6] = 1e-5;  // parallax
+  tks_screen_camera far = near;
+  far.width = far.height = 6;
+  EXPECT_LT(helpful(far, 0), helpful(near, 0));
+  EXPECT_LT(helpful(near, 2), helpful(near, 0));
+}
+
+TEST(Plan, WithoutAnIndexBytesComeInTheirOrder) {
+  const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, lossless());
+  Stream stream(Prefix(bytes).first(100));
+  const tks_screen_camera view = mapOf(0, 0, 10, 10);
+  const Ranges plan(stream, &view, 50);
+  ASSERT_EQ(plan.all().size(), 1u);
+  EXPECT_EQ(plan.all()[0].offset, 100u);
+  EXPECT_EQ(plan.all()[0].size, 50u);
+  Stream whole(bytes);
+  EXPECT_TRUE(Ranges(whole, &view, 50).all().empty());
+}
+
+TEST(Plan, BadViewsAreRefusedInASentence) {
+  const Both terrain;
+  Stream stream(Prefix(terrain.bytes).first(terrain.header));
+  tks_ranges ranges = {};
+  const auto refused = [&](const tks_screen_camera& view, const std::string& part) {
+    EXPECT_EQ(tks_plan(stream.get(), &view, 1000, 0, &ranges), TKS_USAGE);
+    EXPECT_NE(std::string(tks_message(stream.get())).find(part), std::string::npos)
+        << tks_message(stream.get());
+    EXPECT_EQ(ranges.count, 0u);
+  };
+  tks_screen_camera view = mapOf(0, 0, 10, 10);
+  view.clip[5] = std::nan("");
+  refused(view, "The matrix of the view must be finite.");
+  view = mapOf(0, 0, 10, 10);
+  view.height = 0;
+  refused(view, "The picture of the view");
+  view = mapOf(0, 0, 10, 10);
+  view.size = 3;
+  refused(view, "the view takes a size of at least");
+  EXPECT_EQ(tks_plan(stream.get(), nullptr, 1, 0, nullptr), TKS_USAGE);
+  EXPECT_EQ(tks_plan(nullptr, nullptr, 1, 0, &ranges), TKS_USAGE);
+  view = mapOf(1000, 1000, 1010, 1010);  // sees nothing: a view like any other
+  const Ranges nothing(stream, &view, UINT64_MAX);
+  EXPECT_EQ(nothing.bytes(), terrain.bytes.size() - terrain.header);
+  view = cameraOf({});  // all of the ground in no place
+  EXPECT_EQ(Ranges(stream, &view, UINT64_MAX).bytes(), terrain.bytes.size() - terrain.header);
+}
+
+TEST(Plan, WallsHideWhatIsBehindThem) {
+  CoarseGround ground{20, 20, 4, std::vector<float>(400, 0)};
+  for (size_t x = 0; x < 20; ++x) ground.heights[8 * 20 + x] = 50;
+  const tks_screen_camera low = alongRows(38, -10, 10), high = alongRows(38, -10, 4000);
+  const auto seen = [&](const tks_screen_camera& camera, size_t row) {
+    Eye eye{{}, camera.width, camera.height};
+    std::copy_n(camera.clip, 16, eye.clip.begin());
+    return sightOf(ground, eye)[row * 20 + 10].pixels > 0;
+  };
+  EXPECT_TRUE(seen(low, 4));
+  EXPECT_TRUE(seen(low, 8));
+  EXPECT_FALSE(seen(low, 12));
+  EXPECT_FALSE(seen(low, 19));
+  EXPECT_FALSE(seen(high, 4));  // below the picture
+}
+
+Bytes reordered(Stream& stream, const tks_screen_camera& view) {
+  tks_buffer buffer = {};
+  EXPECT_EQ(tks_reorder(stream.get(), &view, 1, &buffer), TKS_OK) << tks_message(stream.get());
+  const Bytes bytes(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  return bytes;
+}
+
+TEST(Reorder, HoldsTheSamePacketsAndServesTheCamera) {
+  const Raster image = make({Pattern::kRidges, 128, 128, 3, TKS_U8});
+  const Bytes bytes = encodeRegions(nullptr, &image, lossless());
+  Stream stream(bytes);
+  const tks_window corner = {70, 75, 40, 40};
+  const Bytes order = reordered(stream, mapOf(70, 75, 110, 115));
+  ASSERT_EQ(order.size(), bytes.size());
+  Stream whole(order);
+  EXPECT_EQ(tks_verify(whole.get()), TKS_OK) << tks_message(whole.get());
+  EXPECT_EQ(squaredError(image, whole.texture()), 0);
+  const size_t third = bytes.size() / 6;
+  Stream a(Prefix(order).first(third)), b(Prefix(bytes).first(third));
+  EXPECT_LT(errorIn(image, a.texture(), corner), 0.4 * errorIn(image, b.texture(), corner));
+  for (size_t n = static_cast<size_t>(whole.info().header_bytes); n < order.size(); n += 97)
+    EXPECT_EQ(Stream(Prefix(order).first(n)).status(), TKS_OK);
+}
+
+TEST(Reorder, PrefixesAndBudgetsKeepWhatTheyHave) {
+  const Both terrain;
+  const tks_screen_camera view = alongRows(45, -20, 900);
+  const Bytes cut = encodeRegions(&terrain.heights, &terrain.image, budget(4000));
+  for (const Bytes& bytes : {terrain.bytes, cut}) {
+    for (size_t n = static_cast<size_t>(Stream(bytes).info().header_bytes); n <= bytes.size();
+         n += 1 + bytes.size() / 23) {
+      Stream prefix(Prefix(bytes).first(n));
+      const Bytes order = reordered(prefix, view);
+      ASSERT_EQ(order.size(), n);
+      Stream stream(order);
+      ASSERT_EQ(stream.status(), TKS_OK) << stream.message();
+      EXPECT_TRUE(stream.heights() == prefix.heights()) << n;
+      EXPECT_TRUE(stream.texture() == prefix.texture()) << n;
+    }
+  }
+}
+
+TEST(Reorder, IsRefusedWithoutIndexOrCameras) {
+  const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, lossless());
+  Stream stream(bytes);
+  const tks_screen_camera view = mapOf(0, 0, 10, 10);
+  tks_buffer buffer = {};
+  EXPECT_EQ(tks_reorder(stream.get(), &view, 1, &buffer), TKS_USAGE);
+  EXPECT_NE(std::string(tks_message(stream.get())).find("no front index"), std::string::npos);
+  const Both terrain;
+  Stream indexed(terrain.bytes);
+  EXPECT_EQ(tks_reorder(indexed.get(), nullptr, 0, &buffer), TKS_USAGE);
+  EXPECT_EQ(tks_reorder(indexed.get(), &view, 1, nullptr), TKS_USAGE);
+}
+
+/// With the checksum repaired.
+TEST(Plan, SurvivesEveryDamagedByte) {
+  const Raster heights = make({Pattern::kRidges, 26, 19, 1, TKS_I16});
+  const Raster image = make({Pattern::kSteps, 24, 9, 1, TKS_U8});
+  const Bytes bytes = encodeRegions(&heights, &image, lossless());
+  const tks_limits limits = smallLimits();
+  const tks_screen_camera view = alongRows(13, -5, 90);
+  const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+  for (size_t at = 0; at < bytes.size(); ++at) {
+    for (const int flip : {0x01, 0x40, 0x90}) {
+      Bytes damaged = bytes;
+      damaged[at] = static_cast<uint8_t>(damaged[at] ^ flip);
+      sealHeader(damaged);
+      for (const size_t size : {header, bytes.size()}) {
+        Stream stream(Prefix(damaged).first(size), &limits);
+        if (stream.status() != TKS_OK) continue;
+        tks_ranges ranges = {};
+        tks_plan(stream.get(), &view, 700, 30, &ranges);
+        tks_free_ranges(&ranges);
+        tks_buffer buffer = {};
+        tks_reorder(stream.get(), &view, 1, &buffer);
+        tks_free_buffer(&buffer);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test

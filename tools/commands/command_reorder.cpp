@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis reorder: the packets of a stream in the order that serves given cameras.
+#include <memory>
+
+#include "tools/commands/command.hpp"
+#include "tools/commands/output.hpp"
+#include "tools/report/viewed_mesh.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+struct ReorderArguments {
+  StreamSource source;
+  CameraChoice cameras;
+  std::string output;
+  bool force = false;
+};
+
+Status reorder(const ReorderArguments& arguments) {
+  if (arguments.cameras.isDefault())
+    return Status(TKS_USAGE, "nothing to serve: give --cameras or --view");
+  Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
+  if (!output.ok()) return output.status();
+  Result<OpenStream> stream = openStream(arguments.source);
+  if (!stream.ok()) return stream.status();
+  Decoder& decoder = stream->decoder;
+  decoder.setThreads(hardwareThreads());
+  const Result<std::vector<Camera>> cameras = camerasOver(decoder, arguments.cameras);
+  if (!cameras.ok()) return cameras.status();
+  std::vector<tks_screen_camera> those;
+  for (const Camera& camera : *cameras) {
+    those.push_back(meshCamera(camera, frameOf(decoder.info())));
+    those.back().weight = camera.weight;
+  }
+  const Result<Buffer> reordered = decoder.reordered(those);
+  if (!reordered) return reordered.status();
+  const auto bytes = std::as_bytes(reordered->bytes());
+  if (Status status = output->stage(bytes); !status.ok()) return status;
+  return output->commit();
+}
+
+}  // namespace
+
+void addReorder(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<ReorderArguments>();
+  CLI::App& verb =
+      *app.add_subcommand("reorder", "The same packets in the order that serves cameras");
+  addSource(verb, arguments->source);
+  addCameraOptions(verb, arguments->cameras);
+  verb.add_option("-o,--output", arguments->output, "Where to write; - is standard output")
+      ->required()
+      ->type_name("OUT.tks");
+  addForce(verb, arguments->force);
+  verb.callback([arguments, &line] { line.action = [arguments] { return reorder(*arguments); }; });
+}
+
+}  // namespace tetrakis::tools
