@@ -141,14 +141,8 @@ Result<MeshFile> Comparer::measureHeights(Decoder& decoder, uint32_t triangles,
   if (triangles == 0) {
     const Result<HeightFile> heights = decodeHeights(decoder, {}, copies);
     if (!heights.ok()) return heights.status();
-    Surface surface = heightsOf(*heights);
+    const Surface surface = heightsOf(*heights);
     result.heights = heightErrors(surface_, surface);
-    if (result.heights->max_error > 0) {
-      // Between the steps of the samples, where the prefix says more than those can show.
-      const Result<std::vector<float>> drawn = decoder.surface();
-      if (!drawn) return drawn.status();
-      surface.values.assign(drawn->begin(), drawn->end());
-    }
     MeshFile mesh = fullGrid(surface, frame_);
     result.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3);
     return mesh;

@@ -34,7 +34,7 @@ struct PairPlane {
   }
 };
 
-/// Which pairs are looked at: of each track at most so many prefixes, from few bytes to all of them.
+/// Which pairs are looked at: of each track at most so many prefixes, from few bytes to all.
 struct PlaneGrid {
   size_t most = 8;
   double ratio = 2;  ///< of the bytes of two neighbours, at most; 0: as the number needs it

@@ -64,7 +64,7 @@ struct Report {
 /// of the decoder, the renderer and the camera file.
 Result<Report> makeReport(const Reference& reference, const ReportRequest& request);
 
-/// The page: HTML with its pictures (JPEG), its figures and the library that draws them (D3) inside.
+/// The page: HTML with its pictures (JPEG), figures and the library that draws them (D3) inside.
 Result<std::string> renderPage(const Report& report);
 
 }  // namespace tetrakis::tools
