@@ -115,7 +115,8 @@ Result<std::vector<BytePoint>> comparedBytes(const Raster& raster,
     const auto coded = dracoCodings(peer.mesh, raster);
     if (!coded.ok()) return coded.status();
     for (const CodedMesh& coding : *coded)
-      codings.emplace_back(static_cast<uint32_t>(peer.mesh.triangleCount()), coding);
+      codings.emplace_back(static_cast<uint32_t>(peer.mesh.triangleCount()),
+                           CodedMesh{coding.bytes, coding.rmse, {}});
   }
   // Made for half the bits of lossless, cut everywhere below.
   const StreamSource source{&raster, nullptr};

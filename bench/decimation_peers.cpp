@@ -177,9 +177,10 @@ Result<CodedMesh> codeDraco(const PlanMesh& mesh, const Raster& raster,
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(points, &buffer);
   if (!status.ok()) return Status(TKS_MISMATCH, status.error_msg_string());
-  const Result<PlanMesh> decoded = decodeDraco(buffer, setting);
+  Result<PlanMesh> decoded = decodeDraco(buffer, setting);
   if (!decoded.ok()) return decoded.status();
-  return CodedMesh{buffer.size(), rmse(*decoded, raster)};
+  const double error = rmse(*decoded, raster);
+  return CodedMesh{buffer.size(), error, std::move(*decoded)};
 }
 
 }  // namespace
@@ -193,9 +194,9 @@ Result<std::vector<CodedMesh>> dracoCodings(const PlanMesh& mesh, const Raster& 
     settings.push_back({0, {1, 1, std::min(1.0, ((1 << bits) - 1) / range)}});
   std::vector<CodedMesh> codings;
   for (const DracoSetting& setting : settings) {
-    const Result<CodedMesh> coded = codeDraco(mesh, raster, setting);
+    Result<CodedMesh> coded = codeDraco(mesh, raster, setting);
     if (!coded.ok()) return coded.status();
-    codings.push_back(*coded);
+    codings.push_back(std::move(*coded));
   }
   return codings;
 }

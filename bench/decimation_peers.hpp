@@ -41,6 +41,7 @@ class Simplifier {
 struct CodedMesh {
   uint64_t bytes = 0;
   double rmse = 0;  ///< of the decoded mesh, in the raster's unit
+  PlanMesh mesh;    ///< as decoders give it back
 };
 
 /// Draco at its slowest level: float positions of 8 to 14 bits with heights stretched to the

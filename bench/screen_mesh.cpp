@@ -14,8 +14,8 @@
 #include "bench/arguments.hpp"
 #include "bench/decimation_peers.hpp"
 #include "bench/results.hpp"
+#include "bench/screen.hpp"
 #include "tools/files/stream.hpp"
-#include "tools/report/viewed_mesh.hpp"
 
 namespace {
 
@@ -83,70 +83,6 @@ Result<Buffer> encodeLossless(const Terrain& terrain) {
   tks_encode_options options = makeEncodeOptions();
   options.lossless = 1;
   return encode(&heights, nullptr, options);
-}
-
-/// What the full grid looks like to the cameras, and how far meshes are from it.
-class Screen {
- public:
-  static Result<Screen> create(const Terrain& terrain) {
-    Screen screen(terrain);
-    auto renderer = tools::Renderer::create();
-    if (!renderer.ok()) return renderer.status();
-    screen.renderer_ = std::move(*renderer);
-    const auto& samples = terrain.raster.samples;
-    const tools::Surface surface{
-        terrain.raster.width, terrain.raster.height, {samples.begin(), samples.end()}};
-    auto cameras = presetCameras("all", tools::boundsOf(surface, terrain.frame));
-    if (!cameras.ok()) return cameras.status();
-    screen.cameras_ = std::move(*cameras);
-    auto pictures = screen.draw(tools::fullGrid(surface, terrain.frame));
-    if (!pictures.ok()) return pictures.status();
-    screen.reference_ = std::move(*pictures);
-    return screen;
-  }
-
-  std::vector<tks_screen_camera> meshCameras() const {
-    std::vector<tks_screen_camera> cameras;
-    for (const Camera& camera : cameras_)
-      cameras.push_back(tools::meshCamera(camera, terrain_->frame));
-    return cameras;
-  }
-
-  /// PSNR of all cameras, then of each.
-  Result<std::vector<double>> score(const tools::MeshFile& mesh) {
-    const auto pictures = draw(mesh);
-    if (!pictures.ok()) return pictures.status();
-    std::vector<double> psnr = {tools::screenPsnr(reference_, *pictures)};
-    for (size_t i = 0; i < reference_.size(); ++i)
-      psnr.push_back(tools::screenPsnr({reference_[i]}, {(*pictures)[i]}));
-    return psnr;
-  }
-
- private:
-  explicit Screen(const Terrain& terrain) : terrain_(&terrain) {}
-  Result<std::vector<tools::Picture>> draw(tools::MeshFile mesh) {
-    mesh.texture = &terrain_->texture;
-    return renderer_->draw(mesh, cameras_);
-  }
-
-  const Terrain* terrain_;
-  std::unique_ptr<tools::Renderer> renderer_;
-  std::vector<Camera> cameras_;
-  std::vector<tools::Picture> reference_;
-};
-
-tools::MeshFile placed(const PlanMesh& mesh, const GroundFrame& frame) {
-  const double last_column = frame.width - 1.0, last_row = frame.height - 1.0;
-  tools::MeshFile file;
-  for (const auto& [x, y, z] : mesh.positions) {
-    file.positions.push_back(static_cast<float>((x - last_column / 2) * frame.spacing_x));
-    file.positions.push_back(static_cast<float>(z * frame.metres_per_unit));
-    file.positions.push_back(static_cast<float>((y - last_row / 2) * frame.spacing_y));
-    file.texcoords.push_back(static_cast<float>(x / last_column));
-    file.texcoords.push_back(static_cast<float>(y / last_row));
-  }
-  file.triangles = mesh.triangles;
-  return file;
 }
 
 class Comparison {
@@ -225,7 +161,10 @@ Status run(const Options& options) {
     if (!terrain.ok()) return terrain.status();
     std::printf("%s, %u x %u\n", terrain->item.c_str(), terrain->raster.width,
                 terrain->raster.height);
-    Result<Screen> screen = Screen::create(*terrain);
+    const auto& samples = terrain->raster.samples;
+    const tools::Surface surface{
+        terrain->raster.width, terrain->raster.height, {samples.begin(), samples.end()}};
+    Result<Screen> screen = Screen::create(surface, terrain->frame, terrain->texture);
     if (!screen.ok()) return screen.status();
     if (Status status = Comparison(*terrain, *screen, rows).run(); !status.ok()) return status;
   }

@@ -134,9 +134,11 @@ TEST_F(CliMeasure, ReportIsOnePageWithItsPicturesInside) {
   size_t pictures = 0;
   for (size_t at = page.find("<img"); at != std::string::npos; at = page.find("<img", at + 1))
     ++pictures;
-  EXPECT_EQ(pictures, 3u * (1 + 5));
-  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(pictures, 3u * (1 + 5) + 2);  // and those of the slider
+  EXPECT_NE(page.find("d3js.org"), std::string::npos);
+  EXPECT_NE(page.find("\"greedy\":[{"), std::string::npos);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(page.find("href=\"http"), std::string::npos);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("r")), {}), 1);
   EXPECT_EQ(cli("encode height.tif --lossless -o b.tks --report r").code, 2);
   EXPECT_FALSE(names().contains("b.tks"));
@@ -146,6 +148,7 @@ TEST_F(CliMeasure, ReportOfATextureAlone) {
   makeInputs(65);
   ASSERT_EQ(cli("encode --texture texture.png --bytes 8k -o t.tks --report r").code, 0);
   EXPECT_NE(content("r/index.html").find("<img"), std::string::npos);
+  EXPECT_NE(content("r/index.html").find("\"plane\":null"), std::string::npos);
 }
 
 }  // namespace

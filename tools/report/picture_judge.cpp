@@ -29,6 +29,7 @@ Result<std::vector<Picture>> PictureJudge::draw(const HeightFile& heights, const
 int PictureJudge::error(void* user, const void* heights, const void* texels, double* squares,
                         double* values) {
   auto& judge = *static_cast<PictureJudge*>(user);
+  ++judge.drawn_;
   HeightFile surface = *judge.heights_;
   std::memcpy(surface.data.data(), heights, surface.data.size());
   ImageFile texture = *judge.image_;

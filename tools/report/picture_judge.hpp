@@ -3,6 +3,7 @@
 // with the original, for an encoder that asks (tks_encode_options.picture_error).
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,9 @@ class PictureJudge {
   static int error(void* user, const void* heights, const void* texels, double* squares,
                    double* values);
 
+  /// Pairs that have been asked about.
+  size_t drawn() const { return drawn_; }
+
  private:
   PictureJudge(const HeightFile& heights, const ImageFile& image)
       : heights_(&heights), image_(&image) {}
@@ -34,6 +38,7 @@ class PictureJudge {
   std::vector<Camera> cameras_;
   std::unique_ptr<Renderer> renderer_;
   std::vector<Picture> truth_;
+  size_t drawn_ = 0;
 };
 
 }  // namespace tetrakis::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurements behind the report: one stream, cut at halves of halves.
+// The measurements behind the report: one stream, cut at halves of halves, and its two tracks.
 #include "tools/report/report.hpp"
 
 #include <utility>
@@ -8,6 +8,16 @@ namespace tetrakis::tools {
 namespace {
 
 constexpr uint32_t kLargestDivisor = 16;
+
+/// Of streams of heights and texture in one track each; nothing of others.
+Result<std::optional<PairPlane>> planeOf(Comparer& comparer, const ReportRequest& request) {
+  const Result<SplitStream> tracks = SplitStream::take(request.stream);
+  if (!tracks.ok() || tracks->most().heights == 0 || tracks->most().texture == 0)
+    return std::optional<PairPlane>();
+  Result<PairPlane> plane = lookAtPairs(comparer, *tracks, request.grid, request.triangles);
+  if (!plane.ok()) return plane.status();
+  return std::optional<PairPlane>(std::move(*plane));
+}
 
 }  // namespace
 
@@ -18,7 +28,7 @@ Result<Report> makeReport(const Reference& reference, const ReportRequest& reque
   Result<Comparer> comparer = Comparer::create(reference, info);
   if (!comparer.ok()) return comparer.status();
   if (Status status = comparer->look(request.cameras); !status.ok()) return status;
-  Report report{request.title, comparer->cameras(), comparer->referencePictures(), {}};
+  Report report{request.title, comparer->cameras(), comparer->referencePictures(), {}, {}, {}, {}};
   for (uint32_t divisor = 1; divisor <= kLargestDivisor; divisor *= 2) {
     const size_t bytes = request.stream.size() / divisor;
     if (bytes < info.header_bytes) break;
@@ -27,6 +37,9 @@ Result<Report> makeReport(const Reference& reference, const ReportRequest& reque
     if (!measurement.ok()) return measurement.status();
     report.rows.push_back({divisor, std::move(*measurement)});
   }
+  Result<std::optional<PairPlane>> plane = planeOf(*comparer, request);
+  if (!plane.ok()) return plane.status();
+  report.plane = std::move(*plane);
   return report;
 }
 

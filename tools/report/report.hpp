@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of `encode --report`: what a stream looks like at 1/1, 1/2, … 1/16 of its bytes.
+// The page of `encode --report`: what a stream looks like at 1/1, 1/2, … 1/16 of its bytes, and how
+// it shares them between heights and texture (thesis, figures 6.6 to 6.8).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/status.hpp"
 #include "tools/report/comparison.hpp"
+#include "tools/report/pair_plane.hpp"
 
 namespace tetrakis::tools {
 
@@ -18,6 +22,7 @@ struct ReportRequest {
   std::span<const uint8_t> stream;
   uint32_t triangles = 0;  ///< draw budget meshes of at most that many; 0: the full grid
   CameraChoice cameras;
+  PlaneGrid grid{};
 };
 
 /// One cut of the stream.
@@ -26,23 +31,40 @@ struct ReportRow {
   Measurement measurement;
 };
 
+/// Pictures side by side.
+struct Gallery {
+  struct Plate {
+    Picture picture;
+    std::string caption;
+  };
+  std::string title, text;
+  std::vector<Plate> plates;
+};
+
+/// A mesh seen from above.
+struct MeshPlan {
+  std::string caption;
+  uint32_t width = 0, height = 0;                ///< of the grid
+  std::vector<std::array<uint32_t, 4>> edges{};  ///< column and row of either end
+  std::array<double, 2> eye{};                   ///< of the viewer, in columns and rows
+};
+
 /// Everything the page shows.
 struct Report {
   std::string title;
   std::vector<Camera> cameras;
   std::vector<Picture> originals;  ///< one a camera
   std::vector<ReportRow> rows;     ///< longest cut first
+  std::optional<PairPlane> plane;  ///< of streams of two tracks
+  std::vector<Gallery> galleries;
+  std::vector<MeshPlan> meshes;
 };
 
-/// Measures and draws the cuts. Cuts too short for the header are left out. Errors: of the decoder,
-/// the renderer and the camera file.
+/// Measures and draws the cuts and the plane. Cuts too short for the header are left out. Errors:
+/// of the decoder, the renderer and the camera file.
 Result<Report> makeReport(const Reference& reference, const ReportRequest& request);
 
-/// The page: HTML with its pictures (JPEG) and plot (SVG) inside.
+/// The page: HTML with its pictures (JPEG), figures and the library that draws them (D3) inside.
 Result<std::string> renderPage(const Report& report);
-
-/// Screen PSNR over bytes (logarithmic) as an SVG element; exact cuts have no finite PSNR and no
-/// dot.
-std::string plotScreenPsnr(const std::vector<ReportRow>& rows);
 
 }  // namespace tetrakis::tools

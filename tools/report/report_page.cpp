@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report as one HTML page that needs no other file.
+// The report as one HTML page that needs no other file. What it shows is measured here; how, page/
+// says, with D3 (https://d3js.org, BSD-3-Clause).
 #include <OpenImageIO/strutil.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,26 +18,20 @@ namespace {
 
 constexpr int kJpegQuality = 92;
 
-constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<style>
-body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fafaf8; max-width: 1240px;
-       margin: 2em auto; padding: 0 1em; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: .25em .9em; text-align: right; border-bottom: 1px solid #ddd; }
-th { font-weight: 600; }
-svg { width: 100%; max-width: 688px; font-size: 12px; fill: #555; }
-svg polyline { fill: none; stroke: #2a6f97; stroke-width: 2; }
-svg circle { fill: #2a6f97; } svg .grid { stroke: #ddd; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(360px, 1fr)); gap: 1em; }
-figure { margin: 0; } figure img { width: 100%; display: block; }
-figcaption { color: #555; font-size: .9em; }
-</style>
-)";
+constexpr unsigned char kD3[] = {
+#include "tools/report/d3.inc"
+};
+constexpr unsigned char kScript[] = {
+#include "tools/report/page_script.inc"
+};
+constexpr unsigned char kStyle[] = {
+#include "tools/report/page_style.inc"
+};
+
+template <size_t N>
+std::string textOf(const unsigned char (&bytes)[N]) {
+  return {bytes, bytes + N};
+}
 
 std::string escaped(std::string_view text) {
   std::string html;
@@ -76,11 +72,12 @@ std::string tableRow(const ReportRow& row) {
 
 std::string figuresTable(const std::vector<ReportRow>& rows) {
   std::string html =
-      "<table>\n<tr><th>cut</th><th>bytes</th><th>geometry</th><th>texture</th>"
+      "<div "
+      "class=\"scroll\"><table>\n<tr><th>cut</th><th>bytes</th><th>geometry</th><th>texture</th>"
       "<th>triangles</th><th>height RMSE</th><th>height max</th><th>height PSNR</th>"
       "<th>texture PSNR</th><th>screen PSNR</th></tr>\n";
   for (const ReportRow& row : rows) html += tableRow(row);
-  return html + "</table>\n";
+  return html + "</table></div>\n";
 }
 
 ImageFile withoutAlpha(const Picture& picture) {
@@ -108,8 +105,7 @@ std::string caption(const ReportRow& row, size_t camera) {
 
 /// The original, then every cut, as one camera sees them.
 Result<std::string> pictures(const Report& report, size_t camera) {
-  std::string html =
-      "<h2>" + escaped(report.cameras[camera].name) + "</h2>\n<div class=\"pictures\">\n";
+  std::string html = "<div data-camera class=\"plates\">\n";
   const Result<std::string> original = figure(report.originals[camera], "original");
   if (!original.ok()) return original;
   html += *original;
@@ -121,23 +117,183 @@ Result<std::string> pictures(const Report& report, size_t camera) {
   return html + "</div>\n";
 }
 
+constexpr const char* kSlider = R"html(<section><h2>Beside the original</h2>
+<p>Pull the handle: the original is on the left, the cut of the stream on the right.</p>
+<div class="buttons" id="cameras"></div><div class="buttons" id="cuts"></div>
+<div class="slider"><img class="original" alt=""><img class="cut" alt=""><i></i>
+<span class="left">original</span><span class="right"></span>
+<input type="range" min="0" max="100" step="0.1" value="50" aria-label="original or cut"></div>
+)html";
+
+constexpr const char* kPaths = R"html(<div class="legend">
+<span><i style="border-color: var(--best)"></i>best pairs (hull of all)</span>
+<span><i class="dashed" style="border-color: var(--greedy)"></i>marginal analysis</span>
+<span><i style="border-color: var(--shipped)"></i>the stream's own order</span></div>
+)html";
+
+constexpr const char* kCurves = R"html(<div class="legend">
+<span><i style="border-color: var(--best)"></i>best pairs (hull of all)</span>
+<span><i style="border-color: var(--shipped)"></i>cuts of the stream</span></div>
+)html";
+
+constexpr const char* kComponents = R"html(<div class="legend">
+<span><i class="area" style="background: var(--heights)"></i>heights</span>
+<span><i class="area" style="background: var(--texture)"></i>texture</span></div>
+)html";
+
+/// What a chart is called, what it says, and its legend.
+struct ChartText {
+  std::string title, text;
+  const char* legend;
+};
+
+std::string chart(const char* id, const ChartText& words) {
+  return "<section><h2>" + words.title + "</h2><p>" + words.text +
+         "</p><div class=\"chart\" id=\"" + id + "\"></div>" + words.legend + "</section>\n";
+}
+
+/// The charts of the plane, which the script fills.
+std::string charts(const PairPlane& plane) {
+  const std::string pairs = std::to_string(plane.psnr.size());
+  const std::string rates = "All " + pairs + " pairs of " + std::to_string(plane.heights.size()) +
+                            " prefixes of the heights and " +
+                            std::to_string(plane.textures.size()) +
+                            " of the texture; a thin line is one texture.";
+  const std::string path =
+      "Lines of equal screen PSNR, in dB. Marginal analysis gave up bytes in " +
+      std::to_string(plane.greedy.size() - 1) + " steps, and looked at " +
+      std::to_string(plane.looked) + " of the " + pairs + " pairs.";
+  return "<div class=\"pair\">\n" + chart("rates", {"Rate and distortion", rates, kCurves}) +
+         chart("split", {"Where the bytes go",
+                         "Heights and texture in the stream's first bytes, up to all of them.",
+                         kComponents}) +
+         chart("iso-psnr", {"Equal PSNR", path, kPaths}) +
+         chart("iso-bytes",
+               {"Equal bytes", "Lines of equal bytes of heights and texture together.", kPaths}) +
+         "</div>\n";
+}
+
+/// JSON has no infinity.
+nlohmann::json finite(std::optional<double> value) {
+  return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
+}
+
+nlohmann::json jsonOf(const std::vector<SeenPair>& pairs, bool named) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const SeenPair& pair : pairs) {
+    list.push_back({{"heights", pair.split.heights},
+                    {"texture", pair.split.texture},
+                    {"psnr", finite(pair.psnr)}});
+    if (named) list.back()["name"] = std::string(1, static_cast<char>('a' + list.size() - 1));
+  }
+  return list;
+}
+
+nlohmann::json jsonOf(const PairPlane& plane) {
+  std::vector<SeenPair> pairs;
+  for (size_t h = 0; h < plane.heights.size(); ++h)
+    for (size_t t = 0; t < plane.textures.size(); ++t)
+      pairs.push_back({{plane.heights[h], plane.textures[t]}, plane.at(h, t)});
+  nlohmann::json json = {{"heights", plane.heights},
+                         {"textures", plane.textures},
+                         {"pairs", jsonOf(pairs, false)},
+                         {"hull", jsonOf(plane.hull, false)},
+                         {"greedy", jsonOf(plane.greedy, false)},
+                         {"equal_psnr", jsonOf(plane.equal_psnr, true)},
+                         {"equal_bytes", jsonOf(plane.equal_bytes, true)},
+                         {"shipped", nlohmann::json::array()}};
+  for (const Split& split : plane.shipped)
+    json["shipped"].push_back({{"heights", split.heights}, {"texture", split.texture}});
+  return json;
+}
+
+/// What the script draws, as it stands in the page.
+std::string dataOf(const Report& report) {
+  nlohmann::json json = {{"cameras", nlohmann::json::array()},
+                         {"cuts", nlohmann::json::array()},
+                         {"meshes", nlohmann::json::array()},
+                         {"plane", report.plane ? jsonOf(*report.plane) : nlohmann::json()}};
+  for (const Camera& camera : report.cameras) json["cameras"].push_back(camera.name);
+  for (const ReportRow& row : report.rows)
+    json["cuts"].push_back({{"bytes", row.measurement.bytes},
+                            {"geometry", row.measurement.geometry_bytes},
+                            {"texture", row.measurement.texture_bytes},
+                            {"screen", finite(row.measurement.screen_psnr)}});
+  for (const MeshPlan& mesh : report.meshes)
+    json["meshes"].push_back(
+        {{"width", mesh.width}, {"height", mesh.height}, {"edges", mesh.edges}, {"eye", mesh.eye}});
+  std::string text = json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  for (size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += 6)
+    text.replace(at, 1, "\\u003c");  // a name must not end the script
+  return text;
+}
+
+std::string fact(const std::string& value, const char* what) {
+  return "<div><b>" + value + "</b><span>" + what + "</span></div>";
+}
+
+std::string facts(const Report& report) {
+  if (report.rows.empty()) return "";
+  const Measurement& whole = report.rows.front().measurement;
+  return "<div class=\"facts\">" + fact(std::to_string(whole.bytes), "bytes") +
+         fact(std::to_string(whole.geometry_bytes), "of heights") +
+         fact(std::to_string(whole.texture_bytes), "of texture") +
+         fact(decibels(whole.screen_psnr), "on the screen") + "</div>\n";
+}
+
+std::string meshPlans(const std::vector<MeshPlan>& meshes) {
+  if (meshes.empty()) return "";
+  std::string html =
+      "<section><h2>Meshes from above</h2><p>The dot is the viewer, or the side that he is "
+      "on.</p><div class=\"plates\">\n";
+  for (size_t i = 0; i < meshes.size(); ++i)
+    html += "<figure><div class=\"chart\" id=\"mesh-" + std::to_string(i) +
+            "\"></div><figcaption>" + escaped(meshes[i].caption) + "</figcaption></figure>\n";
+  return html + "</div></section>\n";
+}
+
+Result<std::string> galleries(const Report& report) {
+  std::string html;
+  for (const Gallery& gallery : report.galleries) {
+    html += "<section><h2>" + escaped(gallery.title) + "</h2><p>" + escaped(gallery.text) +
+            "</p><div class=\"plates\">\n";
+    for (const Gallery::Plate& plate : gallery.plates) {
+      const Result<std::string> shown = figure(plate.picture, escaped(plate.caption));
+      if (!shown.ok()) return shown;
+      html += *shown;
+    }
+    html += "</div></section>\n";
+  }
+  return html;
+}
+
 }  // namespace
 
 Result<std::string> renderPage(const Report& report) {
   const std::string title = escaped(report.title);
-  std::string html = kHead;
-  html += "<title>" + title + "</title>\n</head>\n<body>\n<h1>" + title + "</h1>\n";
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n<style>\n" +
+      textOf(kStyle) + "</style>\n<title>" + title + "</title>\n</head>\n<body><main>\n<h1>" +
+      title + "</h1>\n";
   html +=
       "<p>One stream, cut at fractions of its bytes. Height errors are in the unit of the "
       "stream; geometry and texture are payload bytes.</p>\n";
-  html += figuresTable(report.rows);
-  html += "<h2>Screen PSNR over bytes</h2>\n" + plotScreenPsnr(report.rows) + "\n";
+  html += facts(report) + kSlider;
   for (size_t camera = 0; camera < report.cameras.size(); ++camera) {
     const Result<std::string> shown = pictures(report, camera);
     if (!shown.ok()) return shown;
     html += *shown;
   }
-  return html + "</body>\n</html>\n";
+  html += "</section>\n";
+  if (report.plane) html += charts(*report.plane);
+  html += "<section><h2>Figures</h2>\n" + figuresTable(report.rows) + "</section>\n";
+  html += meshPlans(report.meshes);
+  const Result<std::string> more = galleries(report);
+  if (!more.ok()) return more;
+  return html + *more + "</main>\n<script>\n" + textOf(kD3) +
+         "</script>\n<script>\nconst report = " + dataOf(report) + ";\n" + textOf(kScript) +
+         "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace tetrakis::tools

@@ -10,7 +10,7 @@
 #include "base/status.hpp"
 #include "bitstream/stream/header.hpp"
 
-namespace tetrakis::bench {
+namespace tetrakis::tools {
 
 /// Payload bytes of either component.
 struct Split {
@@ -39,4 +39,4 @@ class SplitStream {
   Demultiplexed payload_;
 };
 
-}  // namespace tetrakis::bench
+}  // namespace tetrakis::tools

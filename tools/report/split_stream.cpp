@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/split_stream.hpp"
+#include "tools/report/split_stream.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-namespace tetrakis::bench {
+namespace tetrakis::tools {
 
 Result<SplitStream> SplitStream::take(std::span<const uint8_t> stream) {
   Result<ParsedHeader> parsed = readHeader(stream);
@@ -66,4 +66,4 @@ std::vector<uint8_t> SplitStream::cut(const Split& split) const {
   return stream;
 }
 
-}  // namespace tetrakis::bench
+}  // namespace tetrakis::tools
