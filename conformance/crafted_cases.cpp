@@ -75,7 +75,7 @@ VectorCase noiseTable(const std::string& name, const std::string& purpose, const
   return crafted(name, purpose, streamOf(header, codeword));
 }
 
-std::vector<VectorCase> tableCases() {
+std::vector<VectorCase> craftedTableCases() {
   constexpr int64_t kSteep = GeometryLayers::kMostRise;
   const std::vector<TableKnot> wild = {{0, -kSteep}, {1, kSteep}, {30, -17}, {59, 250}};
   return {noiseTable("noise_table_i16_28x23", "noise: a table of which words leave their type",
@@ -317,7 +317,7 @@ std::vector<VectorCase> shearCases() {
 
 std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = {weightCase(3, 2), weightCase(4, 8)};
-  for (const auto& cases : {wideCases(), tableCases(), flatCases(), correctionCases(),
+  for (const auto& cases : {wideCases(), craftedTableCases(), flatCases(), correctionCases(),
                             nodataCases(), shearCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <vector>
 
 namespace tetrakis::inline wavelet {
@@ -59,8 +60,8 @@ class BitCounts {
   double entropy() const {
     double bits = 0;
     for (const auto& row : counts_) {
-      double sum = 0;
-      for (const uint32_t n : row) sum += n;
+      const double sum = std::accumulate(row.begin(), row.end(), 0.0);
+      if (sum == 0) continue;
       for (const uint32_t n : row) {
         if (n > 0) bits += n * std::log2(sum / n);
       }
@@ -77,7 +78,7 @@ class BitCounts {
 class BandCost {
  public:
   BandCost(uint32_t width, double step, double weight)
-      : lossless_(step == 0), step_(step == 0 ? 1 : step), weight_(weight) {
+      : lossless_(step == 0), step_(step == 0 ? 1 : step), per_step_(1 / step_), weight_(weight) {
     above_.resize(width + 2);
     row_.resize(width + 2);
   }
@@ -88,7 +89,7 @@ class BandCost {
       if (coded[x] == 0) continue;
       const uint32_t magnitude = magnitudeOf(values[x]);
       const uint32_t level =
-          lossless_ ? magnitude : static_cast<uint32_t>(static_cast<double>(magnitude) / step_);
+          lossless_ ? magnitude : static_cast<uint32_t>(static_cast<double>(magnitude) * per_step_);
       const int bits = static_cast<int>(std::bit_width(level));
       const uint64_t around = 2 * (uint64_t{row_[x]} + above_[x + 1]) + above_[x] + above_[x + 2];
       counts_.count(static_cast<uint32_t>(std::min<uint64_t>(around, UINT32_MAX)), bits);
@@ -105,7 +106,7 @@ class BandCost {
 
  private:
   bool lossless_;
-  double step_, weight_;
+  double step_, per_step_, weight_;
   std::vector<uint32_t> above_, row_;
   BitCounts counts_;
 };
@@ -129,33 +130,6 @@ PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficient
     cost.squares += each * taken.squares;
   }
   return cost;
-}
-
-double stepFor(const PlaneLayout& layout, std::span<const int32_t> coefficients, double bits) {
-  constexpr int kOctaves = 48;
-  constexpr double kPosition = 2.5;  // bits that say where a coefficient is, and its sign
-  std::array<double, kOctaves> counts{};
-  for (size_t i = 0; i < layout.subbands().size(); ++i) {
-    const double norm = std::sqrt(layout.energy(i));
-    std::array<uint64_t, kOctaves> taken{};
-    const double each =
-        forEachRow(layout, i, coefficients, [&](const auto& row, const auto& coded) {
-          for (size_t x = 0; x < row.size(); ++x) {
-            const double size = norm * magnitudeOf(row[x]);
-            if (coded[x] != 0 && size >= 1)
-              ++taken[static_cast<size_t>(std::min(std::ilogb(size), kOctaves - 1))];
-          }
-        });
-    for (size_t k = 0; k < kOctaves; ++k) counts[k] += each * static_cast<double>(taken[k]);
-  }
-  int octave = kOctaves;
-  double significant = 0, cost = 0;
-  while (octave > 0 && cost < bits) {
-    cost += significant;
-    significant += counts[static_cast<size_t>(--octave)];
-    cost += kPosition * counts[static_cast<size_t>(octave)];
-  }
-  return std::exp2(octave);
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -25,7 +25,4 @@ struct PlaneCost {
 /// bits. Those of samples that do not exist or are held cost nothing.
 PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficients, double step);
 
-/// About the step, a power of two, at which the coefficients cost so many bits.
-double stepFor(const PlaneLayout& layout, std::span<const int32_t> coefficients, double bits);
-
 }  // namespace tetrakis::inline wavelet

@@ -6,12 +6,15 @@
 #include "codec/geometry/flat_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/flat_tiles.hpp"
 #include "wavelet/plane_cost.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -20,37 +23,37 @@ namespace tetrakis::inline geometry {
 namespace {
 
 /// Least samples of the areas that are tried, one after the other.
-constexpr uint32_t kLeastSamples[] = {4096, 512, 64, 8};
+constexpr std::array<uint32_t, 4> kLeastSamples = {4096, 512, 64, 8};
 /// Nothing is tried where areas of kPond samples cover less than that share of the plane.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
 /// Estimates of bits are not better than that.
 constexpr double kClearly = 0.99;
 
-/// With what the header says of them.
-double bitsOf(const FlatLayer& flat) {
-  constexpr size_t kHeaderBytes = 8;
-  return flat.codeword.empty() ? 0 : 8 * static_cast<double>(flat.codeword.size() + kHeaderBytes);
-}
+/// A tile, copied from the plane.
+struct Tile {
+  SampledTile place;
+  std::vector<int32_t> heights;
+  std::vector<uint8_t> valid;
 
-/// Heights, transformed, and what they cost.
-class TriedPlane {
+  Tile(const PlaneView<const int32_t>& plane, const SampledTile& sampled)
+      : place(sampled),
+        heights(cut(plane.values(), plane.extent(), {0, sampled.window})),
+        valid(cut(plane.valid.bytes(), plane.extent(), {0, sampled.window})) {}
+  Extent extent() const { return place.window.extent(); }
+};
+
+/// A tile, transformed.
+class TriedTile {
  public:
-  TriedPlane(const PlaneView<const int32_t>& heights, const FlatAreas& flat,
-             const WaveletHeader& wavelet, uint32_t threads)
-      : values_(scaled(heights.values(), wavelet)),
+  TriedTile(const Tile& tile, const FlatAreas& flat, const WaveletHeader& wavelet)
+      : values_(scaled(tile.heights, wavelet)),
         levels_(scaled(flat.levels, wavelet)),
-        layout_(specOf(wavelet), heights.extent(), heights.valid, {flat.numbers, levels_}) {
-    clearUnmarked(std::span(values_), heights.valid);
-    forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, threads);
+        layout_(specOf(wavelet), tile.extent(), tile.valid, {flat.numbers, levels_}) {
+    clearUnmarked(std::span(values_), tile.valid);
+    forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
   }
   PlaneCost cost(double step) const { return costOf(layout_, values_, step); }
-  /// At which the coefficients cost at most so many bits.
-  double step(double bits) const {
-    double step = stepFor(layout_, values_, bits);
-    while (cost(step).bits > bits) step *= 2;
-    return step;
-  }
 
  private:
   static std::vector<int32_t> scaled(std::span<const int32_t> heights,
@@ -63,6 +66,39 @@ class TriedPlane {
 
   std::vector<int32_t> values_, levels_;
   PlaneLayout layout_;
+};
+
+/// Tiles that stand for a plane, and what that costs.
+class TriedPlane {
+ public:
+  /// areas: of each tile; the tiles outlive this, and so do they.
+  TriedPlane(const std::vector<Tile>& tiles, const std::vector<FlatAreas>& areas,
+             const WaveletHeader& wavelet, uint32_t threads)
+      : tiles_(tiles), tried_(tiles.size()), threads_(threads) {
+    parallelFor(threads_, tiles.size(),
+                [&](size_t i) { tried_[i].emplace(tiles[i], areas[i], wavelet); });
+  }
+  PlaneCost cost(double step) const {
+    std::vector<PlaneCost> costs(tiles_.size());
+    parallelFor(threads_, costs.size(), [&](size_t i) { costs[i] = tried_[i]->cost(step); });
+    PlaneCost sum;
+    for (size_t i = 0; i < costs.size(); ++i) {
+      sum.bits += tiles_[i].place.stands_for * costs[i].bits;
+      sum.squares += tiles_[i].place.stands_for * costs[i].squares;
+    }
+    return sum;
+  }
+  /// The least power of two at which the coefficients cost at most so many bits.
+  double step(double bits) const {
+    double step = 1;
+    while (cost(step).bits > bits) step *= 2;
+    return step;
+  }
+
+ private:
+  const std::vector<Tile>& tiles_;
+  std::vector<std::optional<TriedTile>> tried_;
+  uint32_t threads_;
 };
 
 /// The step, in units of the plane, that the purpose asks for.
@@ -119,40 +155,66 @@ class FlatTrials {
       : heights_(heights),
         purpose_(purpose),
         finder_(heights),
-        best_{{}, chooseWavelet(heights, purpose.range_bits, purpose.purpose)} {}
+        wavelet_(chooseWavelet(heights, purpose.range_bits, purpose.purpose)) {}
 
   FlatChoice choose() {
-    if (finder_.samplesOf(kPond) * kLeastShare < heights_.extent().samples()) return best_;
-    {
-      const TriedPlane plain(heights_, {}, best_.wavelet, purpose_.threads);
-      const double step = stepOf(plain, purpose_, best_.wavelet.fraction_bits);
-      steps_.emplace(plain, step, static_cast<double>(heights_.extent().samples()));
-    }
-    double before = std::numeric_limits<double>::infinity();
-    size_t areas = 0;
-    for (const uint32_t least : kLeastSamples) {
-      FlatLayer flat{finder_.areas(least), {}};
-      if (flat.areas.levels.size() == areas) continue;
-      areas = flat.areas.levels.size();
-      const double ratio = tryAreas(std::move(flat));
-      if (ratio > before) break;
-      before = ratio;
-    }
-    return std::move(best_);
+    const FlatChoice plain = {{}, wavelet_};
+    const uint64_t samples = heights_.extent().samples();
+    if (finder_.samplesOf(kPond, whole()) * kLeastShare < samples) return plain;
+    for (const SampledTile& tile : sampleTiles(finder_, kPond, kLeastSamples.back()))
+      tiles_.emplace_back(heights_, tile);
+    const uint32_t least = leastThatPays();
+    if (least == 0) return plain;
+    FlatLayer flat{finder_.areas(least, whole()), {}};
+    if (flat.areas.empty()) return plain;  // there are too many
+    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), heights_.valid);
+    if (flat.codeword.size() >= purpose_.bytes) return plain;
+    return {std::move(flat), *beside_};
   }
 
  private:
-  double tryAreas(FlatLayer flat) {
-    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), heights_.valid);
-    if (flat.codeword.size() >= purpose_.bytes) return std::numeric_limits<double>::infinity();
-    if (!wavelet_) wavelet_ = waveletBeside(flat.areas);
-    const TriedPlane held(heights_, flat.areas, *wavelet_, purpose_.threads);
-    const double ratio = steps_->ratio(held, bitsOf(flat));
-    if (ratio < best_ratio_) {
-      best_ratio_ = ratio;
-      best_ = {std::move(flat), *wavelet_};
+  Window whole() const { return {0, 0, heights_.width, heights_.height}; }
+
+  /// The least samples of the areas that pay best; 0: none does.
+  uint32_t leastThatPays() {
+    const TriedPlane plain(tiles_, std::vector<FlatAreas>(tiles_.size()), wavelet_,
+                           purpose_.threads);
+    const ComparedSteps steps(plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
+                              static_cast<double>(heights_.extent().samples()));
+    uint32_t best = 0;
+    double best_ratio = kClearly, before = std::numeric_limits<double>::infinity();
+    size_t count_before = 0;
+    for (const uint32_t least : kLeastSamples) {
+      size_t count = 0;
+      std::vector<FlatAreas> areas;
+      for (const Tile& tile : tiles_) {
+        areas.push_back(finder_.areas(least, tile.place.window));
+        count += areas.back().levels.size();
+      }
+      if (count == count_before) continue;
+      count_before = count;
+      const double ratio = ratioOf(areas, least, steps);
+      if (ratio < best_ratio) {
+        best_ratio = ratio;
+        best = least;
+      }
+      if (ratio > before) break;
+      before = ratio;
     }
-    return ratio;
+    return best;
+  }
+
+  double ratioOf(const std::vector<FlatAreas>& areas, uint32_t least, const ComparedSteps& steps) {
+    constexpr double kHeaderBits = 64;  // what the header says of them
+    double bits = kHeaderBits;
+    for (size_t i = 0; i < tiles_.size(); ++i) {
+      if (areas[i].empty()) continue;
+      const Tile& tile = tiles_[i];
+      bits += tile.place.stands_for * 8 *
+              static_cast<double>(encodeFlatAreas(areas[i], tile.extent(), tile.valid).size());
+    }
+    if (!beside_) beside_ = waveletBeside(finder_.areas(least, whole()));
+    return steps.ratio(TriedPlane(tiles_, areas, *beside_, purpose_.threads), bits);
   }
 
   /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
@@ -166,10 +228,9 @@ class FlatTrials {
   const PlaneView<const int32_t>& heights_;
   const HeightPurpose& purpose_;
   FlatFinder finder_;
-  FlatChoice best_;
-  std::optional<ComparedSteps> steps_;
-  double best_ratio_ = kClearly;
-  std::optional<WaveletHeader> wavelet_;  ///< that suits what areas leave
+  std::vector<Tile> tiles_;
+  WaveletHeader wavelet_;                ///< of the plane as it is
+  std::optional<WaveletHeader> beside_;  ///< that suits what the first areas leave
 };
 
 }  // namespace

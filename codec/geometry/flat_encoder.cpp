@@ -22,36 +22,44 @@ FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heigh
   for (size_t i = 0; i < first_.size(); ++i) sizes_[first_[i]] += heights.valid[i];
 }
 
-uint64_t FlatFinder::samplesOf(uint32_t least) const {
+uint64_t FlatFinder::samplesOf(uint32_t least, const Window& window) const {
+  if (none()) return 0;
   uint64_t sum = 0;
-  for (const uint32_t size : sizes_) sum += size >= least ? size : 0;
+  for (uint32_t y = window.y; y < window.y + window.height; ++y) {
+    const size_t row = size_t{y} * heights_.width;
+    for (size_t k = row + window.x; k < row + window.x + window.width; ++k)
+      sum += heights_.valid[k] && sizeAt(k) >= least;
+  }
   return sum;
 }
 
-FlatAreas FlatFinder::areas(uint32_t least) const {
-  assert(least > 0);
+FlatAreas FlatFinder::areas(uint32_t least, const Window& window) const {
+  assert(least > 0 && window.isInside(extent()));
+  if (none()) return {};
+  std::vector<uint8_t> flat;
+  flat.reserve(window.extent().samples());
   const std::span<const int32_t> values = heights_.values();
-  std::vector<uint8_t> flat(first_.size());
-  for (size_t k = 0; k < flat.size(); ++k)
-    flat[k] = heights_.valid[k] && sizes_[first_[k]] >= least;
+  size_t k = 0;  // in the plane, of the window's sample i
   // Where areas of two levels touch, the smaller one gives way by a sample.
-  const auto part = [&](size_t a, size_t b) {
-    if ((flat[a] & flat[b]) == 0 || values[a] == values[b]) return;
-    flat[sizes_[first_[a]] <= sizes_[first_[b]] ? a : b] = 0;
+  const auto part = [&](size_t i, size_t before, size_t k_before) {
+    if ((flat[i] & flat[before]) == 0 || values[k] == values[k_before]) return;
+    flat[sizeAt(k) <= sizeAt(k_before) ? i : before] = 0;
   };
-  if (flat.empty()) return {};
-  size_t i = 0;
-  for (uint32_t y = 0; y < heights_.height; ++y) {
-    for (uint32_t x = 0; x < heights_.width; ++x, ++i) {
-      if (x > 0) part(i, i - 1);
-      if (y > 0) part(i, i - heights_.width);
+  for (uint32_t y = 0; y < window.height; ++y) {
+    k = size_t{window.y + y} * heights_.width + window.x;
+    for (uint32_t x = 0; x < window.width; ++x, ++k) {
+      const size_t i = flat.size();
+      flat.push_back(heights_.valid[k] && sizeAt(k) >= least);
+      if (x > 0) part(i, i - 1, k - 1);
+      if (y > 0) part(i, i - window.width, k - heights_.width);
     }
   }
-  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, heights_.extent()));
+  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, window.extent()));
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
-  for (size_t k = 0; k < values.size(); ++k) {
-    if (areas.numbers[k] != 0) areas.levels[areas.numbers[k] - 1u] = values[k];
+  const std::vector<int32_t> shown = cut(values, extent(), {0, window});
+  for (size_t i = 0; i < shown.size(); ++i) {
+    if (areas.numbers[i] != 0) areas.levels[areas.numbers[i] - 1u] = shown[i];
   }
   return areas;
 }

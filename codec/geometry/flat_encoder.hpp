@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/plane.hpp"
+#include "base/view.hpp"
 #include "codec/geometry/flat_areas.hpp"
 
 namespace tetrakis::inline geometry {
@@ -16,14 +16,19 @@ class FlatFinder {
   /// heights: their values outlive this.
   explicit FlatFinder(const PlaneView<const int32_t>& heights);
 
-  /// Samples of areas of at least so many.
-  uint64_t samplesOf(uint32_t least) const;
+  Extent extent() const { return heights_.extent(); }
 
-  /// The areas of at least so many samples, without the samples that touch larger ones of another
-  /// level. None if there is no such area, or if there are too many.
-  FlatAreas areas(uint32_t least) const;
+  /// Samples in a window of areas of at least so many.
+  uint64_t samplesOf(uint32_t least, const Window& window) const;
+
+  /// What a window shows of the areas of at least so many samples, without the samples that touch
+  /// larger ones of another level. None if it shows no such area, or too many.
+  FlatAreas areas(uint32_t least, const Window& window) const;
 
  private:
+  bool none() const { return first_.empty(); }
+  uint32_t sizeAt(size_t sample) const { return sizes_[first_[sample]]; }
+
   PlaneView<const int32_t> heights_;
   std::vector<uint32_t> first_;  ///< of each sample: the first one of its area
   std::vector<uint32_t> sizes_;  ///< of each area, at its first sample

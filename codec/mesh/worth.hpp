@@ -11,8 +11,8 @@ namespace tetrakis::inline mesh {
 /// -infinity (it is removed first) if its removal does not increase the error, and +infinity
 /// (removed last) if it does.
 inline double slopeOf(double distortion, uint32_t cost) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (cost == 0) return distortion > 0 ? kInfinity : -kInfinity;
+  constexpr double kSteepest = std::numeric_limits<double>::infinity();
+  if (cost == 0) return distortion > 0 ? kSteepest : -kSteepest;
   return distortion / cost;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tks_needed_ranges names is enough: a decoder that is given the header and those bytes decodes
-// what one decodes that has all of the stream.
+// What tks_needed_ranges names is enough: a decoder that is given the header and those bytes
+// decodes what one decodes that has all of the stream.
 #include <limits>
 #include <random>
 

@@ -53,7 +53,7 @@ std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis) {
 }
 
 bool isInDegrees(const std::string& crs) {
-  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const ProjContext context = quietContext();
   if (!context) return false;
   const ProjObject part = horizontalPart(context.get(), findCrs(context.get(), crs));
@@ -61,7 +61,7 @@ bool isInDegrees(const std::string& crs) {
   const PJ_TYPE type = proj_get_type(part.get());
   if (type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS) return false;
   const auto unit = axisUnit(context.get(), part.get());
-  return unit && std::abs(unit->metres - kDegree) < 1e-9 * kDegree;
+  return unit && std::abs(unit->metres - kRadiansPerDegree) < 1e-9 * kRadiansPerDegree;
 }
 
 std::optional<CrsUnit> epsgUnit(uint16_t code) {

@@ -37,13 +37,13 @@ constexpr std::array<SampleType, 9> kSampleTypes{{{TypeDesc::UINT8, TKS_U8},
                                                   {TypeDesc::DOUBLE, TKS_F32}}};
 
 /// What OpenImageIO calls a sample type.
-TypeDesc typeOf(tks_sample sample) {
+TypeDesc heightTypeOf(tks_sample sample) {
   return std::find_if(kSampleTypes.begin(), kSampleTypes.end(),
                       [sample](const SampleType& type) { return type.sample == sample; })
       ->stored;
 }
 
-Result<tks_sample> sampleOf(const Raster& raster) {
+Result<tks_sample> heightSampleOf(const Raster& raster) {
   const OIIO::ImageSpec& spec = raster.spec;
   if (spec.nchannels != 1 || raster.palette) {
     const int channels = raster.palette ? 3 : spec.nchannels;
@@ -105,7 +105,7 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
                                   Notes& notes) {
   auto raster = openRaster(path);
   if (!raster.ok()) return raster.status();
-  const auto sample = sampleOf(*raster);
+  const auto sample = heightSampleOf(*raster);
   if (!sample.ok()) return sample.status();
   Reading reading;
   HeightFile& heights = reading.heights;
@@ -118,7 +118,7 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
   }
   if (nodata) heights.nodata = nodata;
   const bool wide = raster->spec.format == TypeDesc::DOUBLE;
-  auto data = readSamples(*raster, wide ? TypeDesc(TypeDesc::DOUBLE) : typeOf(*sample));
+  auto data = readSamples(*raster, wide ? TypeDesc(TypeDesc::DOUBLE) : heightTypeOf(*sample));
   if (data.ok() && wide) data = narrowed(*data, heights.nodata, raster->name);
   if (!data.ok()) return data.status();
   heights.data = std::move(*data);
@@ -184,7 +184,7 @@ Status writePng(const std::string& path, const HeightFile& heights) {
 Status writeExr(const std::string& path, const HeightFile& heights) {
   if (heights.sample != TKS_U32 && heights.sample != TKS_F32) return cannotHold("exr");
   const OIIO::ImageSpec spec(static_cast<int>(heights.width), static_cast<int>(heights.height), 1,
-                             typeOf(heights.sample));
+                             heightTypeOf(heights.sample));
   const auto bytes = encodeRaster("exr", spec, heights.data);
   return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
 }

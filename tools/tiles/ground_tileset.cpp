@@ -18,17 +18,17 @@ using nlohmann::json;
 
 /// The least power of two of which 2^22 reach across a tile of a level, so that floats hold every
 /// multiple of it that is needed.
-double stepOf(uint32_t level) {
+double positionStep(uint32_t level) {
   const double side = tileDegrees(level) * std::numbers::pi / 180 * kSemiMajor;
   return std::exp2(std::ceil(std::log2(side * std::numbers::sqrt2)) - 22);
 }
 
-double rounded(double value, double step) {
+double nearestMultiple(double value, double step) {
   return std::round(value / step) * step;
 }
 
 /// From the axes of the Earth to those of glTF, where y is up; viewers turn them back.
-Vector turned(const Vector& v) {
+Vector inGltfAxes(const Vector& v) {
   return {v[0], v[2], -v[1]};
 }
 
@@ -53,7 +53,7 @@ TileMesh groundOf(const TileMesh& mesh) {
 
 MeshFile meshFileOf(const TileMesh& mesh, const GeographicTile& tile) {
   const Placed placed = place(mesh, tile);
-  const double step = stepOf(tile.level);
+  const double step = positionStep(tile.level);
   MeshFile file;
   for (size_t k = 0; k < 3; ++k) {
     double low = placed.positions[0][k], high = low;
@@ -61,23 +61,24 @@ MeshFile meshFileOf(const TileMesh& mesh, const GeographicTile& tile) {
       low = std::min(low, p[k]);
       high = std::max(high, p[k]);
     }
-    file.origin[k] = rounded((low + high) / 2, step);
+    file.origin[k] = nearestMultiple((low + high) / 2, step);
   }
   for (size_t i = 0; i < placed.positions.size(); ++i) {
     Vector offset;
     for (size_t k = 0; k < 3; ++k)
-      offset[k] = rounded(placed.positions[i][k], step) - file.origin[k];
-    for (const double value : turned(offset)) file.positions.push_back(static_cast<float>(value));
-    for (const double value : turned(placed.normals[i]))
+      offset[k] = nearestMultiple(placed.positions[i][k], step) - file.origin[k];
+    for (const double value : inGltfAxes(offset))
+      file.positions.push_back(static_cast<float>(value));
+    for (const double value : inGltfAxes(placed.normals[i]))
       file.normals.push_back(static_cast<float>(value));
   }
-  file.origin = turned(file.origin);
+  file.origin = inGltfAxes(file.origin);
   file.triangles = mesh.triangles;
   return file;
 }
 
 /// Degrees to the radians and metres of a bounding volume.
-json regionOf(const GeographicBounds& b, double lowest, double highest) {
+json volumeOf(const GeographicBounds& b, double lowest, double highest) {
   constexpr double kRadian = std::numbers::pi / 180;
   return {{"region",
            {b.west * kRadian, b.south * kRadian, b.east * kRadian, b.north * kRadian, lowest,
@@ -122,7 +123,7 @@ Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& mesh, const Ge
   }
   if (bytes.empty() && children.empty()) return bytes;
   node.tile["geometricError"] = children.empty() ? 0 : error;
-  node.tile["boundingVolume"] = regionOf(node.bounds, node.lowest, node.highest);
+  node.tile["boundingVolume"] = volumeOf(node.bounds, node.lowest, node.highest);
   if (!children.empty()) node.tile["children"] = std::move(children);
   nodes_.emplace(std::pair(tile.x, tile.y), std::move(node));
   return bytes;
@@ -141,7 +142,7 @@ json GroundTileset::document(const GeographicBounds& bounds) const {
     children.push_back(node.tile);
   }
   // Nothing is nothing at 16 times the error of the first tiles.
-  json root{{"boundingVolume", regionOf(all, lowest, highest)},
+  json root{{"boundingVolume", volumeOf(all, lowest, highest)},
             {"geometricError", 16 * error_},
             {"refine", "REPLACE"}};
   if (!children.empty()) root["children"] = std::move(children);

@@ -5,6 +5,7 @@
 #include "codec/geometry/flat_choice.hpp"
 #include "codec/geometry/flat_decoder.hpp"
 #include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/flat_tiles.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
@@ -70,15 +71,16 @@ TEST(FlatAreas, AreFoundAndNeverTouchOthersOfAnotherLevel) {
   Plane heights = randomPlane(random, size.count(), 0, 1);  // many areas, of all sizes
   const std::vector<uint8_t> valid = validity(VoidShape::kCoast, size.width, size.height);
   const FlatFinder finder({heights, size.extent(), valid});
+  const Window whole{0, 0, size.width, size.height};
   for (const uint32_t least : {1u, 8u, 64u}) {
-    const FlatAreas areas = finder.areas(least);
+    const FlatAreas areas = finder.areas(least, whole);
     for (size_t i = 0; i < areas.numbers.size(); ++i) {
       if (areas.numbers[i] == 0) continue;
       ASSERT_TRUE(valid[i]);
       ASSERT_EQ(areas.levels[areas.numbers[i] - 1u], heights[i]);
     }
   }
-  EXPECT_TRUE(finder.areas(10000).empty());
+  EXPECT_TRUE(finder.areas(10000, whole).empty());
 }
 
 TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
@@ -92,6 +94,38 @@ TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
   EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
   EXPECT_EQ(chooseFlatAreas({lake, size.extent()}, purpose).flat.areas.levels,
             std::vector<int32_t>{17});
+}
+
+/// Large planes are tried on a few tiles; ponds that lie in some of them alone are found.
+TEST(FlatAreas, TilesStandForAPlane) {
+  Random random(4);
+  const Size size{900, 700};
+  Plane land = randomPlane(random, size.count(), 0, 4000), ponds = land;
+  size_t count = 0, water = 0;
+  for (uint32_t y = 300; y < 660; ++y) {
+    for (uint32_t x = 400; x < 860; ++x) {
+      if (x % 40 >= 20 || y % 40 >= 20) continue;
+      ponds[size_t{y} * size.width + x] = 4017;
+      count += x % 40 == 0 && y % 40 == 0;
+      ++water;
+    }
+  }
+  const FlatFinder finder({ponds, size.extent()});
+  ASSERT_EQ(finder.samplesOf(64, {0, 0, size.width, size.height}), water);
+  double stand_for = 0, flat = 0;
+  const auto tiles = sampleTiles(finder, 64, 8);
+  EXPECT_GT(tiles.size(), 1u);
+  for (const auto& [window, times] : tiles) {
+    ASSERT_TRUE(window.isInside(size.extent()));
+    stand_for += times * static_cast<double>(window.extent().samples());
+    flat += times * static_cast<double>(finder.samplesOf(64, window));
+  }
+  EXPECT_NEAR(stand_for, static_cast<double>(size.count()), 1e-6 * stand_for);
+  EXPECT_NEAR(flat, static_cast<double>(water), 0.3 * flat);
+  const HeightPurpose purpose{12, Purpose::kLossless};
+  EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
+  EXPECT_EQ(chooseFlatAreas({ponds, size.extent()}, purpose).flat.areas.levels,
+            std::vector<int32_t>(count, 4017));
 }
 
 }  // namespace
