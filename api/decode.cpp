@@ -5,6 +5,7 @@
 
 #include "api/decoder.hpp"
 #include "api/memory.hpp"
+#include "api/needed.hpp"
 #include "api/written.hpp"
 #include "base/samples.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
@@ -53,7 +54,7 @@ Memory* memoryOf(const tks_decoder& decoder, std::map<int, Memory>& levels, cons
 
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
-  return decodeHeights(*header.geometry, header.layers,
+  return decodeHeights(headerFor(decoder, *header.geometry, view), header.layers,
                        decoder.payload.codewordsOf(Component::kGeometry), view,
                        {decoder.threads, memoryOf(decoder, decoder.heights_memory, view)});
 }
@@ -166,7 +167,8 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
     writeUnsentTexels(header, call.out, count);
     return {};
   }
-  writeTexels(decodeTexture(header, decoder.payload.codewordsOf(Component::kTexture), *view,
+  writeTexels(decodeTexture(headerFor(decoder, header, *view),
+                            decoder.payload.codewordsOf(Component::kTexture), *view,
                             {decoder.threads, memoryOf(decoder, decoder.texture_memory, *view)}),
               sample, call.out);
   return {};

@@ -61,11 +61,11 @@ std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings
 }
 
 bool Source::readHeader() {
-  if (VSIFSeekL(file_.get(), 0, SEEK_END) != 0) {
+  if (VSIFSeekL(bytes_.file(), 0, SEEK_END) != 0) {
     reportFailure(TKS_IO, name_, "The length of the file cannot be found.");
     return false;
   }
-  end_ = std::min<uint64_t>(VSIFTellL(file_.get()), settings_.bytes.value_or(UINT64_MAX));
+  end_ = std::min<uint64_t>(VSIFTellL(bytes_.file()), settings_.bytes.value_or(UINT64_MAX));
   tks_status status = TKS_TRUNCATED;
   for (uint64_t size = 0; status == TKS_TRUNCATED && size < end_;) {
     size = std::min(end_, std::max(kHeaderGuess, 4 * size));
@@ -85,33 +85,25 @@ bool Source::checkLength() {
   return false;
 }
 
-bool Source::readUpTo(uint64_t bytes) {
-  const size_t had = bytes_.size();
-  if (bytes <= had) return true;
-  try {
-    bytes_.resize(bytes);
-  } catch (const std::bad_alloc&) {
-    reportFailure(TKS_NO_MEMORY, name_, "");
-    return false;
-  }
-  const bool read = VSIFSeekL(file_.get(), had, SEEK_SET) == 0 &&
-                    VSIFReadL(bytes_.data() + had, 1, bytes - had, file_.get()) == bytes - had;
-  if (read) return true;
-  bytes_.resize(had);
+bool Source::read(std::span<const tks_range> ranges) {
+  const std::optional<tks_range> missing = bytes_.read(ranges);
+  if (!missing) return true;
   reportFailure(TKS_IO, name_,
-                "Bytes " + std::to_string(had) + " to " + std::to_string(bytes - 1) +
+                "Bytes " + std::to_string(missing->offset) + " to " +
+                    std::to_string(missing->offset + missing->size - 1) +
                     " of the file cannot be read.");
   return false;
 }
 
 tks_status Source::openPrefix(uint64_t bytes) {
   decoder_.reset();
-  if (!readUpTo(bytes)) return TKS_IO;
+  const tks_range all{0, bytes};
+  if (!read({&all, 1})) return TKS_IO;
   const tks_limits most = limits();
   tks_decoder* opened = nullptr;
   char sentence[512] = "";
   const tks_status status =
-      tks_open(bytes_.data(), bytes, &most, &opened, sentence, sizeof sentence);
+      tks_open(bytes_.at(0).data(), bytes, &most, &opened, sentence, sizeof sentence);
   if (status != TKS_OK) {
     message_ = sentence;
     return status;
@@ -135,14 +127,67 @@ bool Source::reopen(uint64_t bytes) {
   return failed(status);
 }
 
-bool Source::load(uint32_t level) {
+bool Source::hasIndex() {
+  if (!has_index_) {
+    tks_ranges ranges{};
+    const tks_status status = tks_needed_ranges(decoder_.get(), part_, nullptr, &ranges);
+    tks_free_ranges(&ranges);
+    has_index_ = status != TKS_USAGE;  // a level or window may be too large for it, another not
+  }
+  return *has_index_;
+}
+
+std::optional<std::vector<tks_range>> Source::neededRanges(uint32_t level,
+                                                           const tks_window* window) {
+  const bool heights = part_ == TKS_PART_HEIGHTS;
+  tks_ranges needed{};
+  tks_status status = tks_set_levels(decoder_.get(), heights ? level : 0, heights ? 0 : level);
+  if (status == TKS_OK) status = tks_needed_ranges(decoder_.get(), part_, window, &needed);
+  if (status != TKS_OK) {
+    failed(status);
+    return std::nullopt;
+  }
+  std::vector<tks_range> ranges(needed.ranges, needed.ranges + needed.count);
+  tks_free_ranges(&needed);
+  return ranges;
+}
+
+bool Source::loadRanges(const std::vector<tks_range>& ranges) {
+  decoder_.reset();  // which may borrow bytes that move
+  if (!read(ranges) || !reopen(info_.header_bytes)) return false;
+  opened_ = 0;
+  for (size_t i = 0; i < ranges.size();) {
+    // Each call copies what is there, so what was read in one piece is put in one piece.
+    const std::span<const uint8_t> known = bytes_.at(ranges[i].offset);
+    const uint64_t first = ranges[i].offset, end = first + known.size();
+    uint64_t last = first;
+    for (; i < ranges.size() && ranges[i].offset < end; ++i)
+      last = ranges[i].offset + ranges[i].size;
+    const tks_status status =
+        tks_put(decoder_.get(), first, known.data(), static_cast<size_t>(last - first));
+    if (status != TKS_OK) return failed(status);
+  }
+  return true;
+}
+
+bool Source::load(uint32_t level, const tks_window* window) {
   if (settings_.strict && !verified_) {
     if (!reopen(end_)) return false;
     if (const tks_status sound = tks_verify(decoder_.get()); sound != TKS_OK) return failed(sound);
     verified_ = true;
   }
   const uint64_t pixels = uint64_t{width(level)} * height(level) * pixelBytes();
-  return reopen(level == 0 ? end_ : std::min(end_, info_.header_bytes + pixels));
+  const uint64_t first = level == 0 ? end_ : std::min(end_, info_.header_bytes + pixels);
+  if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
+  // Of a shorter file the first bytes are asked for, not what a window would need of all.
+  if (opened_ == first || !complete() || !hasIndex()) return reopen(first);
+  const auto ranges = neededRanges(level, window);
+  if (!ranges) return false;
+  const uint64_t cost = FileBytes::costOf(*ranges);
+  if (cost >= first - first / 4) return reopen(first);
+  // Who has read most of it will read the rest. The whole stream decodes to the same.
+  if (bytes_.known() + cost > end_ - end_ / 4) return reopen(end_);
+  return loadRanges(*ranges);
 }
 
 uint32_t Source::width(uint32_t level) const {
@@ -189,7 +234,7 @@ const std::byte* Source::level(uint32_t level) {
   KeptLevel& kept = kept_.at(level == 0 ? 0 : 1);
   if (!kept.pixels.empty() && kept.level == level) return kept.pixels.data();
   kept.pixels.clear();
-  if (!load(level)) return nullptr;
+  if (!load(level, nullptr)) return nullptr;
   try {
     std::vector<std::byte> pixels;
     if (!decodeLevel(level, pixels)) return nullptr;
@@ -202,7 +247,7 @@ const std::byte* Source::level(uint32_t level) {
 }
 
 bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
-  if (!load(0)) return false;
+  if (!load(0, &window)) return false;
   tks_decoder* const decoder = decoder_.get();
   tks_status status = tks_set_levels(decoder, 0, 0);
   if (status != TKS_OK) return failed(status);

@@ -8,10 +8,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <cpl_vsi.h>
+#include "doors/gdal/file_bytes.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {
@@ -25,12 +26,8 @@ struct OpenSettings {
   uint32_t threads = 1;
 };
 
-struct FileCloser {
-  void operator()(VSILFILE* file) const { VSIFCloseL(file); }
-};
-using File = std::unique_ptr<VSILFILE, FileCloser>;
-
-/// Opening reads the header; the rest is read when samples are asked for.
+/// Opening reads the header; the rest is read when samples are asked for: of streams with a front
+/// index the packets that they need, else the file from its beginning.
 class Source {
  public:
   /// Null after an error was reported.
@@ -56,7 +53,8 @@ class Source {
 
   /// All pixels of a level, channels interleaved; of level 0 and the last other level they are
   /// kept. Null after an error was reported. A level above 0 takes no more bytes of the stream than
-  /// its pixels have: what it shows comes first, and a small map takes a small download.
+  /// its pixels have (what it shows comes first, and a small map takes a small download), or those
+  /// that it needs, where these are fewer.
   const std::byte* level(uint32_t level);
   /// A part of level 0.
   bool window(const tks_window& window, std::vector<std::byte>& out);
@@ -65,25 +63,30 @@ class Source {
   using DecoderPointer = std::unique_ptr<tks_decoder, decltype(&tks_close)>;
 
   Source(std::string name, const OpenSettings& settings, File file)
-      : name_(std::move(name)), settings_(settings), file_(std::move(file)) {}
+      : name_(std::move(name)), settings_(settings), bytes_(std::move(file)) {}
   bool readHeader();
   bool checkLength();
   /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
   tks_status openPrefix(uint64_t bytes);
   bool reopen(uint64_t bytes);
-  bool readUpTo(uint64_t bytes);
-  /// Opens what a level takes.
-  bool load(uint32_t level);
+  bool read(std::span<const tks_range> ranges);
+  /// Opens what a level takes, or, at level 0, a window of it (null: all).
+  bool load(uint32_t level, const tks_window* window);
+  /// Whether the stream has a front index, all of which is there.
+  bool hasIndex();
+  /// What a level or a window takes, by the index. Nothing after a reported error.
+  std::optional<std::vector<tks_range>> neededRanges(uint32_t level, const tks_window* window);
+  bool loadRanges(const std::vector<tks_range>& ranges);
   bool failed(tks_status status);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
 
   std::string name_;
   OpenSettings settings_;
-  File file_;
   tks_part part_ = TKS_PART_HEIGHTS;
   uint64_t end_ = 0;  ///< of what may be used
-  std::vector<uint8_t> bytes_;
-  uint64_t opened_ = 0;  ///< how many of them the decoder has
+  FileBytes bytes_;
+  uint64_t opened_ = 0;  ///< how many of the first bytes the decoder has; 0: ranges
+  std::optional<bool> has_index_;
   bool verified_ = false;
   std::string message_;  ///< why openPrefix failed
   DecoderPointer decoder_{nullptr, tks_close};

@@ -363,6 +363,26 @@ typedef enum tks_part {
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes);
 
+/* Bytes of a stream: `size` of them from `offset` on. */
+typedef struct tks_range {
+  uint64_t offset, size;
+} tks_range;
+
+typedef struct tks_ranges {
+  size_t count;
+  tks_range* ranges; /* in their order; no two of them touch */
+} tks_ranges;
+
+/* Which bytes behind the header a call needs of a stream with a front index, to decode what it
+ * would of the complete stream: the packets of the tracks that it decodes. Given to tks_put they
+ * suffice, for what is missing of other tracks counts as there. Of streams in regions a window
+ * needs some regions, a level from 3 on no region of the finest levels. For a rougher terrain take
+ * of every range what lies before some byte. TKS_USAGE: there is no index, part or window.
+ * TKS_LIMIT: as the call. */
+tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
+                             tks_ranges* out);
+void tks_free_ranges(tks_ranges* ranges);
+
 /* How many threads decoding may use from now on: 0 or 1 is one, and the default. What is decoded
  * never depends on it. */
 tks_status tks_set_threads(tks_decoder* decoder, uint32_t threads);

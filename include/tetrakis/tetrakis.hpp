@@ -165,6 +165,17 @@ class Decoder {
     return taken(tks_put(decoder_.get(), offset, bytes.data(), bytes.size()));
   }
 
+  /// Which bytes such a call needs for what it would decode of the complete stream, which has a
+  /// front index (tks_needed_ranges).
+  Result<std::vector<tks_range>> neededRanges(tks_part part, const tks_window* window = nullptr) {
+    tks_ranges ranges{};
+    const tks_status status = tks_needed_ranges(decoder_.get(), part, window, &ranges);
+    if (status != TKS_OK) return failure(status);
+    std::vector<tks_range> result(ranges.ranges, ranges.ranges + ranges.count);
+    tks_free_ranges(&ranges);
+    return result;
+  }
+
   /// Mip levels of heights and texture, 0 the whole image: tks_set_levels says what they are.
   /// info() follows.
   Status setLevels(uint32_t heights, uint32_t texture) {

@@ -160,6 +160,9 @@ TEST_F(CliTiles, TakeProjectedGroundVoidsAndTheLeastOfTerrains) {
   expectSound(readTiles("least"));
   ASSERT_EQ(cli("-q tiles s.tks --bytes 200 -f -o least").code, 0);
   expectSound(readTiles("least"));
+  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles -f -o least").code, 0);
+  EXPECT_EQ(json::parse(content("least/tileset.json"))["asset"]["version"], "1.1");
+  EXPECT_FALSE(std::filesystem::exists(path("least/layer.json")));
 }
 
 TEST_F(CliTiles, WhatHasNoPlaceOnAGlobeIsRefused) {

@@ -39,7 +39,8 @@ class TileFolder {
       folder.replaces_ = !fs::is_empty(folder.path_, error);
       if (folder.replaces_ && !force)
         return Status(TKS_IO, name + " is not empty: -f replaces tiles in it");
-      if (folder.replaces_ && !fs::exists(folder.path_ / "layer.json", error))
+      if (folder.replaces_ && !fs::exists(folder.path_ / "layer.json", error) &&
+          !fs::exists(folder.path_ / "tileset.json", error))
         return Status(TKS_IO, name + " holds something else than tiles: name another folder");
     }
     Result<Temporary> staging = Temporary::makeFolder(folder.path_.parent_path());
@@ -72,15 +73,17 @@ Status makeTiles(const TilesArguments& arguments, bool quiet) {
   stream->decoder.setThreads(arguments.threads);
   Result<TileFolder> folder = TileFolder::plan(arguments.folder, arguments.force);
   if (!folder.ok()) return folder.status();
+  const TileFormat format =
+      arguments.format == "3dtiles" ? TileFormat::k3dTiles : TileFormat::kQuantizedMesh;
   Progress progress("tiles", quiet);
   const Result<TileSetSize> written =
-      writeTerrainTiles(stream->decoder, folder->staging(),
+      writeTerrainTiles(stream->decoder, format, folder->staging(),
                         [&progress](double done) { Progress::report(&progress, done); });
   if (!written.ok()) return written.status();
   if (const Status status = folder->commit(); !status.ok()) return status;
   if (!quiet)
-    std::fprintf(stderr, "%s: %llu tiles, levels 0 to %u, %llu bytes\n", arguments.folder.c_str(),
-                 static_cast<unsigned long long>(written->tiles), written->deepest,
+    std::fprintf(stderr, "%s: %llu tiles, levels %u to %u, %llu bytes\n", arguments.folder.c_str(),
+                 static_cast<unsigned long long>(written->tiles), written->first, written->deepest,
                  static_cast<unsigned long long>(written->bytes));
   return {};
 }
@@ -91,11 +94,11 @@ void addTiles(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<TilesArguments>();
   CLI::App& verb = *app.add_subcommand("tiles", "Make terrain tiles for a globe out of a stream");
   addSource(verb, arguments->source);
-  verb.add_option("-o,--output", arguments->folder, "Folder for layer.json and the tiles")
+  verb.add_option("-o,--output", arguments->folder, "Folder for the tiles")
       ->required()
       ->type_name("DIR");
-  verb.add_option("--format", arguments->format, "Of the tiles: quantized-mesh")
-      ->check(silent(CLI::IsMember({"quantized-mesh"})))
+  verb.add_option("--format", arguments->format, "Of the tiles: quantized-mesh or 3dtiles")
+      ->check(silent(CLI::IsMember({"quantized-mesh", "3dtiles"})))
       ->capture_default_str()
       ->type_name("NAME");
   addThreads(verb, arguments->threads);

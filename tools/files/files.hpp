@@ -78,6 +78,7 @@ struct MeshFile {
   std::vector<float> normals;          ///< 3 per vertex, of length 1; empty: smooth ones are made
   std::vector<uint32_t> triangles;     ///< 3 per triangle, counter-clockwise seen from above
   const ImageFile* texture = nullptr;  ///< not owned; may be null
+  std::array<double, 3> origin{};      ///< of the positions; .glb alone keeps it
 };
 
 /// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binary glTF 2.0 (ISO/IEC 12113): one JSON chunk that describes, one binary chunk that holds.
+#include <array>
 #include <limits>
 
 #include "tools/files/glb_document.hpp"
@@ -58,6 +59,7 @@ Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh, const MeshOptions
                   {"scenes", listOf({{"nodes", listOf(0)}})},
                   {"nodes", listOf({{"mesh", 0}})},
                   {"buffers", listOf(json::object())}};
+  if (mesh.origin != std::array<double, 3>{}) glb.document["nodes"][0]["translation"] = mesh.origin;
   Status status = addGeometry(glb, mesh, options.compression);
   if (status.ok()) status = addMaterial(glb, mesh.texture, options.texture);
   if (!status.ok()) return status;

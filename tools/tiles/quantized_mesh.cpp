@@ -5,65 +5,18 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "tools/files/little_endian.hpp"
+#include "tools/tiles/placed_mesh.hpp"
 
 namespace tetrakis::tools {
 namespace {
 
 constexpr uint32_t kLastStep = 32767;
-constexpr double kSemiMajor = 6378137.0, kFlat = 1 / 298.257223563;
-constexpr double kSemiMinor = kSemiMajor * (1 - kFlat);
-
-using Vector = std::array<double, 3>;
 
 double product(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-
-/// East, north and up at a place, in the axes of the Earth (EPSG:4978).
-struct Frame {
-  Vector east, north, up;
-};
-
-Frame frameAt(double longitude, double latitude) {
-  constexpr double kRadian = std::numbers::pi / 180;
-  const double l = longitude * kRadian, p = latitude * kRadian;
-  return {{-std::sin(l), std::cos(l), 0},
-          {-std::sin(p) * std::cos(l), -std::sin(p) * std::sin(l), std::cos(p)},
-          {std::cos(p) * std::cos(l), std::cos(p) * std::sin(l), std::sin(p)}};
-}
-
-/// Above the ellipsoid WGS 84.
-Vector onEarth(const Frame& frame, double height) {
-  constexpr double kE2 = kFlat * (2 - kFlat);
-  const double sine = frame.up[2], normal = kSemiMajor / std::sqrt(1 - kE2 * sine * sine);
-  return {(normal + height) * frame.up[0], (normal + height) * frame.up[1],
-          (normal * (1 - kE2) + height) * frame.up[2]};
-}
-
-/// The vertices in space, with their normals.
-struct Placed {
-  std::vector<Vector> positions, normals;
-};
-
-Placed place(const TileMesh& mesh, const GeographicTile& tile) {
-  const GeographicBounds bounds = boundsOf(tile);
-  const double cell = tileDegrees(tile.level) / kTileCells;
-  Placed placed;
-  for (const TileMesh::Vertex& v : mesh.vertices) {
-    const Frame frame = frameAt(bounds.west + v.column * cell, bounds.south + v.row * cell);
-    placed.positions.push_back(onEarth(frame, v.height));
-    const double length = std::hypot(v.east, v.north, 1);
-    Vector normal;
-    for (size_t k = 0; k < 3; ++k)
-      normal[k] = (frame.up[k] - v.east * frame.east[k] - v.north * frame.north[k]) / length;
-    placed.normals.push_back(normal);
-  }
-  return placed;
-}
-
 /// Around the middle of the box that holds the points.
 struct Sphere {
   Vector centre{};

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tools/files/earth.hpp"
@@ -31,6 +32,7 @@ TerrainLevel::TerrainLevel(const EarthGround& ground, const LevelSurface& surfac
     const double latitude = double(int64_t{range.y0} * kTileCells + y) * cell - 90;
     ground.sampleParallel(surface, latitude, longitudes, row);
     for (float& height : row) {
+      ground_.push_back(!std::isnan(height));
       height = std::isnan(height) ? 0 : static_cast<float>(height * metres_per_unit);
       lowest_ = std::min(lowest_, height);
       highest_ = std::max(highest_, height);
@@ -65,11 +67,15 @@ void TerrainLevel::lift(Place v, int64_t half, bool centre) {
   const float middle = (heights_[at(ends[0])] + heights_[at(ends[1])]) / 2;
   float& error = errors_[at(v)];
   error = std::max(error, std::abs(heights_[at(v)] - middle) + sagitta(half, centre));
+  if (outline_ &&
+      (ground_[at(ends[0])] != ground_[at(v)] || ground_[at(ends[1])] != ground_[at(v)]))
+    error = std::numeric_limits<float>::infinity();
   for (const Place& vertex : needed)
     if (inside(vertex)) errors_[at(vertex)] = std::max(errors_[at(vertex)], error);
 }
 
-void TerrainLevel::chooseVertices(double error) {
+void TerrainLevel::chooseVertices(double error, bool outline) {
+  outline_ = outline;
   kept_ = error;
   errors_.assign(heights_.size(), 0);
   for (int64_t half = 1; half < kTileCells; half *= 2) {
@@ -87,9 +93,10 @@ uint32_t TerrainLevel::number(TileMesh& mesh, std::vector<uint32_t>& numbers, co
   const auto row = static_cast<uint32_t>(v.y - origin.y);
   uint32_t& known = numbers[size_t{row} * (kTileCells + 1) + column];
   if (known != 0) return known - 1;
-  const auto height = [this](int64_t x, int64_t y) {
-    return heights_[at(
-        {std::clamp<int64_t>(x, 0, columns_ - 1), std::clamp<int64_t>(y, 0, rows_ - 1)})];
+  const auto height = [this, &v](int64_t x, int64_t y) {
+    const Place beside{std::clamp<int64_t>(x, 0, columns_ - 1),
+                       std::clamp<int64_t>(y, 0, rows_ - 1)};
+    return heights_[at(outline_ && !ground_[at(beside)] ? v : beside)];
   };
   const double cell = tileDegrees(range_.level) / kTileCells;
   const MetresPerDegree metres =
@@ -99,7 +106,8 @@ uint32_t TerrainLevel::number(TileMesh& mesh, std::vector<uint32_t>& numbers, co
   };
   mesh.vertices.push_back({column, row, heights_[at(v)],
                            slope(height(v.x + 1, v.y) - height(v.x - 1, v.y), metres.east),
-                           slope(height(v.x, v.y + 1) - height(v.x, v.y - 1), metres.north)});
+                           slope(height(v.x, v.y + 1) - height(v.x, v.y - 1), metres.north),
+                           ground_[at(v)]});
   known = static_cast<uint32_t>(mesh.vertices.size());
   return known - 1;
 }

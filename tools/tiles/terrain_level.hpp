@@ -21,6 +21,7 @@ struct TileMesh {
     uint32_t column, row;  ///< 0 to kTileCells, eastwards and northwards
     float height;          ///< metres
     float east, north;     ///< slopes
+    bool ground;           ///< the stream covers it; else the height is 0
   };
   std::vector<Vertex> vertices;     ///< in the order in which triangles first have them
   std::vector<uint32_t> triangles;  ///< counter-clockwise seen from above
@@ -35,7 +36,9 @@ class TerrainLevel {
   /// Keeps the vertices that are more than `error` metres off without them, where the Earth is
   /// round among other reasons, and those that the mesh
   /// then needs to be conforming.
-  void chooseVertices(double error);
+  /// outline: and those along the edge of the ground, whose slopes then know nothing of what lies
+  /// beyond.
+  void chooseVertices(double error, bool outline);
 
   /// Of a tile of the range.
   TileMesh meshOf(const GeographicTile& tile) const;
@@ -69,6 +72,8 @@ class TerrainLevel {
   TileRange range_;
   int64_t columns_, rows_;
   std::vector<float> heights_;
+  std::vector<bool> ground_;   ///< that the stream covers
+  bool outline_ = false;       ///< the mesh follows the edge of the ground
   std::vector<float> errors_;  ///< of each vertex and all that need it
   float lowest_ = 0, highest_ = 0;
   double kept_ = 0;  ///< vertices of larger errors are in the mesh

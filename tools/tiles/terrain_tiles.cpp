@@ -12,6 +12,7 @@
 
 #include "tools/files/file_bytes.hpp"
 #include "tools/report/scene.hpp"
+#include "tools/tiles/ground_tileset.hpp"
 #include "tools/tiles/quantized_mesh.hpp"
 
 namespace tetrakis::tools {
@@ -47,12 +48,15 @@ json rangeJson(const TileRange& range) {
 /// Writes level by level, from the deepest up.
 class TileWriter {
  public:
-  TileWriter(Decoder& decoder, const EarthGround& ground, std::string folder)
-      : decoder_(decoder), ground_(ground), folder_(std::move(folder)) {
+  TileWriter(Decoder& decoder, const EarthGround& ground, TileFormat format, std::string folder)
+      : decoder_(decoder), ground_(ground), format_(format), folder_(std::move(folder)) {
     written_.deepest = deepestLevel(ground.spacing());
     metres_ = frameOf(decoder.info()).metres_per_unit;
     for (uint32_t level = 0; level <= written_.deepest; ++level)
       ranges_.push_back(tilesOver(ground.bounds(), level));
+    while (meshes() && written_.first < written_.deepest &&
+           ranges_[written_.first + 1].count() <= 4)
+      ++written_.first;
   }
 
   /// Before anything is decoded.
@@ -67,19 +71,26 @@ class TileWriter {
   }
 
   Result<TileSetSize> write(const std::function<void(double)>& progress) {
-    for (uint32_t level = written_.deepest + 1; level-- > 0;) {
+    for (uint32_t level = written_.deepest + 1; level-- > written_.first;) {
       if (Status status = decodeFor(level); !status.ok()) return status;
       TerrainLevel terrain(ground_, surface_, metres_, ranges_[level]);
       if (level == written_.deepest) heights_ = rangeOf(surface_);
-      terrain.chooseVertices(levelError(level) / 2);
+      terrain.chooseVertices(levelError(level) / 2, meshes());
       if (Status status = writeLevel(terrain); !status.ok()) return status;
       progress(1 - std::ldexp(1, -2 * static_cast<int>(written_.deepest + 1 - level)));
     }
-    if (Status status = writeLayer(); !status.ok()) return status;
+    const json document = meshes() ? tileset_.document(ground_.bounds()) : layer();
+    const std::string text = document.dump(2) + "\n";
+    const char* const name = meshes() ? "tileset.json" : "layer.json";
+    const Status status =
+        writeBytes((fs::path(folder_) / name).string(), std::as_bytes(std::span(text)));
+    if (!status.ok()) return status;
     return written_;
   }
 
  private:
+  bool meshes() const { return format_ == TileFormat::k3dTiles; }
+
   /// Mip levels follow the levels of tiles, as far as there are some.
   Status decodeFor(uint32_t level) {
     const uint32_t mip = std::min(written_.deepest - level, decoder_.info().coarsest_level);
@@ -113,16 +124,30 @@ class TileWriter {
       if (error)
         return {TKS_IO, "cannot create " + quoted(column.string()) + ": " + error.message()};
       for (uint32_t y = range.y0; y <= range.y1; ++y) {
-        const GeographicTile tile{range.level, x, y};
-        const auto bytes =
-            encodeQuantizedMesh(terrain.meshOf(tile), tile, heights_, metadataOf(tile));
-        const Status status =
-            writeBytes((column / (std::to_string(y) + ".terrain")).string(), bytes);
+        const Status status = writeTile(terrain, {range.level, x, y}, column);
         if (!status.ok()) return status;
-        ++written_.tiles;
-        written_.bytes += bytes.size();
       }
     }
+    return {};
+  }
+
+  Status writeTile(const TerrainLevel& terrain, const GeographicTile& tile,
+                   const fs::path& column) {
+    const TileMesh mesh = terrain.meshOf(tile);
+    std::vector<std::byte> bytes;
+    if (meshes()) {
+      Result<std::vector<std::byte>> glb = tileset_.add(mesh, tile, levelError(tile.level));
+      if (!glb.ok()) return glb.status();
+      if (glb->empty()) return {};
+      bytes = std::move(*glb);
+    } else {
+      bytes = encodeQuantizedMesh(mesh, tile, heights_, metadataOf(tile));
+    }
+    const std::string name = std::to_string(tile.y) + (meshes() ? ".glb" : ".terrain");
+    const Status status = writeBytes((column / name).string(), bytes);
+    if (!status.ok()) return status;
+    ++written_.tiles;
+    written_.bytes += bytes.size();
     return {};
   }
 
@@ -138,30 +163,30 @@ class TileWriter {
     return json{{"available", available}}.dump();
   }
 
-  Status writeLayer() const {
+  json layer() const {
     json available = json::array();
     for (const TileRange& range : ranges_) available.push_back(rangeJson(range));
     const GeographicBounds& b = ground_.bounds();
-    const json layer{{"tilejson", "2.1.0"},
-                     {"name", "Tetrakis"},
-                     {"version", "1.0.0"},
-                     {"format", "quantized-mesh-1.0"},
-                     {"scheme", "tms"},
-                     {"tiles", json::array({"{z}/{x}/{y}.terrain?v={version}"})},
-                     {"projection", "EPSG:4326"},
-                     {"bounds", json::array({-180, -90, 180, 90})},
-                     {"valid_bounds", json::array({b.west, b.south, b.east, b.north})},
-                     {"minzoom", 0},
-                     {"maxzoom", written_.deepest},
-                     {"extensions", json::array({"octvertexnormals", "metadata"})},
-                     {"metadataAvailability", kMetadataLevels},
-                     {"available", available}};
-    const std::string text = layer.dump(2) + "\n";
-    return writeBytes((fs::path(folder_) / "layer.json").string(), std::as_bytes(std::span(text)));
+    return json{{"tilejson", "2.1.0"},
+                {"name", "Tetrakis"},
+                {"version", "1.0.0"},
+                {"format", "quantized-mesh-1.0"},
+                {"scheme", "tms"},
+                {"tiles", json::array({"{z}/{x}/{y}.terrain?v={version}"})},
+                {"projection", "EPSG:4326"},
+                {"bounds", json::array({-180, -90, 180, 90})},
+                {"valid_bounds", json::array({b.west, b.south, b.east, b.north})},
+                {"minzoom", 0},
+                {"maxzoom", written_.deepest},
+                {"extensions", json::array({"octvertexnormals", "metadata"})},
+                {"metadataAvailability", kMetadataLevels},
+                {"available", available}};
   }
 
   Decoder& decoder_;
   const EarthGround& ground_;
+  TileFormat format_;
+  GroundTileset tileset_;
   std::string folder_;
   double metres_ = 1;
   std::vector<TileRange> ranges_;  ///< by level
@@ -172,11 +197,12 @@ class TileWriter {
 
 }  // namespace
 
-Result<TileSetSize> writeTerrainTiles(Decoder& decoder, const std::string& folder,
+Result<TileSetSize> writeTerrainTiles(Decoder& decoder, TileFormat format,
+                                      const std::string& folder,
                                       const std::function<void(double)>& progress) {
   const Result<EarthGround> ground = EarthGround::create(decoder.info());
   if (!ground.ok()) return ground.status();
-  TileWriter writer(decoder, *ground, folder);
+  TileWriter writer(decoder, *ground, format, folder);
   if (Status status = writer.checkMemory(); !status.ok()) return status;
   return writer.write(progress);
 }

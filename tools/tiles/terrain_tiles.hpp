@@ -12,14 +12,20 @@ namespace tetrakis::tools {
 
 struct TileSetSize {
   uint64_t tiles = 0, bytes = 0;
-  uint32_t deepest = 0;  ///< level
+  uint32_t first = 0, deepest = 0;  ///< levels
 };
 
-/// Writes layer.json and LEVEL/X/Y.terrain (quantized-mesh-1.0) into an existing folder: from the
-/// two tiles of level 0 down to the level whose grid is as fine as the samples. Level by level each
-/// height is within half of what Cesium takes a level's error for, of the mip level that is shown.
+enum class TileFormat { kQuantizedMesh, k3dTiles };
+
+/// Writes tiles into an existing folder, down to the level whose grid is as fine as the samples.
+/// Level by level each height is within half of what Cesium takes a level's error for, of the mip
+/// level that is shown.
+/// kQuantizedMesh: layer.json and LEVEL/X/Y.terrain (quantized-mesh-1.0), from the two tiles of
+/// level 0 on. k3dTiles: tileset.json (3D Tiles 1.1) and LEVEL/X/Y.glb, of the ground alone, from
+/// the deepest level of at most four tiles on.
 /// progress: done so far, in [0, 1]. Errors: those of EarthGround; TKS_LIMIT; TKS_IO.
-Result<TileSetSize> writeTerrainTiles(Decoder& decoder, const std::string& folder,
+Result<TileSetSize> writeTerrainTiles(Decoder& decoder, TileFormat format,
+                                      const std::string& folder,
                                       const std::function<void(double)>& progress);
 
 }  // namespace tetrakis::tools

@@ -7,7 +7,7 @@ import threading
 
 import numpy as np
 import pytest
-from conftest import REPOSITORY, copy, gdal, refused, terrain
+from conftest import REPOSITORY, copy, gdal, memory, refused, terrain
 
 VECTORS = sorted((REPOSITORY / "conformance/vectors").glob("*.tks"))
 
@@ -132,11 +132,15 @@ class Server(http.server.BaseHTTPRequestHandler):
         pass
 
 
+class Listening(http.server.ThreadingHTTPServer):
+    request_queue_size = 128  # ranges are asked for side by side
+
+
 @pytest.fixture
-def server(tmp_path):
-    copy(terrain(1500, 1400, "u2"), tmp_path / "a.tks")
+def server(tmp_path, request):
+    copy(terrain(1500, 1400, "u2"), tmp_path / "a.tks", *getattr(request, "param", []))
     Server.data, Server.ranges = (tmp_path / "a.tks").read_bytes(), []
-    listening = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
+    listening = Listening(("127.0.0.1", 0), Server)
     threading.Thread(target=listening.serve_forever, daemon=True).start()
     options = {"GDAL_DISABLE_READDIR_ON_OPEN": "EMPTY_DIR", "GDAL_HTTP_PROXY": "", "NO_PROXY": "*"}
     with _Options(options):
@@ -180,3 +184,45 @@ def test_vsicurl_reads_only_what_it_needs(server):
     assert len(Server.ranges) <= 5, Server.ranges
     # What an overview shows does not depend on what was read before.
     np.testing.assert_array_equal(dataset.GetRasterBand(1).GetOverview(2).ReadAsArray(), overview)
+
+
+@pytest.mark.parametrize("server", [["INDEX=YES", "BLOCKSIZE=128"]], indirect=True)
+def test_vsicurl_windows_of_an_indexed_stream(server):
+    heights = terrain(1500, 1400, "u2")
+    dataset = opened(server)
+    taken = []
+    for x, y, columns, rows in [(650, 660, 100, 80), (0, 0, 1, 1)]:
+        Server.ranges.clear()
+        window = dataset.ReadAsArray(x, y, columns, rows)
+        np.testing.assert_array_equal(window, heights[y : y + rows, x : x + columns])
+        taken.append(sum(last - first for first, last in Server.ranges))
+        assert len(Server.ranges) <= 65, Server.ranges
+    assert 0 < sum(taken) < 0.6 * len(Server.data), (taken, len(Server.data))
+    Server.ranges.clear()
+    np.testing.assert_array_equal(dataset.ReadAsArray(660, 670, 50, 40), heights[670:710, 660:710])
+    assert not Server.ranges  # these bytes are there
+    overview = dataset.GetRasterBand(1).GetOverview(2).ReadAsArray()
+    # All of it; what was read by ranges is what the file holds.
+    np.testing.assert_array_equal(dataset.ReadAsArray(), heights)
+    np.testing.assert_array_equal(dataset.GetRasterBand(1).GetOverview(2).ReadAsArray(), overview)
+
+
+def test_windows_of_an_indexed_file(tmp_path):
+    """Heights and texture, by windows and as a whole: ranges give what the whole file gives."""
+    heights = terrain(700, 600, "i2")
+    image = memory(np.stack([terrain(500, 520, "u1", seed) for seed in range(3)]))
+    gdal.GetDriverByName("GTiff").CreateCopy(str(tmp_path / "image.tif"), image)
+    options = ["BLOCKSIZE=32", f"TEXTURE={tmp_path}/image.tif", "BYTES=120000"]
+    names = {}
+    for index in ("YES", "NO"):
+        names[index] = tmp_path / f"{index}.tks"
+        copy(heights, names[index], "INDEX=" + index, *options)
+    for part in ("heights", "texture"):
+        for index in names:
+            whole = opened(f'TKS:"{names[index]}":{part}').ReadAsArray()
+            windows = opened(f'TKS:"{names[index]}":{part}')
+            for x, y, columns, rows in [(0, 0, 40, 30), (300, 200, 90, 130), (519, 499, 1, 1)]:
+                np.testing.assert_array_equal(
+                    windows.ReadAsArray(x, y, columns, rows),
+                    whole[..., y : y + rows, x : x + columns],
+                )

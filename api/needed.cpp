@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/needed.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "api/memory.hpp"
+#include "wavelet/view_synthesis.hpp"
+#include "wavelet/wavelet_header.hpp"
+
+namespace tetrakis::inline api {
+
+namespace {
+
+/// By their numbers. all: whatever the view shows.
+std::vector<bool> neededTracks(const auto& header, const View& view, bool all) {
+  const Pyramid pyramid(header.extent());
+  const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
+  const std::vector<Region> regions =
+      regionsOf(header.width, header.height, header.regions.side_log2);
+  std::vector<bool> needed(regions.size(), all);
+  needed.front() = true;  // the component's opening and the coarsest levels
+  for (size_t i = 1; i < regions.size() && !all; ++i) {
+    const std::vector<BandPart> parts = partsOf(pyramid.subbands(), regions[i]);
+    needed[i] = std::any_of(parts.begin(), parts.end(),
+                            [&](const BandPart& part) { return synthesis.needs(part); });
+  }
+  return needed;
+}
+
+/// Corrections are decoded with all of level 0.
+bool takesAll(const StreamHeader& header, const View& view) {
+  return header.geometry->stored() ||
+         (view.level == 0 && header.layers.corrections != CorrectionKind::kNone);
+}
+
+std::vector<bool> neededTracks(const StreamHeader& header, Component component, const View& view) {
+  if (component == Component::kTexture) return neededTracks(*header.texture, view, false);
+  return neededTracks(*header.geometry, view, takesAll(header, view));
+}
+
+/// Calls see(entry, place, size) for each packet of the index that the stream has bytes of; size:
+/// those, the packet's head included.
+void forEachPacket(const tks_decoder& decoder, const auto& see) {
+  const StreamHeader& header = decoder.parsed.header;
+  const TrackCounts counts = trackCounts(header);
+  const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
+  uint64_t place = decoder.parsed.bytes;
+  for (const PacketHead& entry : header.index) {
+    if (place >= end) return;
+    const auto component = static_cast<size_t>(entry.component());
+    const uint64_t head = headBytes(entry, counts[component].named).size();
+    const uint64_t size = std::min(head + (entry.head >> 2), end - place);
+    see(entry, place, size, std::min(head, size));
+    place += size;
+  }
+}
+
+/// How many bytes of a component's tracks that a view does not need are missing.
+uint64_t missingElsewhere(const tks_decoder& decoder, Component component, const View& view) {
+  const std::vector<bool> needed = neededTracks(decoder.parsed.header, component, view);
+  const auto elsewhere = [&](uint32_t track) { return track < needed.size() && !needed[track]; };
+  uint64_t bytes = 0;
+  forEachPacket(decoder, [&](const PacketHead& entry, uint64_t, uint64_t size, uint64_t head) {
+    if (entry.component() == component && elsewhere(entry.track)) bytes += size - head;
+  });
+  for (const auto& [track, codeword] : decoder.payload.codewords[static_cast<size_t>(component)])
+    if (elsewhere(track)) bytes -= std::min<uint64_t>(bytes, codeword.size());
+  return bytes;
+}
+
+template <class Header>
+Header counted(const tks_decoder& decoder, const Header& header, Component component,
+               const View& view) {
+  Header result = header;
+  uint64_t& rounded = result.wavelet.rounded_bytes;
+  const bool gaps = decoder.pieces.bytes() > decoder.data.size();
+  if (gaps && rounded > 0) rounded -= std::min(rounded, missingElsewhere(decoder, component, view));
+  return result;
+}
+
+/// The view of a call for a part; meshes are made of everything.
+Result<View> viewOfPart(const tks_decoder& decoder, tks_part part, const tks_window* window) {
+  if (part == TKS_PART_CODED_MESH || part == TKS_PART_BUDGET_MESH) {
+    if (!decoder.parsed.header.geometry) return noHeights();
+    return View{};
+  }
+  return viewOf(decoder, part, window);
+}
+
+/// A decoder that has but the front of a stream decodes it as a prefix, whose samples are rounded
+/// otherwise. If no gap would tell that what is missing is not needed, the last byte does.
+void showGap(const tks_decoder& decoder, std::vector<tks_range>& ranges) {
+  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
+  if (ranges.size() != 1 || ranges[0].offset != decoder.parsed.bytes) return;
+  const uint64_t known = ranges[0].offset + ranges[0].size;
+  if (known + 1 < end) ranges.push_back({end - 1, 1});
+  if (known + 1 == end) ++ranges[0].size;
+}
+
+Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* window,
+                    std::vector<tks_range>& ranges) {
+  if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
+    return {TKS_USAGE, "There is no such part."};
+  const Result<View> view = viewOfPart(decoder, part, window);
+  if (!view.ok()) return view.status();
+  const StreamHeader& header = decoder.parsed.header;
+  if (header.index.empty())
+    return {TKS_USAGE, "The stream has no front index, which would tell where its packets lie."};
+  if (Status status = checkMemory(decoder, {part, *view, 0}); !status.ok()) return status;
+  const Component component = part == TKS_PART_TEXTURE ? Component::kTexture : Component::kGeometry;
+  std::vector<bool> needed = neededTracks(header, component, *view);
+  if (part == TKS_PART_VALIDITY) needed.assign(1, true);
+  forEachPacket(decoder, [&](const PacketHead& entry, uint64_t place, uint64_t size, uint64_t) {
+    if (entry.component() != component || entry.track >= needed.size() || !needed[entry.track])
+      return;
+    if (!ranges.empty() && ranges.back().offset + ranges.back().size == place) {
+      ranges.back().size += size;
+    } else {
+      ranges.push_back({place, size});
+    }
+  });
+  showGap(decoder, ranges);
+  return {};
+}
+
+}  // namespace
+
+GeometryHeader headerFor(const tks_decoder& decoder, const GeometryHeader& header,
+                         const View& view) {
+  return counted(decoder, header, Component::kGeometry, view);
+}
+
+TextureHeader headerFor(const tks_decoder& decoder, const TextureHeader& header, const View& view) {
+  return counted(decoder, header, Component::kTexture, view);
+}
+
+}  // namespace tetrakis::inline api
+
+tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
+                             tks_ranges* out) {
+  if (out == nullptr) return TKS_USAGE;
+  *out = {};
+  return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
+    std::vector<tks_range> ranges;
+    const tetrakis::Status status = tetrakis::neededRanges(*decoder, part, window, ranges);
+    if (!status.ok() || ranges.empty()) return status;
+    out->ranges = new tks_range[ranges.size()];
+    out->count = ranges.size();
+    std::copy(ranges.begin(), ranges.end(), out->ranges);
+    return {};
+  });
+}
+
+void tks_free_ranges(tks_ranges* ranges) {
+  if (ranges == nullptr) return;
+  delete[] ranges->ranges;
+  *ranges = {};
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which tracks of a component a view needs, and where their packets lie in a stream with a front
+// index.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "api/decoder.hpp"
+
+namespace tetrakis::inline api {
+
+/// The header of a component for a decoder whose bytes have gaps: what is missing of tracks that
+/// the view does not need counts as there. So a view whose tracks are complete is decoded as it
+/// would be of the complete stream, rounding included (docs/FORMAT.md, section 7). Other decoders
+/// get the header as it is.
+GeometryHeader headerFor(const tks_decoder& decoder, const GeometryHeader& header,
+                         const View& view);
+TextureHeader headerFor(const tks_decoder& decoder, const TextureHeader& header, const View& view);
+
+}  // namespace tetrakis::inline api

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// What tks_needed_ranges names is enough: a decoder that is given the header and those bytes
+// decodes what one decodes that has all of the stream.
+#include <limits>
+#include <random>
+
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+Bytes encodeRegions(const samples::Raster* heights, const samples::Raster* image,
+                    tks_encode_options options) {
+  options.regions = 16;
+  options.index = 1;
+  return encode(heights, image, options);
+}
+
+samples::Raster ridges(uint32_t width, uint32_t height, tks_sample sample) {
+  return samples::make({samples::Pattern::kRidges, width, height, 1, sample});
+}
+
+/// Heights, or texels, of a window, or of the level that is set.
+std::vector<std::byte> decoded(Stream& stream, tks_part part, const tks_window* window) {
+  tks_info info = {};
+  info.size = sizeof info;
+  EXPECT_EQ(tks_get_info(stream.get(), &info), TKS_OK);
+  const bool heights = part == TKS_PART_HEIGHTS;
+  const size_t places = window    ? size_t{window->width} * window->height
+                        : heights ? size_t{info.width} * info.height
+                                  : size_t{info.texture_width} * info.texture_height;
+  const size_t pixel = heights ? tks_sample_bytes(info.sample)
+                               : info.texture_channels * tks_sample_bytes(info.texture_sample);
+  std::vector<std::byte> out(places * pixel);
+  tks_decoder* const d = stream.get();
+  const tks_status status =
+      heights  ? window ? tks_decode_heights_window(d, window, out.data(), out.size())
+                        : tks_decode_heights(d, out.data(), out.size())
+       : window ? tks_decode_texture_window(d, window, out.data(), out.size())
+               : tks_decode_texture(d, out.data(), out.size());
+  EXPECT_EQ(status, TKS_OK) << tks_message(d);
+  return out;
+}
+
+/// Decodes from nothing but what is needed; returns how many bytes that were.
+uint64_t expectEnough(const Bytes& bytes, tks_part part, const tks_window* window,
+                      uint32_t level = 0) {
+  Stream whole(bytes);
+  const size_t header = whole.info().header_bytes;
+  Stream stream(Prefix(bytes).first(header));
+  for (Stream* one : {&whole, &stream}) {
+    EXPECT_EQ(tks_set_levels(one->get(), part == TKS_PART_HEIGHTS ? level : 0,
+                             part == TKS_PART_TEXTURE ? level : 0),
+              TKS_OK);
+  }
+  tks_ranges ranges = {};
+  EXPECT_EQ(tks_needed_ranges(stream.get(), part, window, &ranges), TKS_OK)
+      << tks_message(stream.get());
+  uint64_t sum = 0, end = header;
+  std::vector<tks_range> order(ranges.ranges, ranges.ranges + ranges.count);
+  tks_free_ranges(&ranges);
+  for (const tks_range& range : order) {
+    EXPECT_TRUE(sum == 0 || range.offset > end);
+    EXPECT_GE(range.offset, header);
+    EXPECT_GT(range.size, 0u);
+    EXPECT_LE(range.offset + range.size, bytes.size());
+    end = range.offset + range.size;
+    sum += range.size;
+  }
+  std::reverse(order.begin(), order.end());
+  for (const tks_range& range : order)
+    EXPECT_EQ(tks_put(stream.get(), range.offset, bytes.data() + range.offset, range.size), TKS_OK)
+        << tks_message(stream.get());
+  EXPECT_TRUE(decoded(stream, part, window) == decoded(whole, part, window))
+      << "part " << part << ", level " << level;
+  return sum;
+}
+
+void expectWindows(const Bytes& bytes, tks_part part, uint32_t width, uint32_t height) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 6; ++trial) {
+    const uint32_t w = 1 + static_cast<uint32_t>(random() % std::min(width, 40u));
+    const uint32_t h = 1 + static_cast<uint32_t>(random() % std::min(height, 40u));
+    const tks_window window{static_cast<uint32_t>(random() % (width - w + 1)),
+                            static_cast<uint32_t>(random() % (height - h + 1)), w, h};
+    expectEnough(bytes, part, &window);
+  }
+  const tks_window corner{width - 1, 0, 1, 1}, all{0, 0, width, height};
+  EXPECT_LT(expectEnough(bytes, part, &corner), expectEnough(bytes, part, &all));
+}
+
+TEST(NeededRanges, OfWindowsAreEnoughHoweverTheStreamIsCoded) {
+  const samples::Raster heights = ridges(201, 170, TKS_I16), floats = ridges(150, 131, TKS_F32),
+                        image = samples::make({samples::Pattern::kRidges, 180, 150, 3, TKS_U8});
+  for (const tks_encode_options& options : {lossless(), budget(9000)}) {
+    const Bytes both = encodeRegions(&heights, &image, options);
+    expectWindows(both, TKS_PART_HEIGHTS, 201, 170);
+    expectWindows(both, TKS_PART_TEXTURE, 180, 150);
+    expectWindows(encodeRegions(&floats, nullptr, options), TKS_PART_HEIGHTS, 150, 131);
+  }
+}
+
+TEST(NeededRanges, OfLevelsLeaveOutTheFinestRegions) {
+  const samples::Raster heights = ridges(201, 170, TKS_I16),
+                        image = samples::make({samples::Pattern::kRidges, 180, 150, 3, TKS_U8});
+  const Bytes bytes = encodeRegions(&heights, &image, lossless());
+  for (const tks_part part : {TKS_PART_HEIGHTS, TKS_PART_TEXTURE}) {
+    std::vector<uint64_t> sizes;
+    for (uint32_t level = 0; level <= 6; ++level)
+      sizes.push_back(expectEnough(bytes, part, nullptr, level));
+    EXPECT_EQ(sizes[0], sizes[2]);
+    EXPECT_LT(sizes[3], sizes[2] / 4);
+    EXPECT_LE(sizes[6], sizes[3]);
+  }
+}
+
+/// A decoder that has the front of a stream decodes a prefix; what is needed never looks like one.
+TEST(NeededRanges, OfTheFrontAreNotTakenForAPrefix) {
+  const samples::Raster heights = ridges(33, 16, TKS_I16);
+  const Bytes bytes = encodeRegions(&heights, nullptr, lossless());
+  for (uint32_t width = 1; width <= 33; ++width) {
+    for (const uint32_t x : {0u, 33 - width}) {
+      const tks_window window{x, 0, width, 16};
+      expectEnough(bytes, TKS_PART_HEIGHTS, &window);
+    }
+  }
+}
+
+TEST(NeededRanges, BesideVoids) {
+  samples::Raster raster = ridges(140, 90, TKS_F32);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (size_t i = 0; i < 140 * 90; ++i)
+    if (i % 140 + i / 140 < 80) std::memcpy(raster.data.data() + 4 * i, &nan, sizeof nan);
+  const Bytes bytes = encodeRegions(&raster, nullptr, lossless());
+  expectWindows(bytes, TKS_PART_HEIGHTS, 140, 90);
+  Stream whole(bytes), stream(Prefix(bytes).first(whole.info().header_bytes));
+  tks_ranges ranges = {};
+  ASSERT_EQ(tks_needed_ranges(stream.get(), TKS_PART_VALIDITY, nullptr, &ranges), TKS_OK);
+  for (size_t i = 0; i < ranges.count; ++i) {
+    const tks_range& range = ranges.ranges[i];
+    ASSERT_EQ(tks_put(stream.get(), range.offset, bytes.data() + range.offset, range.size), TKS_OK);
+  }
+  tks_free_ranges(&ranges);
+  std::vector<uint8_t> expected(140 * 90), valid(140 * 90);
+  ASSERT_EQ(tks_decode_validity(whole.get(), expected.data(), expected.size()), TKS_OK);
+  ASSERT_EQ(tks_decode_validity(stream.get(), valid.data(), valid.size()), TKS_OK);
+  EXPECT_TRUE(valid == expected);
+}
+
+/// Corrections are decoded with all heights, so that a window needs all of them.
+TEST(NeededRanges, OfStreamsWithCorrectionsAreAll) {
+  const samples::Raster heights = ridges(70, 60, TKS_I16);
+  tks_encode_options options = budget(0);
+  options.max_error = 3;
+  const Bytes bytes = encodeRegions(&heights, nullptr, options);
+  const tks_window window{50, 40, 5, 7};
+  const uint64_t header = Stream(bytes).info().header_bytes;
+  EXPECT_EQ(expectEnough(bytes, TKS_PART_HEIGHTS, &window), bytes.size() - header);
+}
+
+TEST(NeededRanges, NonsenseIsRefused) {
+  const samples::Raster heights = ridges(70, 60, TKS_I16);
+  const Bytes plain = encode(&heights, nullptr, lossless());
+  const Bytes bytes = encodeRegions(&heights, nullptr, lossless());
+  Stream without(plain), stream(bytes);
+  tks_ranges ranges = {1, nullptr};
+  EXPECT_EQ(tks_needed_ranges(without.get(), TKS_PART_HEIGHTS, nullptr, &ranges), TKS_USAGE);
+  EXPECT_NE(std::string(tks_message(without.get())).find("no front index"), std::string::npos);
+  EXPECT_EQ(ranges.count, 0u);
+  EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_TEXTURE, nullptr, &ranges), TKS_USAGE);
+  EXPECT_EQ(tks_needed_ranges(stream.get(), static_cast<tks_part>(7), nullptr, &ranges), TKS_USAGE);
+  const tks_window outside{60, 0, 20, 1};
+  EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, &outside, &ranges), TKS_USAGE);
+  EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, nullptr, nullptr), TKS_USAGE);
+  EXPECT_EQ(tks_needed_ranges(nullptr, TKS_PART_HEIGHTS, nullptr, &ranges), TKS_USAGE);
+  EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_BUDGET_MESH, nullptr, &ranges), TKS_OK);
+  EXPECT_EQ(ranges.count, 1u) << "all of the payload";
+  tks_free_ranges(&ranges);
+  tks_free_ranges(&ranges);
+  tks_free_ranges(nullptr);
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/tiles/ground_tileset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "tools/files/mesh_writers.hpp"
+#include "tools/tiles/placed_mesh.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using nlohmann::json;
+
+/// The least power of two of which 2^22 reach across a tile of a level, so that floats hold every
+/// multiple of it that is needed.
+double positionStep(uint32_t level) {
+  const double side = tileDegrees(level) * std::numbers::pi / 180 * kSemiMajor;
+  return std::exp2(std::ceil(std::log2(side * std::numbers::sqrt2)) - 22);
+}
+
+double nearestMultiple(double value, double step) {
+  return std::round(value / step) * step;
+}
+
+/// From the axes of the Earth to those of glTF, where y is up; viewers turn them back.
+Vector inGltfAxes(const Vector& v) {
+  return {v[0], v[2], -v[1]};
+}
+
+/// The triangles whose corners are all ground.
+TileMesh groundOf(const TileMesh& mesh) {
+  TileMesh ground;
+  std::vector<std::optional<uint32_t>> numbers(mesh.vertices.size());
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    const std::span<const uint32_t> corners = std::span(mesh.triangles).subspan(i, 3);
+    const auto covered = [&mesh](uint32_t corner) { return mesh.vertices[corner].ground; };
+    if (!std::all_of(corners.begin(), corners.end(), covered)) continue;
+    for (const uint32_t corner : corners) {
+      if (!numbers[corner]) {
+        numbers[corner] = static_cast<uint32_t>(ground.vertices.size());
+        ground.vertices.push_back(mesh.vertices[corner]);
+      }
+      ground.triangles.push_back(*numbers[corner]);
+    }
+  }
+  return ground;
+}
+
+MeshFile meshFileOf(const TileMesh& mesh, const GeographicTile& tile) {
+  const Placed placed = place(mesh, tile);
+  const double step = positionStep(tile.level);
+  MeshFile file;
+  for (size_t k = 0; k < 3; ++k) {
+    double low = placed.positions[0][k], high = low;
+    for (const Vector& p : placed.positions) {
+      low = std::min(low, p[k]);
+      high = std::max(high, p[k]);
+    }
+    file.origin[k] = nearestMultiple((low + high) / 2, step);
+  }
+  for (size_t i = 0; i < placed.positions.size(); ++i) {
+    Vector offset;
+    for (size_t k = 0; k < 3; ++k)
+      offset[k] = nearestMultiple(placed.positions[i][k], step) - file.origin[k];
+    for (const double value : inGltfAxes(offset))
+      file.positions.push_back(static_cast<float>(value));
+    for (const double value : inGltfAxes(placed.normals[i]))
+      file.normals.push_back(static_cast<float>(value));
+  }
+  file.origin = inGltfAxes(file.origin);
+  file.triangles = mesh.triangles;
+  return file;
+}
+
+/// Degrees to the radians and metres of a bounding volume.
+json volumeOf(const GeographicBounds& b, double lowest, double highest) {
+  constexpr double kRadian = std::numbers::pi / 180;
+  return {{"region",
+           {b.west * kRadian, b.south * kRadian, b.east * kRadian, b.north * kRadian, lowest,
+            highest}}};
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& mesh, const GeographicTile& tile,
+                                                  double error) {
+  if (tile.level != level_) {
+    below_ = std::exchange(nodes_, {});
+    level_ = tile.level;
+    error_ = error;
+  }
+  const double none = std::numeric_limits<double>::infinity();
+  Node node{{{"refine", "REPLACE"}}, boundsOf(tile), none, -none};
+  json children = json::array();
+  for (const uint32_t y : {2 * tile.y, 2 * tile.y + 1}) {
+    for (const uint32_t x : {2 * tile.x, 2 * tile.x + 1}) {
+      const auto child = below_.find({x, y});
+      if (child == below_.end()) continue;
+      node.lowest = std::min(node.lowest, child->second.lowest);
+      node.highest = std::max(node.highest, child->second.highest);
+      children.push_back(std::move(child->second.tile));
+      below_.erase(child);
+    }
+  }
+  std::vector<std::byte> bytes;
+  const TileMesh ground = groundOf(mesh);
+  if (!ground.triangles.empty()) {
+    Result<std::vector<std::byte>> glb = encodeGlb(meshFileOf(ground, tile), {});
+    if (!glb.ok()) return glb.status();
+    bytes = std::move(*glb);
+    // Triangles are flat where the Earth is round, by less than the error.
+    for (const TileMesh::Vertex& v : ground.vertices) {
+      node.lowest = std::min(node.lowest, v.height - error);
+      node.highest = std::max(node.highest, v.height + error);
+    }
+    node.tile["content"]["uri"] = std::to_string(tile.level) + "/" + std::to_string(tile.x) + "/" +
+                                  std::to_string(tile.y) + ".glb";
+  }
+  if (bytes.empty() && children.empty()) return bytes;
+  node.tile["geometricError"] = children.empty() ? 0 : error;
+  node.tile["boundingVolume"] = volumeOf(node.bounds, node.lowest, node.highest);
+  if (!children.empty()) node.tile["children"] = std::move(children);
+  nodes_.emplace(std::pair(tile.x, tile.y), std::move(node));
+  return bytes;
+}
+
+json GroundTileset::document(const GeographicBounds& bounds) const {
+  json children = json::array();
+  GeographicBounds all = bounds;
+  double lowest = 0, highest = 0;
+  for (const auto& item : nodes_) {
+    const Node& node = item.second;
+    all = {std::min(all.west, node.bounds.west), std::min(all.south, node.bounds.south),
+           std::max(all.east, node.bounds.east), std::max(all.north, node.bounds.north)};
+    lowest = children.empty() ? node.lowest : std::min(lowest, node.lowest);
+    highest = children.empty() ? node.highest : std::max(highest, node.highest);
+    children.push_back(node.tile);
+  }
+  // Nothing is nothing at 16 times the error of the first tiles.
+  json root{{"boundingVolume", volumeOf(all, lowest, highest)},
+            {"geometricError", 16 * error_},
+            {"refine", "REPLACE"}};
+  if (!children.empty()) root["children"] = std::move(children);
+  return {{"asset", {{"version", "1.1"}, {"generator", "Tetrakis"}}},
+          {"geometricError", 16 * error_},
+          {"root", root}};
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh of a tile in space: in the axes of the Earth (EPSG:4978), above the ellipsoid WGS 84.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tools/tiles/geographic_tile.hpp"
+#include "tools/tiles/terrain_level.hpp"
+
+namespace tetrakis::tools {
+
+inline constexpr double kSemiMajor = 6378137.0, kFlat = 1 / 298.257223563;
+inline constexpr double kSemiMinor = kSemiMajor * (1 - kFlat);
+
+using Vector = std::array<double, 3>;
+
+struct Placed {
+  std::vector<Vector> positions, normals;
+};
+
+Placed place(const TileMesh& mesh, const GeographicTile& tile);
+
+}  // namespace tetrakis::tools
