@@ -5,6 +5,7 @@
 #include <span>
 
 #include "api/memory.hpp"
+#include "api/ranges.hpp"
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -46,7 +47,7 @@ void forEachPacket(const tks_decoder& decoder, const auto& see) {
   const TrackCounts counts = trackCounts(header);
   const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
   uint64_t place = decoder.parsed.bytes;
-  for (const PacketHead& entry : header.index) {
+  for (const auto& [entry, slope] : header.index) {
     if (place >= end) return;
     const auto component = static_cast<size_t>(entry.component());
     const uint64_t head = headBytes(entry, counts[component].named).size();
@@ -94,7 +95,7 @@ void showGap(const tks_decoder& decoder, std::vector<tks_range>& ranges) {
   const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
   if (ranges.size() != 1 || ranges[0].offset != decoder.parsed.bytes) return;
   const uint64_t known = ranges[0].offset + ranges[0].size;
-  if (known + 1 < end) ranges.push_back({end - 1, 1});
+  if (known + 1 < end) ranges.push_back({end - 1, 1, 0});
   if (known + 1 == end) ++ranges[0].size;
 }
 
@@ -117,7 +118,7 @@ Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* windo
     if (!ranges.empty() && ranges.back().offset + ranges.back().size == place) {
       ranges.back().size += size;
     } else {
-      ranges.push_back({place, size});
+      ranges.push_back({place, size, 0});
     }
   });
   showGap(decoder, ranges);
@@ -144,16 +145,7 @@ tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_wind
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
     std::vector<tks_range> ranges;
     const tetrakis::Status status = tetrakis::neededRanges(*decoder, part, window, ranges);
-    if (!status.ok() || ranges.empty()) return status;
-    out->ranges = new tks_range[ranges.size()];
-    out->count = ranges.size();
-    std::copy(ranges.begin(), ranges.end(), out->ranges);
-    return {};
+    if (status.ok()) tetrakis::giveRanges(ranges, *out);
+    return status;
   });
-}
-
-void tks_free_ranges(tks_ranges* ranges) {
-  if (ranges == nullptr) return;
-  delete[] ranges->ranges;
-  *ranges = {};
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which bytes of a stream a viewer should fetch next.
 #include <algorithm>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "api/message.hpp"
+#include "api/ranges.hpp"
 #include "api/screen_camera.hpp"
 #include "api/sighting.hpp"
 
@@ -37,11 +36,10 @@ Status plan(tks_decoder& decoder, const Sighting& sighting, uint64_t bytes, tks_
   };
   const auto ranges = planFetch(decoder.parsed, sighting, missing, bytes);
   if (!ranges.ok()) return ranges.status();
-  if (ranges->empty()) return {};
-  out.ranges = static_cast<tks_range*>(std::malloc(ranges->size() * sizeof(tks_range)));
-  if (out.ranges == nullptr) throw std::bad_alloc();
+  std::vector<tks_range> planned;
   for (const FetchRange& range : *ranges)
-    out.ranges[out.count++] = {range.begin, range.end - range.begin, range.gain};
+    planned.push_back({range.begin, range.end - range.begin, range.gain});
+  giveRanges(planned, out);
   return {};
 }
 
@@ -58,10 +56,4 @@ tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, uint64_
     if (!sighting.ok()) return sighting.status();
     return tetrakis::plan(*decoder, *sighting, bytes, *out);
   });
-}
-
-void tks_free_ranges(tks_ranges* ranges) {
-  if (ranges == nullptr) return;
-  std::free(ranges->ranges);
-  *ranges = {};
 }

@@ -97,7 +97,7 @@ bool Source::read(std::span<const tks_range> ranges) {
 
 tks_status Source::openPrefix(uint64_t bytes) {
   decoder_.reset();
-  const tks_range all{0, bytes};
+  const tks_range all{0, bytes, 0};
   if (!read({&all, 1})) return TKS_IO;
   const tks_limits most = limits();
   tks_decoder* opened = nullptr;

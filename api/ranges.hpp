@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists of bytes that callers release.
+#pragma once
+
+#include <span>
+
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline api {
+
+/// Copies ranges to where tks_free_ranges() finds them. out: has none.
+void giveRanges(std::span<const tks_range> ranges, tks_ranges& out);
+
+}  // namespace tetrakis::inline api
