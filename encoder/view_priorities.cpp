@@ -18,7 +18,7 @@ namespace {
 /// Points of all pictures: some hundreds for each tile.
 constexpr size_t kPoints = 1 << 16;
 /// Of the range of heights: what 16 to 64 kB leave.
-constexpr double kTypicalError = 0.003;
+constexpr double kTypicalError = 0.005;
 /// Tiles on a side, of a power of two samples. Smaller ones fit the view better, but take bytes,
 /// and coefficients are coded worse where neighbours have another priority.
 constexpr uint32_t kMostTiles = 24;

@@ -196,21 +196,6 @@ double ScreenPoints::inside(const Point& point, const SeenPoint& seen, const Gro
   return squares;
 }
 
-double ScreenPoints::outline(const Point& point, const SeenPoint& seen, const GroundHit& plane,
-                             const Surface& surface) const {
-  constexpr double kFarther = 1.1;
-  const GroundFrame& frame = surface.ground.frame();
-  const Ray above{point.ray.origin, subtract(point.ray.direction, point.down)};
-  const auto behind = surface.ground.hit(above);
-  if (behind && behind->far < kFarther * plane.far) return 0;
-  Colour beyond = point.sky;
-  if (behind)
-    beyond = surface.texture.at(behind->column / (frame.width - 1.0),
-                                behind->row / (frame.height - 1.0), seen.level);
-  const Colour truth = surface.texture.at(seen.u, seen.v, seen.level);
-  return squaresBetween(beyond, truth) * smoothedEdge(surface.shift / seen.metres);
-}
-
 std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const Surface& surface,
                                                         Extent texels) const {
   const std::vector<SeenPoint> seen = seenOf(surface.ground, texels);
@@ -223,8 +208,7 @@ std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const Surface& surface,
     for (size_t i = view.begin; i < view.end; ++i) {
       const auto hit = seen[i].ground ? surface.ground.hit(points_[i].ray) : std::nullopt;
       if (!hit) continue;
-      const double moved =
-          inside(points_[i], seen[i], *hit, surface) + outline(points_[i], seen[i], *hit, surface);
+      const double moved = inside(points_[i], seen[i], *hit, surface);
       worths.push_back(
           {hit->column, hit->row, weight * moved, weight * std::exp2(-2 * seen[i].level)});
     }

@@ -96,12 +96,9 @@ class ScreenPoints {
   Outline outlineOf(const View& view, const Pictures& a, const Pictures& b) const;
 
   void addPoints(const Camera& camera, size_t count);
-  /// Squared changes of a point's colour if the surface rises or falls: of the ground that it
-  /// shows, and of what it shows instead where an outline is.
+  /// Squared change of a point's colour if the ground that it shows rises or falls.
   double inside(const Point& point, const SeenPoint& seen, const GroundHit& plane,
                 const Surface& surface) const;
-  double outline(const Point& point, const SeenPoint& seen, const GroundHit& plane,
-                 const Surface& surface) const;
 
   std::vector<Point> points_;
   std::vector<View> views_;
