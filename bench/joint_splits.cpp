@@ -187,7 +187,7 @@ Status studySplits(const Terrain& terrain, const SplitOptions& options,
   if (!orders.ok()) return orders.status();
   Result<Judge> judge = judgeOf(terrain, orders->front().stream.cut({kMostBytes, kMostBytes}));
   if (!judge.ok()) return judge.status();
-  std::printf("%s\n  %7s %7s %7s", terrain.name.c_str(), "bytes", "best dB", "heights");
+  std::printf("  %7s %7s %7s", "bytes", "best dB", "heights");
   std::vector<Losses> losses;
   for (const Order& order : *orders) {
     std::printf(" %8s %6s", order.name.c_str(), "");
