@@ -224,7 +224,7 @@ Status studySplits(const Terrain& terrain, const SplitOptions& options,
                    std::vector<ResultRow>& rows) {
   Result<std::vector<Order>> orders = ordersOf(terrain, options);
   if (!orders.ok()) return orders.status();
-  std::printf("%s, view %s\n  %7s", terrain.name.c_str(), options.view.c_str(), "bytes");
+  std::printf("  view %s\n  %7s", options.view.c_str(), "bytes");
   Measured measured;
   for (const Order& order : *orders) {
     std::printf(" %7s %6s %6s %6s", order.name.c_str(), "loss", "split", "best");

@@ -89,19 +89,19 @@ typedef struct tks_heights {
   uint32_t width, height;
   tks_sample sample;
   const void* data;
-  double scale, offset;          /* 1 and 0 when samples are heights */
-  double step;                   /* quantisation step in samples; 0: chosen (exact if possible) */
-  double spacing_x, spacing_y;   /* metres per sample; 0: unknown, which pictures take for 30 */
-  const char* unit;              /* UTF-8, NULL: unknown; e.g. "m" */
-  const char* vertical_datum;    /* UTF-8, NULL: unknown; e.g. "EGM2008", "EPSG:5703" */
-  const char* crs;               /* UTF-8 "EPSG:code", WKT or a name, NULL: unknown */
-  int has_nodata;                /* non-zero: `nodata` is declared */
-  double nodata;                 /* as a sample; one that the type cannot hold meets none */
-  double geotransform[6];        /* above; in the order of GDAL */
-  int has_geotransform;          /* 0: the place is unknown, and `geotransform` not looked at */
-  tks_registration registration; /* 0: unknown */
-  const char* description;       /* UTF-8, what GDAL calls the band's description; NULL: none */
-  const char* geo_keys;          /* what a GeoTIFF says of its CRS beyond `crs` and
+  double scale, offset;           /* 1 and 0 when samples are heights */
+  double step;                    /* quantisation step in samples; 0: chosen (exact if possible) */
+  double spacing_x, spacing_y;    /* metres per sample; 0: unknown, which pictures take for 30 */
+  const char* unit;               /* UTF-8, NULL: unknown; e.g. "m" */
+  const char* vertical_datum;     /* UTF-8, NULL: unknown; e.g. "EGM2008", "EPSG:5703" */
+  const char* crs;                /* UTF-8 "EPSG:code", WKT or a name, NULL: unknown */
+  int has_nodata;                 /* non-zero: `nodata` is declared */
+  double nodata;                  /* as a sample; one that the type cannot hold meets none */
+  double geotransform[6];         /* above; in the order of GDAL */
+  int has_geotransform;           /* 0: the place is unknown, and `geotransform` not looked at */
+  tks_registration registration;  /* 0: unknown */
+  const char* description;        /* UTF-8, what GDAL calls the band's description; NULL: none */
+  const char* geo_keys;           /* what a GeoTIFF says of its CRS beyond `crs` and
                                      `vertical_datum` ("1024=1 1026=\"my grid\" ...":
                                      docs/FORMAT.md); NULL: nothing */
 } tks_heights;
@@ -159,20 +159,20 @@ typedef int (*tks_picture_error)(void* user, const void* heights, const void* te
 
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
 typedef struct tks_encode_options {
-  size_t size;        /* sizeof(tks_encode_options) */
-  uint64_t bytes;     /* the whole stream takes at most this many bytes */
-  double psnr;        /* heights (peak: their range) and texture each reach this many dB */
-  double max_error;   /* every decoded height is within this distance, in `unit`; guaranteed: the
+  size_t size;       /* sizeof(tks_encode_options) */
+  uint64_t bytes;    /* the whole stream takes at most this many bytes */
+  double psnr;       /* heights (peak: their range) and texture each reach this many dB */
+  double max_error;  /* every decoded height is within this distance, in `unit`; guaranteed: the
                         encoder decodes and measures. Finer than 2^26 steps over the range allow:
                         bit for bit. Finer than a `step` that is given: TKS_USAGE */
-  int lossless;       /* everything comes back bit for bit, floats by their bit patterns (NaN: see
+  int lossless;      /* everything comes back bit for bit, floats by their bit patterns (NaN: see
                         tks_heights) */
-  uint32_t triangles; /* meshes will be drawn with at most this many triangles; 0: no bound */
-  uint32_t threads;   /* 0 or 1: one thread; the bytes never depend on it */
-  uint32_t regions;   /* side of the spatial regions by which windows can be decoded, in samples (of
+  uint32_t triangles;/* meshes will be drawn with at most this many triangles; 0: no bound */
+  uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
+  uint32_t regions;  /* side of the spatial regions by which windows can be decoded, in samples (of
                         either component): a power of two from 16 to 2^20; 1: none; 0: chosen, none
                         up to 1025 x 1025 heights, 2048 x 2048 texels, or heights with max_error */
-  int index;          /* non-zero: write the front index (byte ranges of every packet) */
+  int index;         /* non-zero: write the front index (byte ranges of every packet) */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;
@@ -254,10 +254,10 @@ const char* tks_message(const tks_decoder* decoder);
 typedef struct tks_info {
   size_t size; /* sizeof(tks_info), set by the caller */
   uint32_t format_version, profile, level;
-  uint64_t header_bytes;                  /* bytes before the first packet */
-  uint64_t stream_bytes;                  /* what the encoder wrote, header included */
-  uint64_t available_bytes;               /* what tks_open was given */
-  uint64_t packets;                       /* packets begun in the available bytes */
+  uint64_t header_bytes;   /* bytes before the first packet */
+  uint64_t stream_bytes;   /* what the encoder wrote, header included */
+  uint64_t available_bytes;/* what tks_open was given */
+  uint64_t packets;        /* packets begun in the available bytes */
   uint64_t geometry_bytes, texture_bytes; /* payload available of either component */
   int has_heights, has_texture;
   uint32_t width, height;  /* heights, of the level that is set; 0 when absent */
@@ -266,38 +266,38 @@ typedef struct tks_info {
   double scale, offset, step; /* decoded integer q stands for sample q * step + base */
   double base;
   double spacing_x, spacing_y; /* of the level that is set */
-  int exact_steps;             /* the step loses nothing */
-  int lossless;                /* the complete stream restores every sample */
-  int has_voids;               /* some samples may be void */
-  int has_nodata;              /* voids come back as `nodata` */
-  double nodata;               /* NaN where NaN was declared */
-  double max_error;            /* guaranteed for the complete stream, in unit; < 0: not stated */
-  uint32_t triangles;          /* the encoder's triangle budget; 0: none */
+  int exact_steps;         /* the step loses nothing */
+  int lossless;            /* the complete stream restores every sample */
+  int has_voids;           /* some samples may be void */
+  int has_nodata;          /* voids come back as `nodata` */
+  double nodata;           /* NaN where NaN was declared */
+  double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
+  uint32_t triangles;      /* the encoder's triangle budget; 0: none */
   uint32_t regions, texture_regions; /* side of the spatial regions; 0: none */
   uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
   uint32_t texture_coarsest_level;
-  int texture_cutout; /* alpha is 0 or the largest value; 2: and colours where it is 0 are
+  int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are
                               not kept */
-  int texture_drawn;  /* 1: colours coded as they are; 2: those of an overlay on a photograph;
+  int texture_drawn;       /* 1: colours coded as they are; 2: those of an overlay on a photograph;
                               3: samples stored, because nothing codes them in fewer bytes */
   tks_sample texture_sample;
-  double heights_rmse; /* stated by the last complete packet, in unit; < 0: not yet stated */
-  double texture_psnr; /* likewise, dB; < 0: not yet stated; infinity: exact */
-  const char* unit;    /* "" when unknown; owned by the decoder */
+  double heights_rmse;     /* stated by the last complete packet, in unit; < 0: not yet stated */
+  double texture_psnr;     /* likewise, dB; < 0: not yet stated; infinity: exact */
+  const char* unit;            /* "" when unknown; owned by the decoder */
   const char* vertical_datum;
   const char* crs;
-  int heights_stored;     /* samples stored, because nothing codes them in fewer bytes */
-  int has_geotransform;   /* of the heights; 0: their place is unknown */
-  double geotransform[6]; /* of the level that is set (tks_heights says what it is); 0 when
+  int heights_stored;      /* samples stored, because nothing codes them in fewer bytes */
+  int has_geotransform;    /* of the heights; 0: their place is unknown */
+  double geotransform[6];  /* of the level that is set (tks_heights says what it is); 0 when
                               unknown. Of a window that begins at column c and row r: [0] and
                               [3] become the x and y of (c, r) */
   tks_registration registration;
   const char* description; /* "" when unknown, as the texts below; owned by the decoder */
   const char* geo_keys;
-  int texture_has_geotransform;   /* the texture has a georeference of its own */
+  int texture_has_geotransform; /* the texture has a georeference of its own */
   double texture_geotransform[6]; /* of the level that is set */
   tks_registration texture_registration;
-  const char* texture_crs; /* that of the heights where the texture's place is known and no
+  const char* texture_crs;      /* that of the heights where the texture's place is known and no
                                    other CRS is stated */
   const char* texture_geo_keys;
 } tks_info;
@@ -347,11 +347,11 @@ tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* win
 
 /* What a call decodes. */
 typedef enum tks_part {
-  TKS_PART_HEIGHTS = 0,    /* tks_decode_heights, tks_decode_surface, and their windows */
-  TKS_PART_VALIDITY = 1,   /* tks_decode_validity */
-  TKS_PART_TEXTURE = 2,    /* tks_decode_texture, and its window */
-  TKS_PART_CODED_MESH = 3, /* tks_decode_mesh and tks_decode_mesh_tree, TKS_MESH_CODED */
-  TKS_PART_BUDGET_MESH = 4 /* the same, TKS_MESH_BUDGET */
+  TKS_PART_HEIGHTS = 0,     /* tks_decode_heights, tks_decode_surface, and their windows */
+  TKS_PART_VALIDITY = 1,    /* tks_decode_validity */
+  TKS_PART_TEXTURE = 2,     /* tks_decode_texture, and its window */
+  TKS_PART_CODED_MESH = 3,  /* tks_decode_mesh and tks_decode_mesh_tree, TKS_MESH_CODED */
+  TKS_PART_BUDGET_MESH = 4  /* the same, TKS_MESH_BUDGET */
 } tks_part;
 
 /* Whether tks_limits.max_memory suffices for such a call, before there is an array for what it
@@ -379,11 +379,10 @@ void tks_free_ranges(tks_ranges* ranges);
 
 /* Which bytes behind the header a call needs of a stream with a front index, to decode what it
  * would of the complete stream: the packets of the tracks that it decodes. Given to tks_put they
- * suffice, for what is missing of other tracks counts as there. Ranges come in their order, and do not touch. Of
- * streams in regions a window
- * needs some regions, a level from 3 on no region of the finest levels. For a rougher terrain take
- * of every range what lies before some byte. TKS_USAGE: there is no index, part or window.
- * TKS_LIMIT: as the call. */
+ * suffice, for what is missing of other tracks counts as there. Ranges come in their order and do
+ * not touch. Of streams in regions a window needs some regions, a level from 3 on no region of the
+ * finest levels. For a rougher terrain take of every range what lies before some byte. TKS_USAGE:
+ * there is no index, part or window. TKS_LIMIT: as the call. */
 tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
                              tks_ranges* out);
 
@@ -431,11 +430,11 @@ typedef struct tks_screen_camera {
 
 /* What a mesh will be drawn for. */
 typedef struct tks_screen {
-  size_t size;                      /* sizeof(tks_screen) */
+  size_t size;               /* sizeof(tks_screen) */
   const tks_screen_camera* cameras; /* `camera_count` of them, each as long as the first one's size
                                        says */
-  uint32_t camera_count;            /* 0: no cameras; all ground counts alike, as on a map */
-  const tks_image* texture; /* what covers the ground, such as the decoded texture; NULL: unknown,
+  uint32_t camera_count;     /* 0: no cameras; all ground counts alike, as on a map */
+  const tks_image* texture;  /* what covers the ground, such as the decoded texture; NULL: unknown,
                                 taken for details of a sample's size everywhere */
 } tks_screen;
 
