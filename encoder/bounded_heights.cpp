@@ -24,7 +24,8 @@ using Quantised = std::shared_ptr<const QuantisedHeights>;
 /// What all attempts have in common.
 struct Bound {
   Quantised of;
-  WaveletHeader wavelet;  ///< of coefficients that will be cut
+  Purpose purpose;        ///< of coefficients that will be cut
+  WaveletHeader wavelet;  ///< that suits them where nothing is flat
   CoefficientOptions options;
   double error;  ///< the largest one wanted, in sample units, less what floats lose by rounding
 };
@@ -93,20 +94,29 @@ EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
   return cut;
 }
 
+/// What a cut that corrections follow usually leaves.
+HeightPurpose usualCut(const Bound& bound, int32_t largest) {
+  const double usual = kUsualCut * largest;
+  return {bound.of->steps.range_bits, bound.purpose, UINT64_MAX, usual * usual,
+          bound.options.threads};
+}
+
 /// mean_square: that the cut leaves, in steps; nothing: what takes the fewest bytes.
 CodedHeights correct(const Bound& bound, int32_t largest, std::optional<double> mean_square) {
   const QuantisedHeights& heights = *bound.of;
-  const EncodedTrack whole =
-      std::move(codeCoefficients(heights, bound.wavelet, bound.options).front());
-  WaveletHeader wavelet = bound.wavelet;
-  wavelet.rounded_bytes = exactBytes(std::span(&whole, 1));
+  FlatChoice choice =
+      chooseFlatAreas({heights.steps.steps, extentOf(*heights.samples), heights.steps.valid},
+                      usualCut(bound, largest));
+  const EncodedTrack whole = std::move(
+      codeCoefficients(heights, choice.wavelet, choice.flat.beside(bound.options)).front());
+  choice.wavelet.rounded_bytes = exactBytes(std::span(&whole, 1));
   GeometryHeader header = headerOf(heights);
-  header.wavelet = wavelet;
+  header.wavelet = choice.wavelet;
   header.planes = static_cast<uint8_t>(whole.planes);
-  const CorrectedCut cut_of(heights.steps, header, whole, largest);
+  const CorrectedCut cut_of(heights.steps, choice.flat.areas, header, whole, largest);
   const uint64_t bytes = mean_square ? cut_of.bytesFor(*mean_square) : cut_of.best();
   const Corrected corrected = cut_of.correct(bytes);
-  HeightLayers layers{heights.layers, corrected.codeword, wavelet};
+  HeightLayers layers = layersAround(heights.layers, corrected.codeword, std::move(choice));
   if (!corrected.codeword.empty()) {
     layers.layers.corrections = CorrectionKind::kSteps;
     layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
@@ -160,7 +170,8 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   const double finest = of->steps.step * std::abs(inputs.heights->scale);
   const bool fine = inputs.options.max_error < 2 * finest;
   const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;
-  const Bound bound{of, chooseHeightFilters(*of, purpose), options, wanted - floatSpacing(*of) / 2};
+  const Bound bound{of, purpose, chooseHeightFilters(*of, purpose), options,
+                    wanted - floatSpacing(*of) / 2};
   const double room = (wanted - errorsOf(*inputs.heights, of->steps).largest) / of->steps.step;
   constexpr double kMost = 1 << 24;
   const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));

@@ -112,6 +112,14 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                             options);
 }
 
+HeightLayers layersAround(const GeometryLayers& known, std::span<const uint8_t> corrections,
+                          FlatChoice choice) {
+  HeightLayers layers{known, corrections, choice.wavelet, std::move(choice.flat)};
+  layers.layers.flat_bytes = layers.flat.codeword.size();
+  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());
+  return layers;
+}
+
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
                         std::vector<EncodedTrack> coefficients, int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
@@ -140,12 +148,9 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
   FlatChoice choice = chooseFlatAreas(
       {steps.steps, extentOf(*of->samples), steps.valid},
       {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads});
-  HeightLayers layers{of->layers, of->corrections, choice.wavelet, std::move(choice.flat)};
-  layers.layers.flat_bytes = layers.flat.codeword.size();
-  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());
-  CoefficientOptions beside = options;
-  if (!layers.flat.areas.empty()) beside.flat = &layers.flat.areas;
-  std::vector<EncodedTrack> coefficients = codeCoefficients(*of, layers.wavelet, beside);
+  HeightLayers layers = layersAround(of->layers, of->corrections, std::move(choice));
+  std::vector<EncodedTrack> coefficients =
+      codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));
   if (layers.wavelet.fraction_bits == 0) {
     const PlaneView<const int32_t> plane(of->steps.steps, extentOf(*of->samples), of->steps.valid);
     const double missing = roundedBits(plane, layers.wavelet) * of->counted();

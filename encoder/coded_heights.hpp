@@ -45,6 +45,10 @@ struct HeightLayers {
   FlatLayer flat = {};
 };
 
+/// known: of table and voids; corrections: outlive the layers.
+HeightLayers layersAround(const GeometryLayers& known, std::span<const uint8_t> corrections,
+                          FlatChoice choice);
+
 /// The filters that suit the heights.
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);
 

@@ -38,7 +38,7 @@ class PartTrial {
   }
 
   uint64_t corrected(double mean_square) const {
-    const CorrectedCut cut(steps_, header_, track_, largest_);
+    const CorrectedCut cut(steps_, no_areas_, header_, track_, largest_);
     return cut.total(cut.bytesFor(mean_square));
   }
 
@@ -57,6 +57,7 @@ class PartTrial {
 
   HeightSteps steps_;
   int32_t largest_;
+  const FlatAreas no_areas_;  // they help rounded steps as much as corrected ones
   GeometryHeader header_;
   EncodedTrack track_;
 };

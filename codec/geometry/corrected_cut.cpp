@@ -14,8 +14,8 @@ int32_t nearestMultiple(int64_t q, int64_t largest) {
 }
 
 Corrected CorrectedCut::correct(uint64_t bytes) const {
-  const DecodedGeometry decoded =
-      decodeGeometry(header_, {std::span(coefficients_.codeword).first(bytes)}, steps_.valid);
+  const DecodedGeometry decoded = decodeGeometry(
+      header_, {std::span(coefficients_.codeword).first(bytes)}, {steps_.valid, flat_});
   const std::vector<int32_t> steps = wholeSteps(decoded);
   Corrected result;
   std::vector<int32_t> corrections(steps.size());

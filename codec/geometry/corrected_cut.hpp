@@ -8,6 +8,7 @@
 
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
+#include "codec/geometry/flat_areas.hpp"
 #include "codec/geometry/height_steps.hpp"
 
 namespace tetrakis::inline geometry {
@@ -24,10 +25,15 @@ struct Corrected {
 /// Tries cuts of one track of coefficients, complete or not. All arguments outlive it.
 class CorrectedCut {
  public:
-  /// header: with the planes of the track; largest: error allowed, in steps.
-  CorrectedCut(const HeightSteps& steps, const GeometryHeader& header,
+  /// header: with the planes of the track; flat: what the coefficients were coded beside; largest:
+  /// error allowed, in steps.
+  CorrectedCut(const HeightSteps& steps, const FlatAreas& flat, const GeometryHeader& header,
                const EncodedTrack& coefficients, int32_t largest)
-      : steps_(steps), header_(header), coefficients_(coefficients), largest_(largest) {}
+      : steps_(steps),
+        flat_(flat),
+        header_(header),
+        coefficients_(coefficients),
+        largest_(largest) {}
 
   Corrected correct(uint64_t bytes) const;
 
@@ -41,6 +47,7 @@ class CorrectedCut {
 
  private:
   const HeightSteps& steps_;
+  const FlatAreas& flat_;
   const GeometryHeader& header_;
   const EncodedTrack& coefficients_;
   int32_t largest_;

@@ -8,6 +8,7 @@
 
 #include "base/plane.hpp"
 #include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/geometry_encoder.hpp"
 #include "wavelet/filter_choice.hpp"
 
 namespace tetrakis::inline geometry {
@@ -16,6 +17,12 @@ namespace tetrakis::inline geometry {
 struct FlatLayer {
   FlatAreas areas;
   std::vector<uint8_t> codeword;
+
+  /// Options for the coefficients beside them. The layer outlives the options.
+  CoefficientOptions beside(CoefficientOptions options) const {
+    if (!areas.empty()) options.flat = &areas;
+    return options;
+  }
 };
 
 /// What heights in steps are coded for.

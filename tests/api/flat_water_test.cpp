@@ -2,6 +2,9 @@
 // Whole streams of heights with flat water: it is exact as soon as it is known, in every prefix,
 // window and level, whatever the type, the shape and the target; and land without water pays
 // nothing.
+#include <algorithm>
+#include <span>
+
 #include "bitstream/stream/header.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "conformance/samples/void_masks.hpp"
@@ -93,6 +96,30 @@ TEST(FlatWater, DecodesAsTheReferenceDoesInAllPrefixesAndLevels) {
       }
     }
   }
+}
+
+/// A bound may be kept by corrections behind coefficients that were coded beside water.
+TEST(FlatWater, CorrectionsLieBesideIt) {
+  const Flooded f = flooded(VoidShape::kHalf, TKS_U16, 130, 111);
+  bool both = false;
+  for (const double most : {20.0, 100.0, 500.0}) {
+    tks_encode_options options = lossless();
+    options.lossless = 0;
+    options.max_error = most;
+    const Bytes stream = encode(&f.raster, nullptr, options);
+    const GeometryLayers layers = layersOf(stream);
+    both |= layers.flat_bytes > 0 && layers.corrections == CorrectionKind::kSteps;
+    for (size_t bytes = readHeader(stream)->bytes; bytes < stream.size(); bytes += 2999) {
+      const Prefix prefix = Prefix(stream).first(bytes);
+      Stream decoded(prefix);
+      const std::vector<std::byte> heights = decoded.heights();
+      const std::vector<uint8_t> expected =
+          reference::decode(prefix, 1 << 20, {0, 0}).heights.value();
+      ASSERT_TRUE(std::ranges::equal(std::as_bytes(std::span(expected)), heights)) << bytes;
+    }
+    ASSERT_LE(largestError(f.raster, Stream(stream).heights()), most);
+  }
+  EXPECT_TRUE(both);
 }
 
 TEST(FlatWater, WindowsAreThoseOfTheWhole) {
