@@ -406,11 +406,11 @@ std::vector<VectorCase> toldCases() {
     both.told = true;
     return both;
   };
-  VectorCase masked = asCutout(
-      withVoids(told("told_masks_90x67_60x80", "maps of priorities beside voids and a cut-out",
-                     budget(5000)),
-                samples::VoidShape::kCoast, -32768),
-      samples::VoidShape::kCoast);
+  VectorCase masked =
+      asCutout(withVoids(told("told_masks_90x67_60x80",
+                              "maps of priorities beside voids and a cut-out", budget(5000)),
+                         samples::VoidShape::kCoast, -32768),
+               samples::VoidShape::kCoast);
   masked.texture->channels = 4;
   return {told("told_90x67_60x80", "maps of priorities: heights and texture to the last bit",
                lossless()),

@@ -68,7 +68,8 @@ TEST(PriorityMap, CoefficientsLieBetweenTheTilesAroundThem) {
     const CoefficientPriorities priorities(map);
     const auto [least, most] = std::minmax_element(map.priorities.begin(), map.priorities.end());
     for (int i = 0; i < 50; ++i) {
-      const uint32_t x = random() % map.plane.width, y = random() % map.plane.height;
+      const auto x = static_cast<uint32_t>(random() % map.plane.width);
+      const auto y = static_cast<uint32_t>(random() % map.plane.height);
       const uint8_t coarse = priorities.at(x, y, static_cast<int>(random() % 10));
       EXPECT_GE(coarse, *least);
       EXPECT_LE(coarse, *most);
