@@ -202,6 +202,18 @@ class Window(ctypes.Structure):
     _fields_ = [("x", c_uint32), ("y", c_uint32), ("width", c_uint32), ("height", c_uint32)]
 
 
+class Range(ctypes.Structure):
+    """tks_range."""
+
+    _fields_ = [("offset", c_uint64), ("size", c_uint64)]
+
+
+class Ranges(ctypes.Structure):
+    """tks_ranges."""
+
+    _fields_ = [("count", c_size_t), ("ranges", POINTER(Range))]
+
+
 class Mesh(ctypes.Structure):
     """tks_mesh."""
 
@@ -246,6 +258,8 @@ STRUCTS = {
     "tks_limits": Limits,
     "tks_info": StreamInfo,
     "tks_window": Window,
+    "tks_range": Range,
+    "tks_ranges": Ranges,
     "tks_mesh": Mesh,
     "tks_screen_camera": ScreenCamera,
     "tks_screen": Screen,
