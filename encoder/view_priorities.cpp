@@ -44,14 +44,15 @@ class TileWorths {
   }
 
   /// A bit-plane takes three quarters off squared errors: a tile where a squared error costs four
-  /// times as much is to have one more.
+  /// times as much would have one more, were costs those of all errors. They are those of one size
+  /// of errors, and of no level; so it has half of one more (docs/MEASUREMENTS.md).
   PriorityMap map() && {
     const std::vector<double> densities = perSample();
     const double most = *std::max_element(densities.begin(), densities.end());
     if (!(most > 0)) return {};
     constexpr double kTop = kPriorities - 1;
     for (const double density : densities) {
-      const double wanted = density > 0 ? kTop + std::log2(density / most) / 2 : 0;
+      const double wanted = density > 0 ? kTop + std::log2(density / most) / 4 : 0;
       map_.priorities.push_back(static_cast<uint8_t>(std::clamp(std::round(wanted), 0.0, kTop)));
     }
     const auto [least, first] = std::minmax_element(map_.priorities.begin(), map_.priorities.end());

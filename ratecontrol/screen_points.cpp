@@ -209,8 +209,7 @@ std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const Surface& surface,
       const auto hit = seen[i].ground ? surface.ground.hit(points_[i].ray) : std::nullopt;
       if (!hit) continue;
       const double moved = inside(points_[i], seen[i], *hit, surface);
-      worths.push_back(
-          {hit->column, hit->row, weight * moved, weight * std::exp2(-2 * seen[i].level)});
+      worths.push_back({hit->column, hit->row, weight * moved, weight});
     }
   }
   return worths;

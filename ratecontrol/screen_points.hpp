@@ -65,8 +65,7 @@ class ScreenPoints {
     double shift;
   };
   /// What errors cost where a point shows the ground, as parts of the error over all cameras: of
-  /// heights that are off by the shift; of texels, per square. What the pixels of a point do not
-  /// resolve they average.
+  /// heights that are off by the shift; of texels, per square, as if pixels resolved them all.
   struct Worth {
     double column = 0, row = 0;  ///< GroundHit
     double heights = 0, texture = 0;
