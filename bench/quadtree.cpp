@@ -109,7 +109,7 @@ Result<std::vector<Mesh>> makeMeshes(const Options& options) {
 }
 
 std::vector<Walks> makeWalks(const QuadtreeNodes& stored, bool orders) {
-  constexpr uint32_t kNodesRead = 1 << 20;
+  const uint32_t nodes_read = orders ? 1 << 18 : 1 << 20;
   std::vector<std::pair<std::string, uint32_t>> lengths = {
       {"neighbour", 1}, {"path_16", 16}, {"path_512", 512}};
   if (orders)
@@ -119,7 +119,7 @@ std::vector<Walks> makeWalks(const QuadtreeNodes& stored, bool orders) {
   std::mt19937 random(1);
   for (const auto& [name, steps] : lengths) {
     Walks walks{name, steps, {}, {}};
-    for (uint32_t i = 0; i < kNodesRead / steps; ++i) {
+    for (uint32_t i = 0; i < nodes_read / steps; ++i) {
       walks.starts.push_back(static_cast<uint32_t>(random() % stored.nodes.size()));
       walks.directions.push_back(static_cast<Direction>(random() % 4));
     }

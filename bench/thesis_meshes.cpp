@@ -4,12 +4,12 @@
 // (figs. 5.8, 5.10, 5.11, 5.13), falls of the slope and rises of the error (5.4.2), and the times
 // of table 5.1.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,10 +32,10 @@ namespace {
 using namespace tetrakis;
 using namespace tetrakis::bench;
 
-constexpr uint32_t kSide = 257;            // samples a side of the thesis's terrains
-constexpr double kWorst = 1e5;             // e_max of (5.28), so that no error is 50 dB
-constexpr uint32_t kUnstable = 3000;       // triangles up to which fig. 5.8 is drawn step by step
-constexpr uint32_t kDirectVertices = 5e3;  // the direct algorithm is timed up to there
+constexpr uint32_t kSide = 257;             // samples a side of the thesis's terrains
+constexpr double kWorst = 1e5;              // e_max of (5.28), so that no error is 50 dB
+constexpr uint32_t kUnstable = 3000;        // triangles up to which fig. 5.8 is drawn step by step
+constexpr uint32_t kDirectVertices = 5000;  // the direct algorithm is timed up to there
 
 struct Options {
   std::string folder;  // empty: the sample terrain
@@ -180,17 +180,17 @@ void countSteps(const Lattice& lattice, const std::vector<double>& gains,
   }
 }
 
-/// Fig. 5.8: one terrain, every step at low rates.
-void traceSteps(const MeshSequence& sequence, const char* policy, std::vector<ResultRow>& rows) {
+/// Fig. 5.8: one terrain, the mesh after every step at low rates.
+void traceSteps(const MeshSequence& sequence, const std::vector<uint32_t>& steps,
+                const char* policy, std::vector<ResultRow>& rows) {
   const double worst = sequence.squaredError(0);
-  uint32_t last = 0;
-  for (size_t i = 0; i <= sequence.order().size(); ++i) {
-    const uint32_t triangles = sequence.triangleCount(i);
-    if (triangles > kUnstable) break;
-    if (triangles == last) continue;
-    last = triangles;
-    rows.push_back({"trace_" + std::to_string(triangles), policy, "db",
-                    decibels(sequence.squaredError(i), worst)});
+  size_t left = sequence.order().size();
+  for (const uint32_t removed : steps) {
+    left -= removed;
+    const uint32_t triangles = sequence.triangleCount(left);
+    if (triangles <= kUnstable)
+      rows.push_back({"trace_" + std::to_string(triangles), policy, "db",
+                      decibels(sequence.squaredError(left), worst)});
   }
 }
 
@@ -218,19 +218,45 @@ Status pictureMeshes(const Terrain& terrain, const MeshSequence& sequence,
   return {};
 }
 
-/// Orders one terrain by one policy.
-Result<MeshSequence> order(const Terrain& terrain, const Policy& policy, Course& course) {
+/// Orders one terrain by one policy. steps: vertices that each step removes, first step first.
+Result<MeshSequence> order(const Terrain& terrain, const Policy& policy, Course& course,
+                           std::vector<uint32_t>& steps) {
   Result<MeshSequence> sequence = decimate(terrain.view(), {policy.policy, {}});
   if (!sequence.ok()) return sequence;
   const Lattice& lattice = sequence->lattice();
   const std::vector<double> gains = vertexGains(lattice, terrain.view());
-  std::vector<uint32_t> steps(sequence->order().size(), 1);
+  steps.assign(sequence->order().size(), 1);
   if (policy.policy == MeshPolicy::kGeneralDecimation) {
     steps.clear();
     generalDecimation(gains, VertexCosts(lattice), MergingDomains::kPromptLevels, &steps);
   }
   countSteps(lattice, gains, sequence->order(), steps, course);
   return sequence;
+}
+
+/// What is told of one terrain alone: its quality at the sizes of fig. 5.13, and, of the first, its
+/// meshes and steps.
+Status reportTerrain(const Terrain& terrain, bool first, const MeshSequence& sequence,
+                     const std::string& meshes, std::vector<ResultRow>& rows) {
+  const double worst = sequence.squaredError(0);
+  for (const uint32_t triangles : kPictured)
+    rows.push_back({terrain.name, "general", "db_at_" + std::to_string(triangles),
+                    decibels(errorAt(sequence, triangles), worst)});
+  return first && !meshes.empty() ? pictureMeshes(terrain, sequence, meshes) : Status();
+}
+
+void reportCourse(const Policy& policy, const Course& mean, const std::vector<uint32_t>& all,
+                  std::vector<ResultRow>& rows) {
+  std::printf("%-18s %9.0f %8.1f %8.1f", policy.name, mean.steps, mean.rises, mean.falls);
+  rows.push_back({"mean", policy.name, "steps", mean.steps});
+  rows.push_back({"mean", policy.name, "rises", mean.rises});
+  rows.push_back({"mean", policy.name, "falls", mean.falls});
+  for (size_t i = 0; i < all.size(); ++i) {
+    rows.push_back({"mean", policy.name, "db_at_" + std::to_string(all[i]), mean.decibels[i]});
+    if (std::find(std::begin(kPictured), std::end(kPictured), all[i]) != std::end(kPictured))
+      std::printf(" %7.2f", mean.decibels[i]);
+  }
+  std::printf("\n");
 }
 
 Status measurePolicies(const Ground& ground, const Options& options, std::vector<ResultRow>& rows) {
@@ -242,35 +268,25 @@ Status measurePolicies(const Ground& ground, const Options& options, std::vector
   std::printf("\n");
   for (const Policy& policy : kPolicies) {
     Course course{std::vector<double>(all.size()), 0, 0, 0};
+    std::vector<uint32_t> steps;
     for (const Terrain& terrain : ground.terrains) {
-      const Result<MeshSequence> sequence = order(terrain, policy, course);
+      const Result<MeshSequence> sequence = order(terrain, policy, course, steps);
       if (!sequence.ok()) return sequence.status();
       const double worst = sequence->squaredError(0);
       if (worst == 0) return {TKS_USAGE, terrain.name + " is flat: leave it out."};
       for (size_t i = 0; i < all.size(); ++i)
         course.decibels[i] += decibels(errorAt(*sequence, all[i]), worst) / terrains;
       const bool first = &terrain == ground.terrains.data();
-      if (policy.policy == MeshPolicy::kGeneralDecimation) {
-        for (const uint32_t triangles : kPictured)
-          rows.push_back({terrain.name, policy.name, "db_at_" + std::to_string(triangles),
-                          decibels(errorAt(*sequence, triangles), worst)});
-        if (first && !options.meshes.empty())
-          if (Status status = pictureMeshes(terrain, *sequence, options.meshes); !status.ok())
-            return status;
-      }
-      if (first) traceSteps(*sequence, policy.name, rows);
+      if (first) traceSteps(*sequence, steps, policy.name, rows);
+      if (policy.policy != MeshPolicy::kGeneralDecimation) continue;
+      if (Status status = reportTerrain(terrain, first, *sequence, options.meshes, rows);
+          !status.ok())
+        return status;
     }
-    std::printf("%-18s %9.0f %8.1f %8.1f", policy.name, course.steps / terrains,
-                course.rises / terrains, course.falls / terrains);
-    rows.push_back({"mean", policy.name, "steps", course.steps / terrains});
-    rows.push_back({"mean", policy.name, "rises", course.rises / terrains});
-    rows.push_back({"mean", policy.name, "falls", course.falls / terrains});
-    for (size_t i = 0; i < all.size(); ++i) {
-      rows.push_back({"mean", policy.name, "db_at_" + std::to_string(all[i]), course.decibels[i]});
-      if (std::find(std::begin(kPictured), std::end(kPictured), all[i]) != std::end(kPictured))
-        std::printf(" %7.2f", course.decibels[i]);
-    }
-    std::printf("\n");
+    course.steps /= terrains;
+    course.rises /= terrains;
+    course.falls /= terrains;
+    reportCourse(policy, course, all, rows);
   }
   return {};
 }
@@ -291,8 +307,37 @@ double processorSeconds(const std::function<void()>& work) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Table 5.1. The initialisation is the gains of all vertices and the sums over complete domains;
-/// the decimation is the rest, its queue included.
+struct Times {
+  double initial = 0, decimation = 0;
+  std::vector<double> gains;
+  std::vector<VertexId> order;  ///< each step sorted
+};
+
+/// The initialisation is the gains of all vertices and the sums over complete domains; the
+/// decimation is the rest, its queue included.
+Times timesOf(const Lattice& lattice, const Terrain& terrain, int runs) {
+  const VertexCosts costs(lattice);
+  Times times;
+  std::vector<double> initial, decimation;
+  std::vector<uint32_t> steps;
+  for (int run = 0; run < runs; ++run) {
+    const double sums =
+        processorSeconds([&] { times.gains = vertexGains(lattice, terrain.view()); });
+    const double domains = processorSeconds([&] { const MergingDomains all(times.gains, costs); });
+    steps.clear();
+    const double both = processorSeconds([&] {
+      times.order = generalDecimation(times.gains, costs, MergingDomains::kPromptLevels, &steps);
+    });
+    initial.push_back(sums + domains);
+    decimation.push_back(std::max(both - domains, 0.0));
+  }
+  times.initial = median(initial);
+  times.decimation = median(decimation);
+  sortSteps(times.order, steps);
+  return times;
+}
+
+/// Table 5.1, and the direct algorithm, which must give the same steps.
 Status measureTimes(const Ground& ground, const Options& options, std::vector<ResultRow>& rows) {
   std::printf("\n%9s %12s %12s %12s  seconds of processor time\n", "triangles", "initial",
               "decimation", "direct");
@@ -301,33 +346,19 @@ Status measureTimes(const Ground& ground, const Options& options, std::vector<Re
     const Terrain terrain{"", side,
                           std::vector<int32_t>(square.samples.begin(), square.samples.end())};
     const Lattice lattice = *Lattice::make(side, side);
-    const VertexCosts costs(lattice);
-    std::vector<double> gains, initial, decimation;
-    std::vector<VertexId> order;
-    std::vector<uint32_t> steps;
-    for (int run = 0; run < options.runs; ++run) {
-      const double sums = processorSeconds([&] { gains = vertexGains(lattice, terrain.view()); });
-      const double domains = processorSeconds([&] { const MergingDomains all(gains, costs); });
-      steps.clear();
-      const double both = processorSeconds(
-          [&] { order = generalDecimation(gains, costs, MergingDomains::kPromptLevels, &steps); });
-      initial.push_back(sums + domains);
-      decimation.push_back(std::max(both - domains, 0.0));
-    }
-    const uint64_t triangles = uint64_t{2} * (side - 1) * (side - 1);
-    const std::string item = "n_" + std::to_string(triangles);
-    std::printf("%9llu %12.5f %12.5f", static_cast<unsigned long long>(triangles), median(initial),
-                median(decimation));
-    rows.push_back({item, "general", "initial_s", median(initial)});
-    rows.push_back({item, "general", "decimation_s", median(decimation)});
+    const Times times = timesOf(lattice, terrain, options.runs);
+    const std::string triangles = std::to_string(uint64_t{2} * (side - 1) * (side - 1));
+    std::printf("%9s %12.5f %12.5f", triangles.c_str(), times.initial, times.decimation);
+    rows.push_back({"n_" + triangles, "general", "initial_s", times.initial});
+    rows.push_back({"n_" + triangles, "general", "decimation_s", times.decimation});
     if (lattice.vertexCount() <= kDirectVertices) {
       std::vector<VertexId> direct;
-      const double seconds = processorSeconds([&] { direct = directDecimation(gains, costs); });
-      sortSteps(order, steps);
-      if (direct != order)
-        return {TKS_MISMATCH, "The direct algorithm removes vertices in another order."};
+      const double seconds =
+          processorSeconds([&] { direct = directDecimation(times.gains, VertexCosts(lattice)); });
+      if (direct != times.order)
+        return {TKS_MISMATCH, "The direct algorithm removes other vertices."};
       std::printf(" %12.5f", seconds);
-      rows.push_back({item, "direct", "decimation_s", seconds});
+      rows.push_back({"n_" + triangles, "direct", "decimation_s", seconds});
     }
     std::printf("\n");
     std::fflush(stdout);
