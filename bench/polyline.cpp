@@ -70,8 +70,8 @@ Result<std::vector<Heights>> readRows(const Options& options) {
   std::vector<Heights> rows;
   for (const std::string& path : options.heights) {
     const Result<tools::HeightFile> file = tools::readHeights(path);
-    if (!file.ok()) return file.status();
-    Result<std::vector<Heights>> more = centralRows(*file, path);
+    Result<std::vector<Heights>> more =
+        file.ok() ? centralRows(*file, path) : Result<std::vector<Heights>>(file.status());
     if (!more.ok()) {
       std::fprintf(stderr, "left out: %s\n", more.status().message().c_str());
       continue;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -67,7 +68,7 @@ constexpr Policy kPolicies[] = {{"general", MeshPolicy::kGeneralDecimation},
 
 constexpr uint32_t kPictured[] = {200, 400, 800, 1600, 3200, 6400};  // fig. 5.13
 
-/// Fails if the raster is smaller, or has voids there.
+/// Fails if the raster is smaller, or has voids or a single height there.
 Result<Terrain> centreOf(const Raster& raster, const std::string& name) {
   if (raster.width < kSide || raster.height < kSide)
     return Status(TKS_USAGE, name + " is smaller than 257 x 257 samples");
@@ -80,6 +81,8 @@ Result<Terrain> centreOf(const Raster& raster, const std::string& name) {
         return Status(TKS_USAGE, name + " has voids in its central 257 x 257 samples");
       terrain.heights.push_back(raster.samples[i]);
     }
+  const auto [low, high] = std::minmax_element(terrain.heights.begin(), terrain.heights.end());
+  if (*low == *high) return Status(TKS_USAGE, name + " is flat in its central 257 x 257 samples");
   return terrain;
 }
 
@@ -87,6 +90,20 @@ struct Ground {
   std::vector<Terrain> terrains;
   Raster first;  ///< whole; table 5.1 mirrors it to its sizes
 };
+
+Status addFile(const std::filesystem::path& path, Ground& ground) {
+  const Result<tools::HeightFile> file = tools::readHeights(path.string());
+  if (!file.ok()) return file.status();
+  Result<Raster> raster = heightRaster(*file);
+  if (!raster.ok()) return raster.status();
+  const std::string folder = path.parent_path().filename().string();
+  Result<Terrain> terrain =
+      centreOf(*raster, path.stem() == "height" ? folder : path.stem().string());
+  if (!terrain.ok()) return terrain.status();
+  if (ground.terrains.empty()) ground.first = std::move(*raster);
+  ground.terrains.push_back(std::move(*terrain));
+  return {};
+}
 
 Result<Ground> readGround(const Options& options) {
   Ground ground;
@@ -103,19 +120,8 @@ Result<Ground> readGround(const Options& options) {
   }
   for (const auto& path : heightFilesBelow(options.folder, {})) {
     if (ground.terrains.size() == options.most_files) break;
-    const Result<tools::HeightFile> file = tools::readHeights(path.string());
-    if (!file.ok()) return file.status();
-    Result<Raster> raster = heightRaster(*file);
-    if (!raster.ok()) return raster.status();
-    const std::string folder = path.parent_path().filename().string();
-    Result<Terrain> terrain =
-        centreOf(*raster, path.stem() == "height" ? folder : path.stem().string());
-    if (!terrain.ok()) {
-      std::fprintf(stderr, "left out: %s\n", terrain.status().message().c_str());
-      continue;
-    }
-    if (ground.terrains.empty()) ground.first = std::move(*raster);
-    ground.terrains.push_back(std::move(*terrain));
+    const Status status = addFile(path, ground);
+    if (!status.ok()) std::fprintf(stderr, "left out: %s\n", status.message().c_str());
   }
   if (ground.terrains.empty())
     return Status(TKS_USAGE, "The folder has no height field of 257 x 257 samples without voids.");
@@ -273,7 +279,7 @@ Status measurePolicies(const Ground& ground, const Options& options, std::vector
       const Result<MeshSequence> sequence = order(terrain, policy, course, steps);
       if (!sequence.ok()) return sequence.status();
       const double worst = sequence->squaredError(0);
-      if (worst == 0) return {TKS_USAGE, terrain.name + " is flat: leave it out."};
+      if (worst == 0) return {TKS_USAGE, terrain.name + " is a plane: leave it out."};
       for (size_t i = 0; i < all.size(); ++i)
         course.decibels[i] += decibels(errorAt(*sequence, all[i]), worst) / terrains;
       const bool first = &terrain == ground.terrains.data();

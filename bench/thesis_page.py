@@ -585,7 +585,7 @@ def figure_58(page, results):
                      if not math.isnan(results(f"trace_{t}", name, "db"))]
         decibels = np.array([results(f"trace_{t}", name, "db") for t in triangles])
         rises[name] = int((np.diff(decibels) < -1e-9).sum())
-        low = np.array(triangles) <= 300
+        low = (np.array(triangles) >= 5) & (np.array(triangles) <= 300)
         axes.plot(np.array(triangles)[low], decibels[low], color=COLOURS[i], label=POLICIES[name])
     axes.set(xlabel="triangles", ylabel="dB (5.28)", xscale="log")
     axes.legend()
