@@ -26,7 +26,7 @@ STYLE = """
 body{font:16px/1.55 Georgia,serif;color:#222;max-width:60rem;margin:2.5rem auto;padding:0 1.2rem}
 h1,h2,h3,th,nav{font-family:system-ui,sans-serif}h1{font-size:1.7rem;margin-bottom:.2rem}
 h2{font-size:1.3rem;margin-top:3rem;border-bottom:1px solid #ccc;padding-bottom:.2rem}
-nav ol{columns:2;font-size:.9rem;padding-left:1.3rem}a{color:#1f4e79;text-decoration:none}
+nav ol{columns:22rem 2;font-size:.9rem;padding-left:1.3rem}a{color:#1f4e79;text-decoration:none}
 figure{margin:1.8rem 0}figure>img{max-width:100%;display:block}
 figcaption{font-size:.9rem;color:#333;margin-top:.5rem}sub{line-height:0}
 figcaption b{font-family:system-ui,sans-serif}
