@@ -2,6 +2,7 @@
 // bench_polyline [HEIGHT...]: table 2.3 and figures 2.9, 2.10, 2.17 and 2.20 of the thesis on rows
 // of height fields, beside the numbers that it prints.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -23,16 +24,19 @@ using namespace tetrakis::bench;
 
 constexpr uint32_t kSide = 257;          // curves and knots of fig. 2.2
 constexpr double kWorst = 1e5;           // e_max of (2.3): every curve is scaled to it
+constexpr double kRounding = 1e-9;       // of the largest error: less is no rise of the error
 constexpr uint32_t kMostOptimal = 1025;  // knots that uoptimal is counted for: cubic time
 
 using Heights = std::vector<double>;
 
 struct Options {
   std::vector<std::string> heights;
+  uint32_t rows = kSide;   ///< of each file
+  bool all_rates = false;  ///< rows of results for every number of segments
   std::string csv;
 };
 
-/// Rows of the central square. Nothing if a sample of it is void, or the file is smaller.
+/// Rows of the central square. Fails if a sample of it is void, or the file is smaller.
 Result<std::vector<Heights>> centralRows(const tools::HeightFile& file, const std::string& name) {
   if (file.width < kSide || file.height < kSide)
     return Status(TKS_USAGE, name + " is smaller than 257 x 257 samples");
@@ -55,16 +59,27 @@ Result<std::vector<Heights>> readRows(const Options& options) {
   if (options.heights.empty()) {
     tools::SynthOptions synth;
     synth.size = kSide;
-    return centralRows(tools::synthesize(synth).heights, "the sample terrain");
+    Result<std::vector<Heights>> all =
+        centralRows(tools::synthesize(synth).heights, "the sample terrain");
+    if (!all.ok() || options.rows == kSide) return all;
+    std::vector<Heights> rows;
+    for (uint32_t i = 0; i < options.rows; ++i)
+      rows.push_back(std::move((*all)[size_t{i} * kSide / options.rows]));
+    return rows;
   }
   std::vector<Heights> rows;
   for (const std::string& path : options.heights) {
     const Result<tools::HeightFile> file = tools::readHeights(path);
-    if (!file.ok()) return file.status();
-    Result<std::vector<Heights>> more = centralRows(*file, path);
-    if (!more.ok()) return more.status();
-    for (Heights& row : *more) rows.push_back(std::move(row));
+    Result<std::vector<Heights>> more =
+        file.ok() ? centralRows(*file, path) : Result<std::vector<Heights>>(file.status());
+    if (!more.ok()) {
+      std::fprintf(stderr, "left out: %s\n", more.status().message().c_str());
+      continue;
+    }
+    for (uint32_t i = 0; i < options.rows; ++i)
+      rows.push_back(std::move((*more)[size_t{i} * kSide / options.rows]));
   }
+  if (rows.empty()) return Status(TKS_USAGE, "None of the files has curves to measure.");
   return rows;
 }
 
@@ -110,10 +125,16 @@ void countOperations(const std::vector<Heights>& rows, std::vector<ResultRow>& r
   }
 }
 
-/// Mean dB (2.3) by segments. Where an algorithm has no polyline of so many segments, the next
-/// smaller one that it has.
-std::vector<double> meanQuality(const std::vector<Heights>& rows, const Algorithm& algorithm) {
-  std::vector<double> quality(kSide, 0);
+/// Means over the curves.
+struct Quality {
+  /// dB (2.3) by segments. Where an algorithm has no polyline of so many segments, the next smaller
+  /// one that it has.
+  std::vector<double> decibels = std::vector<double>(kSide, 0);
+  double rises = 0;  ///< how often one segment more means more error (table 2.3: monotone)
+};
+
+Quality meanQuality(const std::vector<Heights>& rows, const Algorithm& algorithm) {
+  Quality quality;
   size_t curves = 0;
   for (const Heights& row : rows) {
     const Curve curve(row);
@@ -121,12 +142,17 @@ std::vector<double> meanQuality(const std::vector<Heights>& rows, const Algorith
     if (worst == 0) continue;  // a straight line, as the sea is
     ++curves;
     const Polylines polylines = algorithm.run(curve);
+    double before = worst;
     for (uint32_t c = 1; c < kSide; ++c) {
-      const double error = std::max(polylines.errors[polylines.reached(c)], 0.0) * kWorst / worst;
-      quality[c] += 10 * std::log10(kWorst / (error + 1));
+      const double error = polylines.errors[polylines.reached(c)];
+      quality.decibels[c] += 10 * std::log10(kWorst / (std::max(error, 0.0) * kWorst / worst + 1));
+      if (error > before + kRounding * worst) ++quality.rises;
+      before = error;
     }
   }
-  for (double& decibels : quality) decibels /= static_cast<double>(std::max<size_t>(curves, 1));
+  const auto count = static_cast<double>(std::max<size_t>(curves, 1));
+  for (double& decibels : quality.decibels) decibels /= count;
+  quality.rises /= count;
   return quality;
 }
 
@@ -147,24 +173,27 @@ constexpr Gap kGaps[] = {
     {"-", "udecimate-global", "udecimate", "-"},
 };
 
-/// Figs. 2.10, 2.17 and 2.20.
-void compareQuality(const std::vector<Heights>& rows, std::vector<ResultRow>& results) {
-  std::vector<std::vector<double>> curves;
-  std::printf("\nMean dB (2.3) by segments\n%6s", "C");
-  for (const Algorithm& algorithm : kAlgorithms) {
-    std::printf(" %16s", algorithm.name);
-    curves.push_back(meanQuality(rows, algorithm));
-  }
-  std::printf("\n");
-  for (const uint32_t c : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 160, 192, 224, 256}) {
-    std::printf("%6u", c);
+using Curves = std::vector<std::vector<double>>;  // dB by segments, of each of kAlgorithms
+
+/// Of few numbers of segments; results of all if `all_rates`.
+void printQuality(const Curves& curves, bool all_rates, std::vector<ResultRow>& results) {
+  constexpr std::array kPrinted = {2,  3,  4,  6,   8,   12,  16,  24, 32,
+                                   48, 64, 96, 128, 160, 192, 224, 256};
+  for (int c = 1; c < int{kSide}; ++c) {
+    const bool print = std::find(kPrinted.begin(), kPrinted.end(), c) != kPrinted.end();
+    if (print) std::printf("%6d", c);
     for (size_t i = 0; i < kAlgorithms.size(); ++i) {
-      std::printf(" %16.2f", curves[i][c]);
-      const std::string quantity = "db_at_" + std::to_string(c);
-      results.push_back({"mean", kAlgorithms[i].name, quantity, curves[i][c]});
+      const double decibels = curves[i][static_cast<size_t>(c)];
+      if (print) std::printf(" %16.2f", decibels);
+      if (print || all_rates)
+        results.push_back({"mean", kAlgorithms[i].name, "db_at_" + std::to_string(c), decibels});
     }
-    std::printf("\n");
+    if (print) std::printf("\n");
   }
+}
+
+/// The largest and the mean distances that the thesis states.
+void printGaps(const Curves& curves) {
   const auto curveOf = [&](const std::string& name) -> const std::vector<double>& {
     size_t i = 0;
     while (name != kAlgorithms[i].name) ++i;
@@ -188,12 +217,47 @@ void compareQuality(const std::vector<Heights>& rows, std::vector<ResultRow>& re
   }
 }
 
+/// Figs. 2.10, 2.17 and 2.20, and what of table 2.3 is about errors.
+void compareQuality(const std::vector<Heights>& rows, bool all_rates,
+                    std::vector<ResultRow>& results) {
+  Curves curves;
+  std::string rises;
+  std::printf("\nMean dB (2.3) by segments\n%6s", "C");
+  for (const Algorithm& algorithm : kAlgorithms) {
+    std::printf(" %16s", algorithm.name);
+    Quality quality = meanQuality(rows, algorithm);
+    curves.push_back(std::move(quality.decibels));
+    results.push_back({"mean", algorithm.name, "rises_per_curve", quality.rises});
+    char text[32];
+    std::snprintf(text, sizeof(text), " %16.2f", quality.rises);
+    rises += text;
+  }
+  std::printf("\n");
+  printQuality(curves, all_rates, results);
+  std::printf("%6s%s\n", "rises", rises.c_str());
+  printGaps(curves);
+}
+
+/// Fig. 5.9: a polyline of nine knots, and how many segments it has when each knot goes.
+void decimateExample(const Heights& row, std::vector<ResultRow>& results) {
+  Heights heights;
+  for (uint32_t k = 0; k < kSide; k += (kSide - 1) / 8) heights.push_back(row[k]);
+  const Polylines polylines = cglobal(Curve(heights));
+  for (size_t k = 0; k < heights.size(); ++k) {
+    const std::string knot = "knot_" + std::to_string(k);
+    results.push_back({"fig_5.9", knot, "height", heights[k]});
+    results.push_back({"fig_5.9", knot, "entry", static_cast<double>(polylines.entry[k])});
+  }
+}
+
 Status run(const Options& options) {
   const Result<std::vector<Heights>> rows = readRows(options);
   if (!rows.ok()) return rows.status();
   std::vector<ResultRow> results;
+  results.push_back({"all", "curves", "count", static_cast<double>(rows->size())});
   countOperations(*rows, results);
-  compareQuality(*rows, results);
+  compareQuality(*rows, options.all_rates, results);
+  if (options.all_rates) decimateExample((*rows)[rows->size() / 2], results);
   return options.csv.empty() ? Status() : updateResults(options.csv, "polyline", results);
 }
 
@@ -203,6 +267,9 @@ int main(int argc, char** argv) {
   Options options;
   Arguments arguments("Polylines: the algorithms of the thesis's chapter 2, costs and errors");
   arguments.texts({"HEIGHT", "Height files; without any the sample terrain"}, options.heights);
+  arguments.within({"--rows", "Rows of each file, spread over its centre"}, options.rows, 1, kSide);
+  arguments.flag({"--all-rates", "Results of every number of segments, for plots"},
+                 options.all_rates);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
 

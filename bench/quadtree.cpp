@@ -30,6 +30,7 @@ struct Options {
   std::string heights;  // empty: the sample terrain
   uint32_t side = 1025;
   int runs = 9;
+  bool orders = false;  // more lengths of walks, and windows of more sizes
   std::string csv;
 };
 
@@ -107,14 +108,18 @@ Result<std::vector<Mesh>> makeMeshes(const Options& options) {
   return meshes;
 }
 
-std::vector<Walks> makeWalks(const QuadtreeNodes& stored) {
-  constexpr uint32_t kNodesRead = 1 << 20;
+std::vector<Walks> makeWalks(const QuadtreeNodes& stored, bool orders) {
+  const uint32_t nodes_read = orders ? 1 << 18 : 1 << 20;
+  std::vector<std::pair<std::string, uint32_t>> lengths = {
+      {"neighbour", 1}, {"path_16", 16}, {"path_512", 512}};
+  if (orders)
+    for (const uint32_t steps : {2, 4, 8, 32, 64, 128, 256})
+      lengths.emplace_back("path_" + std::to_string(steps), steps);
   std::vector<Walks> all;
   std::mt19937 random(1);
-  for (const auto& [name, steps] :
-       {std::pair("neighbour", 1u), {"path_16", 16u}, {"path_512", 512u}}) {
+  for (const auto& [name, steps] : lengths) {
     Walks walks{name, steps, {}, {}};
-    for (uint32_t i = 0; i < kNodesRead / steps; ++i) {
+    for (uint32_t i = 0; i < nodes_read / steps; ++i) {
       walks.starts.push_back(static_cast<uint32_t>(random() % stored.nodes.size()));
       walks.directions.push_back(static_cast<Direction>(random() % 4));
     }
@@ -182,8 +187,8 @@ void report(const Mesh& mesh, const std::string& quantity, const std::vector<Con
   std::fflush(stdout);
 }
 
-Status measureStores(const Mesh& mesh, int runs, std::vector<ResultRow>& rows) {
-  const std::vector<Walks> walks = makeWalks(mesh.stored);
+Status measureStores(const Mesh& mesh, const Options& options, std::vector<ResultRow>& rows) {
+  const std::vector<Walks> walks = makeWalks(mesh.stored, options.orders);
   const std::vector<Contender> contenders{
       contend<SemilinearStore>(mesh, walks), contend<PointerStore>(mesh, walks),
       contend<LinearStore>(mesh, walks), contend<HashStore>(mesh, walks),
@@ -196,7 +201,7 @@ Status measureStores(const Mesh& mesh, int runs, std::vector<ResultRow>& rows) {
   const auto alternating = [&](const std::function<double(const Contender&)>& seconds,
                                double elements) {
     std::vector<std::vector<double>> times(contenders.size());
-    for (int run = 0; run < runs; ++run)
+    for (int run = 0; run < options.runs; ++run)
       for (size_t i = 0; i < contenders.size(); ++i) times[i].push_back(seconds(contenders[i]));
     std::vector<double> nanoseconds;
     for (const std::vector<double>& t : times) nanoseconds.push_back(1e9 * median(t) / elements);
@@ -217,21 +222,40 @@ Status measureStores(const Mesh& mesh, int runs, std::vector<ResultRow>& rows) {
   return {};
 }
 
+/// A square in the middle of the map, `share` of its width and of its height.
+std::vector<MapPoint> windowOf(const Mesh& mesh, double share) {
+  const double side = mesh.lattice.width() - 1;
+  const double low = side * (1 - share) / 2, high = side * (1 + share) / 2;
+  return {{low, low}, {low, high}, {high, high}, {high, low}};
+}
+
+/// Windows of growing size: time over what is seen (thesis 4.7).
+void measureWindows(const Mesh& mesh, int runs, std::vector<ResultRow>& rows) {
+  const MeshTree tree(mesh.lattice, mesh.vertices, mesh.heights);
+  for (const uint32_t percent : {1, 2, 4, 8, 16, 32, 64, 100}) {
+    const std::vector<MapPoint> window = windowOf(mesh, percent / 100.0);
+    size_t triangles = 0;
+    std::vector<double> times;
+    for (int run = 0; run < runs; ++run)
+      times.push_back(
+          processorSeconds([&] { triangles = tree.view(window).mesh.triangleCount(); }));
+    const std::string name = "view_" + std::to_string(percent);
+    rows.push_back({mesh.name, name, "triangles", static_cast<double>(triangles)});
+    rows.push_back({mesh.name, name, "ms", 1e3 * median(times)});
+  }
+}
+
 /// Triangles of windows of the map out of the tree, and of the whole mesh with and without it.
 void measureViews(const Mesh& mesh, int runs, std::vector<ResultRow>& rows) {
   const MeshTree tree(mesh.lattice, mesh.vertices, mesh.heights);
-  const double side = mesh.lattice.width() - 1;
-  const auto window = [&](double share) {  // of the width and of the height
-    const double low = side * (1 - share) / 2, high = side * (1 + share) / 2;
-    return std::vector<MapPoint>{{low, low}, {low, high}, {high, high}, {high, low}};
-  };
+  const std::vector<MapPoint> tenth_window = windowOf(mesh, 0.1);
   std::vector<double> whole, without, tenth;
   size_t triangles = 0, tenth_triangles = 0;
   for (int run = 0; run < runs; ++run) {
     whole.push_back(processorSeconds([&] { triangles = tree.whole().mesh.triangleCount(); }));
     without.push_back(processorSeconds([&] { meshOf(mesh.lattice, mesh.vertices); }));
     tenth.push_back(
-        processorSeconds([&] { tenth_triangles = tree.view(window(0.1)).mesh.triangleCount(); }));
+        processorSeconds([&] { tenth_triangles = tree.view(tenth_window).mesh.triangleCount(); }));
   }
   const auto perTriangle = [](const std::vector<double>& seconds, size_t count) {
     return 1e9 * median(seconds) / static_cast<double>(count);
@@ -259,8 +283,9 @@ Status run(const Options& options) {
     std::printf("  %18s", name);
   std::printf("\n");
   for (const Mesh& mesh : *meshes) {
-    if (Status status = measureStores(mesh, options.runs, rows); !status.ok()) return status;
+    if (Status status = measureStores(mesh, options, rows); !status.ok()) return status;
     measureViews(mesh, options.runs, rows);
+    if (options.orders) measureWindows(mesh, options.runs, rows);
   }
   return options.csv.empty() ? Status() : updateResults(options.csv, "quadtree", rows);
 }
@@ -272,6 +297,8 @@ int main(int argc, char** argv) {
   Arguments arguments("Stores of an adaptive mesh: the semi-linear quadtree and others");
   arguments.text({"HEIGHT", "Height file; without it the sample terrain"}, options.heights);
   arguments.within({"--side", "Samples a side"}, options.side, 65, 4097);
+  arguments.flag({"--orders", "More lengths of walks and sizes of windows: for their orders"},
+                 options.orders);
   arguments.runs(options.runs);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;

@@ -20,8 +20,10 @@ double sumOfPositive(const std::vector<double>& gains) {
 
 class Decimator {
  public:
-  Decimator(const std::vector<double>& gains, const VertexCosts& costs, uint32_t prompt_levels)
+  Decimator(const std::vector<double>& gains, const VertexCosts& costs, uint32_t prompt_levels,
+            std::vector<uint32_t>* steps)
       : count_(gains.size()),
+        steps_(steps),
         domains_(gains, costs, prompt_levels),
         queue_(sumOfPositive(gains), gains.size()) {
     for (VertexId v = 0; v < count_; ++v) enqueue(v);
@@ -55,9 +57,11 @@ class Decimator {
   void remove(VertexId v) {
     const auto group = domains_.remove(v, [this](VertexId a) { enqueue(a); });
     order_.insert(order_.end(), group.rbegin(), group.rend());
+    if (steps_ != nullptr) steps_->push_back(static_cast<uint32_t>(group.size()));
   }
 
   size_t count_;
+  std::vector<uint32_t>* steps_;
   MergingDomains domains_;
   SlopeQueue queue_;
   std::vector<VertexId> order_;
@@ -66,8 +70,8 @@ class Decimator {
 }  // namespace
 
 std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,
-                                        uint32_t prompt_levels) {
-  return Decimator(gains, costs, prompt_levels).run();
+                                        uint32_t prompt_levels, std::vector<uint32_t>* steps) {
+  return Decimator(gains, costs, prompt_levels, steps).run();
 }
 
 }  // namespace tetrakis::inline mesh

@@ -14,7 +14,9 @@ namespace tetrakis::inline mesh {
 
 /// Returns all vertices, those removed last first. gains: one for each vertex (gains.hpp).
 /// prompt_levels (merging_domains.hpp) changes the time that decimation takes, but not the order.
+/// steps: takes the number of vertices that each step removes, first step first; nullptr: none.
 std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,
-                                        uint32_t prompt_levels = MergingDomains::kPromptLevels);
+                                        uint32_t prompt_levels = MergingDomains::kPromptLevels,
+                                        std::vector<uint32_t>* steps = nullptr);
 
 }  // namespace tetrakis::inline mesh

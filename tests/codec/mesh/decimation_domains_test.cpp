@@ -13,6 +13,7 @@
 
 #include "codec/mesh/gains.hpp"
 #include "codec/mesh/merging_domains.hpp"
+#include "codec/mesh/octagon.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_values.hpp"
 
@@ -308,7 +309,44 @@ TEST(MergingDomains, HaveTheSizesOfTheClosedForms) {
       const double part = n / std::pow(4.0, (l - 1) / 2);
       EXPECT_NEAR(static_cast<double>(size.before), closedSizeBefore(part), 1e-6);
       EXPECT_NEAR(static_cast<double>(size.after), closedSizeAfter(part), 1e-6);
+    } else {  // (3.6), (3.8)
+      const double part = n / std::pow(4.0, (l - 2) / 2);
+      EXPECT_NEAR(static_cast<double>(size.before), closedSizeBefore(2, part), 1e-6);
+      EXPECT_NEAR(static_cast<double>(size.after), closedSizeAfter(2, part), 1e-6);
     }
+  }
+}
+
+/// Proposition 3.2, in sides of the square of v: its half is 2^k units of the octagon, and the
+/// support ends one unit beyond the last vertex.
+TEST(MergingDomains, FillTheOctagonOfProposition32InTheLimit) {
+  for (const uint32_t k : {4u, 8u, 16u, 30u}) {
+    const Octagon centre = Octagon::ofMidpoints(0, k), midpoint = Octagon::ofMidpoints(1, k);
+    const double half = std::exp2(k), tolerance = 4 / half;
+    const auto reach = [half](int64_t units) { return static_cast<double>(units + 1) / half; };
+    EXPECT_NEAR(reach(centre.x) / 2, 1.5, tolerance);
+    EXPECT_NEAR(reach(centre.y) / 2 / std::sqrt(2.0), std::sqrt(2.0), tolerance);
+    // The square of a midpoint stands on a corner: diagonals of the grid are its axes.
+    EXPECT_NEAR(reach(midpoint.y) / std::sqrt(2.0) / std::sqrt(2.0), 1.5, tolerance);
+    EXPECT_NEAR(reach(midpoint.x) / std::sqrt(2.0), std::sqrt(2.0), tolerance);
+  }
+}
+
+TEST(MergingDomains, AreOfMeshesOfTheSizesOfTheClosedForms) {
+  for (uint32_t d = 1; d <= 8; ++d) {
+    const Lattice lattice = *Lattice::make((1u << d) + 1, (1u << d) + 1);
+    const double power = std::pow(4.0, d + 1), side = std::exp2(d);
+    double centres = 0, midpoints = 0;
+    for (uint32_t level = 0; level < lattice.levelCount(); ++level)
+      (Lattice::isCentre(level) ? centres : midpoints) +=
+          lattice.firstOf(level + 1) - lattice.firstOf(level);
+    EXPECT_NEAR(midpoints, power / 6 + 2 * side - 8.0 / 3, 1e-6);  // (3.1)
+    EXPECT_NEAR(centres, power / 12 - 1.0 / 3, 1e-6);
+    const double n = 2 * side * side;
+    const size_t triangles = meshOf(lattice, allVertices(lattice)).triangleCount();
+    EXPECT_EQ(static_cast<double>(triangles), n);
+    const auto others = static_cast<double>(lattice.sampleCount() - 1);
+    EXPECT_NEAR(others / (0.5 + 1 / side), n, 1e-6);  // (3.2)
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "codec/mesh/ancestors.hpp"
 #include "codec/mesh/gains.hpp"
+#include "codec/mesh/general_decimation.hpp"
 #include "codec/mesh/merging_domains.hpp"
 #include "codec/mesh/saturated_order.hpp"
 #include "codec/mesh/study/decimation_policies.hpp"
@@ -290,6 +291,25 @@ TEST(Policies, RefuseWeightsAndCostsThatMakeNoSense) {
             TKS_USAGE);
   EXPECT_EQ(decimate(terrain.view(), {MeshPolicy::kGeneralDecimation, huge}).status().code(),
             TKS_LIMIT);
+}
+
+TEST(Policies, StepsOfGeneralDecimationEndInConformingMeshes) {
+  const Terrain terrain(33, 20, Relief::kTerrain);
+  const Lattice lattice = *Lattice::make(terrain.width, terrain.height);
+  const std::vector<double> gains = vertexGains(lattice, terrain.view());
+  std::vector<uint32_t> steps;
+  const std::vector<VertexId> order =
+      generalDecimation(gains, VertexCosts(lattice), MergingDomains::kPromptLevels, &steps);
+  EXPECT_EQ(order, generalDecimation(gains, VertexCosts(lattice)));
+  size_t left = order.size();
+  for (const uint32_t removed : steps) {
+    ASSERT_GE(removed, 1u);
+    ASSERT_LE(removed, left);
+    left -= removed;
+    checks::expectConforming(meshOf(lattice, std::span(order).first(left)), 33, 20);
+  }
+  EXPECT_EQ(left, 0u);
+  EXPECT_LT(steps.size(), order.size());  // domains of several vertices went
 }
 
 }  // namespace
