@@ -29,8 +29,8 @@ struct ReceiverPlan {
 /// stream: whole, or the prefix that there is, which counts as the truth. A mesh of T triangles
 /// errs; bytes are enough for it when what they decode to errs a quarter as much (squared), because
 /// more would lower its RMSE by a tenth at most. Likewise a number of bytes deserves as many
-/// triangles as make its mesh err four times as much as they do. TKS_USAGE: less than two are known, or the time
-/// does not suffice for the header.
+/// triangles as make its mesh err four times as much as they do. TKS_USAGE: less than two are
+/// known, or the time does not suffice for the header.
 Result<ReceiverPlan> planFor(std::span<const uint8_t> stream, const Receiver& receiver);
 
 }  // namespace tetrakis::tools
