@@ -111,14 +111,14 @@ class TileReceiver : public Receiver {
     for (uint32_t y = 0; y < heights_.height; ++y)
       for (uint32_t x = 0; x < heights_.width; ++x)
         ground.heights.values[size_t{y} * heights_.width + x] =
-            low_ + truth_.step * valueAt(x, y, 0, kTile, &Tile::heights, 1);
+            low_ + truth_.step * valueAt({&Tile::heights, kTile, 1}, x, y, 0);
     const uint32_t channels = image_.channels;
+    const Layer texels{&Tile::texels, texels_, channels};
     for (uint32_t y = 0; y < image_.height; ++y)
       for (uint32_t x = 0; x < image_.width; ++x)
         for (uint32_t c = 0; c < channels; ++c)
           ground.image.data[(size_t{y} * image_.width + x) * channels + c] =
-              static_cast<std::byte>(std::lround(
-                  std::clamp(valueAt(x, y, c, texels_, &Tile::texels, channels), 0.0, 255.0)));
+              static_cast<std::byte>(std::lround(std::clamp(valueAt(texels, x, y, c), 0.0, 255.0)));
     return ground;
   }
 
@@ -213,9 +213,15 @@ class TileReceiver : public Receiver {
     return nullptr;
   }
 
+  /// What tiles hold of one component.
+  struct Layer {
+    std::vector<uint16_t> Tile::*values;
+    uint32_t side, channels;  ///< of a tile
+  };
+
   /// Bilinear inside the finest tile that is there; the middle of all values without one.
-  double valueAt(uint32_t x, uint32_t y, uint32_t channel, uint32_t side,
-                 std::vector<uint16_t> Tile::*values, uint32_t channels) const {
+  double valueAt(const Layer& layer, uint32_t x, uint32_t y, uint32_t channel) const {
+    const auto [values, side, channels] = layer;
     for (int level = 0; level < kLevels; ++level) {
       const uint32_t tile_side = side << level;
       const uint32_t column = std::min(x / tile_side, countOf(heights_.width, level) - 1);
@@ -226,9 +232,9 @@ class TileReceiver : public Receiver {
       const double u = std::clamp((x - column * tile_side + 0.5) / size - 0.5, 0.0, most);
       const double v = std::clamp((y - row * tile_side + 0.5) / size - 0.5, 0.0, most);
       const auto at = [&](double px, double py) {
-        const auto i = static_cast<size_t>(std::min(py, most)) * side +
+        const auto i = static_cast<size_t>(std::min(py, most)) * layer.side +
                        static_cast<size_t>(std::min(px, most));
-        return static_cast<double>((tile->*values)[i * channels + channel]);
+        return static_cast<double>((tile->*layer.values)[i * layer.channels + channel]);
       };
       const double fx = u - std::floor(u), fy = v - std::floor(v);
       return (1 - fy) * ((1 - fx) * at(u, v) + fx * at(u + 1, v)) +

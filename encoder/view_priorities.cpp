@@ -16,7 +16,7 @@ namespace tetrakis::inline encoder {
 namespace {
 
 /// Points of all pictures: some hundreds for each tile.
-constexpr size_t kPoints = 1 << 16;
+constexpr size_t kMapPoints = 1 << 16;
 /// Of the range of heights: what 16 to 64 kB leave.
 constexpr double kTypicalError = 0.005;
 /// Tiles on a side, of a power of two samples. Smaller ones fit the view better, but take bytes,
@@ -104,7 +104,7 @@ ViewPriorities prioritiesOf(const EncodeInputs& inputs) {
   const ScreenTexture texture(source->texels, texels);
   const Extent grid{heights.width, heights.height};
   TileWorths of_heights(grid, grid), of_texture(grid, texels);
-  const ScreenPoints points(givenCameras(options), kPoints);
+  const ScreenPoints points(givenCameras(options), kMapPoints);
   for (const auto& worth : points.worthsOf({ground, texture, kTypicalError * range}, texels)) {
     of_heights.add(worth.column, worth.row, worth.heights);
     of_texture.add(worth.column, worth.row, worth.texture);

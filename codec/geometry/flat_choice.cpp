@@ -27,8 +27,8 @@ constexpr std::array<uint32_t, 4> kLeastSamples = {4096, 512, 64, 8};
 /// Nothing is tried where areas of kPond samples cover less than that share of the plane.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
-/// Estimates of bits are not better than that.
-constexpr double kClearly = 0.99;
+/// Estimates of bits are not better than that; those from tiles, that miss coarse levels, are worse.
+constexpr double kClearly = 0.99, kClearlyOfTiles = 0.98;
 
 /// A tile, copied from the plane.
 struct Tile {
@@ -182,7 +182,8 @@ class FlatTrials {
     const ComparedSteps steps(plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
                               static_cast<double>(heights_.extent().samples()));
     uint32_t best = 0;
-    double best_ratio = kClearly, before = std::numeric_limits<double>::infinity();
+    double best_ratio = tiles_.size() > 1 ? kClearlyOfTiles : kClearly;
+    double before = std::numeric_limits<double>::infinity();
     size_t count_before = 0;
     for (const uint32_t least : kLeastSamples) {
       size_t count = 0;

@@ -104,6 +104,19 @@ std::vector<uint8_t> decodeStored(const TextureHeader& header, std::span<const u
   return out;
 }
 
+/// The bands of all components in a track, as they stand before it is decoded.
+std::vector<Band> bandsBefore(const TextureHeader& header, const std::vector<Part>& parts,
+                              const Plane& coded, const PriorityMap& priorities, int level) {
+  std::vector<Band> bands = bandsOfAll(header, parts);
+  for (int c = 0; c < header.components; ++c) {
+    const auto own = std::span(bands).subspan(c * parts.size(), parts.size());
+    markAbsent(parts, coded, own);
+    setPriorities(parts, priorities, own);
+    dropFiner(parts, level, own);
+  }
+  return bands;
+}
+
 }  // namespace
 
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
@@ -132,14 +145,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   std::vector<std::vector<Band>> bands;
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     parts.push_back(partsOf(subbands, region));
-    bands.push_back(bandsOfAll(header, parts.back()));
-    for (int c = 0; c < header.components; ++c) {
-      const auto own =
-          std::span(bands.back()).subspan(c * parts.back().size(), parts.back().size());
-      markAbsent(parts.back(), coded, own);
-      setPriorities(parts.back(), priorities, own);
-      dropFiner(parts.back(), level, own);
-    }
+    bands.push_back(bandsBefore(header, parts.back(), coded, priorities, level));
     decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
   }
   const int f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients));
