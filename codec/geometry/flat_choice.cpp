@@ -28,7 +28,7 @@ constexpr std::array<uint32_t, 4> kLeastSamples = {4096, 512, 64, 8};
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
 /// Estimates of bits are not better than that; those from tiles, that miss coarse levels, are worse.
-constexpr double kClearly = 0.99, kClearlyOfTiles = 0.98;
+constexpr double kClearlyOfPlane = 0.99, kClearlyOfTiles = 0.98;
 
 /// A tile, copied from the plane.
 struct Tile {
@@ -182,7 +182,7 @@ class FlatTrials {
     const ComparedSteps steps(plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
                               static_cast<double>(heights_.extent().samples()));
     uint32_t best = 0;
-    double best_ratio = tiles_.size() > 1 ? kClearlyOfTiles : kClearly;
+    double best_ratio = tiles_.size() > 1 ? kClearlyOfTiles : kClearlyOfPlane;
     double before = std::numeric_limits<double>::infinity();
     size_t count_before = 0;
     for (const uint32_t least : kLeastSamples) {
