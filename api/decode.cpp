@@ -195,11 +195,6 @@ Status setLevels(tks_decoder& decoder, uint32_t heights, uint32_t texture) {
 
 }  // namespace tetrakis::inline api
 
-size_t tks_sample_bytes(tks_sample sample) {
-  if (sample < TKS_U8 || sample > TKS_F32) return 0;
-  return tetrakis::withSampleType(sample, [](auto type) { return sizeof(type); });
-}
-
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture) {
   return tetrakis::keeping(decoder,
                            [&] { return tetrakis::setLevels(*decoder, heights, texture); });

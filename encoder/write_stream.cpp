@@ -100,6 +100,13 @@ Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selec
   if (selection.heights) codewords[0] = codewordsOf(selection.heights->tracks);
   if (selection.texture) codewords[1] = codewordsOf(selection.texture->tracks);
   std::vector<uint8_t> stream = writeHeader(makeHeader(inputs, selection, payload_bytes, lossless));
+  if (stream.size() > kMaxHeaderBytes) {
+    return Status(TKS_USAGE, "The front index of " + std::to_string(selection.packets.size()) +
+                                 " packets is too long: it makes a header of " +
+                                 std::to_string(stream.size()) + " bytes, and " +
+                                 std::to_string(kMaxHeaderBytes) +
+                                 " are the most. Take larger regions, or no index.");
+  }
   const std::vector<uint8_t> payload = multiplex(selection.packets, codewords, payload_bytes);
   assert(payload.size() == payload_bytes);
   stream.insert(stream.end(), payload.begin(), payload.end());

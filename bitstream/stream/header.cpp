@@ -274,7 +274,6 @@ std::vector<uint8_t> writeHeader(const StreamHeader& header) {
   copy.level = levelFor(header);
   FieldWriter body;
   visitBody(body, copy);
-  assert(body.bytes.size() <= kMaxHeaderBytes);
   FieldWriter out;
   out.bytes.assign(kMagic.begin(), kMagic.end());
   out.bytes.insert(out.bytes.end(), {copy.version, copy.profile, copy.level});

@@ -136,7 +136,7 @@ constexpr const char* kCurves = R"html(<div class="legend">
 <span><i style="border-color: var(--shipped)"></i>cuts of the stream</span></div>
 )html";
 
-constexpr const char* kComponents = R"html(<div class="legend">
+constexpr const char* kComponentLegend = R"html(<div class="legend">
 <span><i class="area" style="background: var(--heights)"></i>heights</span>
 <span><i class="area" style="background: var(--texture)"></i>texture</span></div>
 )html";
@@ -166,7 +166,7 @@ std::string charts(const PairPlane& plane) {
   return "<div class=\"pair\">\n" + chart("rates", {"Rate and distortion", rates, kCurves}) +
          chart("split", {"Where the bytes go",
                          "Heights and texture in the stream's first bytes, up to all of them.",
-                         kComponents}) +
+                         kComponentLegend}) +
          chart("iso-psnr", {"Equal PSNR", path, kPaths}) +
          chart("iso-bytes",
                {"Equal bytes", "Lines of equal bytes of heights and texture together.", kPaths}) +
