@@ -7,7 +7,6 @@
 #include "api/memory.hpp"
 #include "api/needed.hpp"
 #include "api/written.hpp"
-#include "base/samples.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "wavelet/pyramid.hpp"
 
