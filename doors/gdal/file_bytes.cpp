@@ -84,7 +84,7 @@ std::vector<tks_range> FileBytes::missingOf(std::span<const tks_range> ranges) c
       if (place >= endOf(range)) break;
       const auto next = runs_.upper_bound(place);
       const uint64_t end = next == runs_.end() ? endOf(range) : std::min(endOf(range), next->first);
-      missing.push_back({place, end - place});
+      missing.push_back({place, end - place, 0});
       place = end;
     }
   }

@@ -205,7 +205,7 @@ class Window(ctypes.Structure):
 class Range(ctypes.Structure):
     """tks_range."""
 
-    _fields_ = [("offset", c_uint64), ("size", c_uint64)]
+    _fields_ = [("offset", c_uint64), ("size", c_uint64), ("gain", c_double)]
 
 
 class Ranges(ctypes.Structure):
