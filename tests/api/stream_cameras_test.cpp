@@ -3,6 +3,7 @@
 // terrain, however odd it is, and each of the others is refused by its name.
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <string>
@@ -215,6 +216,42 @@ TEST(ToldStreams, ComeFirstWhereTheCameraLooks) {
   EXPECT_LT(texture[0], squaresOfQuarters(picture, alike.texture())[0] / 2);
   EXPECT_LT(heights[0], heights[1]);
   EXPECT_LT(texture[0], texture[1]);
+}
+
+/// Tiny, flat, void and enormous ground becomes a stream, or the camera is named that sees none.
+TEST(ToldStreams, TakeOddTerrain) {
+  const std::function<float(size_t)> terrains[] = {
+      [](size_t) { return 0.f; },
+      [](size_t) { return std::numeric_limits<float>::quiet_NaN(); },
+      [](size_t i) { return i == 1 ? 5.f : std::numeric_limits<float>::quiet_NaN(); },
+      [](size_t i) { return i % 3 ? 3e38f : -3e38f; },
+      [](size_t i) { return static_cast<float>(i % 5) * 1e-40f; },
+  };
+  const std::pair<uint32_t, uint32_t> sides[] = {{2, 2}, {2, 90}, {35, 34}};
+  for (const auto& [width, height] : sides) {
+    for (const auto& terrain : terrains) {
+      Raster surface = make({Pattern::kRidges, width, height, 1, TKS_F32});
+      for (size_t i = 0; i < size_t{width} * height; ++i) {
+        const float sample = terrain(i);
+        std::memcpy(surface.data.data() + i * sizeof sample, &sample, sizeof sample);
+      }
+      for (const uint32_t texels : {1u, 40u}) {
+        const Raster picture = make({Pattern::kRidges, texels, texels, 3, TKS_U8});
+        const tks_camera camera = {"low", {-20, 100, 1}, {0, 0, 0}, {0, 1, 0}, 70, 64, 48, 1};
+        tks_encode_options options = budget(900);
+        options.cameras = &camera;
+        options.camera_count = 1;
+        tks_heights heights = surface.heights();
+        heights.has_nodata = 0;
+        const tks_image image = picture.image();
+        for (const double scale : {1.0, 1e300}) {
+          heights.scale = scale;
+          const std::string sentence = refusal(&heights, &image, options);
+          EXPECT_TRUE(sentence.empty() || sentence.find("'low'") != std::string::npos) << sentence;
+        }
+      }
+    }
+  }
 }
 
 /// Decoders that remember tracks show what others show.
