@@ -27,7 +27,7 @@ constexpr std::array<uint32_t, 4> kLeastSamples = {4096, 512, 64, 8};
 /// Nothing is tried where areas of kPond samples cover less than that share of the plane.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
-/// Estimates of bits are not better than that; those from tiles, that miss coarse levels, are worse.
+/// Estimates of bits are no better than that; those from tiles, which miss coarse levels, worse.
 constexpr double kClearlyOfPlane = 0.99, kClearlyOfTiles = 0.98;
 
 /// A tile, copied from the plane.
