@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "tests/cli/cli_fixture.hpp"
+#include "tests/support/tiny_tiff.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -65,6 +66,33 @@ TEST_F(CliFiles, TruncateWritesTheExactPrefix) {
     ASSERT_EQ(cli("truncate a.tks -f -o b.tks --bytes " + std::to_string(bytes)).code, 0);
     EXPECT_EQ(content("b.tks"), stream.substr(0, bytes));
   }
+}
+
+TEST_F(CliFiles, DoublesAreRoundedOnlyWhereNobodyAskedForAll) {
+  constexpr uint32_t kSide = 20;
+  std::vector<double> doubles(kSide * kSide);
+  for (size_t i = 0; i < doubles.size(); ++i)
+    doubles[i] = 1000 + 100 * std::sin(double(i) / 30) + 0.1 * double(i % 7);
+  std::vector<uint8_t> pixels(doubles.size() * sizeof(double));
+  std::memcpy(pixels.data(), doubles.data(), pixels.size());
+  TinyTiff tiff(kSide, kSide, 1, 64, pixels);
+  tiff.shorts(TinyTiff::kSampleFormat, {3});
+  const std::vector<uint8_t> bytes = tiff.bytes();
+  ASSERT_TRUE(tools::writeBytes(path("d.tif"), std::as_bytes(std::span(bytes))).ok());
+  const Outcome exact = cli("encode d.tif --lossless -o a.tks");
+  EXPECT_EQ(exact.code, 1);
+  EXPECT_NE(exact.err.find("gdal_translate -ot Float32"), std::string::npos) << exact.err;
+  EXPECT_EQ(cli("encode d.tif --max-error 0.00001 -o a.tks").code, 1);
+  const Outcome bounded = cli("encode d.tif --max-error 0.01 -o a.tks");
+  ASSERT_EQ(bounded.code, 0) << bounded.err;
+  EXPECT_NE(bounded.err.find("rounded to 32 bits, by up to"), std::string::npos) << bounded.err;
+  ASSERT_EQ(cli("decode a.tks --height h.tif").code, 0);
+  const auto heights = tools::readHeights(path("h.tif"));
+  ASSERT_TRUE(heights.ok());
+  std::vector<float> floats(doubles.size());
+  ASSERT_EQ(heights->data.size(), floats.size() * sizeof(float));
+  std::memcpy(floats.data(), heights->data.data(), heights->data.size());
+  for (size_t i = 0; i < doubles.size(); ++i) EXPECT_NEAR(floats[i], doubles[i], 0.01);
 }
 
 TEST_F(CliFiles, ByteBudgetIsKeptAndSuffixesMeanPowersOf1024) {

@@ -229,11 +229,15 @@ TEST_F(HeightVoids, DoublesThatAreFloatsAreTaken) {
   EXPECT_EQ(samples[2], kLowest);
   EXPECT_EQ(samples[3], 1e-40F);
   EXPECT_TRUE(std::isnan(samples[4]));
-  for (const double odd : {0.1, 1e300, Limits::denorm_min(), 16777217.0}) {
-    const auto refused = read(tiffOf<double>({1, odd}));
-    EXPECT_EQ(refused.status().code(), TKS_USAGE);
-    EXPECT_NE(refused.status().message().find("gdal_translate -ot Float32"), std::string::npos);
+  EXPECT_EQ(heights->rounding, 0);
+  EXPECT_TRUE(notes.empty());
+  for (const double odd : {0.1, Limits::denorm_min(), 16777217.0, 0.1}) {
+    const auto rounded = read(tiffOf<double>({1, odd}));
+    ASSERT_TRUE(rounded.ok());
+    EXPECT_EQ(rounded->rounding, std::abs(odd - double{static_cast<float>(odd)}));
+    EXPECT_NE(notes.at(0).text.find("rounded to 32 bits"), std::string::npos);
   }
+  EXPECT_EQ(read(tiffOf<double>({1, 1e300})).status().code(), TKS_USAGE);
 }
 
 TEST_F(HeightVoids, NodataOfDoublesNeedNotBeAFloat) {

@@ -108,6 +108,19 @@ Result<uint32_t> parseRegions(const std::string& text) {
   return Status(TKS_USAGE, "--regions takes auto, off or a power of two, not '" + text + "'");
 }
 
+/// In metres, or the unit of the heights. What rounding doubles has spent of it is gone.
+Result<double> boundOf(const EncodeArguments& arguments, const HeightFile& heights) {
+  const Result<double> asked = parseLength(arguments.max_error, heights.unit);
+  if (!asked.ok()) return asked.status();
+  if (*asked == 0)
+    return Status(TKS_USAGE, "--max-error must be positive; --lossless keeps everything");
+  const double bound = *asked - heights.rounding * std::abs(heights.scale);
+  if (bound > 0) return bound;
+  return Status(TKS_USAGE, quoted(arguments.height) +
+                               " holds 64-bit floats that 32 bits do not hold within that "
+                               "--max-error");
+}
+
 Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
                                          const Reference& inputs) {
   tks_encode_options options = makeEncodeOptions();
@@ -122,12 +135,15 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   if (!regions.ok()) return regions.status();
   options.regions = *regions;
   if (!arguments.max_error.empty()) {
-    const Result<double> bound = parseLength(arguments.max_error, inputs.heights->unit);
+    const Result<double> bound = boundOf(arguments, *inputs.heights);
     if (!bound.ok()) return bound.status();
-    if (*bound == 0)
-      return Status(TKS_USAGE, "--max-error must be positive; --lossless keeps everything");
     options.max_error = *bound;
   }
+  if (arguments.lossless && inputs.heights && inputs.heights->rounding > 0)
+    return Status(TKS_USAGE, quoted(arguments.height) +
+                                 " holds 64-bit floats that 32 bits do not hold, so nothing keeps "
+                                 "them all; round them first: gdal_translate -ot Float32 IN.tif "
+                                 "OUT.tif");
   return options;
 }
 

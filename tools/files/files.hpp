@@ -46,6 +46,7 @@ struct HeightFile : Georeference {
   tks_sample sample = TKS_U16;
   std::vector<std::byte> data;
   double scale = 1, offset = 0;
+  double rounding = 0;  ///< how far samples lie at most from those of the file, which were doubles
   double spacing_x = 0, spacing_y = 0;            ///< metres per sample; 0: unknown
   std::optional<double> nodata;                   ///< the file's declared nodata value
   std::string unit, vertical_datum, description;  ///< "" when unknown
@@ -84,7 +85,7 @@ struct MeshFile {
 /// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt,
 /// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian), and
 /// what else OpenImageIO reads as stored. "-" reads standard input. Samples come as stored, never
-/// rescaled; half floats, and doubles that are floats exactly, become floats. What GDAL takes for
+/// rescaled; half floats become floats, and doubles the nearest floats. What GDAL takes for
 /// void is: floats that nearly meet the nodata value become that value, so do samples that a mask
 /// (a page, or "path.msk") leaves out. `nodata` replaces the value that the file declares. The
 /// place is that of the TIFF's tags, of the tile that an .hgt is called after, or of a world file

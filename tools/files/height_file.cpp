@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Height fields on disk: which format, which sample type. The samples themselves are never
-// converted, but for half floats, which float holds exactly, and doubles that it holds exactly.
+// converted, but for half floats, which float holds exactly, and doubles, which it rounds.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -67,27 +68,36 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
   return type->sample;
 }
 
-/// Doubles as floats, those that meet the nodata value as its float or NaN. Fails if the others
-/// are not floats exactly.
-Result<std::vector<std::byte>> narrowed(const std::vector<std::byte>& doubles,
-                                        const std::optional<double>& nodata,
-                                        const std::string& name) {
+struct Floats {
+  std::vector<std::byte> samples;
+  double rounding = 0;
+};
+
+/// Doubles as the nearest floats, those that meet the nodata value as its float or NaN. Fails if
+/// one is beyond all floats.
+Result<Floats> narrowed(const std::vector<std::byte>& doubles, const std::optional<double>& nodata,
+                        const std::string& name) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const auto mark = static_cast<float>(nodata ? asSample(*nodata, TKS_F32).value_or(kNaN) : kNaN);
-  std::vector<std::byte> floats(doubles.size() / sizeof(double) * sizeof(float));
-  for (size_t i = 0; i < floats.size() / sizeof(float); ++i) {
+  Floats floats{std::vector<std::byte>(doubles.size() / sizeof(double) * sizeof(float))};
+  for (size_t i = 0; i < floats.samples.size() / sizeof(float); ++i) {
     double value = 0;
     std::memcpy(&value, doubles.data() + i * sizeof value, sizeof value);
     const bool is_void = nodata && meetsNodata(value, *nodata);
     const float sample = is_void ? mark : toFloat(value);
-    if (!is_void && !std::isnan(value) && static_cast<double>(sample) != value) {
-      return Status(TKS_USAGE, name +
-                                   " holds 64-bit floats that 32 bits do not hold; round them: "
-                                   "gdal_translate -ot Float32 IN.tif OUT.tif");
-    }
-    std::memcpy(floats.data() + i * sizeof sample, &sample, sizeof sample);
+    std::memcpy(floats.samples.data() + i * sizeof sample, &sample, sizeof sample);
+    if (is_void || !std::isfinite(value)) continue;
+    if (!std::isfinite(sample))
+      return Status(TKS_USAGE, name + " holds 64-bit floats beyond the range of 32 bits");
+    floats.rounding = std::max(floats.rounding, std::abs(value - static_cast<double>(sample)));
   }
   return floats;
+}
+
+Note noteOnRounding(double rounding) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", rounding);
+  return {std::string("64-bit floats are rounded to 32 bits, by up to ") + text.data(), ""};
 }
 
 /// Heights, and the mask that their file holds (empty: none).
@@ -115,9 +125,15 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
   if (nodata) heights.nodata = nodata;
   const bool wide = raster->shape.sample == PictureSample::kDouble;
   auto data = readSamples(*raster, wide ? PictureSample::kDouble : storedAs(*sample));
-  if (data.ok() && wide) data = narrowed(*data, heights.nodata, raster->name);
   if (!data.ok()) return data.status();
   heights.data = std::move(*data);
+  if (wide) {
+    auto floats = narrowed(heights.data, heights.nodata, raster->name);
+    if (!floats.ok()) return floats.status();
+    heights.data = std::move(floats->samples);
+    heights.rounding = floats->rounding;
+    if (heights.rounding > 0) notes.push_back(noteOnRounding(heights.rounding));
+  }
   if (raster->further_pages) notes.push_back({"only the first page is read", ""});
   if (!raster->mask) return reading;
   auto mask = readMaskPage(raster->file.path(), heights.width, heights.height);
