@@ -86,7 +86,8 @@ def main():
     heights, folder = integers(sys.argv[1]), Path(sys.argv[2])
     print(f"{heights.shape[1]} x {heights.shape[0]} UInt16, 0 to {heights.max()}\n")
     print(f"| | kB | RMSE | largest error | encode, s | window of {WINDOW}², ms "
-          f"| 1/{OVERVIEW}, ms | its RMSE to means | all, ms | all, by blocks |\n" + "| --- " * 10 + "|")
+          f"| 1/{OVERVIEW}, ms | its RMSE to means | all, ms "
+          "| all by blocks |\n" + "| --- " * 10 + "|")
     measure(folder, heights, "**lossless**: TKS", "TKS", [])
     measure(folder, heights, "TKS, BLOCKSIZE=128", "TKS", ["BLOCKSIZE=128"])
     deflate = ["COMPRESS=DEFLATE", "PREDICTOR=YES"]
