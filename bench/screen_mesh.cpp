@@ -2,26 +2,22 @@
 // bench_screen_mesh DIR...: textured terrain drawn with few triangles, beside meshoptimizer.
 // Folders below DIR that hold height.* and texture.* are a terrain each; what the meshes lack is
 // measured on the screen, against the full grid with the same texture.
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <functional>
-#include <map>
 
 #include "bench/arguments.hpp"
 #include "bench/decimation_peers.hpp"
 #include "bench/results.hpp"
 #include "bench/screen.hpp"
+#include "bench/screen_terrain.hpp"
 #include "tools/files/stream.hpp"
 
 namespace {
 
 using namespace tetrakis;
 using namespace tetrakis::bench;
-namespace fs = std::filesystem;
 
 constexpr std::array<uint32_t, 3> kBudgets = {2000, 10000, 50000};
 
@@ -30,68 +26,15 @@ struct Options {
   std::string csv;
 };
 
-struct Terrain {
-  std::string item;
-  Raster raster;
-  tools::ImageFile texture;
-  GroundFrame frame;  ///< of the raster's steps
-};
-
-struct TerrainFiles {
-  fs::path heights, texture;
-};
-
-std::vector<TerrainFiles> terrainsBelow(const Options& options) {
-  std::map<fs::path, TerrainFiles> found;
-  for (const std::string& folder : options.folders)
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      const fs::path& path = entry.path();
-      if (path.stem() == "height") found[path.parent_path()].heights = path;
-      if (path.stem() == "texture") found[path.parent_path()].texture = path;
-    }
-  std::vector<TerrainFiles> terrains;
-  for (const auto& [folder, files] : found) {
-    const std::string text = folder.string();
-    const auto matches = [&](const std::string& f) { return text.find(f) != std::string::npos; };
-    const auto& filters = options.filters;
-    if (!files.heights.empty() && !files.texture.empty() &&
-        (filters.empty() || std::any_of(filters.begin(), filters.end(), matches)))
-      terrains.push_back(files);
-  }
-  return terrains;
-}
-
-Result<Terrain> load(const TerrainFiles& files) {
-  const Result<tools::HeightFile> heights = tools::readHeights(files.heights.string());
-  if (!heights.ok()) return heights.status();
-  Result<Raster> raster = heightRaster(*heights);
-  if (!raster.ok()) return raster.status();
-  Result<tools::ImageFile> texture = tools::readImage(files.texture.string());
-  if (!texture.ok()) return texture.status();
-  Terrain terrain{files.heights.parent_path().filename().string(), std::move(*raster),
-                  std::move(*texture), tools::frameOf(*heights)};
-  terrain.frame.metres_per_unit *= terrain.raster.unit;
-  return terrain;
-}
-
-Result<Buffer> encodeLossless(const Terrain& terrain) {
-  tks_heights heights = makeHeights();
-  heights.width = terrain.raster.width;
-  heights.height = terrain.raster.height;
-  heights.sample = TKS_U16;
-  heights.data = terrain.raster.samples.data();
-  tks_encode_options options = makeEncodeOptions();
-  options.lossless = 1;
-  return encode(&heights, nullptr, options);
-}
-
 class Comparison {
  public:
-  Comparison(const Terrain& terrain, Screen& screen, std::vector<ResultRow>& rows)
+  Comparison(const ScreenTerrain& terrain, Screen& screen, std::vector<ResultRow>& rows)
       : terrain_(terrain), screen_(screen), rows_(rows) {}
 
   Status run() {
-    const Result<Buffer> stream = encodeLossless(terrain_);
+    tks_encode_options options = makeEncodeOptions();
+    options.lossless = 1;
+    const Result<Buffer> stream = encodeHeights(terrain_.raster, options);
     if (!stream) return stream.status();
     Result<Decoder> decoder = tools::openDecoder(stream->bytes());
     if (!decoder) return decoder.status();
@@ -146,25 +89,22 @@ class Comparison {
     return {};
   }
 
-  const Terrain& terrain_;
+  const ScreenTerrain& terrain_;
   Screen& screen_;
   std::vector<ResultRow>& rows_;
   uint32_t budget_ = 0;
 };
 
 Status run(const Options& options) {
-  const std::vector<TerrainFiles> terrains = terrainsBelow(options);
+  const std::vector<TerrainFiles> terrains = texturedTerrains(options.folders, options.filters);
   if (terrains.empty()) return {TKS_IO, "No folder holds height.* and texture.*."};
   std::vector<ResultRow> rows;
   for (const TerrainFiles& files : terrains) {
-    const Result<Terrain> terrain = load(files);
+    const Result<ScreenTerrain> terrain = loadTerrain(files);
     if (!terrain.ok()) return terrain.status();
     std::printf("%s, %u x %u\n", terrain->item.c_str(), terrain->raster.width,
                 terrain->raster.height);
-    const auto& samples = terrain->raster.samples;
-    const tools::Surface surface{
-        terrain->raster.width, terrain->raster.height, {samples.begin(), samples.end()}};
-    Result<Screen> screen = Screen::create(surface, terrain->frame, terrain->texture);
+    Result<Screen> screen = Screen::create(terrain->surface(), terrain->frame, terrain->texture);
     if (!screen.ok()) return screen.status();
     if (Status status = Comparison(*terrain, *screen, rows).run(); !status.ok()) return status;
   }

@@ -81,12 +81,13 @@ class Band final : public GDALPamRasterBand {
 
  protected:
   CPLErr IReadBlock(int x, int y, void* out) override {
-    return readBlocks(tks_window{static_cast<uint32_t>(x), static_cast<uint32_t>(y), 1, 1},
-                      static_cast<std::byte*>(out));
+    const tks_window block{static_cast<uint32_t>(x), static_cast<uint32_t>(y), 1, 1};
+    return readBlocks(grown(block), block, static_cast<std::byte*>(out));
   }
 
-  /// Decoding one large window takes less than its blocks one by one, whose regions overlap: all
-  /// blocks that are not in GDAL's cache are decoded together, in strips that the cache holds.
+  /// Decoding one large window takes less than its blocks one by one, which take the regions around
+  /// them each time: all blocks that are not in GDAL's cache are decoded together, in strips that
+  /// the cache holds.
   CPLErr IRasterIO(GDALRWFlag flag, int x, int y, int width, int height, void* data, int columns,
                    int rows, GDALDataType type, GSpacing pixel, GSpacing line,
                    GDALRasterIOExtraArg* extra) override {
@@ -95,7 +96,7 @@ class Band final : public GDALPamRasterBand {
       return GDALPamRasterBand::IRasterIO(flag, x, y, width, height, data, columns, rows, type,
                                           pixel, line, extra);
     }
-    const int strip = rowsOfStrip(width);
+    const int strip = rowsOfStrip(width + 2 * nBlockXSize);
     for (int top = y; top < y + height;) {
       const int bottom = std::min(y + height, (top / nBlockYSize + strip) * nBlockYSize);
       if (!cacheBlocks(x, top, width, bottom - top)) return CE_Failure;
@@ -113,9 +114,30 @@ class Band final : public GDALPamRasterBand {
 
   /// Rows of blocks of this width of which a quarter of the cache holds all bands; at least 1.
   int rowsOfStrip(int width) const {
-    const GIntBig row = static_cast<GIntBig>(width + 2 * nBlockXSize) * nBlockYSize *
+    const GIntBig row = static_cast<GIntBig>(width) * nBlockYSize *
                         static_cast<GIntBig>(dataset().source().pixelBytes());
     return static_cast<int>(std::clamp<GIntBig>(GDALGetCacheMax64() / 4 / row, 1, 1 << 20));
+  }
+
+  /// What to decode where blocks are asked for. Who reads one after the other decodes the regions
+  /// around them again and again: once that has cost half of what a strip of all columns costs, the
+  /// strip is decoded, and so is the next one below it. It is all of the raster where a quarter of
+  /// GDAL's cache holds that, which then has cost one and a half times what it must. (Renting skis,
+  /// and then buying them.)
+  tks_window grown(const tks_window& blocks) {
+    if (!dataset().readsWindows()) return blocks;
+    const auto across = static_cast<uint32_t>(DIV_ROUND_UP(nRasterXSize, nBlockXSize));
+    const auto down = static_cast<uint32_t>(DIV_ROUND_UP(nRasterYSize, nBlockYSize));
+    const uint32_t rows = std::min(static_cast<uint32_t>(rowsOfStrip(nRasterXSize)), down);
+    const bool next = strip_end_ != 0 && blocks.y == strip_end_;
+    spent_ += std::min(uint64_t{blocks.width} + around(nBlockXSize), uint64_t{across}) *
+              std::min(uint64_t{blocks.height} + around(nBlockYSize), uint64_t{down});
+    const uint64_t price = uint64_t{across} * std::min(rows + around(nBlockYSize), down);
+    if (blocks.height > rows || (!next && 2 * spent_ < price)) return blocks;
+    spent_ = 0;
+    const uint32_t top = std::min(blocks.y, down - rows);
+    strip_end_ = top + rows;
+    return {0, top, across, rows};
   }
 
   bool cached(int x, int y) {
@@ -140,19 +162,19 @@ class Band final : public GDALPamRasterBand {
     const tks_window blocks{static_cast<uint32_t>(left), static_cast<uint32_t>(top),
                             static_cast<uint32_t>(right - left + 1),
                             static_cast<uint32_t>(bottom - top + 1)};
-    return readBlocks(blocks, nullptr) == CE_None;
+    return readBlocks(grown(blocks), blocks, nullptr) == CE_None;
   }
 
-  /// Decodes a rectangle of blocks. The first one's channel goes to `out` if that is given,
-  /// everything else into the cache.
-  CPLErr readBlocks(const tks_window& blocks, std::byte* out) {
+  /// Decodes a rectangle of blocks. The channel of the first one that is asked for goes to `out` if
+  /// that is given, everything else into the cache.
+  CPLErr readBlocks(const tks_window& blocks, const tks_window& asked, std::byte* out) {
     const uint32_t x = blocks.x * nBlockXSize, y = blocks.y * nBlockYSize;
     const tks_window window{x, y, std::min<uint32_t>(blocks.width * nBlockXSize, nRasterXSize - x),
                             std::min<uint32_t>(blocks.height * nBlockYSize, nRasterYSize - y)};
     std::vector<std::byte> pixels;
     if (!dataset().read(window, pixels)) return CE_Failure;
     const auto own = [&](int band, uint32_t bx, uint32_t by) {
-      return out != nullptr && band == nBand && bx == blocks.x && by == blocks.y;
+      return out != nullptr && band == nBand && bx == asked.x && by == asked.y;
     };
     for (int band = 1; band <= poDS->GetRasterCount(); ++band) {
       for (uint32_t by = blocks.y; by < blocks.y + blocks.height; ++by) {
@@ -193,7 +215,16 @@ class Band final : public GDALPamRasterBand {
     copySamples(from, sample, to, nBlockXSize * sample);
   }
 
+  /// Columns, or rows, of blocks around some that are decoded with them: coefficients of coarse
+  /// levels reach far.
+  static uint32_t around(int side) {
+    constexpr uint32_t kReach = 256;
+    return 2 * DIV_ROUND_UP(kReach, static_cast<uint32_t>(side));
+  }
+
   BandFacts facts_;
+  uint64_t spent_ = 0;      ///< blocks that were decoded since the last strip
+  uint32_t strip_end_ = 0;  ///< the row of blocks below that strip
 };
 
 }  // namespace

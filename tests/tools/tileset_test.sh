@@ -19,7 +19,7 @@ gdal_translate -q -a_srs EPSG:4326 -a_ullr -0.05 0.04 0.08 -0.09 -a_nodata 0 \
   "$work/height.tif" "$work/around.tif"
 cd "$node_folder"
 for name in placed around; do
-  tetrakis encode "$work/$name.tif" --bytes 16k -o "$work/$name.tks"
+  tetrakis encode "$work/$name.tif" --texture "$work/texture.png" --bytes 16k -o "$work/$name.tks"
   tetrakis tiles "$work/$name.tks" --format 3dtiles -o "$work/$name"
   node "$here/read_tileset.mjs" "$work/$name"
 done

@@ -81,10 +81,14 @@ Status makeTiles(const TilesArguments& arguments, bool quiet) {
                         [&progress](double done) { Progress::report(&progress, done); });
   if (!written.ok()) return written.status();
   if (const Status status = folder->commit(); !status.ok()) return status;
-  if (!quiet)
-    std::fprintf(stderr, "%s: %llu tiles, levels %u to %u, %llu bytes\n", arguments.folder.c_str(),
-                 static_cast<unsigned long long>(written->tiles), written->first, written->deepest,
+  if (!quiet) {
+    const std::string pictures =
+        written->pictures == 0 ? "" : std::to_string(written->pictures) + " of imagery, ";
+    std::fprintf(stderr, "%s: %llu tiles, levels %u to %u, %s%llu bytes\n",
+                 arguments.folder.c_str(), static_cast<unsigned long long>(written->tiles),
+                 written->first, written->deepest, pictures.c_str(),
                  static_cast<unsigned long long>(written->bytes));
+  }
   return {};
 }
 

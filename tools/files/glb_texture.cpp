@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The texture inside a GLB: JPEG and PNG, which glTF 2.0 has, or WebP (EXT_texture_webp).
 #include "tools/files/glb_document.hpp"
+#include "tools/files/mesh_writers.hpp"
 #include "tools/files/png.hpp"
 #include "tools/files/raster.hpp"
 
@@ -11,17 +12,6 @@ using nlohmann::json;
 
 constexpr int kTextureQuality = 90;
 constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
-
-ImageFile reducedTo8Bits(const ImageFile& image) {
-  ImageFile reduced{image.width, image.height, image.channels, TKS_U8, {}};
-  reduced.data.resize(image.data.size() / 2);
-  for (size_t i = 0; i < reduced.data.size(); ++i) {
-    uint16_t value;
-    std::copy_n(&image.data[2 * i], 2, reinterpret_cast<std::byte*>(&value));
-    reduced.data[i] = static_cast<std::byte>((value * 255U + 32767U) / 65535U);
-  }
-  return reduced;
-}
 
 /// WebP has no grey.
 ImageFile inColour(const ImageFile& grey) {
@@ -34,11 +24,6 @@ ImageFile inColour(const ImageFile& grey) {
   return colour;
 }
 
-struct EncodedTexture {
-  const char* mime_type;
-  std::vector<std::byte> bytes;
-};
-
 Result<EncodedTexture> ofType(const char* mime_type, Result<std::vector<std::byte>> bytes) {
   if (!bytes.ok()) return bytes.status();
   return EncodedTexture{mime_type, std::move(*bytes)};
@@ -50,6 +35,19 @@ Result<std::vector<std::byte>> encodeWebp(const ImageFile& image) {
     return Status(TKS_USAGE, "a WebP has sides of at most 16383: write --mesh-texture png");
   return encodeRaster("webp",
                       {shapeOf(image), image.data, "webp:" + std::to_string(kTextureQuality)});
+}
+
+}  // namespace
+
+ImageFile reducedTo8Bits(const ImageFile& image) {
+  ImageFile reduced{image.width, image.height, image.channels, TKS_U8, {}};
+  reduced.data.resize(image.data.size() / 2);
+  for (size_t i = 0; i < reduced.data.size(); ++i) {
+    uint16_t value;
+    std::copy_n(&image.data[2 * i], 2, reinterpret_cast<std::byte*>(&value));
+    reduced.data[i] = static_cast<std::byte>((value * 255U + 32767U) / 65535U);
+  }
+  return reduced;
 }
 
 Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format) {
@@ -73,8 +71,6 @@ Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format)
   }
   return ofType("image/png", encodePng(texels));
 }
-
-}  // namespace
 
 Status addTexture(Glb& glb, const ImageFile& image, MeshTexture format) {
   const auto encoded = encodeTexture(image, format);

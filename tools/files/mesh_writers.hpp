@@ -19,6 +19,17 @@ std::vector<float> normalsOf(const MeshFile& mesh);
 /// 1; straight up where no triangle with an area meets it.
 std::vector<float> smoothNormals(const MeshFile& mesh);
 
+/// A picture of 16 bits a channel in 8.
+ImageFile reducedTo8Bits(const ImageFile& image);
+
+struct EncodedTexture {
+  const char* mime_type;
+  std::vector<std::byte> bytes;
+};
+
+/// A picture as a GLB holds it, of 8 bits. TKS_USAGE: the format cannot hold it.
+Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format);
+
 /// Binary glTF 2.0 in one piece.
 Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh, const MeshOptions& options);
 

@@ -4,36 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "tools/files/file_bytes.hpp"
-
 namespace tetrakis::tools {
 namespace {
-
-constexpr const char* kLongitudeLatitude = "EPSG:4326";
-
-/// From coordinates back to columns and rows.
-std::optional<GeoTransform> inverseOf(const GeoTransform& t) {
-  const double determinant = t[1] * t[5] - t[2] * t[4];
-  if (!(std::abs(determinant) > 0) || !std::isfinite(determinant)) return std::nullopt;
-  GeoTransform inverse{0, t[5] / determinant,  -t[2] / determinant,
-                       0, -t[4] / determinant, t[1] / determinant};
-  inverse[0] = -(t[0] * inverse[1] + t[3] * inverse[2]);
-  inverse[3] = -(t[0] * inverse[4] + t[3] * inverse[5]);
-  return inverse;
-}
-
-ProjObject toLongitudeLatitude(PJ_CONTEXT* context, const std::string& crs) {
-  const ProjObject from = horizontalPart(context, findCrs(context, kLongitudeLatitude));
-  const ProjObject to = horizontalPart(context, findCrs(context, crs));
-  if (!from || !to) return nullptr;
-  const ProjObject raw(
-      proj_create_crs_to_crs_from_pj(context, from.get(), to.get(), nullptr, nullptr));
-  return raw ? ProjObject(proj_normalize_for_visualization(context, raw.get())) : nullptr;
-}
 
 /// The mean of the valid samples around a place by their bilinear weights; NaN if there is none.
 float bilinear(const LevelSurface& surface, double x, double y) {
@@ -63,18 +38,11 @@ Result<EarthGround> EarthGround::create(const tks_info& info) {
     return Status(TKS_USAGE,
                   "the stream does not say where on Earth its heights lie: encode a "
                   "GeoTIFF, or a world file with --crs");
-  EarthGround ground;
-  std::copy_n(info.geotransform, 6, ground.transform_.begin());
-  const auto inverse = inverseOf(ground.transform_);
-  if (!inverse) return Status(TKS_USAGE, "the geotransform of the stream has no inverse");
-  ground.inverse_ = *inverse;
-  ground.width_ = info.width;
-  ground.height_ = info.height;
-  ground.context_ = quietContext();
-  if (ground.context_) ground.transformation_ = toLongitudeLatitude(ground.context_.get(), crs);
-  if (!ground.transformation_)
-    return Status(TKS_USAGE,
-                  "PROJ cannot turn " + quoted(crs.substr(0, 80)) + " into longitude and latitude");
+  GeoTransform transform;
+  std::copy_n(info.geotransform, 6, transform.begin());
+  Result<RasterPlace> place = RasterPlace::create(transform, crs);
+  if (!place.ok()) return place.status();
+  EarthGround ground(std::move(*place), info.width, info.height);
   if (const Status status = ground.findBounds(); !status.ok()) return status;
   const GeographicBounds& b = ground.bounds_;
   constexpr double kMetresPerDegree = 111195;
@@ -91,16 +59,13 @@ Status EarthGround::findBounds() {
   for (int i = 0; i <= kPlaces; ++i) {
     for (int j = 0; j <= kPlaces; ++j) {
       const double c = double(width_) * i / kPlaces, r = double(height_) * j / kPlaces;
-      const PJ_COORD place =
-          proj_coord(transform_[0] + c * transform_[1] + r * transform_[2],
-                     transform_[3] + c * transform_[4] + r * transform_[5], 0, HUGE_VAL);
-      const PJ_COORD found = proj_trans(transformation_.get(), PJ_INV, place);
-      if (!std::isfinite(found.xy.x) || !std::isfinite(found.xy.y))
+      const auto [x, y] = place_.earthAt(c, r);
+      if (!std::isfinite(x) || !std::isfinite(y))
         return {TKS_USAGE, "parts of the heights lie beyond the places that their CRS is for"};
-      bounds_.west = std::min(bounds_.west, found.xy.x);
-      bounds_.east = std::max(bounds_.east, found.xy.x);
-      bounds_.south = std::min(bounds_.south, found.xy.y);
-      bounds_.north = std::max(bounds_.north, found.xy.y);
+      bounds_.west = std::min(bounds_.west, x);
+      bounds_.east = std::max(bounds_.east, x);
+      bounds_.south = std::min(bounds_.south, y);
+      bounds_.north = std::max(bounds_.north, y);
     }
   }
   constexpr double kSlack = 1e-6;
@@ -108,12 +73,8 @@ Status EarthGround::findBounds() {
   const bool on_earth = bounds_.west >= -180 - kSlack && bounds_.east <= 180 + kSlack &&
                         bounds_.south >= -90 - kSlack && bounds_.north <= 90 + kSlack;
   // A raster in degrees may well go round the Earth; others of that width have come apart.
-  const PJ_COORD first = proj_trans(transformation_.get(), PJ_INV,
-                                    proj_coord(transform_[0], transform_[3], 0, HUGE_VAL));
-  const PJ_COORD last = proj_trans(transformation_.get(), PJ_INV,
-                                   proj_coord(transform_[0] + width_ * transform_[1],
-                                              transform_[3] + width_ * transform_[4], 0, HUGE_VAL));
-  const bool whole = width <= 180 || std::abs(last.xy.x - first.xy.x) > width - 1;
+  const double first = place_.earthAt(0, 0)[0], last = place_.earthAt(width_, 0)[0];
+  const bool whole = width <= 180 || std::abs(last - first) > width - 1;
   if (on_earth && whole) return {};
   return {TKS_USAGE,
           "the heights hold a pole or lie on both sides of the antimeridian: cut them "
@@ -130,11 +91,7 @@ void EarthGround::sampleParallel(const LevelSurface& surface, double latitude,
     if (longitudes[i] < bounds_.west || longitudes[i] > bounds_.east || latitude < bounds_.south ||
         latitude > bounds_.north)
       continue;
-    const PJ_COORD place =
-        proj_trans(transformation_.get(), PJ_FWD, proj_coord(longitudes[i], latitude, 0, HUGE_VAL));
-    const double x = place.xy.x, y = place.xy.y;
-    const double column = inverse_[0] + x * inverse_[1] + y * inverse_[2];
-    const double row = inverse_[3] + x * inverse_[4] + y * inverse_[5];
+    const auto [column, row] = place_.pixelAt(longitudes[i], latitude);
     if (!(column >= 0 && column <= width_ && row >= 0 && row <= height_)) continue;
     // From areas to the middles of samples, of which the outer ones count up to the edge.
     const double across = std::clamp((column - 0.5) * scale, 0.0, surface.width - 1.0);

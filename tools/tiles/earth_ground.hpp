@@ -2,13 +2,15 @@
 // Where the samples of a stream lie in longitude and latitude.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "base/status.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files/files.hpp"
-#include "tools/files/proj_objects.hpp"
 #include "tools/tiles/geographic_tile.hpp"
+#include "tools/tiles/raster_place.hpp"
 
 namespace tetrakis::tools {
 
@@ -37,13 +39,12 @@ class EarthGround {
                       std::span<const double> longitudes, std::span<float> heights) const;
 
  private:
-  EarthGround() = default;
+  EarthGround(RasterPlace place, uint32_t width, uint32_t height)
+      : place_(std::move(place)), width_(width), height_(height) {}
   Status findBounds();
 
-  ProjContext context_;
-  ProjObject transformation_;  ///< from longitude and latitude to the CRS
-  GeoTransform transform_{}, inverse_{};
-  uint32_t width_ = 0, height_ = 0;
+  RasterPlace place_;
+  uint32_t width_, height_;
   double spacing_ = 0;
   GeographicBounds bounds_;
 };

@@ -32,26 +32,19 @@ Vector inGltfAxes(const Vector& v) {
   return {v[0], v[2], -v[1]};
 }
 
-/// The triangles whose corners are all ground.
-TileMesh groundOf(const TileMesh& mesh) {
-  TileMesh ground;
-  std::vector<std::optional<uint32_t>> numbers(mesh.vertices.size());
-  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const std::span<const uint32_t> corners = std::span(mesh.triangles).subspan(i, 3);
-    const auto covered = [&mesh](uint32_t corner) { return mesh.vertices[corner].ground; };
-    if (!std::all_of(corners.begin(), corners.end(), covered)) continue;
-    for (const uint32_t corner : corners) {
-      if (!numbers[corner]) {
-        numbers[corner] = static_cast<uint32_t>(ground.vertices.size());
-        ground.vertices.push_back(mesh.vertices[corner]);
-      }
-      ground.triangles.push_back(*numbers[corner]);
-    }
+/// From the middle of the first texel to that of the last.
+void addTexcoords(const TileMesh& mesh, const ImageFile& texture, MeshFile& file) {
+  const auto along = [](uint32_t cells, uint32_t texels) {
+    return static_cast<float>((0.5 + double(cells) / kTileCells * (texels - 1)) / texels);
+  };
+  for (const TileMesh::Vertex& v : mesh.vertices) {
+    file.texcoords.push_back(along(v.column, texture.width));
+    file.texcoords.push_back(along(kTileCells - v.row, texture.height));
   }
-  return ground;
+  file.texture = &texture;
 }
 
-MeshFile meshFileOf(const TileMesh& mesh, const GeographicTile& tile) {
+MeshFile meshFileOf(const TileMesh& mesh, const GeographicTile& tile, const ImageFile* texture) {
   const Placed placed = place(mesh, tile);
   const double step = positionStep(tile.level);
   MeshFile file;
@@ -74,6 +67,7 @@ MeshFile meshFileOf(const TileMesh& mesh, const GeographicTile& tile) {
   }
   file.origin = inGltfAxes(file.origin);
   file.triangles = mesh.triangles;
+  if (texture) addTexcoords(mesh, *texture, file);
   return file;
 }
 
@@ -87,15 +81,41 @@ json volumeOf(const GeographicBounds& b, double lowest, double highest) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& mesh, const GeographicTile& tile,
-                                                  double error) {
+TileMesh groundOf(const TileMesh& mesh) {
+  TileMesh ground;
+  std::vector<std::optional<uint32_t>> numbers(mesh.vertices.size());
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    const std::span<const uint32_t> corners = std::span(mesh.triangles).subspan(i, 3);
+    const auto covered = [&mesh](uint32_t corner) { return mesh.vertices[corner].ground; };
+    if (!std::all_of(corners.begin(), corners.end(), covered)) continue;
+    for (const uint32_t corner : corners) {
+      if (!numbers[corner]) {
+        numbers[corner] = static_cast<uint32_t>(ground.vertices.size());
+        ground.vertices.push_back(mesh.vertices[corner]);
+      }
+      ground.triangles.push_back(*numbers[corner]);
+    }
+  }
+  return ground;
+}
+
+GeographicBounds GroundTileset::groundIn(const GeographicTile& tile) const {
+  const GeographicBounds whole = boundsOf(tile);
+  return {std::max(whole.west, bounds_.west), std::max(whole.south, bounds_.south),
+          std::min(whole.east, bounds_.east), std::min(whole.north, bounds_.north)};
+}
+
+Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& ground,
+                                                  const GeographicTile& tile,
+                                                  const TileErrors& errors,
+                                                  const ImageFile* texture) {
   if (tile.level != level_) {
     below_ = std::exchange(nodes_, {});
     level_ = tile.level;
-    error_ = error;
+    error_ = errors.shown;
   }
   const double none = std::numeric_limits<double>::infinity();
-  Node node{{{"refine", "REPLACE"}}, boundsOf(tile), none, -none};
+  Node node{{{"refine", "REPLACE"}}, none, -none};
   json children = json::array();
   for (const uint32_t y : {2 * tile.y, 2 * tile.y + 1}) {
     for (const uint32_t x : {2 * tile.x, 2 * tile.x + 1}) {
@@ -108,41 +128,37 @@ Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& mesh, const Ge
     }
   }
   std::vector<std::byte> bytes;
-  const TileMesh ground = groundOf(mesh);
   if (!ground.triangles.empty()) {
-    Result<std::vector<std::byte>> glb = encodeGlb(meshFileOf(ground, tile), {});
+    Result<std::vector<std::byte>> glb = encodeGlb(meshFileOf(ground, tile, texture), {});
     if (!glb.ok()) return glb.status();
     bytes = std::move(*glb);
     // Triangles are flat where the Earth is round, by less than the error.
     for (const TileMesh::Vertex& v : ground.vertices) {
-      node.lowest = std::min(node.lowest, v.height - error);
-      node.highest = std::max(node.highest, v.height + error);
+      node.lowest = std::min(node.lowest, v.height - errors.heights);
+      node.highest = std::max(node.highest, v.height + errors.heights);
     }
     node.tile["content"]["uri"] = std::to_string(tile.level) + "/" + std::to_string(tile.x) + "/" +
                                   std::to_string(tile.y) + ".glb";
   }
   if (bytes.empty() && children.empty()) return bytes;
-  node.tile["geometricError"] = children.empty() ? 0 : error;
-  node.tile["boundingVolume"] = volumeOf(node.bounds, node.lowest, node.highest);
+  node.tile["geometricError"] = children.empty() ? 0 : errors.shown;
+  node.tile["boundingVolume"] = volumeOf(groundIn(tile), node.lowest, node.highest);
   if (!children.empty()) node.tile["children"] = std::move(children);
   nodes_.emplace(std::pair(tile.x, tile.y), std::move(node));
   return bytes;
 }
 
-json GroundTileset::document(const GeographicBounds& bounds) const {
+json GroundTileset::document() const {
   json children = json::array();
-  GeographicBounds all = bounds;
   double lowest = 0, highest = 0;
   for (const auto& item : nodes_) {
     const Node& node = item.second;
-    all = {std::min(all.west, node.bounds.west), std::min(all.south, node.bounds.south),
-           std::max(all.east, node.bounds.east), std::max(all.north, node.bounds.north)};
     lowest = children.empty() ? node.lowest : std::min(lowest, node.lowest);
     highest = children.empty() ? node.highest : std::max(highest, node.highest);
     children.push_back(node.tile);
   }
   // Nothing is nothing at 16 times the error of the first tiles.
-  json root{{"boundingVolume", volumeOf(all, lowest, highest)},
+  json root{{"boundingVolume", volumeOf(bounds_, lowest, highest)},
             {"geometricError", 16 * error_},
             {"refine", "REPLACE"}};
   if (!children.empty()) root["children"] = std::move(children);

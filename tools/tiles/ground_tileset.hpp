@@ -12,28 +12,45 @@
 #include <vector>
 
 #include "base/status.hpp"
+#include "tools/files/files.hpp"
 #include "tools/tiles/terrain_level.hpp"
 
 namespace tetrakis::tools {
 
+/// In metres.
+struct TileErrors {
+  double heights;  ///< of the mesh
+  double shown;    ///< what viewers go by
+};
+
+/// The triangles whose corners are all ground.
+TileMesh groundOf(const TileMesh& mesh);
+
 class GroundTileset {
  public:
+  /// bounds: of the ground, beyond which no tile has any.
+  explicit GroundTileset(const GeographicBounds& bounds) : bounds_(bounds) {}
+
   /// Tiles come level by level, from the deepest up. Returns the tile's GLB; no bytes: it has no
-  /// ground, and none of the tiles below is lost by that. error: metres.
-  Result<std::vector<std::byte>> add(const TileMesh& mesh, const GeographicTile& tile,
-                                     double error);
+  /// ground, and none of the tiles below is lost by that. texture: its outer texels lie on the
+  /// edges of the tile; null: none.
+  Result<std::vector<std::byte>> add(const TileMesh& ground, const GeographicTile& tile,
+                                     const TileErrors& errors, const ImageFile* texture);
 
   /// tileset.json, after all tiles.
-  nlohmann::json document(const GeographicBounds& bounds) const;
+  nlohmann::json document() const;
 
  private:
+  /// The part of a tile where there may be ground.
+  GeographicBounds groundIn(const GeographicTile& tile) const;
+
   struct Node {
     nlohmann::json tile;
-    GeographicBounds bounds;
     double lowest, highest;
   };
   using Level = std::map<std::pair<uint32_t, uint32_t>, Node>;
 
+  GeographicBounds bounds_;
   uint32_t level_ = 0;
   double error_ = 0;     ///< of the level
   Level nodes_, below_;  ///< of the level, and those that no tile of it has taken yet

@@ -14,6 +14,7 @@
 #include "tools/report/scene.hpp"
 #include "tools/tiles/ground_tileset.hpp"
 #include "tools/tiles/quantized_mesh.hpp"
+#include "tools/tiles/tile_textures.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -49,17 +50,63 @@ json rangeJson(const TileRange& range) {
 class TileWriter {
  public:
   TileWriter(Decoder& decoder, const EarthGround& ground, TileFormat format, std::string folder)
-      : decoder_(decoder), ground_(ground), format_(format), folder_(std::move(folder)) {
-    written_.deepest = deepestLevel(ground.spacing());
-    metres_ = frameOf(decoder.info()).metres_per_unit;
+      : decoder_(decoder),
+        ground_(ground),
+        format_(format),
+        folder_(std::move(folder)),
+        tileset_(ground.bounds()) {}
+
+  /// Before anything is decoded.
+  Status prepare() {
+    written_.deepest = deepestLevel(ground_.spacing());
+    metres_ = frameOf(decoder_.info()).metres_per_unit;
     for (uint32_t level = 0; level <= written_.deepest; ++level)
-      ranges_.push_back(tilesOver(ground.bounds(), level));
+      ranges_.push_back(tilesOver(ground_.bounds(), level));
     while (meshes() && written_.first < written_.deepest &&
            ranges_[written_.first + 1].count() <= 4)
       ++written_.first;
+    if (meshes() && decoder_.info().has_texture) {
+      Result<GroundTexture> texture = GroundTexture::create(decoder_.info());
+      if (!texture.ok()) return texture.status();
+      texels_.emplace(*texture, written_.deepest);
+      texture_.emplace(decoder_, std::move(*texture));
+    }
+    return checkMemory();
   }
 
-  /// Before anything is decoded.
+  Result<TileSetSize> write(const std::function<void(double)>& progress) {
+    for (uint32_t level = written_.deepest + 1; level-- > written_.first;) {
+      if (Status status = decodeFor(level); !status.ok()) return status;
+      TerrainLevel terrain(ground_, surface_, metres_, ranges_[level]);
+      if (level == written_.deepest) heights_ = rangeOf(surface_);
+      terrain.chooseVertices(levelError(level) / 2, meshes());
+      if (texture_) {
+        const uint64_t held = surface_.heights.size() * sizeof(float);
+        const Status status = texture_->decodeFor(texels_->degreesOf(level), surface_.level, held);
+        if (!status.ok()) return status;
+      }
+      if (Status status = writeLevel(terrain); !status.ok()) return status;
+      progress(1 - std::ldexp(1, -2 * static_cast<int>(written_.deepest + 1 - level)));
+    }
+    const json document = meshes() ? tileset_.document() : layer();
+    const std::string text = document.dump(2) + "\n";
+    const char* const name = meshes() ? "tileset.json" : "layer.json";
+    const Status status =
+        writeBytes((fs::path(folder_) / name).string(), std::as_bytes(std::span(text)));
+    if (!status.ok()) return status;
+    if (!meshes() && decoder_.info().has_texture) {
+      const Result<ImagerySize> imagery =
+          writeImagery(decoder_, (fs::path(folder_) / "imagery").string());
+      if (!imagery.ok()) return imagery.status();
+      written_.pictures = imagery->tiles;
+      written_.bytes += imagery->bytes;
+    }
+    return written_;
+  }
+
+ private:
+  bool meshes() const { return format_ == TileFormat::k3dTiles; }
+
   Status checkMemory() {
     const tks_info& info = decoder_.info();
     const uint64_t cells = ranges_.back().count() * kTileCells * kTileCells;
@@ -70,33 +117,13 @@ class TileWriter {
         .status();
   }
 
-  Result<TileSetSize> write(const std::function<void(double)>& progress) {
-    for (uint32_t level = written_.deepest + 1; level-- > written_.first;) {
-      if (Status status = decodeFor(level); !status.ok()) return status;
-      TerrainLevel terrain(ground_, surface_, metres_, ranges_[level]);
-      if (level == written_.deepest) heights_ = rangeOf(surface_);
-      terrain.chooseVertices(levelError(level) / 2, meshes());
-      if (Status status = writeLevel(terrain); !status.ok()) return status;
-      progress(1 - std::ldexp(1, -2 * static_cast<int>(written_.deepest + 1 - level)));
-    }
-    const json document = meshes() ? tileset_.document(ground_.bounds()) : layer();
-    const std::string text = document.dump(2) + "\n";
-    const char* const name = meshes() ? "tileset.json" : "layer.json";
-    const Status status =
-        writeBytes((fs::path(folder_) / name).string(), std::as_bytes(std::span(text)));
-    if (!status.ok()) return status;
-    return written_;
-  }
-
- private:
-  bool meshes() const { return format_ == TileFormat::k3dTiles; }
-
   /// Mip levels follow the levels of tiles, as far as there are some.
   Status decodeFor(uint32_t level) {
     const uint32_t mip = std::min(written_.deepest - level, decoder_.info().coarsest_level);
     if (!surface_.heights.empty() && surface_.level == mip) return {};
     surface_.heights.clear();
-    if (Status set = decoder_.setLevels(mip, 0); !set.ok()) return set;
+    if (Status set = decoder_.setLevels(mip, texture_ ? texture_->level() : 0); !set.ok())
+      return set;
     Result<std::vector<float>> heights = decoder_.surface();
     if (!heights) return heights.status();
     surface_ = {std::move(*heights), decoder_.info().width, decoder_.info().height, mip};
@@ -136,7 +163,7 @@ class TileWriter {
     const TileMesh mesh = terrain.meshOf(tile);
     std::vector<std::byte> bytes;
     if (meshes()) {
-      Result<std::vector<std::byte>> glb = tileset_.add(mesh, tile, levelError(tile.level));
+      Result<std::vector<std::byte>> glb = addGround(groundOf(mesh), tile);
       if (!glb.ok()) return glb.status();
       if (glb->empty()) return {};
       bytes = std::move(*glb);
@@ -149,6 +176,16 @@ class TileWriter {
     ++written_.tiles;
     written_.bytes += bytes.size();
     return {};
+  }
+
+  Result<std::vector<std::byte>> addGround(const TileMesh& ground, const GeographicTile& tile) {
+    const double error = levelError(tile.level);
+    if (!texture_ || ground.triangles.empty())
+      return tileset_.add(ground, tile, {error, error}, nullptr);
+    const ImageFile picture =
+        texture_->texture().piece(tile, texels_->gridOf(tile.level), TexelPlaces::kOnEdges, false);
+    const double shown = std::max(error, texels_->errorOf(tile.level));
+    return tileset_.add(ground, tile, {error, shown}, &picture);
   }
 
   /// Which tiles there are below this one, on every tenth level.
@@ -186,8 +223,10 @@ class TileWriter {
   Decoder& decoder_;
   const EarthGround& ground_;
   TileFormat format_;
-  GroundTileset tileset_;
   std::string folder_;
+  GroundTileset tileset_;
+  std::optional<TextureLevels> texture_;
+  std::optional<MeshTexels> texels_;
   double metres_ = 1;
   std::vector<TileRange> ranges_;  ///< by level
   LevelSurface surface_;
@@ -203,7 +242,7 @@ Result<TileSetSize> writeTerrainTiles(Decoder& decoder, TileFormat format,
   const Result<EarthGround> ground = EarthGround::create(decoder.info());
   if (!ground.ok()) return ground.status();
   TileWriter writer(decoder, *ground, format, folder);
-  if (Status status = writer.checkMemory(); !status.ok()) return status;
+  if (Status status = writer.prepare(); !status.ok()) return status;
   return writer.write(progress);
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What GDAL says of streams, and the samples it reads of them: all, windows, overviews, masks."""
 
+import itertools
 import json
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
@@ -87,6 +88,35 @@ def test_blocks_equal_the_whole(tmp_path):
         block = np.frombuffer(band.ReadBlock(x, y), np.uint16).reshape(side, side)
         part = whole[y * side : (y + 1) * side, x * side : (x + 1) * side]
         np.testing.assert_array_equal(block[: part.shape[0], : part.shape[1]], part)
+
+
+@pytest.mark.parametrize("cache", [1 << 17, 1 << 18, 1 << 26])
+def test_blocks_one_after_the_other(tmp_path, cache):
+    """By rows, by columns, and level 1: strips that are decoded at once, of any height."""
+    name = str(tmp_path / "a.tks")
+    copy(terrain(300, 260, "i4"), name, "BLOCKSIZE=32")
+    before = gdal.GetCacheMax()
+    try:
+        gdal.SetCacheMax(cache)
+        for level in (None, 0):
+            for order in (1, -1):
+                dataset = gdal.Open(name)
+                band = dataset.GetRasterBand(1)
+                band = band if level is None else band.GetOverview(level)
+                read = np.zeros((band.YSize, band.XSize), "i4")
+                for y, x in itertools.product(range(0, band.YSize, 64), range(0, band.XSize, 64)):
+                    x, y = (x, y) if order == 1 else (band.XSize - 1 - x, band.YSize - 1 - y)
+                    width, height = min(64, band.XSize - x), min(64, band.YSize - y)
+                    part = band.ReadAsArray(x, y, width, height)
+                    read[y : y + height, x : x + width] = part
+                if order == 1:
+                    np.testing.assert_array_equal(read, band.ReadAsArray())
+                else:
+                    np.testing.assert_array_equal(part, band.ReadAsArray(x, y, width, height))
+                if level is None and order == 1:
+                    np.testing.assert_array_equal(read, terrain(300, 260, "i4"))
+    finally:
+        gdal.SetCacheMax(before)
 
 
 def test_small_cache(tmp_path):
