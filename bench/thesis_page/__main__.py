@@ -10,12 +10,13 @@ import chapter_3
 import chapter_4
 import chapter_5
 import chapter_6
+import chapter_7
 from page import Page
 
 
 def main():
     page = Page(Path(sys.argv[1]), sys.argv[2])
-    for chapter in (chapter_2, chapter_3, chapter_4, chapter_5, chapter_6):
+    for chapter in (chapter_2, chapter_3, chapter_4, chapter_5, chapter_6, chapter_7):
         chapter.write(page)
     page.write()
 

@@ -97,8 +97,8 @@ def table_41(page, sides, results):
                "exponents fitted to times: of single neighbours over the digits n, and of paths "
                "over their length l (from 8 nodes on; 1 is linear) and over n (nodes of paths of "
                f"512); times on {sides[-1]}² samples. The complete tree is dense, the tree of the "
-               "best mesh of a fiftieth of all triangles sparse. Samet's tree of pointers climbs to "
-               "the nearest common ancestor, Gargantini reflects digits "
+               "best mesh of a fiftieth of all triangles sparse. Samet's tree of pointers climbs "
+               "to the nearest common ancestor, Gargantini reflects digits "
                "and Schrack adds dilated integers to codes that lie in one sorted list. The others "
                "are what one would build today: pointers with coordinates, a sorted list a level, "
                "a hash map, and a grid that has a place for every node.", QUADTREE)
