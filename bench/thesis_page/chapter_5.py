@@ -169,7 +169,7 @@ def table_51(page, results):
                f"on a Pentium III of 500 MHz; exponent {power(*theirs.T):.2f} over n.",
                f"processor time on the machine that made this page; exponent {ours:.2f} over n, "
                f"where n log n has {power(large, large * np.log(large)):.2f}; the largest "
-               f"meshes leave the caches.{grows} Decimation by local error, with its initialisation, "
+               f"meshes leave the caches.{grows} Decimation by local error, all of it, "
                f"grows with {local:.2f} (proposition 3.3: n log n). Sizes above the file's are "
                "mirrored.", MESH)
 

@@ -19,7 +19,8 @@ STYLE = """
 body{font:16px/1.55 Georgia,serif;color:#222;max-width:60rem;margin:2.5rem auto;padding:0 1.2rem}
 h1,h2,h3,th,nav{font-family:system-ui,sans-serif}h1{font-size:1.7rem;margin-bottom:.2rem}
 h2{font-size:1.3rem;margin-top:3rem;border-bottom:1px solid #ccc;padding-bottom:.2rem}
-nav ol{columns:22rem 2;font-size:.9rem;padding-left:1.3rem}a{color:#1f4e79;text-decoration:none}
+nav ol{columns:18rem 2;column-gap:2rem;font-size:.9rem;padding-left:0;list-style:none}
+a{color:#1f4e79;text-decoration:none}
 figure{margin:1.8rem 0}figure>img{max-width:100%;display:block}
 figcaption{font-size:.9rem;color:#333;margin-top:.5rem}sub{line-height:0}
 figcaption b{font-family:system-ui,sans-serif}
@@ -97,7 +98,7 @@ class Page:
             f"<title>The thesis, made anew</title><style>{STYLE}</style>"
             "<h1>The thesis, made anew</h1>"
             "<p class='lead'>Tables and figures of L. Balmelli, <i>Rate-distortion optimal mesh "
-            "simplification for communications</i> (EPFL 2000), chapters 2 to 6, measured with "
+            "simplification for communications</i> (EPFL 2000), chapters 2 to 7, measured with "
             f"this code on {html.escape(self.ground)}. The thesis's own terrain, of the Valais, is "
             "not to be had: numbers of decibels may differ, laws may not. docs/THESIS.md says "
             "where each section is implemented, and lists the errata.</p>"
