@@ -142,6 +142,10 @@ def figure_513(page, results):
                "one terrain of the Alps.", "each terrain on its own.", MESH)
 
 
+def seconds(value):
+    return "–" if math.isnan(value) else f"{value:.{2 if value >= 1 else 5}f}"
+
+
 def table_51(page, results):
     sizes = results.items("n_")
     get = lambda n, q, of="general": results(f"n_{n}", of, q)
@@ -151,8 +155,8 @@ def table_51(page, results):
         here = get(n, "initial_s") + get(n, "decimation_s")
         direct = get(n, "decimation_s", "direct")
         rows.append([f"{n:,}", *(("–" if math.isnan(p) else f"{p:g}") for p in printed),
-                     f"{get(n, 'initial_s'):.5f}", f"{get(n, 'decimation_s'):.5f}",
-                     number(get(n, "all_s", "local_decimation"), 5), number(direct),
+                     seconds(get(n, "initial_s")), seconds(get(n, "decimation_s")),
+                     seconds(get(n, "all_s", "local_decimation")), seconds(direct),
                      "–" if math.isnan(sum(printed)) else f"{sum(printed) / here:.0f}"])
     large = np.array([n for n in sizes if n >= 8192])
     ours = power(large, [get(n, "decimation_s") for n in large])
