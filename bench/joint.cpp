@@ -35,7 +35,7 @@ Status studyTerrain(const Terrain& terrain, const Options& options, std::vector<
   if (status.ok() && options.wants("prefixes")) status = studyPrefixes(terrain, rows);
   if (status.ok() && !options.figures.empty())
     status = drawFigures(terrain, options.splits.grid,
-                         (std::filesystem::path(options.figures) / terrain.name).string());
+                         (std::filesystem::path(options.figures) / terrain.name).string(), rows);
   return status;
 }
 

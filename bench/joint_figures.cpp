@@ -35,12 +35,26 @@ std::string decibels(double psnr) {
   return text;
 }
 
-/// A stream and its judge.
+/// A stream and its judge, and what is found.
 struct Stage {
   const Terrain& terrain;
   tools::Comparer comparer;
   SplitStream tracks;
+  std::vector<ResultRow>& rows;
+
+  void record(const std::string& codec, const char* quantity, double value) const {
+    rows.push_back({terrain.name, codec, quantity, value});
+  }
 };
+
+std::string numberOf(const Gallery& gallery) {  // "Figure 6.10: ..." -> "6.10"
+  return gallery.title.substr(7, gallery.title.find(':') - 7);
+}
+
+/// The name of the plate that comes next.
+std::string nextPlate(const Gallery& gallery) {
+  return numberOf(gallery) + static_cast<char>('a' + gallery.plates.size());
+}
 
 /// A plate of one pair; sets what it measures.
 Result<Gallery::Plate> plateOf(Stage& stage, SeenPair& pair, char name) {
@@ -57,6 +71,7 @@ Result<Gallery> galleryOf(Stage& stage, std::vector<SeenPair>& pairs, Gallery ga
   for (size_t i = 0; i < pairs.size(); ++i) {
     auto plate = plateOf(stage, pairs[i], static_cast<char>('a' + i));
     if (!plate.ok()) return plate.status();
+    stage.record(nextPlate(gallery), "db", pairs[i].psnr);
     gallery.plates.push_back(std::move(*plate));
   }
   return gallery;
@@ -164,10 +179,11 @@ Status drawMeshes(Stage& stage, tools::Report& report) {
     placed.texture = &texture;
     auto picture = (*renderer)->draw(placed, camera);
     if (!picture.ok()) return picture.status();
-    const std::string caption = std::to_string(mesh->triangleCount()) + " triangles " + name +
-                                ": " +
-                                decibels(tools::screenPsnr({report.originals[kLow]}, {*picture}));
+    const double psnr = tools::screenPsnr({report.originals[kLow]}, {*picture});
+    const std::string caption =
+        std::to_string(mesh->triangleCount()) + " triangles " + name + ": " + decibels(psnr);
     std::printf("  figure 6.4: %s\n", caption.c_str());
+    stage.record(nextPlate(gallery), "db", psnr);
     gallery.plates.push_back({std::move(*picture), caption});
     report.meshes.push_back(planOf(*mesh, camera, frame, caption));
   }
@@ -192,6 +208,8 @@ Status drawViewed(Stage& stage, tools::Report& report) {
                                   decibels(seen->camera_psnr[camera]) + ", " +
                                   std::to_string(seen->geometry_bytes) + " bytes of heights";
       std::printf("  figure 6.5: %s\n", caption.c_str());
+      stage.record(nextPlate(gallery), "db", seen->camera_psnr[camera]);
+      stage.record(nextPlate(gallery), "heights_bytes", static_cast<double>(seen->geometry_bytes));
       gallery.plates.push_back({std::move(seen->pictures[camera]), caption});
     }
   }
@@ -245,25 +263,70 @@ std::string numbersOf(const PairPlane& plane) {
   return csv;
 }
 
+/// Pictures, and their captions in plates.csv.
 Status writePlates(const std::filesystem::path& folder, const std::vector<Gallery>& galleries) {
+  std::string captions = "plate,caption\n";
   for (const Gallery& gallery : galleries) {
-    const std::string figure = gallery.title.substr(7, gallery.title.find(':') - 7);  // "6.10"
     for (size_t i = 0; i < gallery.plates.size(); ++i) {
       const tools::Picture& picture = gallery.plates[i].picture;
       tools::ImageFile image{picture.width, picture.height, 4, TKS_U8, {}};
       const auto bytes = std::as_bytes(std::span(picture.rgba));
       image.data.assign(bytes.begin(), bytes.end());
-      const std::string name = figure + static_cast<char>('a' + i) + ".png";
-      if (Status status = tools::writeImage((folder / name).string(), image); !status.ok())
+      const std::string plate = numberOf(gallery) + static_cast<char>('a' + i);
+      captions += plate + ",\"" + gallery.plates[i].caption + "\"\n";
+      if (Status status = tools::writeImage((folder / (plate + ".png")).string(), image);
+          !status.ok())
         return status;
     }
   }
-  return {};
+  return writeText(folder / "plates.csv", captions);
+}
+
+/// Edges of the meshes of figure 6.4, one a line; a line without a far end is the viewer.
+std::string edgesOf(const std::vector<MeshPlan>& plans) {
+  std::string csv = "mesh,x0,y0,x1,y1\n";
+  for (size_t i = 0; i < plans.size(); ++i) {
+    const std::string mesh = std::to_string(i);
+    for (const auto& [x0, y0, x1, y1] : plans[i].edges)
+      csv += mesh + ',' + std::to_string(x0) + ',' + std::to_string(y0) + ',' + std::to_string(x1) +
+             ',' + std::to_string(y1) + '\n';
+    csv += mesh + ',' + std::to_string(plans[i].eye[0]) + ',' + std::to_string(plans[i].eye[1]) +
+           ",,\n";
+  }
+  return csv;
+}
+
+Status writeFolder(const std::filesystem::path& folder, const tools::Report& report) {
+  const Result<std::string> page = tools::renderPage(report);
+  if (!page.ok()) return page.status();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const auto& [name, text] : {std::pair<const char*, std::string>("index.html", *page),
+                                   {"pairs.csv", numbersOf(*report.plane)},
+                                   {"edges.csv", edgesOf(report.meshes)}})
+    if (Status status = writeText(folder / name, text); !status.ok()) return status;
+  return writePlates(folder, report.galleries);
+}
+
+/// Figures 6.6 to 6.8, in numbers.
+void reportPaths(const Stage& stage, const PairPlane& plane) {
+  const auto [mean, worst] = greedyLoss(plane);
+  std::printf(
+      "  figures 6.6 to 6.8: %zu x %zu = %zu pairs; marginal analysis: path of %zu, looks at "
+      "%zu of %zu, %.3f dB below the best pair, %.3f at worst\n",
+      plane.heights.size(), plane.textures.size(), plane.psnr.size(), plane.greedy.size(),
+      plane.looked, plane.psnr.size(), mean, worst);
+  stage.record("marginal", "pairs", static_cast<double>(plane.psnr.size()));
+  stage.record("marginal", "path", static_cast<double>(plane.greedy.size()));
+  stage.record("marginal", "looked", static_cast<double>(plane.looked));
+  stage.record("marginal", "mean_db_lost", mean);
+  stage.record("marginal", "worst_db_lost", worst);
 }
 
 }  // namespace
 
-Status drawFigures(const Terrain& terrain, uint32_t grid, const std::string& folder) {
+Status drawFigures(const Terrain& terrain, uint32_t grid, const std::string& folder,
+                   std::vector<ResultRow>& rows) {
   const auto coded = encodeTerrain(terrain.original, {kBytes, Knows::kNothing, 0, "all"});
   if (!coded.ok()) return coded.status();
   const auto stream = coded->stream.bytes();
@@ -277,27 +340,13 @@ Status drawFigures(const Terrain& terrain, uint32_t grid, const std::string& fol
   if (Status status = comparer->look({"", "all"}); !status.ok()) return status;
   Result<SplitStream> tracks = SplitStream::take(stream);
   if (!tracks.ok()) return tracks.status();
-  Stage stage{terrain, std::move(*comparer), std::move(*tracks)};
-  const PairPlane& plane = *report->plane;
-  const auto [mean, worst] = greedyLoss(plane);
-  std::printf(
-      "  figures 6.6 to 6.8: %zu x %zu = %zu pairs; marginal analysis: path of %zu, looks at "
-      "%zu of %zu, %.3f dB below the best pair, %.3f at worst\n",
-      plane.heights.size(), plane.textures.size(), plane.psnr.size(), plane.greedy.size(),
-      plane.looked, plane.psnr.size(), mean, worst);
+  Stage stage{terrain, std::move(*comparer), std::move(*tracks), rows};
+  reportPaths(stage, *report->plane);
   Status status = drawMeshes(stage, *report);
   if (status.ok()) status = drawViewed(stage, *report);
   if (status.ok()) status = drawModels(stage, *report);
-  if (!status.ok()) return status;
-  const Result<std::string> page = tools::renderPage(*report);
-  if (!page.ok()) return page.status();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  status = writeText(std::filesystem::path(folder) / "index.html", *page);
-  if (status.ok())
-    status = writeText(std::filesystem::path(folder) / "pairs.csv", numbersOf(plane));
-  if (status.ok()) status = writePlates(folder, report->galleries);
-  std::printf("  %s/index.html\n", folder.c_str());
+  if (status.ok()) status = writeFolder(folder, *report);
+  if (status.ok()) std::printf("  %s/index.html\n", folder.c_str());
   return status;
 }
 

@@ -34,6 +34,7 @@ Status studyPrefixes(const Terrain& terrain, std::vector<ResultRow>& rows);
 
 /// Figures 6.4 to 6.10 of the thesis, as a page, pictures and numbers in a folder. grid: rates of
 /// heights and of textures.
-Status drawFigures(const Terrain& terrain, uint32_t grid, const std::string& folder);
+Status drawFigures(const Terrain& terrain, uint32_t grid, const std::string& folder,
+                   std::vector<ResultRow>& rows);
 
 }  // namespace tetrakis::bench

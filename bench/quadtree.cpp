@@ -13,7 +13,7 @@
 
 #include "bench/arguments.hpp"
 #include "bench/median.hpp"
-#include "bench/quadtree_peers.hpp"
+#include "bench/quadtree_classics.hpp"
 #include "bench/raster.hpp"
 #include "bench/results.hpp"
 #include "codec/mesh/decimation.hpp"
@@ -191,8 +191,9 @@ Status measureStores(const Mesh& mesh, const Options& options, std::vector<Resul
   const std::vector<Walks> walks = makeWalks(mesh.stored, options.orders);
   const std::vector<Contender> contenders{
       contend<SemilinearStore>(mesh, walks), contend<PointerStore>(mesh, walks),
-      contend<LinearStore>(mesh, walks), contend<HashStore>(mesh, walks),
-      contend<GridStore>(mesh, walks)};
+      contend<LinearStore>(mesh, walks),     contend<HashStore>(mesh, walks),
+      contend<GridStore>(mesh, walks),       contend<SametStore>(mesh, walks),
+      contend<GargantiniStore>(mesh, walks), contend<SchrackStore>(mesh, walks)};
   const auto vertices = static_cast<double>(mesh.stored.entries.size());
   std::vector<double> bytes;
   for (const Contender& c : contenders) bytes.push_back(static_cast<double>(c.bytes) / vertices);
@@ -278,8 +279,9 @@ Status run(const Options& options) {
   if (!meshes.ok()) return meshes.status();
   std::vector<ResultRow> rows;
   std::printf("%-9s %-22s", "mesh", "(times semilinear)");
-  for (const char* name : {SemilinearStore::kName, PointerStore::kName, LinearStore::kName,
-                           HashStore::kName, GridStore::kName})
+  for (const char* name :
+       {SemilinearStore::kName, PointerStore::kName, LinearStore::kName, HashStore::kName,
+        GridStore::kName, SametStore::kName, GargantiniStore::kName, SchrackStore::kName})
     std::printf("  %18s", name);
   std::printf("\n");
   for (const Mesh& mesh : *meshes) {

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 namespace tetrakis::bench {
 namespace {
-
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 /// Schrack's constant-time neighbours: the bits of the other coordinate are filled with ones, so
 /// that a carry runs through them, or masked out, so that a borrow does. Patches in a row or column
@@ -78,28 +75,33 @@ float SemilinearStore::walk(Square start, Direction direction, uint32_t steps) c
   return 0;
 }
 
-PointerStore::PointerStore(const QuadtreeNodes& data) : nodes_(&data.nodes), shape_(data.shape) {
-  pool_.reserve(data.nodes.size());
+std::vector<PooledNode> poolOf(const QuadtreeNodes& data) {
+  std::vector<PooledNode> pool;
+  pool.reserve(data.nodes.size());
   std::vector<uint32_t> above, current;  // nodes of two levels by their number
-  uint32_t level = kNone;
+  uint32_t level = kNoNode;
   for (const QuadtreeNode& node : data.nodes) {
-    const auto id = static_cast<uint32_t>(pool_.size());
+    const auto id = static_cast<uint32_t>(pool.size());
     if (node.square.level != level) {
       level = node.square.level;
       above.swap(current);
-      current.assign(shape_.nodesOf(level), kNone);
+      current.assign(data.shape.nodesOf(level), kNoNode);
     }
-    const uint32_t number = shape_.nodeOf(node.square);
+    const uint32_t number = data.shape.nodeOf(node.square);
     current[number] = id;
-    Node& stored = pool_.emplace_back();
-    stored.children.fill(kNone);
+    PooledNode& stored = pool.emplace_back();
     stored.values = node.values;
     stored.present = node.present;
+    stored.child = number % 4;
     if (level == 0) continue;
     stored.parent = above[number / 4];
-    pool_[stored.parent].children[number % 4] = id;
+    pool[stored.parent].children[number % 4] = id;
   }
+  return pool;
 }
+
+PointerStore::PointerStore(const QuadtreeNodes& data)
+    : nodes_(&data.nodes), shape_(data.shape), pool_(poolOf(data)) {}
 
 float PointerStore::walk(Handle start, Direction direction, uint32_t steps) const {
   const uint32_t target = start.square.level;
@@ -120,7 +122,7 @@ float PointerStore::walk(Handle start, Direction direction, uint32_t steps) cons
       const uint32_t shift = target - level - 1;
       const uint32_t child = (square.column >> shift & 1) + 2 * (square.row >> shift & 1);
       const uint32_t below = pool_[node].children[child];
-      if (below == kNone) break;
+      if (below == kNoNode) break;
       node = below;
     }
     if (level == target) sum += pool_[node].values[kCentre];
@@ -194,7 +196,7 @@ GridStore::GridStore(const QuadtreeNodes& data) : nodes_(&data.nodes), shape_(da
   }
   for (const QuadtreeNode& node : data.nodes)
     values += static_cast<size_t>(std::popcount(node.present));
-  index_.assign(slots, kNone);
+  index_.assign(slots, kNoNode);
   values_.reserve(values);
   for (const QuadtreeNode& node : data.nodes)
     for (uint32_t k = 0; k < 3; ++k) {
@@ -209,7 +211,7 @@ float GridStore::walk(Square square, Direction direction, uint32_t steps) const 
   for (uint32_t i = 0; i < steps; ++i) {
     square = stepped(shape_, square, direction);
     const uint32_t index = index_[slotOf(square) + kCentre];
-    if (index != kNone) sum += values_[index];
+    if (index != kNoNode) sum += values_[index];
   }
   return sum;
 }

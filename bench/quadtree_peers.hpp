@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -35,6 +36,20 @@ struct QuadtreeNodes {
   std::vector<QuadtreeNode> nodes;                 ///< level after level along the z-curve
   std::vector<SemilinearQuadtree::Entry> entries;  ///< the same, and the borders' vertices
 };
+
+/// No child, or no parent.
+inline constexpr uint32_t kNoNode = std::numeric_limits<uint32_t>::max();
+
+/// A node of a tree of pointers.
+struct PooledNode {
+  std::array<uint32_t, 4> children{kNoNode, kNoNode, kNoNode, kNoNode};
+  uint32_t parent = kNoNode;
+  std::array<float, 3> values{};
+  uint8_t present = 0, child = 0;  ///< child: which of its parent
+};
+
+/// In the order of `data`: roots first, patch by patch.
+std::vector<PooledNode> poolOf(const QuadtreeNodes& data);
 
 /// One step, toroidal.
 inline Square stepped(const QuadtreeShape& shape, Square s, Direction direction) {
@@ -75,8 +90,8 @@ class SemilinearStore {
   SemilinearQuadtree tree_;
 };
 
-/// Nodes in a pool, with the indices of four children and the parent. A step climbs to the lowest
-/// common ancestor and descends (Samet 1982); where nothing is, it stays at the deepest ancestor.
+/// Nodes in a pool, with the indices of four children and the parent. Coordinates tell how high a
+/// step has to climb and where it descends; where nothing is, it stays at the deepest ancestor.
 class PointerStore {
  public:
   struct Handle {
@@ -90,20 +105,13 @@ class PointerStore {
   float walk(Handle start, Direction direction, uint32_t steps) const;
 
  private:
-  struct Node {
-    std::array<uint32_t, 4> children;
-    uint32_t parent = 0;
-    std::array<float, 3> values{};
-    uint8_t present = 0;
-  };
-
   const std::vector<QuadtreeNode>* nodes_;
   QuadtreeShape shape_;
-  std::vector<Node> pool_;
+  std::vector<PooledNode> pool_;
 };
 
-/// Location codes sorted level by level, values beside them (Gargantini 1982, Samet 1982); codes of
-/// neighbours by arithmetic on dilated integers (Schrack 1992), nodes by binary search.
+/// Location codes sorted level by level, values beside them: what SchrackStore is, but with shorter
+/// codes and searches, and one coordinate to a step.
 class LinearStore {
  public:
   struct Handle {

@@ -124,6 +124,36 @@ TEST(MergingDomains, LoseTheirIntersectionsWithWhatIsRemoved) {
   }
 }
 
+VertexId steepest(const Removal& removal) {
+  const auto slope = [&](VertexId v) {
+    return slopeOf(removal.worth(v).distortion, removal.worth(v).cost);
+  };
+  return *std::min_element(removal.remaining().begin(), removal.remaining().end(),
+                           [&](VertexId v, VertexId w) { return slope(v) < slope(w); });
+}
+
+/// Proposition 5.2: what holds the best domain whole is worth the step that took it, or more. Only
+/// domains that overlap it in part can fall below (5.4.2).
+TEST(MergingDomains, HoldTheirSlopesWhereTheyHoldTheBestWhole) {
+  for (const auto& [width, height] : checks::kSizes) {
+    const Terrain terrain(width, height, Relief::kNoise);
+    Removal removal(terrain);
+    while (!removal.remaining().empty()) {
+      const VertexId v = steepest(removal);
+      const Worth step = removal.worth(v);
+      const Domain domain = removal.domainOf(v);
+      Domain above;
+      for (const VertexId a : removal.remaining())
+        if (!domain.contains(a) && removal.domainOf(a).contains(v)) above.insert(a);
+      removal.remove(v);
+      for (const VertexId a : above) {
+        const Worth rest = removal.worth(a);  // distortion / cost, without a division by 0
+        EXPECT_GE(rest.distortion * step.cost, step.distortion * rest.cost) << a << " above " << v;
+      }
+    }
+  }
+}
+
 void expectCompleteDomains(uint32_t width, uint32_t height) {
   SCOPED_TRACE(testing::Message() << width << " x " << height);
   const Terrain terrain(width, height, Relief::kNoise);
