@@ -7,7 +7,7 @@ import {open} from '../../web/src/index.js';
 import {TksTerrain} from '../../web/src/three.js';
 import {Picture, material, query} from './scene.js';
 
-const BORDER = 0.02;
+const BORDER = 0.03;
 
 try {
   const terrain = await open(query.data, {wasm: query.wasm, worker: query.worker});

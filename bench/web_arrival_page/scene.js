@@ -17,7 +17,7 @@ export function material(texture) {
     texture.minFilter = LinearMipmapLinearFilter;
     texture.magFilter = LinearFilter;
   }
-  return new MeshBasicMaterial({map: texture});
+  return new MeshBasicMaterial(texture ? {map: texture} : {});
 }
 
 export class Picture {
@@ -31,6 +31,7 @@ export class Picture {
     const [across, down, middle] = query.ground.split(',').map(Number);
     this.#renderer.setSize(WIDTH, HEIGHT);
     this.#renderer.setClearColor(0, 0);
+    this.#renderer.localClippingEnabled = true;
     document.body.append(this.#renderer.domElement);
     const distance = 0.75 * across + 0.6 * down;
     this.#camera.position.set(0, middle + 0.6 * distance, 0.8 * distance);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles: quantized-mesh terrain under JPEG pictures, level by level, each level asked for at once. All
 // pictures are drawn into one texture, so that terrain tiles need not know theirs.
-import {BufferAttribute, BufferGeometry, CanvasTexture, Group, Mesh} from 'three';
+import {
+  BufferAttribute, BufferGeometry, CanvasTexture, Group, Mesh, Plane, Vector3,
+} from 'three';
 
 import {gridOf, projectionOf} from '../../web/src/place.js';
 import {material, measure, query} from './scene.js';
@@ -37,29 +39,22 @@ function decodeTile(buffer) {
   return {u, v, heights: h.map((value) => low + ((high - low) * value) / 32767), indices};
 }
 
-/** The mesh of a tile in metres around the middle; triangles that leave the ground are left out. */
+/** The mesh of a tile in metres around the middle. */
 function geometryOf(tile, {z, x, y}, {grid, width, height, spacing}) {
   const side = 180 / 2 ** z, count = tile.u.length;
   const positions = new Float32Array(3 * count), places = new Float32Array(2 * count);
-  const inside = new Uint8Array(count);
   for (let i = 0; i < count; ++i) {
     const [column, row] = grid.pixels(
       (x + tile.u[i] / 32767) * side - 180, (y + tile.v[i] / 32767) * side - 90)
       .map((pixel) => pixel - 0.5);
-    inside[i] = column >= 0 && row >= 0 && column <= width - 1 && row <= height - 1;
     positions.set([(column - (width - 1) / 2) * spacing[0], tile.heights[i],
       (row - (height - 1) / 2) * spacing[1]], 3 * i);
     places.set([column / (width - 1), row / (height - 1)], 2 * i);
   }
-  const kept = [];
-  for (let i = 0; i < tile.indices.length; i += 3) {
-    const corners = tile.indices.subarray(i, i + 3);
-    if (corners.every((corner) => inside[corner])) kept.push(...corners);
-  }
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   geometry.setAttribute('uv', new BufferAttribute(places, 2));
-  geometry.setIndex(kept);
+  geometry.setIndex(new BufferAttribute(tile.indices, 1));
   return geometry;
 }
 
@@ -68,12 +63,16 @@ measure(async function* () {
   const ground = {...set, grid: gridOf(set.transform, projectionOf(set.crs))};
   let bytes = 0, rounds = 1;
   const get = async (path) => {
-    const answer = await (await fetch(path)).arrayBuffer();
-    bytes += answer.byteLength;
-    return answer;
+    const answer = await fetch(path);
+    bytes += Number(answer.headers.get('content-length'));  // as they are on the wire
+    return answer.arrayBuffer();
   };
   const [columns, rows] = set.texture;
   const drawn = new OffscreenCanvas(columns, rows), context = drawn.getContext('2d');
+  // Tiles reach beyond the ground.
+  const sides = [(set.width - 1) * set.spacing[0] / 2, (set.height - 1) * set.spacing[1] / 2];
+  const border = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(([x, z]) =>
+    new Plane(new Vector3(x, 0, z), sides[x === 0 ? 1 : 0]));
   const steps = Math.max(set.terrain.length, set.pictures.length);
   for (let step = 0; step < steps; ++step) {
     // Both end with their finest level.
@@ -91,7 +90,7 @@ measure(async function* () {
     copy.getContext('2d').drawImage(drawn, 0, 0);
     const texture = new CanvasTexture(copy);
     texture.flipY = false;
-    const skin = material(texture), group = new Group();
+    const skin = Object.assign(material(texture), {clippingPlanes: border}), group = new Group();
     group.add(...meshes.map((mesh) => new Mesh(mesh, skin)));
     rounds += Math.ceil((terrain.length + pictures.length) / CONNECTIONS);
     yield {bytes, rounds, show: () => group};
