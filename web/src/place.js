@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where on Earth a raster lies: from longitude and latitude to its columns and rows, for the CRSs that
-// web maps meet: degrees, web Mercator, UTM.
+// Where on Earth a raster lies: from longitude and latitude to its columns and rows, and back, for
+// the CRSs that web maps meet: degrees, web Mercator, UTM.
 import {TksError} from './error.js';
 
 const RADIANS = Math.PI / 180;
 const MERCATOR_RADIUS = 6378137;
 
-const degrees = (longitude, latitude) => [longitude, latitude];
-const mercator = (longitude, latitude) => [
-  MERCATOR_RADIUS * longitude * RADIANS,
-  MERCATOR_RADIUS * Math.asinh(Math.tan(latitude * RADIANS)),
-];
+const degrees = {
+  forward: (longitude, latitude) => [longitude, latitude],
+  inverse: (x, y) => [x, y],
+};
+const mercator = {
+  forward: (longitude, latitude) => [
+    MERCATOR_RADIUS * longitude * RADIANS,
+    MERCATOR_RADIUS * Math.asinh(Math.tan(latitude * RADIANS)),
+  ],
+  inverse: (x, y) => [
+    x / MERCATOR_RADIUS / RADIANS, Math.atan(Math.sinh(y / MERCATOR_RADIUS)) / RADIANS,
+  ],
+};
 
 /** Krüger's series to the third order of the flattening: less than a millimetre within a zone. */
 function utm(zone, south) {
@@ -20,23 +28,45 @@ function utm(zone, south) {
     n / 2 - (2 / 3) * n ** 2 + (5 / 16) * n ** 3, (13 / 48) * n ** 2 - (3 / 5) * n ** 3,
     (61 / 240) * n ** 3,
   ];
-  const meridian = 6 * zone - 183;
-  return (longitude, latitude) => {
-    const sine = Math.sin(latitude * RADIANS), away = (longitude - meridian) * RADIANS;
-    const t = Math.sinh(Math.atanh(sine) - e * Math.atanh(e * sine));
-    const xi = Math.atan2(t, Math.cos(away));
-    const eta = Math.atanh(Math.sin(away) / Math.hypot(1, t));
-    let x = eta, y = xi;
-    alpha.forEach((a, i) => {
-      const k = 2 * (i + 1);
-      x += a * Math.cos(k * xi) * Math.sinh(k * eta);
-      y += a * Math.sin(k * xi) * Math.cosh(k * eta);
-    });
-    return [500000 + 0.9996 * radius * x, (south ? 1e7 : 0) + 0.9996 * radius * y];
+  const beta = [
+    n / 2 - (2 / 3) * n ** 2 + (37 / 96) * n ** 3, n ** 2 / 48 + n ** 3 / 15, (17 / 480) * n ** 3,
+  ];
+  const delta = [
+    2 * n - (2 / 3) * n ** 2 - 2 * n ** 3, (7 / 3) * n ** 2 - (8 / 5) * n ** 3, (56 / 15) * n ** 3,
+  ];
+  const meridian = 6 * zone - 183, scale = 0.9996 * radius, north = south ? 1e7 : 0;
+  /** What a series adds to (xi, eta). */
+  const sums = (series, xi, eta) => series.reduce(([y, x], factor, i) => {
+    const k = 2 * (i + 1);
+    return [
+      y + factor * Math.sin(k * xi) * Math.cosh(k * eta),
+      x + factor * Math.cos(k * xi) * Math.sinh(k * eta),
+    ];
+  }, [0, 0]);
+  return {
+    forward(longitude, latitude) {
+      const sine = Math.sin(latitude * RADIANS), away = (longitude - meridian) * RADIANS;
+      const t = Math.sinh(Math.atanh(sine) - e * Math.atanh(e * sine));
+      const xi = Math.atan2(t, Math.cos(away));
+      const eta = Math.atanh(Math.sin(away) / Math.hypot(1, t));
+      const [y, x] = sums(alpha, xi, eta);
+      return [500000 + scale * (eta + x), north + scale * (xi + y)];
+    },
+    inverse(x, y) {
+      const eta = (x - 500000) / scale, xi = (y - north) / scale;
+      const [less, lessAcross] = sums(beta, xi, eta);
+      const up = xi - less, across = eta - lessAcross;
+      const conformal = Math.asin(Math.sin(up) / Math.cosh(across));
+      const [latitude] = sums(delta, conformal, 0);
+      return [
+        meridian + Math.atan2(Math.sinh(across), Math.cos(up)) / RADIANS,
+        (conformal + latitude) / RADIANS,
+      ];
+    },
   };
 }
 
-/** (longitude, latitude) to the coordinates of a CRS such as "EPSG:32611" or "EPSG:4326+5773". */
+/** From (longitude, latitude) to a CRS such as "EPSG:32611" or "EPSG:4326+5773", and back. */
 export function projectionOf(crs) {
   const code = Number(/^EPSG:(\d+)/i.exec(crs)?.[1] ?? 0);
   if (code === 4326 || code === 4269 || code === 4258 || code === 4979) return degrees;
@@ -49,66 +79,70 @@ export function projectionOf(crs) {
     'degrees, web Mercator and UTM; else give `bounds`: [west, south, east, north] in degrees.');
 }
 
-/** Columns and rows, where (0, 0) is the outer corner of the first sample. */
-export function pixelsOf(geotransform, projection) {
-  const [x0, a, b, y0, c, d] = geotransform, determinant = a * d - b * c;
-  return (longitude, latitude) => {
-    const [x, y] = projection(longitude, latitude);
-    return [
-      (d * (x - x0) - b * (y - y0)) / determinant, (a * (y - y0) - c * (x - x0)) / determinant,
-    ];
+/**
+ * From (longitude, latitude) to columns and rows, where (0, 0) is the outer corner of the first
+ * sample, and back.
+ */
+export function gridOf([x0, a, b, y0, c, d], {forward, inverse}) {
+  const determinant = a * d - b * c;
+  return {
+    pixels(longitude, latitude) {
+      const [x, y] = forward(longitude, latitude);
+      return [
+        (d * (x - x0) - b * (y - y0)) / determinant, (a * (y - y0) - c * (x - x0)) / determinant,
+      ];
+    },
+    degrees: (column, row) => inverse(x0 + a * column + b * row, y0 + c * column + d * row),
   };
 }
 
 /** A geotransform for `width` x `height` samples between degrees. */
-export function transformOfBounds([west, south, east, north], width, height) {
+function transformOfBounds([west, south, east, north], width, height) {
   return [west, (east - west) / width, 0, north, 0, (south - north) / height];
 }
 
-/** West, south, east and north of a raster, by walking along its border with Newton's steps. */
-export function boundsOf(pixels, width, height) {
-  const [west, south, east, north] = [180, 90, -180, -90];
-  const bounds = [west, south, east, north];
-  let start = null;
-  const STEPS = 16;
-  for (let i = 0; i <= 4 * STEPS; ++i) {
-    const side = Math.floor(i / STEPS) % 4, share = (i % STEPS) / STEPS;
-    const target = [
+/** West, south, east and north of a raster, by walking along its border. */
+export function boundsOf(degrees, width, height) {
+  const bounds = [180, 90, -180, -90], STEPS = 16;
+  for (let i = 0; i < 4 * STEPS; ++i) {
+    const side = Math.floor(i / STEPS), share = (i % STEPS) / STEPS;
+    const [longitude, latitude] = degrees(...[
       [share * width, 0], [width, share * height], [(1 - share) * width, height],
       [0, (1 - share) * height],
-    ][side];
-    start = locate(pixels, target, start ?? firstGuess(pixels, target));
-    bounds[0] = Math.min(bounds[0], start[0]);
-    bounds[1] = Math.min(bounds[1], start[1]);
-    bounds[2] = Math.max(bounds[2], start[0]);
-    bounds[3] = Math.max(bounds[3], start[1]);
+    ][side]);
+    bounds[0] = Math.min(bounds[0], longitude);
+    bounds[1] = Math.min(bounds[1], latitude);
+    bounds[2] = Math.max(bounds[2], longitude);
+    bounds[3] = Math.max(bounds[3], latitude);
   }
   return bounds;
 }
 
-/** The place on a coarse grid of the Earth that comes nearest to a pixel. */
-function firstGuess(pixels, [column, row]) {
-  let best = [0, 0], least = Infinity;
-  for (let latitude = -84; latitude <= 84; latitude += 2) {
-    for (let longitude = -178; longitude <= 178; longitude += 2) {
-      const [x, y] = pixels(longitude, latitude);
-      const distance = Math.hypot(x - column, y - row);
-      if (distance < least) [least, best] = [distance, [longitude, latitude]];
-    }
-  }
-  return best;
-}
+/** Whether a stream says where it lies. */
+export const isPlaced = (info) => info.hasGeotransform || info.textureHasGeotransform;
 
-function locate(pixels, [column, row], [longitude, latitude]) {
-  const STEP = 1e-5;
-  for (let i = 0; i < 12; ++i) {
-    const [x, y] = pixels(longitude, latitude);
-    const [xe, ye] = pixels(longitude + STEP, latitude), [xn, yn] = pixels(longitude, latitude + STEP);
-    const a = (xe - x) / STEP, b = (xn - x) / STEP, c = (ye - y) / STEP, d = (yn - y) / STEP;
-    const determinant = a * d - b * c, dx = column - x, dy = row - y;
-    longitude += (d * dx - b * dy) / determinant;
-    latitude += (a * dy - c * dx) / determinant;
-    latitude = Math.min(85, Math.max(-85, latitude));
+/**
+ * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds}.
+ * A texture without a place of its own covers the ground of the heights. `bounds`: west, south,
+ * east, north of both parts in degrees, in place of what the stream says.
+ */
+export function placeOf(info, part, bounds) {
+  const isTexture = part === 'texture';
+  const width = isTexture ? info.textureWidth : info.width;
+  const height = isTexture ? info.textureHeight : info.height;
+  let transform, crs;
+  if (bounds) {
+    [transform, crs] = [transformOfBounds(bounds, width, height), 'EPSG:4326'];
+  } else if (isTexture && info.textureHasGeotransform) {
+    [transform, crs] = [info.textureGeotransform, info.textureCrs];
+  } else if (info.hasGeotransform) {
+    const [x0, a, b, y0, c, d] = info.geotransform;
+    const across = info.width / width, down = info.height / height;
+    [transform, crs] = [[x0, a * across, b * down, y0, c * across, d * down], info.crs];
+  } else {
+    throw new TksError('unsupported', 'The stream does not say where it lies. Give `bounds`: ' +
+      '[west, south, east, north] in degrees.');
   }
-  return [longitude, latitude];
+  const grid = gridOf(transform, projectionOf(crs));
+  return {...grid, width, height, bounds: boundsOf(grid.degrees, width, height)};
 }

@@ -38,4 +38,7 @@ export class TksLoader extends Loader<TksTerrain> {
   parseAsync(buffer: ArrayBuffer): Promise<TksTerrain>;
 }
 
+/** What TksLoader decodes before it gives a terrain. */
+export const FIRST_FRAME: {bytes: number; triangles: number; texels: number};
+
 export function textureOf(raster: Raster<Uint8ClampedArray>): DataTexture;

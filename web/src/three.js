@@ -48,8 +48,9 @@ export function textureOf({width, height, data}) {
   return texture;
 }
 
-/** The first prefix that `update()` asks for, and how much longer each following one is. */
-const FIRST_BYTES = 4096;
+/** The first frame is to be soon, and so many bytes tell no more than this. */
+export const FIRST_FRAME = {bytes: 4096, triangles: 5000, texels: 512};
+/** How much longer each following prefix is. */
 const GROWTH = 4;
 /** What error of a texture is seen where a texel fills a pixel. */
 const GOOD_PSNR = 40;
@@ -127,7 +128,7 @@ export class TksTerrain extends Mesh {
   update(camera, viewportHeight) {
     if (this.#reading || this.#stop.signal.aborted) return;
     const limit = Math.min(this.bytes, this.terrain.info.streamBytes);
-    let bytes = Math.min(this.#wanted || FIRST_BYTES, limit), texels = this.#texels;
+    let bytes = Math.min(this.#wanted || FIRST_FRAME.bytes, limit), texels = this.#texels;
     if (this.frame) {
       const needs = this.#needs(camera, viewportHeight);
       if (needs.more && !this.terrain.truncated) bytes = Math.min(GROWTH * bytes, limit);
@@ -199,8 +200,9 @@ export class TksLoader extends Loader {
     const terrain = await open(input, this.#decoderOptions);
     const object = new TksTerrain(terrain, this.#terrainOptions);
     try {
-      object.show(await terrain.decode({bytes: Math.min(FIRST_BYTES, object.bytes), texels: 1024,
-        triangles: object.triangles, normals: true}));
+      object.show(await terrain.decode({...FIRST_FRAME, normals: true,
+        bytes: Math.min(FIRST_FRAME.bytes, object.bytes),
+        triangles: Math.min(FIRST_FRAME.triangles, object.triangles)}));
       return object;
     } catch (error) {
       object.dispose();

@@ -6,7 +6,7 @@ import {readFile} from 'node:fs/promises';
 import {test} from 'node:test';
 
 import {TksProtocol} from '../src/maplibre.js';
-import {boundsOf, pixelsOf, projectionOf} from '../src/place.js';
+import {boundsOf, gridOf, projectionOf} from '../src/place.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url);
 
@@ -18,15 +18,19 @@ test('projections are those of GDAL', () => {
     ['EPSG:3857', 7.5, 46.2, 834896.1809, 5812457.4913],
     ['EPSG:4326', 7.5, 46.2, 7.5, 46.2],
   ]) {
-    const [gotX, gotY] = projectionOf(crs)(longitude, latitude);
+    const {forward, inverse} = projectionOf(crs);
+    const [gotX, gotY] = forward(longitude, latitude);
     assert.ok(Math.hypot(gotX - x, gotY - y) < 2e-3, `${crs}: ${gotX} ${gotY}`);
+    const [east, north] = inverse(gotX, gotY);
+    assert.ok(Math.hypot(east - longitude, north - latitude) < 1e-8, `${crs}: ${east} ${north}`);
   }
   assert.throws(() => projectionOf('EPSG:2056'), /does not know the CRS "EPSG:2056".*bounds/);
 });
 
 test('bounds of a raster turned in its zone contain its corners', () => {
-  const pixels = pixelsOf([380000, 20, 5, 3800000, 5, -20], projectionOf('EPSG:32611'));
-  const [west, south, east, north] = boundsOf(pixels, 500, 400);
+  const {pixels, degrees} =
+    gridOf([380000, 20, 5, 3800000, 5, -20], projectionOf('EPSG:32611'));
+  const [west, south, east, north] = boundsOf(degrees, 500, 400);
   const distance = (place, corner) => {
     const [x, y] = pixels(...place);
     return Math.hypot(x - corner[0], y - corner[1]);

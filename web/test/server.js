@@ -18,10 +18,12 @@ export async function serve(folder, faults = {}) {
   const requests = [];
   const server = createServer(async (request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
-    requests.push({path, range: request.headers.range});
+    const noted = {path, range: request.headers.range};
+    requests.push(noted);
     const file = join(folder, path);
     const size = await stat(file).then((found) => (found.isFile() ? found.size : -1), () => -1);
     if (size < 0 || faults.missing) {
+      noted.status = 404;
       response.writeHead(404, {'content-type': 'text/html'});
       return response.end('<!doctype html>nothing here');
     }
