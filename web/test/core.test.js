@@ -223,7 +223,8 @@ test('memory returns: a hundred frames take no more than one', async () => {
 });
 
 test('the modules are small', async () => {
-  for (const [name, limit] of [['tetrakis', 220], ['tetrakis-raster', 152], ['tetrakis-encode', 320]]) {
+  const limits = {tetrakis: 220, 'tetrakis-raster': 152, 'tetrakis-encode': 330};
+  for (const [name, limit] of Object.entries(limits)) {
     const file = await readFile(new URL(`../dist/${name}.wasm`, import.meta.url));
     const zipped = gzipSync(file, {level: 9}).length;
     console.log(`${name}.wasm: ${file.length} bytes, ${zipped} gzipped`);
