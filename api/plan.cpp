@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which bytes of a stream a viewer should fetch next.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "api/message.hpp"
@@ -12,16 +13,15 @@ namespace tetrakis::inline api {
 namespace {
 
 /// Without a camera all ground counts alike.
-Result<Sighting> sightingIn(tks_decoder& decoder, const tks_screen_camera* given,
-                            uint32_t triangles) {
-  Sighting sighting;
-  sighting.triangles = triangles;
-  if (given == nullptr) return sighting;
+Result<std::vector<WeightedSighting>> sightingsIn(tks_decoder& decoder,
+                                                  const tks_screen_camera* given,
+                                                  uint32_t triangles) {
+  if (given == nullptr) return std::vector<WeightedSighting>{{{0, 0, {}, triangles}, 1}};
   tks_screen_camera camera{};
   if (Status status = takeCamera("the view", *given, camera); !status.ok()) return status;
   const Result<CoarseGround> ground = coarseGround(decoder);
   if (!ground.ok()) return ground.status();
-  return sightingOf(*ground, camera, triangles);
+  return outlookOf(decoder, *ground, camera, triangles);
 }
 
 std::vector<ByteRange> missingIn(const tks_decoder& decoder, ByteRange wanted) {
@@ -30,11 +30,12 @@ std::vector<ByteRange> missingIn(const tks_decoder& decoder, ByteRange wanted) {
   return wanted.begin < wanted.end ? std::vector{wanted} : std::vector<ByteRange>();
 }
 
-Status plan(tks_decoder& decoder, const Sighting& sighting, uint64_t bytes, tks_ranges& out) {
+Status plan(tks_decoder& decoder, std::span<const WeightedSighting> sightings, uint64_t bytes,
+            tks_ranges& out) {
   const auto missing = [&](uint64_t begin, uint64_t end) {
     return missingIn(decoder, {begin, end});
   };
-  const auto ranges = planFetch(decoder.parsed, sighting, missing, bytes);
+  const auto ranges = planFetch(decoder.parsed, sightings, missing, bytes);
   if (!ranges.ok()) return ranges.status();
   std::vector<tks_range> planned;
   for (const FetchRange& range : *ranges)
@@ -52,8 +53,8 @@ tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, uint64_
   *out = {};
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
     if (tetrakis::Status status = tetrakis::checkPlanMemory(*decoder); !status.ok()) return status;
-    const auto sighting = tetrakis::sightingIn(*decoder, view, triangles);
-    if (!sighting.ok()) return sighting.status();
-    return tetrakis::plan(*decoder, *sighting, bytes, *out);
+    const auto sightings = tetrakis::sightingsIn(*decoder, view, triangles);
+    if (!sightings.ok()) return sightings.status();
+    return tetrakis::plan(*decoder, *sightings, bytes, *out);
   });
 }

@@ -14,6 +14,11 @@ Result<CoarseGround> coarseGround(tks_decoder& decoder);
 Sighting sightingOf(const CoarseGround& ground, const tks_screen_camera& camera,
                     uint32_t triangles);
 
+/// What that viewer sees, and what else may come into the picture: the ground around, after a turn,
+/// and all of the ground.
+std::vector<WeightedSighting> outlookOf(const tks_decoder& decoder, const CoarseGround& ground,
+                                        const tks_screen_camera& camera, uint32_t triangles);
+
 /// TKS_LIMIT with a sentence if choosing packets takes more than the limit.
 Status checkPlanMemory(const tks_decoder& decoder);
 

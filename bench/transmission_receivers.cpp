@@ -48,7 +48,6 @@ class StreamReceiver : public Receiver {
     if (!ranges) return ranges.status();
     exchange.control += kRequestBytes;
     for (const tks_range& range : *ranges) {
-      if (range.gain == 0) continue;
       exchange.control += std::to_string(range.offset).size() +
                           std::to_string(range.offset + range.size - 1).size() + 2;
       const Result<Exchange> taken = take(range, exchange);

@@ -33,7 +33,7 @@ class Receiver {
   virtual ~Receiver() = default;
   /// Asks for at most so many bytes, knowing this camera, and takes them.
   virtual Result<Exchange> fetch(const Camera& camera, uint64_t bytes) = 0;
-  /// Whether it waits for the answer before it asks again: the latency counts each time.
+  /// Whether it asks for each part of the bytes, a latency before that comes.
   virtual bool asks() const = 0;
   virtual Result<Ground> shown() const = 0;
 };

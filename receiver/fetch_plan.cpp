@@ -148,14 +148,25 @@ class Costs {
   std::array<std::vector<double>, kComponents> costs_;
 };
 
-/// A packet of the index, and what a byte of it is worth to a view.
+/// What a byte of a packet is worth.
+struct Worth {
+  double all = 0;    ///< to all sightings together
+  double now = 0;    ///< to the first of them
+  double slope = 0;  ///< as the index states it
+
+  Worth least(const Worth& other) const {
+    return {std::min(all, other.all), std::min(now, other.now), std::min(slope, other.slope)};
+  }
+};
+
+/// A packet of the index.
 struct PlacedPacket {
   size_t number = 0;
   uint64_t begin = 0, end = 0;  ///< bytes of the stream
-  double gain = 0, slope = 0;
+  Worth worth;
 };
 
-/// Follows an index through the stream. Gains and slopes do not rise within a track.
+/// Follows an index through the stream. What packets are worth does not rise within a track.
 class IndexWalk {
  public:
   explicit IndexWalk(const StreamHeader& header, uint64_t begin)
@@ -164,26 +175,23 @@ class IndexWalk {
   /// Where the next packet begins.
   uint64_t place() const { return place_; }
 
-  /// gain: of an entry without what came before.
-  PlacedPacket take(const IndexEntry& entry, double gain) {
+  /// worth: of an entry without what came before.
+  PlacedPacket take(const IndexEntry& entry, const Worth& worth) {
     const PacketHead& head = entry.packet;
     const auto component = static_cast<size_t>(head.component());
     const uint64_t length = head.head >> 2;
     const size_t before = headBytes(head, counts_[component].named).size();
     constexpr uint64_t kBehindAll = uint64_t{1} << 63;  // lengths are below 2^62
     const uint64_t end = std::min(place_ + before + length, kBehindAll);
-    PlacedPacket packet = {number_++, place_, end, gain, slopeOf(entry.slope)};
+    PlacedPacket packet = {number_++, place_, end, worth};
     place_ = end;
     if (head.track == 0 && opened_[component] < openingBytes(header_, head.component())) {
       opened_[component] += length;
-      packet.gain = packet.slope = kOpening;
+      packet.worth = {kOpening, kOpening, kOpening};
       return packet;
     }
-    const auto [last, is_new] =
-        last_.try_emplace({head.component(), head.track}, packet.gain, packet.slope);
-    auto& [least_gain, least_slope] = last->second;
-    packet.gain = least_gain = std::min(least_gain, packet.gain);
-    packet.slope = least_slope = std::min(least_slope, packet.slope);
+    const auto [last, is_new] = last_.try_emplace({head.component(), head.track}, worth);
+    packet.worth = last->second = last->second.least(worth);
     return packet;
   }
 
@@ -193,17 +201,17 @@ class IndexWalk {
   uint64_t place_;
   size_t number_ = 0;
   std::array<uint64_t, kComponents> opened_{};
-  std::map<std::pair<Component, uint32_t>, std::pair<double, double>> last_;
+  std::map<std::pair<Component, uint32_t>, Worth> last_;
 };
 
 /// What helps more comes first; of what helps alike the greater slope, then the stream's order.
-void sortByGain(std::vector<PlacedPacket>& packets) {
+void sortByWorth(std::vector<PlacedPacket>& packets) {
   std::stable_sort(packets.begin(), packets.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.gain, a.slope) > std::pair(b.gain, b.slope);
+    return std::pair(a.worth.all, a.worth.slope) > std::pair(b.worth.all, b.worth.slope);
   });
 }
 
-/// All packets, the ones that help most first.
+/// All packets, those first that help all sightings most.
 Result<std::vector<PlacedPacket>> sortedPackets(const StreamHeader& header, uint64_t begin,
                                                 std::span<const WeightedSighting> sightings) {
   std::vector<Costs> costs;
@@ -214,15 +222,18 @@ Result<std::vector<PlacedPacket>> sortedPackets(const StreamHeader& header, uint
   packets.reserve(header.index.size());
   for (const IndexEntry& entry : header.index) {
     if (walk.place() >= begin + header.payload_bytes) break;  // the index runs ahead of the packets
-    double cost = 0;
+    const double slope = slopeOf(entry.slope);
+    Worth worth{0, 0, slope};
     for (size_t i = 0; i < costs.size(); ++i) {
       if (!costs[i].holds(entry.packet))
         return Status(TKS_CORRUPT, "Corrupt stream: its index names a track that there is not.");
-      cost += sightings[i].weight * costs[i].at(entry.packet);
+      const double here = slope * sightings[i].weight * costs[i].at(entry.packet);
+      if (i == 0) worth.now = here;
+      worth.all += here;
     }
-    packets.push_back(walk.take(entry, slopeOf(entry.slope) * cost));
+    packets.push_back(walk.take(entry, worth));
   }
-  sortByGain(packets);
+  sortByWorth(packets);
   return packets;
 }
 
@@ -258,14 +269,14 @@ std::vector<FetchRange> merged(std::vector<RankedRange> ranges) {
 
 }  // namespace
 
-Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed, const Sighting& sighting,
+Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
+                                          std::span<const WeightedSighting> sightings,
                                           const Missing& missing, uint64_t bytes) {
   const StreamHeader& header = parsed.header;
   const uint64_t end = parsed.bytes + header.payload_bytes;
-  std::vector<PlacedPacket> packets = {{0, parsed.bytes, end, 1, 1}};
+  std::vector<PlacedPacket> packets = {{0, parsed.bytes, end, {1, 1, 1}}};
   if (!header.index.empty()) {
-    const WeightedSighting only = {sighting, 1};
-    auto sorted = sortedPackets(header, parsed.bytes, {&only, 1});
+    auto sorted = sortedPackets(header, parsed.bytes, sightings);
     if (!sorted.ok()) return sorted.status();
     packets = std::move(*sorted);
   }
@@ -277,7 +288,7 @@ Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed, const Sigh
       const uint64_t taken = std::min(left, gap.end - gap.begin);
       if (taken == 0) break;
       left -= taken;
-      const double gain = std::min(packet.gain, std::numeric_limits<double>::max());
+      const double gain = std::min(packet.worth.now, std::numeric_limits<double>::max());
       chosen.push_back({{gap.begin, gap.begin + taken, gain}, chosen.size()});
     }
   }

@@ -26,6 +26,12 @@ struct Sighting {
 /// What is not there of the bytes from a place on, up to another one, in their order.
 using Missing = std::function<std::vector<ByteRange>(uint64_t begin, uint64_t end)>;
 
+/// What some viewer sees, and how much that counts.
+struct WeightedSighting {
+  Sighting sighting;
+  double weight = 1;
+};
+
 /// Bytes to fetch, and what one of the first of them takes off the error of the picture beside
 /// other ranges; 0: nothing in this view.
 struct FetchRange {
@@ -33,18 +39,14 @@ struct FetchRange {
   double gain = 0;
 };
 
-/// What is missing of so many bytes that help most, those that help most first. The opening of a
-/// component comes before the rest, and each track in its order. Neighbours are one range, in the
-/// place of the one that helps more. TKS_CORRUPT where the index names a track that there is not.
-/// Without an index: the bytes in their order.
-Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed, const Sighting& sighting,
+/// What is missing of so many bytes that help most, those that help most first. The first sighting
+/// is the present picture, of which gains are; the others are what the viewer may look at later.
+/// The opening of a component comes before the rest, and each track in its order. Neighbours are
+/// one range, in the place of the one that helps more. TKS_CORRUPT where the index names a track
+/// that there is not. Without an index: the bytes in their order.
+Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
+                                          std::span<const WeightedSighting> sightings,
                                           const Missing& missing, uint64_t bytes);
-
-/// What some viewer sees, and how much that counts.
-struct WeightedSighting {
-  Sighting sighting;
-  double weight = 1;
-};
 
 /// The numbers of the packets of an index in the order that helps all of these most. Errors as of
 /// planFetch().

@@ -52,7 +52,32 @@ class Sight {
   }
 
   SeenPoint at(uint32_t x, uint32_t y) const {
-    const Place point = {double(x) * ground_.step, double(y) * ground_.step, heightAt(x, y)};
+    const SeenPoint seen = shown(placeOf(x, y));
+    return seen.pixels > 0 && !isHidden(x, y) ? seen : SeenPoint{};
+  }
+
+  /// After a turn about the vertical through the eye that brings the point to the middle column.
+  SeenPoint faced(uint32_t x, uint32_t y, double aspect) const {
+    if (!eye_) return {};
+    Place place = placeOf(x, y);
+    const double* ahead = &view_.clip[12];  // w rises along it
+    const double across = ahead[0] / aspect, down = ahead[1];
+    const double most = std::hypot(across, down);
+    if (!(most > 0)) return {};
+    const double away = std::hypot((place[0] - (*eye_)[0]) * aspect, place[1] - (*eye_)[1]);
+    place[0] = (*eye_)[0] + away * across / most / aspect;
+    place[1] = (*eye_)[1] + away * down / most;
+    const SeenPoint seen = shown(place);
+    return seen.pixels > 0 && !isHidden(x, y) ? seen : SeenPoint{};
+  }
+
+ private:
+  Place placeOf(uint32_t x, uint32_t y) const {
+    return {double(x) * ground_.step, double(y) * ground_.step, heightAt(x, y)};
+  }
+
+  /// Of a point that nothing hides.
+  SeenPoint shown(const Place& point) const {
     const double w = rowAt(view_.clip, 3, point);
     const double cx = rowAt(view_.clip, 0, point), cy = rowAt(view_.clip, 1, point);
     // Ground that ends a step beyond the picture's border still reaches into it.
@@ -65,11 +90,10 @@ class Sight {
     }
     const double pixels = std::abs(dx[0] * dy[1] - dx[1] * dy[0]);
     const double parallax = dx[2] * dx[2] + dy[2] * dy[2];
-    if (!std::isfinite(pixels) || !std::isfinite(parallax) || isHidden(x, y)) return {};
+    if (!std::isfinite(pixels) || !std::isfinite(parallax)) return {};
     return {pixels, parallax};
   }
 
- private:
   double heightAt(uint32_t x, uint32_t y) const {
     return ground_.heights[size_t{y} * ground_.columns + x];
   }
@@ -105,16 +129,26 @@ class Sight {
   double highest_ = 0;
 };
 
-}  // namespace
-
-std::vector<SeenPoint> sightOf(const CoarseGround& ground, const Eye& eye) {
+template <class See>
+std::vector<SeenPoint> seenOf(const CoarseGround& ground, See&& see) {
   assert(ground.heights.size() == size_t{ground.columns} * ground.rows);
-  const Sight sight(ground, eye);
   std::vector<SeenPoint> seen;
   seen.reserve(ground.heights.size());
   for (uint32_t y = 0; y < ground.rows; ++y)
-    for (uint32_t x = 0; x < ground.columns; ++x) seen.push_back(sight.at(x, y));
+    for (uint32_t x = 0; x < ground.columns; ++x) seen.push_back(see(x, y));
   return seen;
+}
+
+}  // namespace
+
+std::vector<SeenPoint> sightOf(const CoarseGround& ground, const Eye& eye) {
+  const Sight sight(ground, eye);
+  return seenOf(ground, [&](uint32_t x, uint32_t y) { return sight.at(x, y); });
+}
+
+std::vector<SeenPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect) {
+  const Sight sight(ground, eye);
+  return seenOf(ground, [&](uint32_t x, uint32_t y) { return sight.faced(x, y, aspect); });
 }
 
 }  // namespace tetrakis::inline receiver

@@ -33,4 +33,9 @@ struct SeenPoint {
 /// below coarse ground. Without such an eye (a map) nothing is hidden.
 std::vector<SeenPoint> sightOf(const CoarseGround& ground, const Eye& eye);
 
+/// The same for a viewer who turns on the spot to face each point: what a picture would show whose
+/// middle column looked that way. aspect: the spacing of columns over that of rows. Nothing
+/// is seen without an eye.
+std::vector<SeenPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect);
+
 }  // namespace tetrakis::inline receiver

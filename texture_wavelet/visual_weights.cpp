@@ -50,7 +50,7 @@ BandWeights visualWeights(uint32_t components) {
         const double frequency = frequencyOf(level, diagonal);
         const double seen = colour ? colourSensitivity(frequency) : lumaSensitivity(frequency);
         weights.priority[c][static_cast<size_t>(2 * (level - 1) + diagonal)] =
-            std::max(std::lround(16 * std::log2(seen)), -BandWeights::kMaxPriority);
+            std::max<int64_t>(std::lround(16 * std::log2(seen)), -BandWeights::kMaxPriority);
       }
     }
   }

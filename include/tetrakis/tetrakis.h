@@ -460,15 +460,17 @@ tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen
 
 /* What to fetch next: the ranges of at most `bytes` bytes that are not there yet and help a view
  * most, the most helpful first. Hand them to tks_put as they come, in any order, and ask again. A
- * stream without a front index (tks_encode_options.index) is fetched in its order.
+ * stream without a front index (tks_encode_options.index) is fetched in its order. Viewers turn:
+ * what other pictures from the same place would show counts as well, a sixteenth of this one, and
+ * all other ground a little. This view is served where no gain is left.
  *
  * A packet is worth what the index states, times what errors of its region cost in this picture: a
  * texel by the pixels that show it, a height by the pixels and by the square of how far it moves
  * them, which falls with the parallax and rises as the viewer comes near. Detail finer than a
  * pixel, what lies outside the picture or behind coarse ground, and heights finer than a mesh of
- * `triangles` (0: any number) shows, are worth nothing: their gain is 0 and they come last. The
- * masks that begin a component come first. Ranges do not overlap; neighbours are one, unless the
- * gain of only one of them is 0. All plans until nothing is missing cover every byte of the stream
+ * `triangles` (0: any number) shows, are worth nothing to this view: their gain is 0. The masks
+ * that begin a component come first. Ranges do not overlap; neighbours are one, unless the gain of
+ * only one of them is 0. All plans until nothing is missing cover every byte of the stream
  * once.
  *
  * view: NULL: all ground counts alike. Its weight is not looked at; its columns and rows are those

@@ -148,10 +148,21 @@ TEST(Plan, WhatIsSeenComesFirst) {
   Stream prefix(Prefix(bytes).first(header + budget));
   EXPECT_LT(errorIn(image, stream.texture(), corner),
             0.4 * errorIn(image, prefix.texture(), corner));
-  for (size_t i = 1; i < plan.all().size(); ++i)
-    EXPECT_FALSE(plan.all()[i - 1].gain == 0 && plan.all()[i].gain > 0);
   const Ranges rest(stream, &view, UINT64_MAX);
   EXPECT_EQ(rest.all().back().gain, 0);
+}
+
+/// Ground beside the picture lags behind, but not until all of the picture is exact.
+TEST(Plan, WhatATurnWouldShowComesBeforeTheLastDetailOfThisView) {
+  const Raster image = make({Pattern::kRidges, 128, 128, 3, TKS_U8});
+  const Bytes bytes = encodeRegions(nullptr, &image, lossless());
+  Stream stream(Prefix(bytes).first(static_cast<size_t>(Stream(bytes).info().header_bytes)));
+  const tks_screen_camera view = mapOf(70, 75, 110, 115);
+  const Ranges plan(stream, &view, UINT64_MAX);
+  const auto helps = [](const tks_range& range) { return range.gain > 0; };
+  const auto unseen = std::find_if_not(plan.all().begin(), plan.all().end(), helps);
+  ASSERT_NE(unseen, plan.all().end());
+  EXPECT_TRUE(std::any_of(unseen, plan.all().end(), helps));
 }
 
 TEST(Plan, DetailBelowAPixelAndBelowTheMeshComesLast) {
@@ -226,6 +237,21 @@ TEST(Plan, WallsHideWhatIsBehindThem) {
   EXPECT_FALSE(seen(low, 12));
   EXPECT_FALSE(seen(low, 19));
   EXPECT_FALSE(seen(high, 4));  // below the picture
+}
+
+TEST(Plan, ATurnBringsWhatLiesBehindIntoThePicture) {
+  const CoarseGround ground{20, 20, 4, std::vector<float>(400, 0)};
+  const tks_screen_camera camera = alongRows(38, 39, 10);
+  Eye eye{{}, camera.width, camera.height};
+  std::copy_n(camera.clip, 16, eye.clip.begin());
+  const auto now = sightOf(ground, eye), around = sightAround(ground, eye, 1);
+  const size_t ahead = 16 * 20 + 10, behind = 3 * 20 + 9;
+  EXPECT_GT(now[ahead].pixels, 0);
+  EXPECT_EQ(now[behind].pixels, 0);
+  EXPECT_NEAR(around[behind].pixels, around[ahead].pixels, 0.4 * around[ahead].pixels);
+  Eye map{{}, 320, 200};
+  std::copy_n(mapOf(0, 0, 80, 80).clip, 16, map.clip.begin());
+  for (const SeenPoint& point : sightAround(ground, map, 1)) EXPECT_EQ(point.pixels, 0);
 }
 
 Bytes reordered(Stream& stream, const tks_screen_camera& view) {

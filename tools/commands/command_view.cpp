@@ -23,12 +23,15 @@ struct ViewerFile {
   const char* name;
   const char* type;
 };
-constexpr std::array<ViewerFile, 5> kViewerFiles = {
+constexpr std::array<ViewerFile, 8> kViewerFiles = {
     {{"index.html", "text/html; charset=utf-8"},
      {"style.css", "text/css; charset=utf-8"},
      {"viewer.js", "text/javascript; charset=utf-8"},
      {"worker.js", "text/javascript; charset=utf-8"},
-     {"tetrakis.wasm", "application/wasm"}}};
+     {"encode_worker.js", "text/javascript; charset=utf-8"},
+     {"read_files.js", "text/javascript; charset=utf-8"},
+     {"tetrakis.wasm", "application/wasm"},
+     {"tetrakis-encode.wasm", "application/wasm"}}};
 
 struct ViewArguments {
   StreamSource source;

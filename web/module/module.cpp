@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <iterator>
 
 #include "tetrakis/tetrakis.h"
@@ -24,10 +25,10 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
 const char* web_names() {
   return "formatVersion profile level headerBytes streamBytes availableBytes packets geometryBytes "
          "textureBytes hasHeights hasTexture width height coarsestLevel sample scale offset step "
-         "spacingX spacingY lossless hasVoids hasNodata nodata maxError trianglesHint "
-         "textureWidth textureHeight textureChannels textureCoarsestLevel textureCutout "
-         "textureSample heightsRmse texturePsnr hasGeotransform g0 g1 g2 g3 g4 g5 registration "
-         "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration";
+         "spacingX spacingY lossless hasVoids hasNodata nodata maxError trianglesHint regions "
+         "textureRegions textureWidth textureHeight textureChannels textureCoarsestLevel "
+         "textureCutout textureSample heightsRmse texturePsnr hasGeotransform g0 g1 g2 g3 g4 g5 "
+         "registration textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration";
 }
 
 tks_status web_numbers(const tks_decoder* decoder, double* out) {
@@ -61,6 +62,8 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
                             i.nodata,
                             i.max_error,
                             number(i.triangles),
+                            number(i.regions),
+                            number(i.texture_regions),
                             number(i.texture_width),
                             number(i.texture_height),
                             number(i.texture_channels),
@@ -114,6 +117,69 @@ void web_rgba(const void* texels, uint8_t* out, size_t count, uint32_t channels,
     out[4 * i + 2] = value(first + (colour ? 2 : 0));
     out[4 * i + 3] = alpha ? value(first + channels - 1) : 255;
   }
+}
+
+/// tks_put, with a place that JavaScript has as a number.
+tks_status web_put(tks_decoder* decoder, double place, const uint8_t* data, size_t size) {
+  return tks_put(decoder, static_cast<uint64_t>(place), data, size);
+}
+
+/// Whether bytes can come in any order.
+int web_has_index(tks_decoder* decoder) {
+  tks_info i{};
+  i.size = sizeof i;
+  if (tks_get_info(decoder, &i) != TKS_OK) return 0;
+  tks_ranges ranges{};
+  const tks_part part = i.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
+  const tks_status status = tks_needed_ranges(decoder, part, nullptr, &ranges);
+  tks_free_ranges(&ranges);
+  return status == TKS_OK || status == TKS_LIMIT;
+}
+
+/// Begin, end and gain of each range, one after the other.
+struct web_ranges {
+  uint32_t count;
+  double* numbers;  ///< to be freed
+};
+
+/// Takes the ranges over.
+static tks_status give(tks_status status, tks_ranges* ranges, web_ranges* out) {
+  *out = {};
+  if (status != TKS_OK) return status;
+  out->numbers = static_cast<double*>(std::malloc(3 * sizeof(double) * ranges->count + 1));
+  if (out->numbers == nullptr) status = TKS_NO_MEMORY;
+  for (size_t i = 0; i < ranges->count && status == TKS_OK; ++i) {
+    const tks_range& range = ranges->ranges[i];
+    out->numbers[3 * i] = static_cast<double>(range.offset);
+    out->numbers[3 * i + 1] = static_cast<double>(range.offset + range.size);
+    out->numbers[3 * i + 2] = range.gain;
+    ++out->count;
+  }
+  tks_free_ranges(ranges);
+  return status;
+}
+
+/// tks_plan. view: width and height of the picture and 16 numbers, or NULL.
+tks_status web_plan(tks_decoder* decoder, const double* view, double bytes, uint32_t triangles,
+                    web_ranges* out) {
+  tks_screen_camera camera{};
+  if (view != nullptr) {
+    camera.size = sizeof camera;
+    camera.width = static_cast<uint32_t>(view[0]);
+    camera.height = static_cast<uint32_t>(view[1]);
+    std::copy_n(view + 2, 16, camera.clip);
+  }
+  tks_ranges ranges{};
+  const tks_status status = tks_plan(decoder, view != nullptr ? &camera : nullptr,
+                                     static_cast<uint64_t>(bytes), triangles, &ranges);
+  return give(status, &ranges, out);
+}
+
+/// tks_needed_ranges; gains are 0.
+tks_status web_needed(tks_decoder* decoder, tks_part part, const tks_window* window,
+                      web_ranges* out) {
+  tks_ranges ranges{};
+  return give(tks_needed_ranges(decoder, part, window, &ranges), &ranges, out);
 }
 
 }  // extern "C"

@@ -20,15 +20,25 @@ export interface OpenOptions {
   memory?: number;
 }
 
+export interface View {
+  /** 16 numbers, row by row, from (column, row, height, 1) to clip coordinates. */
+  clip: ArrayLike<number>;
+  /** Of the picture, in pixels. */
+  width: number;
+  height: number;
+  /** Also: of the mesh only what this view may show. Default false. */
+  cut?: boolean;
+}
+
 export interface FrameOptions {
-  /** Use no more than the first bytes of the stream. Default: all. */
+  /** Use no more than the first bytes that came: of the stream, or for views. Default: all. */
   bytes?: number;
   signal?: AbortSignal;
   /** The mesh has at most so many. Default 20000. */
   triangles?: number;
-  /** Only what this camera may see of the mesh: 16 numbers, row by row, from (column, row, height, 1)
-   * to clip coordinates. Default: all. */
-  view?: ArrayLike<number> | null;
+  /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
+   * fetched that help it most, if the stream has an index and the server knows ranges. */
+  view?: ArrayLike<number> | View | null;
   mesh?: boolean;
   /** Unit normals for the vertices of the mesh. Default false. */
   normals?: boolean;
@@ -67,6 +77,11 @@ export interface TerrainInfo {
   /** Guaranteed for the complete stream; less than 0: not stated. */
   maxError: number;
   lossless: boolean;
+  /** Bytes can come in any order: `view` tells which do. */
+  hasIndex: boolean;
+  /** Side of the spatial regions in samples; 0: none. */
+  regions: number;
+  textureRegions: number;
   hasVoids: boolean;
   hasGeotransform: boolean;
   /** As GDAL's; of the texture where textureHasGeotransform. */
@@ -114,15 +129,23 @@ export interface Frame {
 
 export interface Terrain {
   readonly info: TerrainInfo;
-  readonly loaded: {requests: number; bytes: number};
+  /** `ranges`: which bytes are here, [begin, end) each. */
+  readonly loaded: {requests: number; bytes: number; ranges: [number, number][]};
   /** The file ends before the stream does: frames are good, but not complete. */
   readonly truncated: boolean;
-  /** Fetches the first `bytes` bytes, without decoding. Resolves to how many there are. */
-  load(bytes: number, options?: {signal?: AbortSignal}): Promise<number>;
-  /** One frame of the first `bytes` bytes; fetches those that are missing. */
+  /** Fetches until `bytes` bytes are here, without decoding: the first ones of the stream, or those
+   * that help a view most. Fewer: the file ends, or no other byte helps the view. Resolves to how
+   * many there are. */
+  load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles'>): Promise<number>;
+  /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;
-  /** Frames of prefixes that grow fourfold, from those that are there to `bytes`. */
+  /** Frames of bytes that grow fourfold, from those that are there to `bytes`, or to what the view
+   * needs. */
   refine(options?: FrameOptions): AsyncGenerator<Frame, void, void>;
+  /** Which bytes a window of samples or texels takes, [begin, end) each, of a stream with an index. */
+  needed(options: {
+    part?: 'heights' | 'texture'; window: {x: number; y: number; width: number; height: number};
+  }): Promise<[number, number][]>;
   dispose(): void;
 }
 

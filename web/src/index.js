@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core of the package: opens streams and refines them. It knows no renderer.
 import {assets} from '#assets';
+import {compile} from './compile.js';
 import {TksError} from './error.js';
-import {Decoder, groundScale, hasVectors} from './module.js';
+import {Decoder, groundScale} from './module.js';
+import {Held, requestsFor} from './ranges.js';
 import {abortable, sourceOf} from './source.js';
 
 export {TksError, groundScale};
@@ -12,26 +14,6 @@ const FIRST_BYTES = 4096;
 /** Each frame takes an inverse transform and a mesh anew: with this growth they are few. */
 const GROWTH = 4;
 const MEMORY = 2 ** 30;
-
-const compiled = new Map();
-
-/** The compiled module: one for all terrains of a page. */
-async function compile(wasm) {
-  if (wasm instanceof WebAssembly.Module) return wasm;
-  const key = wasm ? String(wasm) : hasVectors() ? 'full' : 'plain';
-  if (wasm && typeof wasm !== 'string' && !(wasm instanceof URL)) return WebAssembly.compile(wasm);
-  if (!compiled.has(key)) {
-    const fetched = async () =>
-      wasm ? WebAssembly.compile(await (await fetch(wasm)).arrayBuffer()) : assets[key]();
-    const promise = fetched().catch((error) => {
-      compiled.delete(key);
-      throw new TksError('io', `The decoder's WebAssembly module cannot be loaded (${error.message})` +
-        '. Bundlers may need {wasm: URL}.', {cause: error});
-    });
-    compiled.set(key, promise);
-  }
-  return compiled.get(key);
-}
 
 /** A Decoder in a worker: the same calls, as promises. */
 class RemoteDecoder {
@@ -66,11 +48,17 @@ class RemoteDecoder {
       this.#worker.postMessage({...message, id});
     });
   }
-  append(chunk) {
-    return this.#call({operation: 'append', chunk});
+  put(place, chunk) {
+    return this.#call({operation: 'put', place, chunk});
   }
   decode(request) {
     return this.#call({operation: 'decode', request});
+  }
+  plan(request) {
+    return this.#call({operation: 'plan', request});
+  }
+  needed(request) {
+    return this.#call({operation: 'needed', request});
   }
   dispose() {
     this.#worker.terminate();
@@ -83,12 +71,21 @@ class LocalDecoder {
   constructor(module, memory) {
     this.#decoder = new Decoder(module, memory);
   }
-  async append(chunk) {
-    this.#decoder.append(chunk);
+  get #open() {
+    if (!this.#decoder) throw new TksError('usage', 'This terrain is disposed.');
+    return this.#decoder;
+  }
+  async put(place, chunk) {
+    this.#open.put(place, chunk);
   }
   async decode(request) {
-    if (!this.#decoder) throw new TksError('usage', 'This terrain is disposed.');
-    return this.#decoder.decode(request);
+    return this.#open.decode(request);
+  }
+  async plan(request) {
+    return this.#open.plan(request);
+  }
+  async needed(request) {
+    return this.#open.needed(request);
   }
   dispose() {
     this.#decoder = null;
@@ -121,11 +118,25 @@ const DEFAULTS = {
   samples: 4096,
 };
 
+/** The numbers of tks_part. */
+const PARTS = {heights: 0, texture: 2};
+
+/** A view as a plan needs it; nothing where there are but 16 numbers. */
+function plannedView(view) {
+  if (!view?.clip) return null;
+  if (view.clip.length !== 16 || !(view.width >= 1) || !(view.height >= 1)) {
+    throw new TksError('usage', 'A view takes clip, 16 numbers, and width and height, the pixels of ' +
+      'its picture.');
+  }
+  const pixels = (side) => Math.min(32768, Math.round(side));
+  return {clip: [...view.clip], width: pixels(view.width), height: pixels(view.height)};
+}
+
 /** A stream that is open. Made by open(). */
 class Terrain {
   #source;
   #decoder;  // a promise: the first bytes are fetched while the module is compiled
-  #have = 0;
+  #held = new Held();
   #reading = Promise.resolve();
 
   constructor(source, decoder) {
@@ -133,46 +144,89 @@ class Terrain {
     this.#decoder = decoder;
   }
 
-  /** How many requests went out, and how many bytes of the stream are here. */
+  /** How many requests went out, how many bytes of the stream are here, and which. */
   get loaded() {
-    return {requests: this.#source.requests, bytes: this.#have};
+    const {bytes, ranges} = this.#held;
+    return {requests: this.#source.requests, bytes, ranges};
   }
   /** Whether the file ends before the stream does. */
   get truncated() {
-    return this.#source.ended && this.#have < this.info.streamBytes;
+    return this.#source.size < this.info.streamBytes;
   }
 
-  async load(bytes, {signal} = {}) {
-    // One after another: the source gives bytes in their order.
+  async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
+    const seen = plannedView(view);
+    // One after another: each asks for what the ones before did not.
     const step = async () => {
-      const chunk = await this.#source.next(bytes);
-      this.#have += chunk.length;
-      if (chunk.length > 0) await (await this.#decoder).append(chunk.slice());
+      for (let before = -1; this.#held.bytes < bytes && this.#held.bytes > before; ) {
+        before = this.#held.bytes;
+        const isPlanned = seen && this.info?.hasIndex && !this.#source.sequential;
+        if (isPlanned) await this.#fetchPlanned(seen, bytes - before, triangles);
+        else await this.#fetchNext(bytes - before);
+      }
     };
     const reading = (this.#reading = this.#reading.catch(() => {}).then(step));
     await abortable(reading, signal);
-    return Math.min(bytes, this.#have);
+    return Math.min(bytes, this.#held.bytes);
+  }
+  /** The first bytes that are missing. */
+  async #fetchNext(bytes) {
+    const size = Math.min(this.info?.streamBytes ?? Infinity, this.#source.size);
+    const [gap] = this.#held.gaps(0, size);
+    if (!gap) return;
+    const [begin, end] = gap;
+    await this.#take(begin, await this.#source.next(begin, Math.min(end, begin + bytes)));
+  }
+  /** Those that help a view most; none where nothing more does. */
+  async #fetchPlanned(view, bytes, triangles) {
+    const plan = await (await this.#decoder).plan({view, bytes, triangles});
+    const {size} = this.#source;
+    const helpful = plan.filter(({begin, gain}) => gain > 0 && begin < size);
+    const all = helpful.map(({begin, end}) => [begin, Math.min(end, size)]);
+    const answers = requestsFor(all, bytes).map(([begin, end]) =>
+      ({begin, chunk: this.#source.scattered(begin, end)}));
+    await Promise.all(answers.map(({chunk}) => chunk));
+    for (const {begin, chunk} of answers) await this.#take(begin, await chunk);
+    // A server that has just forgotten ranges sends all from its beginning.
+    if (this.#source.sequential) await this.#fetchNext(bytes);
+  }
+  /** Bytes from a place on. Those that are here already are left out. */
+  async #take(begin, chunk) {
+    const decoder = await this.#decoder;
+    for (const [b, e] of this.#held.gaps(begin, begin + chunk.length)) {
+      await decoder.put(b, chunk.slice(b - begin, e - begin));
+    }
+    this.#held.add(begin, begin + chunk.length);
   }
 
   async decode({bytes = Infinity, signal, ...options} = {}) {
-    const wanted = Math.min(bytes, this.info?.streamBytes ?? bytes);
-    const have = await this.load(wanted, {signal});
-    const request = {...DEFAULTS, ...options, bytes: have};
+    const {headerBytes = 0, streamBytes = bytes} = this.info ?? {};
+    const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
+    const {view, triangles} = {...DEFAULTS, ...options};
+    const have = await this.load(wanted, {signal, view, triangles});
+    const cut = view?.clip ? (view.cut ? [...view.clip] : null) : view;
+    const request = {...DEFAULTS, ...options, view: null, cut, bytes: have};
     return abortable((await this.#decoder).decode(request), signal);
   }
 
   async *refine({bytes = Infinity, signal, ...options} = {}) {
-    const limit = Math.min(bytes, this.info.streamBytes);
-    for (let wanted = Math.min(Math.max(this.#have, FIRST_BYTES), limit); ; ) {
+    const limit = Math.min(bytes, this.info.streamBytes), {headerBytes} = this.info;
+    for (let wanted = Math.min(Math.max(this.#held.bytes, FIRST_BYTES), limit); ; ) {
       const frame = await this.decode({...options, bytes: wanted, signal});
       yield frame;
       if (frame.bytes >= limit || frame.bytes < wanted) return;
-      wanted = GROWTH * wanted;
+      wanted = headerBytes + GROWTH * Math.max(wanted - headerBytes, FIRST_BYTES);
       if (2 * wanted > limit) wanted = limit;
     }
   }
 
-  /** Reads the header, which may be longer than the first request. */
+  /** Which bytes a window of the heights or of the texture takes, as [begin, end). */
+  async needed({part = 'heights', window}) {
+    const request = {part: PARTS[part], window};
+    return (await (await this.#decoder).needed(request)).map(({begin, end}) => [begin, end]);
+  }
+
+  /** Reads the header, which may be longer than the first request: the second brings a picture. */
   async begin(signal) {
     for (let bytes = FIRST_BYTES; ; ) {
       const have = await this.load(bytes, {signal});
@@ -185,7 +239,7 @@ class Terrain {
           throw new TksError('truncated', `The file is cut short: it ends after ${have} bytes, ` +
             'inside the header of the stream.');
         }
-        bytes = Math.max(error.needed ?? 0, GROWTH * bytes);
+        bytes = (error.needed > bytes ? error.needed : GROWTH * bytes) + FIRST_BYTES;
       }
     }
   }
@@ -201,7 +255,7 @@ class Terrain {
 
 export async function open(input, {signal, worker, wasm, memory = MEMORY} = {}) {
   signal?.throwIfAborted();
-  const decoder = compile(wasm).then((module) => makeDecoder(worker, module, memory));
+  const decoder = compile(assets, wasm).then((module) => makeDecoder(worker, module, memory));
   decoder.catch(() => {});
   const terrain = new Terrain(sourceOf(input), decoder);
   try {

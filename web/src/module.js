@@ -3,13 +3,13 @@
 // emscripten's, so this file is all of its glue. Nothing here waits: it runs in a worker as well.
 import {TksError} from './error.js';
 
-const SAMPLES = [
+export const SAMPLES = [
   Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array,
 ];
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
-const MESSAGE_BYTES = 400;
+export const MESSAGE_BYTES = 400;
 
 /** A function with a vector in it: engines without SIMD refuse it. */
 const VECTOR_FUNCTION = new Uint8Array([
@@ -18,23 +18,24 @@ const VECTOR_FUNCTION = new Uint8Array([
 ]);
 export const hasVectors = () => WebAssembly.validate(VECTOR_FUNCTION);
 
-/** What the module imports: a notice that memory grew, and an exit that only an abort calls. */
-function importsOf(module) {
+/** What a module imports: a notice that memory grew, and an exit that only an abort calls. */
+function importsOf(module, given) {
   const imports = {};
   for (const {module: space, name} of WebAssembly.Module.imports(module)) {
-    (imports[space] ??= {})[name] = name.startsWith('emscripten_notify')
-      ? () => {}
-      : () => {
-          throw new WebAssembly.RuntimeError(`aborted in ${name}`);
-        };
+    const abort = () => {
+      throw new WebAssembly.RuntimeError(`aborted in ${name}`);
+    };
+    const known = given[name] ?? (name.startsWith('emscripten_notify') ? () => {} : abort);
+    (imports[space] ??= {})[name] = known;
   }
   return imports;
 }
 
-/** An instance with the few operations on its memory that decoding needs. */
-class Instance {
-  constructor(module) {
-    this.calls = new WebAssembly.Instance(module, importsOf(module)).exports;
+/** An instance with the few operations on its memory that codecs need. */
+export class Instance {
+  /** given: functions that the module imports. */
+  constructor(module, given = {}) {
+    this.calls = new WebAssembly.Instance(module, importsOf(module, given)).exports;
     this.calls._initialize?.();
   }
   /** Anew at each use: growing memory detaches the old buffer. */
@@ -73,12 +74,12 @@ function levelFor(width, height, most, coarsest) {
  */
 class Opened {
   #header;  // a copy, which the decoder reads until it gets more bytes
-  /** bytes: at least those of the header. */
-  constructor(instance, bytes, memory) {
+  /** first: gives so many of the first bytes, as far as they are here. */
+  constructor(instance, first, memory) {
     this.instance = instance;
     const {calls} = instance;
-    const needed = Opened.#headerBytes(instance, bytes);
-    const header = bytes.subarray(0, needed);
+    const needed = Opened.#headerBytes(instance, first(MOST_BEFORE_BODY));
+    const header = first(needed);
     this.size = header.length;
     this.#header = calls.malloc(Math.max(this.size, 1));
     if (this.#header === 0) throw new TksError('memory', 'There is no memory for the header.');
@@ -91,25 +92,55 @@ class Opened {
       }
       [this.decoder] = instance.view(Uint32Array, out, 1);
     });
+    this.hasIndex = calls.web_has_index(this.decoder) !== 0;
   }
   /** Of what is no header so many bytes that decoders refuse them. */
-  static #headerBytes(instance, bytes) {
-    const first = bytes.subarray(0, MOST_BEFORE_BODY);
+  static #headerBytes(instance, first) {
     return instance.with(8 + first.length, (out) => {
       instance.view(Uint8Array, out + 8, first.length).set(first);
       instance.calls.tks_header_bytes(out + 8, first.length, out);
       return instance.view(Uint32Array, out, 1)[0] || first.length;  // below 2^21
     });
   }
-  /** The bytes that follow those that are there. */
-  append(bytes) {
-    if (bytes.length === 0) return;
+  /** More bytes, from this place of the stream on. */
+  put(place, bytes) {
     const {instance} = this;
     instance.with(bytes.length, (address) => {
       instance.view(Uint8Array, address, bytes.length).set(bytes);
-      this.check(instance.calls.tks_append(this.decoder, address, bytes.length));
+      this.check(instance.calls.web_put(this.decoder, place, address, bytes.length));
     });
     this.size += bytes.length;
+  }
+  /** Ranges {begin, end, gain} of a call that writes their count and their address. */
+  #ranges(call) {
+    const {instance} = this;
+    return instance.with(8, (out) => {
+      this.check(call(out));
+      const [count, address] = instance.copy(Uint32Array, out, 2);
+      const numbers = instance.copy(Float64Array, address, 3 * count);
+      instance.calls.free(address);
+      return Array.from({length: count}, (_, i) => {
+        const [begin, end, gain] = numbers.subarray(3 * i);
+        return {begin, end, gain};
+      });
+    });
+  }
+  /** What to fetch next for a view {clip, width, height}. */
+  plan(view, bytes, triangles) {
+    const {instance} = this;
+    return instance.with(18 * 8, (address) => {
+      instance.view(Float64Array, address, 18).set([view.width, view.height, ...view.clip]);
+      return this.#ranges((out) =>
+        instance.calls.web_plan(this.decoder, address, bytes, triangles, out));
+    });
+  }
+  /** What a window {x, y, width, height} of a part of tks_part takes. */
+  needed(part, {x, y, width, height}) {
+    const {instance} = this;
+    return instance.with(16, (window) => {
+      instance.view(Uint32Array, window, 4).set([x, y, width, height]);
+      return this.#ranges((out) => instance.calls.web_needed(this.decoder, part, window, out));
+    });
   }
   close() {
     this.instance.calls.tks_close(this.decoder);
@@ -140,6 +171,7 @@ class Opened {
         delete info[letter + i];
         return value;
       });
+    info.hasIndex = this.hasIndex;
     info.geotransform = gather('g');
     info.textureGeotransform = gather('t');
     const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs'];
@@ -257,7 +289,7 @@ function partsOf(opened, info, request) {
     levelFor(info.textureWidth, info.textureHeight, request.texels, info.textureCoarsestLevel);
   const surfaceLevel =
     request.surfaceLevel ?? levelFor(info.width, info.height, request.samples, info.coarsestLevel);
-  if (request.mesh && info.hasHeights) parts.mesh = opened.mesh(request.triangles, request.view);
+  if (request.mesh && info.hasHeights) parts.mesh = opened.mesh(request.triangles, request.cut);
   const shown = (level) => {
     opened.setLevels(Math.min(level, info.coarsestLevel), info.hasTexture ? textureLevel : 0);
     return opened.info();
@@ -282,13 +314,13 @@ function partsOf(opened, info, request) {
 }
 
 /**
- * Decodes prefixes of one stream. Its bytes live here, so that a shorter prefix than the one before
- * can be decoded anew, and an instance that aborted be replaced.
+ * Decodes one stream from the first so many bytes that came. They live here, so that fewer than
+ * before can be decoded anew, and an instance that aborted be replaced.
  */
 export class Decoder {
   #instance = null;
   #opened = null;
-  #bytes = new Uint8Array(0);
+  #chunks = [];  // in the order in which they came
   #length = 0;
 
   constructor(module, memory) {
@@ -296,23 +328,38 @@ export class Decoder {
     this.memory = memory;
   }
 
-  append(chunk) {
-    const length = this.#length + chunk.length;
-    if (length > this.#bytes.length) {
-      const larger = new Uint8Array(Math.max(length, 2 * this.#bytes.length));
-      larger.set(this.#bytes.subarray(0, this.#length));
-      this.#bytes = larger;
-    }
-    this.#bytes.set(chunk, this.#length);
-    this.#length = length;
+  /** Bytes that are not here yet, from a place of the stream on. All of its header comes first. */
+  put(place, bytes) {
+    this.#chunks.push({place, bytes, before: this.#length});
+    this.#length += bytes.length;
+  }
+  /** The same, of bytes that come in the order of the stream. */
+  append(bytes) {
+    this.put(this.#length, bytes);
   }
 
-  /** The first `size` bytes, opened: those behind the ones that were open cost what they tell. */
-  #prefix(size) {
+  #first(size) {
+    const first = new Uint8Array(size);
+    let length = 0;
+    for (const {bytes} of this.#chunks) {
+      if (length === size) break;
+      const part = bytes.subarray(0, size - length);
+      first.set(part, length);
+      length += part.length;
+    }
+    return first.subarray(0, length);
+  }
+  /** Those behind the ones that were open cost what they tell. */
+  #openedTo(size) {
     if (this.#opened && this.#opened.size > size) this.#close();
     this.#instance ??= new Instance(this.module);
-    this.#opened ??= new Opened(this.#instance, this.#bytes.subarray(0, size), this.memory);
-    this.#opened.append(this.#bytes.subarray(this.#opened.size, size));
+    this.#opened ??= new Opened(
+      this.#instance, (bytes) => this.#first(Math.min(bytes, size)), this.memory);
+    for (const {place, bytes, before} of this.#chunks) {
+      const from = Math.max(this.#opened.size - before, 0);
+      const part = bytes.subarray(from, Math.max(from, size - before));
+      if (part.length > 0) this.#opened.put(place + from, part);
+    }
     this.#opened.setLevels(0, 0);
     return this.#opened;
   }
@@ -322,11 +369,11 @@ export class Decoder {
     opened?.close();
   }
 
-  /** Calls `use` with the first `bytes` bytes opened. */
+  /** Calls `use` with the first `bytes` bytes that came, opened. */
   opened(bytes, use) {
     try {
       try {
-        return use(this.#prefix(Math.min(bytes, this.#length)));
+        return use(this.#openedTo(Math.min(bytes, this.#length)));
       } catch (error) {
         if (error instanceof TksError) this.#close();  // it may take no more bytes
         throw error;
@@ -343,12 +390,19 @@ export class Decoder {
     return this.opened(request.bytes, (opened) => {
       const info = opened.info();
       return {
-        bytes: info.availableBytes,
-        complete: info.availableBytes >= info.streamBytes,
+        bytes: opened.size,
+        complete: opened.size >= info.streamBytes,
         info,
         ...partsOf(opened, info, request),
       };
     });
+  }
+
+  plan({view, bytes, triangles}) {
+    return this.opened(Infinity, (opened) => opened.plan(view, bytes, triangles));
+  }
+  needed({part, window}) {
+    return this.opened(Infinity, (opened) => opened.needed(part, window));
   }
 
   /** The very samples, as the conformance vectors state them. */

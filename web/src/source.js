@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the bytes of a stream come from: memory, a Blob, or a URL. From a URL they come by range
-// requests, each for what is still missing; where a server answers with the whole file instead (200),
-// that one answer is read as far as its bytes are asked for.
+// requests; where a server answers with the whole file instead (200), that one answer is read as far
+// as its bytes are asked for.
 import {TksError} from './error.js';
 
 const MAGIC = [0x54, 0x4b, 0x53, 0x1a];
@@ -26,47 +26,53 @@ function checkMagic(bytes, what) {
 
 class MemorySource {
   requests = 0;
+  sequential = false;
   #blob;
-  #have = 0;
   constructor(blob) {
     this.#blob = blob;
+    this.size = blob.size ?? blob.length;
   }
-  /** The bytes from those that were given before up to `end`; fewer at the end of the data. */
-  async next(end) {
-    const begin = this.#have;
-    if (end <= begin || this.ended) return new Uint8Array(0);
+  async next(begin, end) {
     const part = this.#blob.slice(begin, end);
     const bytes = part instanceof Uint8Array ? part : new Uint8Array(await part.arrayBuffer());
     if (begin === 0) checkMagic(bytes, 'This file');
-    this.#have += bytes.length;
     return bytes;
   }
-  get ended() {
-    return this.#have >= (this.#blob.size ?? this.#blob.length);
+  scattered(begin, end) {
+    return this.next(begin, end);
   }
   close() {}
 }
 
 class UrlSource {
   requests = 0;
-  ended = false;
+  /** Of the file, as far as it is known. */
+  size = Infinity;
   #url;
   #stop = new AbortController();
-  #have = 0;
   #version = null;
   #reader = null;
+  #place = 0;  // of the reader
   #left = [];
 
   constructor(url) {
     this.#url = String(url);
   }
 
-  async next(end) {
-    if (end <= this.#have || this.ended) return new Uint8Array(0);
-    const bytes = this.#reader ? await this.#read(end) : await this.#request(end);
-    if (this.#have === 0 && bytes.length > 0) checkMagic(bytes, this.#what);
-    this.#have += bytes.length;
+  /** The server knows no ranges: its one answer is read as far as bytes are asked for. */
+  get sequential() {
+    return this.#reader !== null;
+  }
+  /** Bytes from `begin` on, fewer at the end of the file. Nothing before them is asked for again. */
+  async next(begin, end) {
+    if (end <= begin || begin >= this.size) return new Uint8Array(0);
+    const bytes = (!this.#reader && (await this.#request(begin, end))) || (await this.#read(begin, end));
+    if (begin === 0 && bytes.length > 0) checkMagic(bytes, this.#what);
     return bytes;
+  }
+  /** The same from anywhere; nothing where the server answers with the whole file. */
+  async scattered(begin, end) {
+    return (!this.#reader && (await this.#request(begin, end))) || new Uint8Array(0);
   }
   close() {
     this.#stop.abort();
@@ -89,11 +95,11 @@ class UrlSource {
     }
   }
 
-  async #request(end) {
-    const begin = this.#have;
+  /** null: the answer is the whole file, which is now read from its beginning. */
+  async #request(begin, end) {
     const answer = await this.#fetch(begin, end);
     if (answer.status === 416 && begin > 0) {
-      this.ended = true;
+      this.size = Math.min(this.size, begin);
       return new Uint8Array(0);
     }
     if (!answer.ok) {
@@ -103,10 +109,9 @@ class UrlSource {
     this.#checkVersion(answer);
     this.type = answer.headers.get('content-type')?.split(';')[0];
     if (answer.status === 206) return this.#part(answer, begin, end);
-    // The server knows no ranges. What is there already comes again and is left out.
-    this.#reader = answer.body.getReader();
-    if (begin > 0) await this.#read(begin, 0);
-    return this.#read(end);
+    if (this.#reader) answer.body.cancel().catch(() => {});
+    else this.#reader = answer.body.getReader();
+    return null;
   }
 
   #checkVersion(answer) {
@@ -137,20 +142,21 @@ class UrlSource {
         `${Math.min(sent, end - begin)} were announced. Does it compress streams ` +
         '(Content-Encoding)? It should send them as they are.');
     }
-    this.ended = bytes.length < end - begin || (range !== null && Number(range[3]) === begin + sent);
+    if (bytes.length < end - begin) this.size = begin + bytes.length;
+    else if (range && range[3] !== '*') this.size = Number(range[3]);
     return bytes;
   }
 
-  /** Bytes of the one answer up to `end`, which is counted from byte `have`. */
-  async #read(end, have = this.#have) {
+  /** Bytes of the one answer; those before `begin` are left out. */
+  async #read(begin, end) {
     const parts = this.#left;
     let length = parts.reduce((sum, part) => sum + part.length, 0);
-    while (have + length < end) {
+    while (this.#place + length < end) {
       const {done, value} = await this.#reader.read().catch((error) => {
         throw new TksError('io', `${this.#url}: the connection broke.`, {cause: error});
       });
       if (done) {
-        this.ended = true;
+        this.size = this.#place + length;
         break;
       }
       parts.push(value);
@@ -162,9 +168,11 @@ class UrlSource {
       all.set(part, place);
       place += part.length;
     }
-    const rest = all.subarray(end - have);
+    const first = begin - this.#place, last = Math.min(end - this.#place, length);
+    const rest = all.subarray(last);
     this.#left = rest.length ? [rest] : [];
-    return all.subarray(0, end - have);
+    this.#place += last;
+    return all.subarray(first, last);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Camera, DataTexture, Loader, Material, Mesh} from 'three';
-import type {Frame, OpenOptions, Raster, Terrain} from './index.js';
+import type {Frame, OpenOptions, Raster, Terrain, View} from './index.js';
 
 export interface TerrainOptions {
   /** The mesh has at most so many. Default 20000. */
@@ -21,11 +21,16 @@ export class TksTerrain extends Mesh {
   triangles: number;
   bytes: number;
   pixelError: number;
+  /** Shows what opening brought: the first frame. */
+  begin(): Promise<void>;
   /** Draws a frame of `terrain`; parts that it lacks stay as they are. Event: `frame`. */
   show(frame: Frame): void;
   /** To be called for each picture: fetches and decodes more where this camera sees the difference.
-   * `viewportHeight` in pixels. Events: `frame`, and `error`, after which nothing more is fetched. */
+   * `viewportHeight` in pixels. Events: `frame`, and `error`, after which nothing more is fetched. Of
+   * a stream with an index it fetches what helps this view most. */
   update(camera: Camera, viewportHeight: number): void;
+  /** What this camera looks at, for `terrain.decode({view})`. */
+  viewOf(camera: Camera, viewportHeight: number): View;
   dispose(): void;
 }
 

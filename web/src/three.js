@@ -3,7 +3,7 @@
 // x points along the rows, y up, z down the rows; metres, with the middle of the terrain at (0, 0).
 import {
   Box3, BufferAttribute, BufferGeometry, DataTexture, LinearFilter, LinearMipmapLinearFilter, Loader,
-  MathUtils, Mesh, MeshLambertMaterial, RGBAFormat, SRGBColorSpace, Vector3,
+  MathUtils, Matrix4, Mesh, MeshLambertMaterial, RGBAFormat, SRGBColorSpace, Vector3,
 } from 'three';
 
 import {groundScale, open} from './index.js';
@@ -52,6 +52,8 @@ export function textureOf({width, height, data}) {
 export const FIRST_FRAME = {bytes: 4096, triangles: 5000, texels: 512};
 /** How much longer each following prefix is. */
 const GROWTH = 4;
+/** What is asked for at a time where the camera may move meanwhile: as much as is there, within. */
+const LEAST_STEP = 2 ** 14, MOST_STEP = 2 ** 18;
 /** What error of a texture is seen where a texel fills a pixel. */
 const GOOD_PSNR = 40;
 
@@ -62,6 +64,7 @@ export class TksTerrain extends Mesh {
   #eye = new Vector3();
   #wanted = 0;
   #texels = Infinity;
+  #served = '';  // the view for which all is here
 
   /** `terrain`: of open(). It is disposed with this object. */
   constructor(terrain, {triangles = 20000, bytes = Infinity, pixelError = 1, material} = {}) {
@@ -74,6 +77,13 @@ export class TksTerrain extends Mesh {
     if (terrain.info.textureCutout || [2, 4].includes(terrain.info.textureChannels)) {
       this.material.alphaTest = 0.5;
     }
+  }
+
+  /** Shows what opening brought. */
+  async begin() {
+    const triangles = Math.min(FIRST_FRAME.triangles, this.triangles);
+    this.show(await this.terrain.decode(
+      {...FIRST_FRAME, bytes: this.#firstBytes(), triangles, normals: true}));
   }
 
   /** Draws a frame of `terrain`. Parts that it lacks stay as they are. */
@@ -121,36 +131,78 @@ export class TksTerrain extends Mesh {
     };
   }
 
+  /** What this camera looks at, as `view` of terrain.decode(). */
+  viewOf(camera, viewportHeight) {
+    const {info} = this.terrain, flat = !info.hasHeights;
+    const width = flat ? info.textureWidth : info.width, height = flat ? info.textureHeight : info.height;
+    const scale = flat
+      ? {x: width / Math.max(1, width - 1), y: height / Math.max(1, height - 1), height: 1}
+      : groundScale(info);
+    const ground = new Matrix4().set(
+      scale.x, 0, 0, (-scale.x * (width - 1)) / 2, 0, 0, scale.height, 0,
+      0, scale.y, 0, (-scale.y * (height - 1)) / 2, 0, 0, 0, 1);
+    camera.updateMatrixWorld();
+    this.updateWorldMatrix(true, false);
+    const clip = ground.premultiply(this.matrixWorld).premultiply(camera.matrixWorldInverse)
+      .premultiply(camera.projectionMatrix).transpose().toArray();
+    const {elements} = camera.projectionMatrix;
+    const across = Math.max(1, (viewportHeight * elements[5]) / elements[0]);
+    return {clip, width: across, height: viewportHeight};
+  }
+
+  /** Of the first frame: what opening brought. */
+  #firstBytes() {
+    return Math.min(this.bytes, Math.max(FIRST_FRAME.bytes, this.terrain.loaded.bytes));
+  }
+  /** As many bytes as the next frame takes. */
+  #nextBytes(more, planned, limit) {
+    if (!planned) return Math.min((more ? GROWTH : 1) * (this.#wanted || this.#firstBytes()), limit);
+    const here = this.terrain.loaded.bytes, step = Math.min(Math.max(here, LEAST_STEP), MOST_STEP);
+    return more ? Math.min(here + step, limit) : this.#wanted;
+  }
+
   /**
    * To be called for each picture: fetches and decodes more where this camera sees the difference.
-   * One decoding runs at a time. Failures go to the event `error`.
+   * Of a stream with an index that is what helps this view most, until nothing more does. One
+   * decoding runs at a time. Failures go to the event `error`.
    */
   update(camera, viewportHeight) {
     if (this.#reading || this.#stop.signal.aborted) return;
-    const limit = Math.min(this.bytes, this.terrain.info.streamBytes);
-    let bytes = Math.min(this.#wanted || FIRST_FRAME.bytes, limit), texels = this.#texels;
+    const {info, truncated} = this.terrain, limit = Math.min(this.bytes, info.streamBytes);
+    const view = this.frame && info.hasIndex ? this.viewOf(camera, viewportHeight) : null;
+    const key = view ? view.clip.map((v) => v.toPrecision(6)).join() : '';
+    let bytes = this.#firstBytes(), texels = this.#texels;
     if (this.frame) {
       const needs = this.#needs(camera, viewportHeight);
-      if (needs.more && !this.terrain.truncated) bytes = Math.min(GROWTH * bytes, limit);
+      const more = (view ? key !== this.#served : needs.more) && !truncated;
+      bytes = this.#nextBytes(more, view, limit);
       texels = this.#wanted ? Math.max(texels, needs.texels) : needs.texels;
       if (bytes === this.#wanted && texels === this.#texels) return;
     } else {
-      texels = 1024;
+      texels = FIRST_FRAME.texels;
     }
-    this.#reading = this.#read(bytes, texels).finally(() => (this.#reading = null));
+    this.#reading = this.#read(bytes, texels, view).then((enough) => {
+      if (enough) this.#served = key;
+    }).finally(() => (this.#reading = null));
   }
-  async #read(bytes, texels) {
+  /** Whether fewer bytes came than were asked for. */
+  async #read(bytes, texels, view) {
     try {
-      const frame = await this.terrain.decode(
-        {bytes, texels, triangles: this.triangles, normals: true, signal: this.#stop.signal});
-      if (this.#stop.signal.aborted) return;
-      this.#wanted = bytes;
+      const {triangles} = this, {signal} = this.#stop;
+      const have = await this.terrain.load(bytes, {view, triangles, signal});
+      if (have !== this.#wanted || texels !== this.#texels || !this.frame) {
+        const frame = await this.terrain.decode({bytes: have, texels, triangles, normals: true, signal});
+        if (signal.aborted) return false;
+        this.show(frame);
+      }
+      this.#wanted = have === bytes || view ? have : bytes;
       this.#texels = texels;
-      this.show(frame);
+      return have < bytes;
     } catch (error) {
-      if (this.#stop.signal.aborted) return;
+      if (this.#stop.signal.aborted) return false;
       this.#stop.abort();
       this.dispatchEvent({type: 'error', error});
+      return false;
     }
   }
 
@@ -200,9 +252,7 @@ export class TksLoader extends Loader {
     const terrain = await open(input, this.#decoderOptions);
     const object = new TksTerrain(terrain, this.#terrainOptions);
     try {
-      object.show(await terrain.decode({...FIRST_FRAME, normals: true,
-        bytes: Math.min(FIRST_FRAME.bytes, object.bytes),
-        triangles: Math.min(FIRST_FRAME.triangles, object.triangles)}));
+      await object.begin();
       return object;
     } catch (error) {
       object.dispose();

@@ -9,14 +9,16 @@ const operations = {
   start: ({module, memory}) => {
     decoder = new Decoder(module, memory);
   },
-  append: ({chunk}) => decoder.append(chunk),
+  put: ({place, chunk}) => decoder.put(place, chunk),
   decode: ({request}) => decoder.decode(request),
+  plan: ({request}) => decoder.plan(request),
+  needed: ({request}) => decoder.needed(request),
 };
 
 self.onmessage = ({data}) => {
   try {
     const result = operations[data.operation](data);
-    self.postMessage({id: data.id, result}, result ? buffersOf(result) : []);
+    self.postMessage({id: data.id, result}, data.operation === 'decode' ? buffersOf(result) : []);
   } catch (error) {
     const {code, message, needed} = error;
     self.postMessage({id: data.id, error: {code: code ?? 'memory', message, needed}});

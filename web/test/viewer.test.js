@@ -11,7 +11,10 @@ import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {chromium} from 'playwright-core';
 
+import {encode} from '../src/encode.js';
+import {open} from '../src/index.js';
 import {serve} from './server.js';
+import {terrainOf, tiffOf} from './terrain.js';
 
 const viewer = new URL('../dist/viewer/', import.meta.url).pathname;
 const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
@@ -62,7 +65,7 @@ const text = (page, selector) => page.locator(selector).textContent();
 
 /** Distinct colours of the canvas, coarsely, and the share of pixels that are not sky. */
 async function colours(page) {
-  const picture = await page.locator('canvas').screenshot({style: 'aside, header { display: none }'});
+  const picture = await page.locator('#picture').screenshot({style: 'aside, header { display: none }'});
   return page.evaluate(async (base64) => {
     const image = await createImageBitmap(await (await fetch('data:image/png;base64,' + base64)).blob());
     const canvas = new OffscreenCanvas(image.width, image.height), context = canvas.getContext('2d');
@@ -167,10 +170,10 @@ test('a drop opens', async () => {
 test('a lost context comes back', async () => {
   await withPage('?tks=whole.tks', async (page) => {
     await page.evaluate(async () => {
-      const context = document.querySelector('canvas').getContext('webgl2');
+      const context = document.querySelector('#picture').getContext('webgl2');
       const extension = context.getExtension('WEBGL_lose_context');
       const restored = new Promise((resolve) =>
-        document.querySelector('canvas').addEventListener('webglcontextrestored', resolve));
+        document.querySelector('#picture').addEventListener('webglcontextrestored', resolve));
       extension.loseContext();
       await new Promise((resolve) => setTimeout(resolve, 100));
       extension.restoreContext();
@@ -198,6 +201,59 @@ test('every kind of stream is drawn', async () => {
       assert.equal(await page.locator('body').getAttribute('data-state'), 'done', name);
     });
   }
+});
+
+/** Keys of UTM zone 11 north; a sample is the value at its middle. */
+const PLACED = [[33550, 12, 3, [30, 30, 0]], [33922, 12, 6, [0, 0, 0, 5e5, 4e6, 0]],
+  [34735, 3, 16, [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 2, 3072, 0, 1, 32611]]];
+
+test('a GeoTIFF and an image over it are coded on the page, and can be saved', async () => {
+  const {heights} = terrainOf(65);
+  const height = {name: 'dem.tif', mimeType: 'image/tiff', buffer: Buffer.from(tiffOf(heights, PLACED))};
+  const svg = await browser.newPage({viewport: {width: 64, height: 64}});
+  await svg.setContent('<body style="background: linear-gradient(90deg, #a52, #4b6)">');
+  const image = {name: 'image.png', mimeType: 'image/png', buffer: await svg.screenshot()};
+  await svg.close();
+  await withPage('', async (page) => {
+    await page.locator('#file').setInputFiles([height, image]);
+    await ended(page);
+    assert.equal(await page.locator('body').getAttribute('data-state'), 'done',
+      await page.locator('#message').textContent());
+    assert.match(await text(page, '#size'), /65 × 65 heights · 64 × 64 texels/);
+    const saved = await page.evaluate(async () =>
+      [...new Uint8Array(await (await fetch(document.querySelector('#save').href)).arrayBuffer())]);
+    const {info} = await open(new Uint8Array(saved));
+    assert.deepEqual([info.crs, info.spacingX, info.hasIndex], ['EPSG:32611', 30, true]);
+    assert.deepEqual(info.geotransform, [5e5 - 15, 30, 0, 4e6 + 15, 0, -30]);
+    assert.ok((await colours(page)).ground > 0.05);
+  });
+});
+
+test('files that cannot be coded say why', async () => {
+  const text = {name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('just words')};
+  const broken = {name: 'broken.tif', mimeType: 'image/tiff', buffer: Buffer.from('II*\0________')};
+  const dem = {name: 'dem.tif', mimeType: 'image/tiff',
+    buffer: Buffer.from(tiffOf(terrainOf(16).heights))};
+  for (const [files, pattern] of [[[text], /notes\.txt cannot be read as a GeoTIFF or an image/],
+    [[broken], /broken\.tif cannot be read/], [[dem, dem], /Two of these files hold heights/]]) {
+    await withPage('', async (page) => {
+      await page.locator('#file').setInputFiles(files);
+      await ended(page);
+      assert.match(await page.getByRole('alert').textContent(), pattern);
+    });
+  }
+});
+
+test('of a stream with an index what this view needs comes first, and is drawn as a map', async () => {
+  const stream = await encode({...terrainOf(193), bytes: 90000, index: true, regions: 32});
+  await writeFile(join(folder, 'indexed.tks'), stream);
+  await withPage('?tks=indexed.tks', async (page, server) => {
+    const asked = ranges(server).map((range) => /(\d+)-(\d+)/.exec(range).slice(1).map(Number));
+    assert.ok(asked.some(([begin], i) => i > 0 && begin !== asked[i - 1][1] + 1));
+    const here = Number(await page.locator('#fetched').getAttribute('data-bytes'));
+    assert.ok(here > asked[0][1] && here <= stream.length);
+    assert.ok(await page.locator('#ground').isVisible());
+  });
 });
 
 test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async () => {

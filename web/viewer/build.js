@@ -8,17 +8,21 @@ const web = fileURLToPath(new URL('..', import.meta.url));
 const out = `${web}dist/viewer/`;
 await rm(out, {recursive: true, force: true});
 await mkdir(out, {recursive: true});
-await build({
-  entryPoints: [
-    {in: `${web}viewer/viewer.js`, out: 'viewer'},
-    {in: `${web}src/worker.js`, out: 'worker'},
-  ],
+const bundle = (names, options) => build({
+  entryPoints: names.map((name) => `${web}${name}.js`),
   outdir: out,
+  entryNames: '[name]',
   bundle: true,
   minify: true,
   format: 'esm',
   target: 'es2022',
   legalComments: 'linked',
+  ...options,
 });
+// What reads GeoTIFFs is as large as all the rest, and loaded when such a file is opened.
+await bundle(['viewer/viewer', 'src/worker', 'src/encode_worker'], {external: ['./read_files.js']});
+await bundle(['viewer/read_files'], {platform: 'browser'});
 for (const name of ['index.html', 'style.css']) await copyFile(`${web}viewer/${name}`, out + name);
-await copyFile(`${web}dist/tetrakis.wasm`, `${out}tetrakis.wasm`);
+for (const name of ['tetrakis.wasm', 'tetrakis-encode.wasm']) {
+  await copyFile(`${web}dist/${name}`, out + name);
+}

@@ -8,6 +8,8 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import {Fly} from './fly.js';
 
+const REST = 150;  // ms
+
 export class Picture {
   #scene = new Scene();
   #ambient = new AmbientLight(0xffffff);
@@ -16,6 +18,9 @@ export class Picture {
   #pending = false;
   #last = 0;
   #radius = 1;
+  #resting = 0;
+  /** Called when the camera has moved and rests. */
+  onrest = () => {};
 
   constructor(canvas) {
     this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
@@ -25,8 +30,8 @@ export class Picture {
     this.orbit.enableDamping = true;
     this.orbit.dampingFactor = 0.12;
     this.orbit.maxPolarAngle = 1.53;
-    this.orbit.addEventListener('change', () => this.draw());
-    this.fly = new Fly(this.camera, canvas, () => this.draw());
+    this.orbit.addEventListener('change', () => this.#moved());
+    this.fly = new Fly(this.camera, canvas, () => this.#moved());
     this.#scene.add(this.#ambient, this.#sun);
     this.setShaded(true);
     canvas.addEventListener('webglcontextrestored', () => this.draw());
@@ -44,6 +49,16 @@ export class Picture {
     this.draw();
   }
 
+  /** Rows of the picture. */
+  get pixels() {
+    return this.renderer.domElement.height;
+  }
+  #moved() {
+    clearTimeout(this.#resting);
+    this.#resting = setTimeout(() => this.onrest(), REST);
+    this.draw();
+  }
+
   /** Draws once the browser is ready for it. */
   draw() {
     if (this.#pending) return;
@@ -56,7 +71,7 @@ export class Picture {
       if (!this.fly.enabled) this.orbit.update();
       this.#fitDepth();
       this.renderer.render(this.#scene, this.camera);
-      if (moving) this.draw();
+      if (moving) this.#moved();
     });
   }
   /** The depth buffer is spent on what lies between the camera and the far end of the terrain. */

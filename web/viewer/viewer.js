@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: opens a stream (?tks=URL, a drop, a file), refines it, and lets its bytes and triangles be
 // chosen.
+import {encode} from '../src/encode.js';
 import {open} from '../src/index.js';
 import {TksTerrain, textureOf} from '../src/three.js';
+import {FetchMap} from './fetch_map.js';
 import {Picture} from './scene.js';
 import {tint} from './tint.js';
 
@@ -14,8 +16,15 @@ const FREE_BYTES = 8 << 20;
 const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
 
 const picture = new Picture($('picture'));
+const map = new FetchMap($('fetched'), $('ground'));
 const wasm = new URL('tetrakis.wasm', document.baseURI);
 const worker = new URL('worker.js', document.baseURI);
+const encoder = {
+  wasm: new URL('tetrakis-encode.wasm', document.baseURI),
+  worker: new URL('encode_worker.js', document.baseURI),
+};
+/** What files are coded into: so many bits for each height and texel. */
+const BITS = 1, LEAST_BYTES = 32768;
 
 let terrain = null, object = null;
 let wanted = {}, shown = {};
@@ -60,6 +69,7 @@ function readOut(frame, triangles) {
   const {requests} = terrain.loaded;
   if (requests) parts.push(requests === 1 ? '1 request' : `${requests} requests`);
   $('split-text').textContent = parts.join(' · ');
+  map.draw();
 }
 
 /** The next prefix on the way: what is here already at once, else fourfold. */
@@ -81,7 +91,10 @@ function show(frame, request) {
   picture.draw();
 }
 
-/** Decodes until what is shown is what is wanted. */
+/** Of streams with an index bytes come for what is looked at. */
+const isPlanned = () => terrain.info.hasIndex && object.frame !== null;
+
+/** Decodes until what is shown is what is wanted, or all that this view needs. */
 async function pump() {
   if (pumping || !terrain) return;
   pumping = true;
@@ -92,8 +105,9 @@ async function pump() {
         (shown.bytes !== wanted.bytes || shown.triangles !== wanted.triangles)) {
       const {info} = terrain, request = {bytes: nextBytes(), triangles: wanted.triangles};
       const otherBytes = request.bytes !== shown.bytes;
+      const view = isPlanned() ? object.viewOf(picture.camera, picture.pixels) : null;
       const frame = await current.decode({
-        ...request, normals: true, signal: opening.signal,
+        ...request, view, normals: true, signal: opening.signal,
         texture: otherBytes, surface: otherBytes && !info.hasTexture,
         texels: Math.min(4096, picture.renderer.capabilities.maxTextureSize), samples: 1024,
       });
@@ -103,6 +117,8 @@ async function pump() {
         tell(`The file is cut short: ${formatBytes(frame.bytes)} of ` +
           `${formatBytes(info.streamBytes)} are there, and shown.`, true);
       }
+      // This view needs no more.
+      if (view && frame.bytes < request.bytes) request.bytes = wanted.bytes;
       show(frame, request);
     }
     document.body.dataset.state = 'done';
@@ -128,6 +144,12 @@ function setWanted() {
   };
   pump();
 }
+/** Where the camera rests, other bytes may help. */
+function replan() {
+  if (!terrain || !shown.bytes || !isPlanned() || terrain.loaded.bytes >= wanted.bytes) return;
+  shown.bytes = terrain.loaded.bytes;
+  pump();
+}
 /** Of the header alone there is a surface too. */
 const leastBytes = () => Math.min(terrain.info.headerBytes, terrain.info.streamBytes - 1);
 const mostTriangles = () =>
@@ -151,7 +173,7 @@ async function openInput(input, name) {
   opening = new AbortController();
   const {signal} = opening;
   tell('');
-  $('welcome').hidden = true;
+  $('welcome').hidden = $('save').hidden = true;
   $('name').textContent = name;
   $('size').textContent = 'opening …';
   document.body.dataset.state = 'busy';
@@ -159,6 +181,7 @@ async function openInput(input, name) {
     const opened = await open(input, {signal, wasm, worker});
     if (signal.aborted) return opened.dispose();
     terrain = opened;
+    map.show(terrain);
     shown = {};
     object = new TksTerrain(terrain);
     object.material.wireframe = $('wireframe').checked;
@@ -171,6 +194,52 @@ async function openInput(input, name) {
     $('size').textContent = '';
     fail(error);
   }
+}
+
+/** Codes heights and an image, which then are what is open. */
+async function openSources(files) {
+  opening.abort();
+  opening = new AbortController();
+  const {signal} = opening, names = files.map(({name}) => name).join(' + ');
+  tell('');
+  $('welcome').hidden = true;
+  $('name').textContent = names;
+  $('size').textContent = 'reading …';
+  document.body.dataset.state = 'busy';
+  try {
+    const {readFiles} = await import('./read_files.js');
+    const input = await readFiles(files);
+    const samples = [input.heights, input.texture].filter(Boolean)
+      .reduce((sum, {width, height}) => sum + width * height, 0);
+    const bytes = Math.max(LEAST_BYTES, Math.round((BITS * samples) / 8));
+    const progress = (done) => ($('size').textContent = `encoding … ${Math.round(100 * done)} %`);
+    const stream = await encode({...input, bytes, index: true}, {...encoder, signal, progress});
+    if (signal.aborted) return;
+    const file = new File([stream], `${files[0].name.replace(/\.[^.]*$/, '')}.tks`);
+    await openInput(file, file.name);
+    offer(file);
+  } catch (error) {
+    if (signal.aborted) return;
+    $('size').textContent = '';
+    fail(error);
+  }
+}
+
+/** What was coded can be kept. */
+function offer(file) {
+  URL.revokeObjectURL($('save').href);
+  $('save').href = URL.createObjectURL(file);
+  $('save').download = file.name;
+  $('save').hidden = false;
+}
+
+/** A stream, or what can be coded into one. */
+async function openFiles(files) {
+  if (files.length === 0) return;
+  const magic = new TextDecoder().decode(await files[0].slice(0, 3).arrayBuffer());
+  const isStream = magic === 'TKS' || /\.tks$/i.test(files[0].name);
+  if (files.length === 1 && isStream) openInput(files[0], files[0].name);
+  else openSources(files);
 }
 
 const exaggeration = () => 10 ** ($('exaggeration').value / 20);
@@ -208,8 +277,7 @@ function listen() {
   });
   for (const id of ['another', 'choose']) $(id).addEventListener('click', () => $('file').click());
   $('file').addEventListener('change', () => {
-    const [file] = $('file').files;
-    if (file) openInput(file, file.name);
+    openFiles([...$('file').files]);
   });
   $('address').addEventListener('submit', (event) => {
     event.preventDefault();
@@ -225,8 +293,7 @@ function listen() {
   addEventListener('drop', (event) => {
     event.preventDefault();
     document.body.classList.remove('dropping');
-    const [file] = event.dataTransfer.files;
-    if (file) openInput(file, file.name);
+    openFiles([...event.dataTransfer.files]);
   });
 }
 
@@ -235,6 +302,7 @@ function openUrl(url) {
   openInput(resolved, decodeURIComponent(resolved.pathname.split('/').pop()));
 }
 
+picture.onrest = replan;
 listen();
 if (matchMedia('(max-width: 640px)').matches) $('fold').click();
 const address = new URLSearchParams(location.search).get('tks');

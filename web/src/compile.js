@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The WebAssembly modules, compiled once for all terrains of a page.
+import {TksError} from './error.js';
+import {hasVectors} from './module.js';
+
+const compiled = new Map();
+
+/** One of `assets`, or what the caller says: a URL, bytes, or a module. */
+export async function compile(assets, wasm) {
+  if (wasm instanceof WebAssembly.Module) return wasm;
+  if (wasm && typeof wasm !== 'string' && !(wasm instanceof URL)) return WebAssembly.compile(wasm);
+  const load = hasVectors() ? assets.full : assets.plain, key = wasm ? String(wasm) : load;
+  if (!compiled.has(key)) {
+    const fetched = async () =>
+      wasm ? WebAssembly.compile(await (await fetch(wasm)).arrayBuffer()) : load();
+    const promise = fetched().catch((error) => {
+      compiled.delete(key);
+      throw new TksError('io', `The WebAssembly module cannot be loaded (${error.message}). ` +
+        'Bundlers may need {wasm: URL}.', {cause: error});
+    });
+    compiled.set(key, promise);
+  }
+  return compiled.get(key);
+}

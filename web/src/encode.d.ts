@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {OpenOptions} from './index.js';
+
+export {TksError} from './index.js';
+
+export type Samples =
+  | Uint8Array | Int8Array | Uint16Array | Int16Array | Uint32Array | Int32Array | Float32Array;
+export type Registration = 'unknown' | 'area' | 'point';
+
+export interface HeightsInput {
+  /** Row by row. A sample v is the height v * scale + offset in `unit`; NaN and `nodata` are voids. */
+  data: Samples;
+  width: number;
+  height: number;
+  nodata?: number | null;
+  unit?: string;
+  /** Metres between samples, or those between columns and between rows. */
+  spacing?: number | [number, number];
+  scale?: number;
+  offset?: number;
+  /** Quantisation step in samples. Default: chosen. */
+  step?: number;
+  /** "EPSG:code", WKT or a name. */
+  crs?: string;
+  /** As GDAL's. */
+  geotransform?: ArrayLike<number>;
+  registration?: Registration;
+  verticalDatum?: string;
+  description?: string;
+  geoKeys?: string;
+}
+
+/** Over the same ground as the heights; an ImageData is one. */
+export interface TextureInput {
+  data: Uint8Array | Uint8ClampedArray | Uint16Array;
+  width: number;
+  height: number;
+  /** 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA. Default: as the length of the data tells. */
+  channels?: number;
+  crs?: string;
+  geotransform?: ArrayLike<number>;
+  registration?: Registration;
+  geoKeys?: string;
+}
+
+export interface EncodeInput {
+  heights?: HeightsInput;
+  texture?: TextureInput;
+  /** Targets, of which one may be given; without any, lossless. The stream takes at most so many
+   * bytes; heights and texture each reach so many dB; heights are within so much, in their unit. */
+  bytes?: number;
+  psnr?: number;
+  maxError?: number;
+  lossless?: boolean;
+  /** Meshes will have at most so many. Default: any number. */
+  triangles?: number;
+  /** Side of the spatial regions, a power of two from 16; 1: none. Default: chosen. */
+  regions?: number;
+  /** Write the index by which viewers fetch what they look at. Default false. */
+  index?: boolean;
+  /** Default 'psnr'. */
+  weights?: 'psnr' | 'visual';
+}
+
+export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
+  /** false: on this thread. A URL: where bundlers do not find `tetrakis/encode_worker`. */
+  worker?: boolean | string | URL;
+  /** Told how much is done, from 0 to 1. */
+  progress?: (done: number) => void;
+}
+
+/** The bytes of a stream. Rejects with a TksError. */
+export function encode(input: EncodeInput, options?: EncodeOptions): Promise<Uint8Array>;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encodes in the browser: the encoder is a module of its own, loaded when it is first used.
+import {assets} from '#encode_assets';
+import {compile} from './compile.js';
+import {encodeWith} from './encoder.js';
+import {TksError} from './error.js';
+import {abortable} from './source.js';
+
+export {TksError};
+
+function workerOf(worker) {
+  if (worker === false) return null;
+  if (typeof worker === 'string' || worker instanceof URL) return new Worker(worker, {type: 'module'});
+  try {
+    return assets.worker();
+  } catch {
+    return null;  // pages may not start workers of another origin
+  }
+}
+
+function encodeIn(worker, module, input, progress) {
+  return new Promise((resolve, reject) => {
+    worker.onmessage = ({data: {done, stream, error}}) => {
+      if (error) reject(new TksError(error.code, error.message));
+      else if (stream) resolve(stream);
+      else progress(done);
+    };
+    worker.onerror = (event) => {
+      event.preventDefault?.();
+      reject(new TksError('io', `The worker failed: ${event.message ?? 'it did not start'}.`));
+    };
+    worker.postMessage({module, input});
+  });
+}
+
+export async function encode(
+  {heights, texture, ...targets}, {signal, worker, wasm, progress = () => {}} = {}) {
+  signal?.throwIfAborted();
+  const module = await abortable(compile(assets, wasm), signal);
+  const input = {heights, texture, ...targets};
+  const thread = workerOf(worker);
+  if (!thread) return encodeWith(module, input, progress);
+  try {
+    return await abortable(encodeIn(thread, module, input, progress), signal);
+  } finally {
+    thread.terminate();
+  }
+}

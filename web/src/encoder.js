@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls the encoder's WebAssembly module. Nothing here waits: it runs in a worker as well.
+import {TksError} from './error.js';
+import {Instance, MESSAGE_BYTES, SAMPLES} from './module.js';
+
+const REGISTRATIONS = ['unknown', 'area', 'point'];
+const WEIGHTS = ['psnr', 'visual'];
+
+function oneOf(names, name, what) {
+  const number = names.indexOf(name ?? names[0]);
+  if (number < 0) throw new TksError('usage', `${what} is one of ${names.join(', ')}.`);
+  return number;
+}
+
+/** The number of tks_sample that arrays of this type are. */
+function sampleOf(data, what) {
+  const Type = data instanceof Uint8ClampedArray ? Uint8Array : data?.constructor;
+  const sample = SAMPLES.indexOf(Type);
+  if (sample < 0) {
+    throw new TksError('usage', `The data of ${what} are an array of ` +
+      `${SAMPLES.map(({name}) => name).join(', ')}.`);
+  }
+  return sample;
+}
+
+function checkSize({data, width, height}, channels, what) {
+  const isSide = (side) => Number.isInteger(side) && side > 0 && side < 2 ** 32;
+  if (isSide(width) && isSide(height) && data.length === width * height * channels) return;
+  throw new TksError('usage', `${what}: ${width} x ${height} samples of ${channels} are not the ` +
+    `${data.length} of its data.`);
+}
+
+/** A geotransform as six numbers, their names beginning with `letter`. */
+function placed(geotransform, flag, letter) {
+  if (!geotransform) return {};
+  if (geotransform.length !== 6) throw new TksError('usage', 'A geotransform has six numbers.');
+  return {[flag]: 1, ...Object.fromEntries([...geotransform].map((v, i) => [letter + i, v]))};
+}
+
+function heightsFields(heights) {
+  const {data, width, height, nodata, spacing = 0} = heights;
+  const sample = sampleOf(data, 'heights');
+  checkSize(heights, 1, 'heights');
+  const [spacingX, spacingY] = typeof spacing === 'number' ? [spacing, spacing] : spacing;
+  const {scale = 1, offset = 0, step = 0} = heights;
+  return {
+    width, height, sample, scale, offset, step, spacingX, spacingY,
+    hasNodata: nodata === undefined || nodata === null ? 0 : 1, nodata: nodata ?? 0,
+    registration: oneOf(REGISTRATIONS, heights.registration, 'registration'),
+    ...placed(heights.geotransform, 'hasGeotransform', 'g'),
+  };
+}
+
+function textureFields(texture) {
+  const {data, width, height} = texture;
+  const sample = sampleOf(data, 'the texture');
+  const channels = texture.channels ?? data.length / (width * height);
+  checkSize(texture, channels, 'texture');
+  return {
+    textureWidth: width, textureHeight: height, textureChannels: channels, textureSample: sample,
+    textureRegistration: oneOf(REGISTRATIONS, texture.registration, 'registration'),
+    ...placed(texture.geotransform, 'textureHasGeotransform', 't'),
+  };
+}
+
+/** What web_encode() takes, by name. */
+function fieldsOf({heights, texture, ...options}) {
+  const {bytes = 0, psnr = 0, maxError = 0, triangles = 0, regions = 0} = options;
+  const lossless = options.lossless ?? !(bytes || psnr || maxError);
+  for (const [name, value] of Object.entries({bytes, psnr, maxError, triangles, regions})) {
+    if (!(value >= 0)) throw new TksError('usage', `${name} is a number that is not negative.`);
+  }
+  return {
+    ...(heights ? heightsFields(heights) : {}), ...(texture ? textureFields(texture) : {}),
+    bytes, psnr, maxError, lossless: Number(lossless), triangles, regions,
+    index: Number(options.index ?? false), weights: oneOf(WEIGHTS, options.weights, 'weights'),
+  };
+}
+
+/** The texts of an input, by their names. */
+function textsOf({heights, texture}) {
+  const {unit, verticalDatum, crs, description, geoKeys} = heights ?? {};
+  return {unit, verticalDatum, crs, description, geoKeys,
+    textureCrs: texture?.crs, textureGeoKeys: texture?.geoKeys};
+}
+
+/** Memory of an instance for one encoding; the instance is then thrown away. */
+class Allocation {
+  constructor(instance) {
+    this.instance = instance;
+  }
+  of(bytes) {
+    const address = this.instance.calls.malloc(Math.max(bytes, 1));
+    if (address === 0) throw new TksError('memory', `There is no memory for ${bytes} bytes more.`);
+    return address;
+  }
+  array(array) {
+    const address = this.of(array.byteLength);
+    const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+    this.instance.view(Uint8Array, address, bytes.length).set(bytes);
+    return address;
+  }
+  text(text) {
+    return text === undefined || text === null ? 0
+      : this.array(new TextEncoder().encode(`${text}\0`));
+  }
+}
+
+/** tks_encode. `progress` is told how much is done, from 0 to 1. */
+export function encodeWith(module, input, progress) {
+  const fields = fieldsOf(input), texts = textsOf(input);
+  try {
+    const instance = new Instance(module, {web_progress: progress}), {calls} = instance;
+    const memory = new Allocation(instance);
+    const names = (call) => instance.text(calls[call]()).split(' ');
+    const numbers = memory.array(
+      Float64Array.from(names('web_encode_names'), (name) => fields[name] ?? 0));
+    const strings = memory.array(
+      Uint32Array.from(names('web_encode_texts'), (name) => memory.text(texts[name])));
+    const data = memory.array(Uint32Array.from([input.heights, input.texture],
+      (part) => (part ? memory.array(part.data) : 0)));
+    const out = memory.of(8 + MESSAGE_BYTES);
+    const status = calls.web_encode(numbers, strings, data, out, out + 8, MESSAGE_BYTES);
+    if (status !== 0) throw TksError.ofStatus(status, instance.text(out + 8));
+    const [address, size] = instance.view(Uint32Array, out, 2);
+    return instance.copy(Uint8Array, address, size);
+  } catch (error) {
+    if (error instanceof TksError) throw error;
+    throw new TksError('memory', 'The encoder ran out of memory: a page has 4 GB at most.',
+      {cause: error});
+  }
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The encoder as a module: its promises, its words, what it refuses; the same bytes as the native one.
+import assert from 'node:assert/strict';
+import {spawnSync} from 'node:child_process';
+import {existsSync} from 'node:fs';
+import {mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {test} from 'node:test';
+
+import {encode} from '../src/encode.js';
+import {TksError, open} from '../src/index.js';
+import {Decoder} from '../src/module.js';
+import {terrainOf, tiffOf} from './terrain.js';
+
+const CLI = process.env.TETRAKIS_CLI ?? new URL('../../build/tetrakis', import.meta.url).pathname;
+
+async function samplesOf(stream) {
+  const file = await readFile(new URL('../dist/tetrakis.wasm', import.meta.url));
+  const decoder = new Decoder(await WebAssembly.compile(file), 2 ** 30);
+  decoder.append(stream);
+  return decoder.samples(stream.length, 0);
+}
+
+test('lossless comes back bit for bit, with its place', async () => {
+  const {heights, texture} = terrainOf(48);
+  heights.data[77] = heights.nodata = -32768;
+  const stream = await encode({heights, texture});
+  const {info} = await open(stream);
+  assert.deepEqual(await samplesOf(stream), {heights: heights.data, texture: texture.data});
+  assert.equal(info.lossless, true);
+  assert.deepEqual(info.geotransform, heights.geotransform);
+  assert.deepEqual([info.crs, info.unit, info.spacingX, info.nodata], ['EPSG:32611', 'm', 30, -32768]);
+});
+
+test('targets are kept: bytes, largest error, dB', async () => {
+  const {heights, texture} = terrainOf(64);
+  let last = 0;
+  const budget = await encode({heights, texture, bytes: 3000, index: true, regions: 16},
+    {progress: (done) => (last = done)});
+  assert.ok(budget.length <= 3000 && budget.length > 2700);
+  assert.ok(last > 0.5 && last <= 1);
+  assert.equal((await open(budget)).info.hasIndex, true);
+  const floats = {...heights, data: Float32Array.from(heights.data, (v) => v + 0.25)};
+  const bounded = (await samplesOf(await encode({heights: floats, maxError: 2}))).heights;
+  assert.ok(bounded.every((v, i) => Math.abs(v - floats.data[i]) <= 2));
+  const {info} = await open(await encode({texture, psnr: 40}));
+  assert.ok(info.hasTexture && !info.hasHeights);
+});
+
+test('an ImageData is a texture', async () => {
+  const data = new Uint8ClampedArray(4 * 30).fill(255);
+  const {info} = await open(await encode({texture: {data, width: 6, height: 5}}));
+  assert.equal(info.textureChannels, 4);
+});
+
+test('what makes no sense is refused by code and sentence', async () => {
+  const {heights, texture} = terrainOf(16);
+  const refused = (input, pattern) => assert.rejects(encode(input), (error) => {
+    assert.ok(error instanceof TksError);
+    assert.equal(error.code, 'usage', error.message);
+    assert.match(error.message, pattern);
+    return true;
+  });
+  await refused({}, /./);
+  await refused({heights, bytes: 100, psnr: 30}, /./);
+  await refused({heights, bytes: -1}, /bytes is a number that is not negative/);
+  await refused({heights: {...heights, data: [1, 2]}}, /an array of Uint8Array/);
+  await refused({heights: {...heights, width: 17}}, /17 x 16 samples/);
+  await refused({heights: {...heights, geotransform: [1, 2]}}, /six numbers/);
+  await refused({heights: {...heights, registration: 'pixel'}}, /one of unknown, area, point/);
+  await refused({texture: {...texture, channels: 5}}, /./);
+  await assert.rejects(encode({heights}, {signal: AbortSignal.abort(new Error('gone'))}), /gone/);
+});
+
+test('the bytes are those of the native encoder', {skip: !existsSync(CLI)}, async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
+  const {data, width, height} = terrainOf(65).heights;
+  const name = join(folder, 'height.tif'), out = join(folder, 'out.tks');
+  await writeFile(name, tiffOf({data, width, height}));
+  const targets = [[{}, ['--lossless']], [{bytes: 2000}, ['--bytes', '2000']],
+    [{maxError: 3}, ['--max-error', '3']]];
+  for (const [target, options] of targets) {
+    const {status, stderr} = spawnSync(CLI, ['encode', name, ...options, '-f', '-o', out]);
+    assert.equal(status, 0, String(stderr));
+    const native = new Uint8Array(await readFile(out));
+    const info = await open(native).then((terrain) => terrain.info);
+    const stream = await encode({...target, heights: {data, width, height,
+      spacing: [info.spacingX, info.spacingY], unit: info.unit || undefined,
+      crs: info.crs || undefined,
+      geotransform: info.hasGeotransform ? info.geotransform : undefined}});
+    assert.deepEqual(await samplesOf(stream), await samplesOf(native));
+    assert.deepEqual(stream, native);
+  }
+  await rm(folder, {recursive: true});
+});

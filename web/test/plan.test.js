@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Streams with an index: what is fetched for a view, by how many requests, and what then is decoded.
+import assert from 'node:assert/strict';
+import {mkdtemp, rm, writeFile} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {PerspectiveCamera} from 'three';
+
+import {encode} from '../src/encode.js';
+import {open} from '../src/index.js';
+import {Held, requestsFor} from '../src/ranges.js';
+import {TksTerrain} from '../src/three.js';
+import {serve} from './server.js';
+import {terrainOf} from './terrain.js';
+
+const SIDE = 193;
+let folder, bytes, original;
+
+before(async () => {
+  original = terrainOf(SIDE);
+  bytes = await encode({...original, bytes: 90000, index: true, regions: 32});
+  folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
+  await writeFile(join(folder, 'a.tks'), bytes);
+  await writeFile(join(folder, 'cut.tks'), bytes.subarray(0, 60000));
+});
+after(() => rm(folder, {recursive: true}));
+
+/** A map of a square of samples, so many pixels wide. */
+function mapOf(x, y, side, pixels) {
+  const k = 2 / side;
+  return {clip: [k, 0, 0, -k * x - 1, 0, -k, 0, k * y + 1, 0, 0, 0, 0, 0, 0, 0, 1],
+    width: pixels, height: pixels};
+}
+const CORNER = mapOf(0, 0, 48, 480);
+
+/** Squared error of the texture over a square. */
+function errorIn({data}, x0, y0, side) {
+  let sum = 0;
+  for (let y = y0; y < y0 + side; ++y) {
+    for (let x = x0; x < x0 + side; ++x) {
+      for (let c = 0; c < 3; ++c) {
+        sum += (data[4 * (y * SIDE + x) + c] - original.texture.data[3 * (y * SIDE + x) + c]) ** 2;
+      }
+    }
+  }
+  return sum;
+}
+
+async function served(faults, use) {
+  const server = await serve(folder, faults);
+  try {
+    return await use(server.url + 'a.tks', server);
+  } finally {
+    await server.close();
+  }
+}
+
+test('bytes that are here, and gaps', () => {
+  const held = new Held();
+  for (const [b, e] of [[10, 20], [30, 40], [20, 25], [24, 31], [50, 50]]) held.add(b, e);
+  assert.deepEqual(held.ranges, [[10, 40]]);
+  held.add(60, 70);
+  assert.equal(held.bytes, 40);
+  assert.deepEqual(held.gaps(0, 65), [[0, 10], [40, 60]]);
+  assert.deepEqual(held.gaps(12, 30), []);
+});
+
+test('neighbours are one request; the bytes are kept', () => {
+  assert.deepEqual(requestsFor([[90000, 94000], [0, 3000], [3300, 9000]], 20000),
+    [[90000, 94000], [0, 9000]]);
+  assert.deepEqual(requestsFor([[0, 500], [9000, 9800]], 1000), [[0, 500]]);
+  assert.deepEqual(requestsFor([[0, 5000]], 1000), [[0, 1000]]);
+  const many = Array.from({length: 99}, (_, i) => [i * 9000, i * 9000 + 10]);
+  assert.equal(requestsFor(many, 1e6).length, 12);
+});
+
+test('two requests before the first picture; then what the view needs, and no more', async () => {
+  await served({}, async (url, server) => {
+    const terrain = await open(url);
+    assert.equal(terrain.info.hasIndex, true);
+    const frames = [];
+    for await (const frame of terrain.refine({view: CORNER, mesh: false})) {
+      if (frames.length === 0) assert.ok(server.requests.length <= 2);
+      assert.equal(frame.bytes, terrain.loaded.bytes);
+      frames.push(frame);
+    }
+    const last = frames.at(-1), {loaded} = terrain;
+    assert.ok(frames.length > 1 && !last.complete);
+    assert.equal(loaded.ranges.reduce((sum, [b, e]) => sum + e - b, 0), loaded.bytes);
+    const whole = await (await open(bytes)).decode({mesh: false});
+    const prefix = await (await open(bytes)).decode({mesh: false, bytes: last.bytes});
+    assert.ok(errorIn(last.texture, 4, 4, 36) < 0.2 * errorIn(prefix.texture, 4, 4, 36));
+    assert.ok(errorIn(last.texture, 4, 4, 36) < 2 * 3 * 36 ** 2);
+    // Elsewhere then nothing is fetched twice, and all of it is the whole.
+    const before = server.requests.length;
+    await terrain.decode({view: mapOf(140, 140, 48, 480), mesh: false});
+    assert.ok(server.requests.length > before);
+    assert.deepEqual((await terrain.decode({mesh: false})).texture, whole.texture);
+    assert.deepEqual(terrain.loaded.ranges, [[0, bytes.length]]);
+    // Fewer bytes: the first that came.
+    assert.equal((await terrain.decode({mesh: false, bytes: last.bytes})).bytes, last.bytes);
+    const window = {x: 0, y: 0, width: 10, height: 10};
+    const needed = await terrain.needed({part: 'texture', window});
+    assert.ok(needed.every(([b, e]) => b < e && e <= bytes.length));
+    terrain.dispose();
+  });
+});
+
+test('a limit of bytes is kept', async () => {
+  const terrain = await open(bytes);
+  const limit = terrain.info.headerBytes + 9000;
+  for await (const {bytes: here} of terrain.refine({view: CORNER, bytes: limit})) {
+    assert.ok(here <= Math.max(limit, 8192));
+  }
+  assert.equal(terrain.loaded.bytes, limit);
+});
+
+test('servers without ranges, or that forget them, and files cut short', async () => {
+  const whole = await (await open(bytes)).decode({mesh: false});
+  await served({noRanges: true}, async (url, server) => {
+    const terrain = await open(url);
+    for await (const frame of terrain.refine({view: CORNER, mesh: false})) assert.ok(frame.texture);
+    assert.equal(server.requests.length, 1);
+    assert.equal(terrain.loaded.bytes, bytes.length);
+  });
+  await served({}, async (url, server) => {
+    const terrain = await open(url);
+    await terrain.decode({view: CORNER, mesh: false, bytes: terrain.info.headerBytes + 12000});
+    server.faults.noRanges = true;
+    const frame = await terrain.decode({view: CORNER, mesh: false});
+    assert.deepEqual(frame.texture, whole.texture);
+  });
+  await served({}, async (url) => {
+    const terrain = await open(url.replace('a.tks', 'cut.tks'));
+    const frame = await terrain.decode({view: CORNER, mesh: false});
+    assert.ok(frame.bytes <= 60000 && terrain.truncated && !frame.complete);
+  });
+});
+
+test('a view that is none is refused', async () => {
+  const terrain = await open(bytes);
+  for (const view of [{...CORNER, width: 0}, {...CORNER, clip: [1]}]) {
+    await assert.rejects(terrain.decode({view}), /clip, 16 numbers, and width and height/);
+  }
+});
+
+test('a terrain of three.js fetches for its camera, and on when that moves', async () => {
+  const object = new TksTerrain(await open(bytes), {triangles: 2000});
+  const camera = new PerspectiveCamera(40, 1.6, 1, 1e6);
+  const look = async (x, z) => {
+    camera.position.set(x, 1500, z);
+    camera.lookAt(1.5 * x, 0, 1.5 * z);
+    for (let quiet = 0; quiet < 8; ) {
+      const before = object.terrain.loaded.bytes;
+      object.update(camera, 400);
+      await new Promise((resolve) => setTimeout(resolve, 80));
+      quiet = object.terrain.loaded.bytes > before ? 0 : quiet + 1;
+    }
+    return object.terrain.loaded.bytes;
+  };
+  const first = await look(-2000, -2000);
+  assert.ok(first < 0.8 * bytes.length, `${first}`);
+  assert.equal(await look(-2000, -2000), first);
+  assert.ok((await look(2000, 2000)) > first);
+  assert.equal(object.frame.bytes, object.terrain.loaded.bytes);
+  object.dispose();
+});

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights and images as the viewer's users have them, as encode() takes them: GeoTIFFs by geotiff.js,
+// other images by the browser. Loaded when the first such file is opened.
+import {fromArrayBuffer} from 'geotiff';
+
+const RADIUS = 6371008.8;
+/** EPSG codes of units of length, in metres. */
+const UNITS = {9001: ['m', 1], 9002: ['ft', 0.3048], 9003: ['us-ft', 1200 / 3937]};
+const UNIT_NAMES = {metre: 'm', meter: 'm', metres: 'm', foot: 'ft', feet: 'ft'};
+/** A page's memory holds no more while it encodes. */
+const MOST_SAMPLES = 2 ** 24;
+const USER_DEFINED = 32767;
+
+const isTiff = (bytes) => {
+  const [a, b, c] = bytes;
+  return (a === 0x49 && b === 0x49 && (c === 42 || c === 43)) || (a === 0x4d && b === 0x4d);
+};
+
+function checkSize(name, width, height) {
+  if (width * height <= MOST_SAMPLES) return;
+  throw new Error(`${name} has ${width} × ${height} samples, more than a page can encode (4096 × ` +
+    '4096). The command line can: tetrakis encode.');
+}
+
+/** As GDAL's: of the outer corner of the first sample. */
+function geotransformOf(directory, isPoint) {
+  const value = (tag) => directory.hasTag(tag) && directory.getValue(tag);
+  const matrix = value('ModelTransformation'), tie = value('ModelTiepoint');
+  const scale = value('ModelPixelScale');
+  let t;
+  if (matrix) t = [matrix[3], matrix[0], matrix[1], matrix[7], matrix[4], matrix[5]];
+  else if (scale && tie?.length === 6) {
+    t = [tie[3] - tie[0] * scale[0], scale[0], 0, tie[4] + tie[1] * scale[1], 0, -scale[1]];
+  } else return null;
+  if (isPoint) [t[0], t[3]] = [t[0] - (t[1] + t[2]) / 2, t[3] - (t[4] + t[5]) / 2];
+  return t;
+}
+
+/** Metres between columns and between rows; nothing where units are unknown. */
+function spacingOf(t, keys, height) {
+  if (!t) return 0;
+  let east = UNITS[keys.ProjLinearUnitsGeoKey ?? 9001]?.[1], north = east;
+  if (keys.GTModelTypeGeoKey === 2) {
+    north = (RADIUS * Math.PI) / 180;
+    east = north * Math.cos(((t[3] + (height / 2) * t[5]) * Math.PI) / 180);
+  } else if (keys.GTModelTypeGeoKey !== 1) return 0;
+  const x = Math.hypot(t[1] * east, t[4] * north), y = Math.hypot(t[2] * east, t[5] * north);
+  return x > 0 && y > 0 && isFinite(x) && isFinite(y) ? [x, y] : 0;
+}
+
+const crsOf = (code) => (code && code !== USER_DEFINED ? `EPSG:${code}` : undefined);
+
+function placeOf(image) {
+  const keys = image.getGeoKeys() ?? {};
+  const isPoint = keys.GTRasterTypeGeoKey === 2;
+  return {
+    keys,
+    geotransform: geotransformOf(image.fileDirectory, isPoint),
+    crs: crsOf(keys.ProjectedCSTypeGeoKey) ?? crsOf(keys.GeographicTypeGeoKey),
+    registration: isPoint ? 'point' : keys.GTRasterTypeGeoKey === 1 ? 'area' : 'unknown',
+  };
+}
+
+async function readTiff(name, buffer) {
+  const image = await (await fromArrayBuffer(buffer)).getImage();
+  const width = image.getWidth(), height = image.getHeight();
+  checkSize(name, width, height);
+  const channels = image.getSamplesPerPixel();
+  const {keys, ...place} = placeOf(image);
+  const data = await image.readRasters({interleave: true});
+  const isImage = channels > 1;
+  if (isImage && !(data instanceof Uint8Array || data instanceof Uint16Array)) {
+    throw new Error(`${name} has ${channels} bands of ${data.constructor.name}: neither heights ` +
+      '(one band) nor an image (8 or 16 bits).');
+  }
+  if (isImage) {
+    const kept = Math.min(channels, 4);
+    return {texture: {...place, width, height, channels: kept,
+      data: kept === channels ? data : firstBands(data, channels, kept)}};
+  }
+  // Samples may be scaled, as GDAL says it.
+  const {SCALE = 1, OFFSET = 0, UNITTYPE} = {...(await image.getGDALMetadata(0))};
+  const [unit = UNIT_NAMES[UNITTYPE] ?? UNITTYPE] = UNITS[keys.VerticalUnitsGeoKey] ?? [];
+  return {heights: {
+    ...place, width, height, unit, scale: Number(SCALE), offset: Number(OFFSET), nodata: image.getGDALNoData(),
+    data: data instanceof Float64Array ? Float32Array.from(data) : data,
+    spacing: spacingOf(place.geotransform, keys, height),
+    verticalDatum: crsOf(keys.VerticalCSTypeGeoKey),
+  }};
+}
+
+function firstBands(data, channels, kept) {
+  const result = new data.constructor((data.length / channels) * kept);
+  for (let i = 0, out = 0; i < data.length; i += channels) {
+    for (let c = 0; c < kept; ++c) result[out++] = data[i + c];
+  }
+  return result;
+}
+
+/** RGB where nothing is transparent. */
+async function readImage(name, file) {
+  const bitmap = await createImageBitmap(file, {premultiplyAlpha: 'none', colorSpaceConversion: 'none'});
+  const {width, height} = bitmap;
+  checkSize(name, width, height);
+  const context = new OffscreenCanvas(width, height).getContext('2d', {willReadFrequently: true});
+  context.drawImage(bitmap, 0, 0);
+  bitmap.close();
+  const {data} = context.getImageData(0, 0, width, height);
+  let opaque = true;
+  for (let i = 3; i < data.length && opaque; i += 4) opaque = data[i] === 255;
+  return {texture: opaque
+    ? {width, height, channels: 3, data: firstBands(new Uint8Array(data.buffer), 4, 3)}
+    : {width, height, channels: 4, data: new Uint8Array(data.buffer)}};
+}
+
+async function readOne(file) {
+  const first = new Uint8Array(await file.slice(0, 4).arrayBuffer());
+  try {
+    return isTiff(first) ? await readTiff(file.name, await file.arrayBuffer())
+      : await readImage(file.name, file);
+  } catch (error) {
+    if (error.message.startsWith(file.name)) throw error;
+    throw new Error(`${file.name} cannot be read as a GeoTIFF or an image (${error.message}).`,
+      {cause: error});
+  }
+}
+
+/** {heights, texture} of one or two files. */
+export async function readFiles(files) {
+  const parts = [];
+  for (const file of files) parts.push(await readOne(file));
+  const heights = parts.filter((part) => part.heights), textures = parts.filter((part) => part.texture);
+  if (heights.length > 1 || textures.length > 1) {
+    const two = heights.length > 1 ? 'hold heights' : 'are images';
+    throw new Error(`Two of these files ${two}. Drop one GeoTIFF of heights and one image over it.`);
+  }
+  return {...heights[0], ...textures[0]};
+}
