@@ -14,6 +14,7 @@
 #include "codec/geometry/voids.hpp"
 #include "encoder/candidate.hpp"
 #include "encoder/height_errors.hpp"
+#include "wavelet/priority_map_encoder.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -101,18 +102,23 @@ HeightPurpose usualCut(const Bound& bound, int32_t largest) {
           bound.options.threads};
 }
 
+FlatChoice flatAreasOf(const Bound& bound, int32_t largest) {
+  const HeightSteps& steps = bound.of->steps;
+  return chooseFlatAreas({steps.steps, extentOf(*bound.of->samples), steps.valid},
+                         usualCut(bound, largest));
+}
+
 /// mean_square: that the cut leaves, in steps; nothing: what takes the fewest bytes.
-CodedHeights correct(const Bound& bound, int32_t largest, std::optional<double> mean_square) {
+CodedHeights correct(const Bound& bound, int32_t largest, FlatChoice choice,
+                     std::optional<double> mean_square) {
   const QuantisedHeights& heights = *bound.of;
-  FlatChoice choice =
-      chooseFlatAreas({heights.steps.steps, extentOf(*heights.samples), heights.steps.valid},
-                      usualCut(bound, largest));
   const EncodedTrack whole = std::move(
       codeCoefficients(heights, choice.wavelet, choice.flat.beside(bound.options)).front());
   choice.wavelet.rounded_bytes = exactBytes(std::span(&whole, 1));
   GeometryHeader header = headerOf(heights);
   header.wavelet = choice.wavelet;
   header.planes = static_cast<uint8_t>(whole.planes);
+  if (bound.options.priorities != nullptr) header.priorities = headerOf(*bound.options.priorities);
   const CorrectedCut cut_of(heights.steps, choice.flat.areas, header, whole, largest);
   const uint64_t bytes = mean_square ? cut_of.bytesFor(*mean_square) : cut_of.best();
   const Corrected corrected = cut_of.correct(bytes);
@@ -123,6 +129,7 @@ CodedHeights correct(const Bound& bound, int32_t largest, std::optional<double> 
   }
   CodedHeights coded =
       joinLayers(bound.of, layers, {cutAt(whole, bytes)}, bound.options.region_log2);
+  coded.header.priorities = header.priorities;
   // In the account's own measure, which the audit corrects later.
   if (!corrected.codeword.empty()) {
     coded.tracks.front().points.back().distortion =
@@ -143,7 +150,8 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
   }
   const bool one_track = bound.options.region_log2 == 0;  // is cut, not many
   if (ways.correct && one_track)
-    made.push_back(candidateOf(correct(bound, largest, ways.mean_square)));
+    made.push_back(
+        candidateOf(correct(bound, largest, flatAreasOf(bound, largest), ways.mean_square)));
   return made;
 }
 
@@ -181,6 +189,16 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
     if (!made.empty()) return fewestBytes(std::move(made)).coded;
   }
   return exactly();
+}
+
+/// Corrections pay from about this RMSE on, in steps: where more of the coefficients are sent, the
+/// two together take as many bytes or more, and where fewer are, prefixes lose quality.
+CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy) {
+  constexpr double kExactCut = 0.3;
+  assert(lossy.tracks.size() == 1 && lossy.of->steps.exact && lossy.of->table.empty());
+  const WaveletHeader& wavelet = lossy.header.wavelet;
+  const Bound bound{lossy.of, Purpose::kLossy, wavelet, heightOptions(inputs), 0};
+  return correct(bound, 0, {lossy.flat, wavelet}, kExactCut * kExactCut);
 }
 
 }  // namespace tetrakis::inline encoder

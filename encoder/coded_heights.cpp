@@ -127,8 +127,8 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
   const QuantisedHeights& heights = *of;
   const auto& [all_layers, corrections, wavelet, flat] = layers;
-  CodedHeights coded{std::move(of),           headerOf(heights),  all_layers,
-                     std::move(coefficients), corrections.size(), heights.left};
+  CodedHeights coded{std::move(of),      headerOf(heights), all_layers, std::move(coefficients),
+                     corrections.size(), heights.left,      flat};
   coded.header.wavelet = wavelet;
   coded.header.planes = static_cast<uint8_t>(coded.tracks.front().planes);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);

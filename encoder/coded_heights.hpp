@@ -26,6 +26,7 @@ struct CodedHeights {
   std::vector<EncodedTrack> tracks;
   uint64_t closing = 0;  ///< bytes of corrections
   double left = 0;       ///< QuantisedHeights::left, or what stored samples leave
+  FlatLayer flat = {};   ///< beside which the coefficients were coded
 
   /// The complete tracks restore every sample.
   bool restoresSamples() const;

@@ -42,6 +42,11 @@ CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const Textu
   return codedBy(std::move(of), std::move(encoded));
 }
 
+CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy) {
+  const TextureOptions options = textureOptions(inputs, lossy.of->texels);
+  return codedBy(lossy.of, encodeReversibly(*lossy.of, lossy.header, options));
+}
+
 CodedTexture codeFurtherIfNeeded(const EncodeInputs& inputs, CodedTexture coded) {
   assert(inputs.options.psnr > 0);
   const bool complete = coded.tracks.front().complete;

@@ -35,6 +35,9 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> of,
                          Purpose purpose);
 
+/// To the last bit, with the colours and filters of lossy textures, which are not drawn or stored.
+CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy);
+
 /// The same, but to the end, if the samples of `coded` miss the PSNR that its account meets.
 CodedTexture codeFurtherIfNeeded(const EncodeInputs& inputs, CodedTexture coded);
 

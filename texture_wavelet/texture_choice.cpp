@@ -6,6 +6,7 @@
 #include "texture_wavelet/texture_choice.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -137,6 +138,16 @@ EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, Textu
   const bool shorter = stored < bytesOf(encoded.tracks) && stored <= options.room;
   return purpose == Purpose::kLossless && shorter ? storeTexture(source.texels)
                                                   : std::move(encoded);
+}
+
+EncodedTexture encodeReversibly(const TextureSource& source, TextureHeader lossy,
+                                const TextureOptions& options) {
+  assert(!lossy.direct());
+  std::vector<uint8_t> photograph;
+  if (lossy.overlay_bytes > 0)
+    photograph = photographOf(source.texels, source.counted(lossy.hidden));
+  lossy.wavelet = withoutFraction(lossy.wavelet);
+  return encodeByWavelet(source, Purpose::kLossless, options, photograph, &lossy);
 }
 
 }  // namespace tetrakis::inline texture

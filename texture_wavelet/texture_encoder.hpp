@@ -15,9 +15,8 @@ namespace tetrakis::inline texture {
 /// everything in the first track. Colours that it hides are coded for Purpose::kLossless alone.
 /// photograph: from photographOf(). It marks the texels of the photograph; the others are the
 /// overlay, which comes next. If it marks every texel there is no overlay. Complete tracks without
-/// fraction bits that hide nothing are lossless. like: the header of an attempt of the same purpose
-/// and photograph, whose colours and filters are taken over; null: they are chosen, which gives the
-/// same.
+/// fraction bits that hide nothing are lossless. like: a header whose colours and filters are taken
+/// over; null: they are chosen, which gives those of an attempt of the same purpose and photograph.
 EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
                                const TextureOptions& options, Mask photograph = {},
                                const TextureHeader* like = nullptr);

@@ -182,6 +182,13 @@ WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, in
   return chooseAmong(samplesOf(planes), bits, purpose).header;
 }
 
+WaveletHeader withoutFraction(WaveletHeader lossy) {
+  lossy.bits = static_cast<uint8_t>(lossy.bits - lossy.fraction_bits);
+  lossy.fraction_bits = 0;
+  lossy.first_doubled = kLateDoubled;
+  return lossy;
+}
+
 double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
   const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
   const double whole = static_cast<double>(plane.extent().samples()) / samplesIn(samples);

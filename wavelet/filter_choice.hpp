@@ -30,6 +30,9 @@ WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSam
 WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,
                             Purpose purpose);
 
+/// The filters of a lossy choice, for the last bit.
+WaveletHeader withoutFraction(WaveletHeader lossy);
+
 /// About how many bits the coefficients of a plane take that is coded to the last bit.
 double losslessBits(const PlaneView<const int32_t>& plane, int bits);
 
