@@ -25,24 +25,16 @@ constexpr size_t kPoints = 6144;
 /// Of one picture: at first, and about each pixel of 768 x 512.
 constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
 
-/// The heights that a view of a coarser level shows, and between them those of straight lines.
-std::vector<float> spread(const std::vector<float>& shown, Extent whole, const View& view) {
-  const Extent coarse = view.extentIn(whole);
-  const uint32_t step = view.step();
+/// The heights that a view of a coarser level shows, with the last ones once more where they do not
+/// reach the border.
+std::vector<float> toBorder(std::vector<float> shown, Extent extent, Extent reaching) {
+  if (extent == reaching) return shown;
   std::vector<float> heights;
-  heights.reserve(whole.samples());
-  std::vector<float> row(coarse.width);
-  for (uint32_t y = 0; y < whole.height; ++y) {
-    const float* north = &shown[size_t{y >> view.level} * coarse.width];
-    const bool below = (y >> view.level) + 1 < coarse.height;
-    const float* south = below ? north + coarse.width : north;
-    const float part = static_cast<float>(y % step) / static_cast<float>(step);
-    for (uint32_t x = 0; x < coarse.width; ++x) row[x] = north[x] + (south[x] - north[x]) * part;
-    for (uint32_t x = 0; x < whole.width; ++x) {
-      const uint32_t west = x >> view.level, east = std::min(west + 1, coarse.width - 1);
-      heights.push_back(row[west] + (row[east] - row[west]) * static_cast<float>(x % step) /
-                                        static_cast<float>(step));
-    }
+  heights.reserve(reaching.samples());
+  for (uint32_t y = 0; y < reaching.height; ++y) {
+    const float* row = &shown[size_t{std::min(y, extent.height - 1)} * extent.width];
+    heights.insert(heights.end(), row, row + extent.width);
+    if (extent.width < reaching.width) heights.push_back(row[extent.width - 1]);
   }
   return heights;
 }
@@ -98,7 +90,9 @@ class Decoded {
  public:
   Decoded(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
           const Rated<CodedTexture>& texture)
-      : inputs_(inputs), heights_(heights), texture_(texture) {}
+      : inputs_(inputs), heights_(heights), texture_(texture) {
+    heights_memory_.tracks.all_levels = texture_memory_.tracks.all_levels = true;
+  }
 
   struct Samples {
     std::vector<std::byte> data;  ///< of the type of the inputs
@@ -108,9 +102,8 @@ class Decoded {
     const CodedHeights& coded = heights_.coded;
     const uint64_t bytes = heights_.curve.points[point].bytes;
     const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
-    HeightsMemory* memory = view.isWhole() ? &heights_memory_ : nullptr;
-    DecodedHeights shown =
-        decodeHeights(coded.header, coded.layers, prefix, view, {inputs_.options.threads, memory});
+    DecodedHeights shown = decodeHeights(coded.header, coded.layers, prefix, view,
+                                         {inputs_.options.threads, &heights_memory_});
     std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
                                    shown.geometry.heights.size());
     fromSteps(shown, coded.header, coded.layers, samples.data());
@@ -129,7 +122,8 @@ class Decoded {
     shown.height = view.extentIn(extent).height;
     Relief relief = reliefOf(shown, samples.data.data(), samples.valid);
     relief.frame = frameOf(whole);
-    if (view.level > 0) relief.heights = spread(relief.heights, extent, view);
+    relief.step = view.step();
+    relief.heights = toBorder(std::move(relief.heights), view.extentIn(extent), relief.extent());
     return relief;
   }
   Relief original() const {
@@ -148,8 +142,7 @@ class Decoded {
     const CodedTexture& coded = texture_.coded;
     const uint64_t bytes = texture_.curve.points[point].bytes;
     const Codewords prefix = prefixAfter(coded.rated(), texture_.curve.packets, bytes);
-    TextureMemory* memory = view.level == 0 ? &texture_memory_ : nullptr;
-    return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, memory});
+    return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, &texture_memory_});
   }
 
  private:
