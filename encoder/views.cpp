@@ -57,6 +57,7 @@ std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t 
   constexpr double kFirst = 64;  // bytes
   const std::vector<RatePoint>& points = curve.points;
   std::vector<size_t> nodes = {curve.opened};
+  const auto most = static_cast<double>(budget);
   double next = kFirst;
   for (size_t i = curve.opened + 1; i < points.size(); ++i) {
     const double bytes =
@@ -66,7 +67,7 @@ std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t 
     const RatePoint& before = points[nodes.back()];
     if (!(points[i].distortion > 0 && points[i].distortion < before.distortion)) continue;
     nodes.push_back(i);
-    next = std::max(bytes, next) * ratio;
+    next = std::min(std::max(bytes, next) * ratio, std::max(most, bytes));
     if (points[i].bytes >= budget) break;
   }
   return nodes;
@@ -166,17 +167,23 @@ class Decoded {
   TextureMemory texture_memory_;
 };
 
-/// Those of outlines, of the surfaces before the original, which is the last.
-std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenTexture& texture,
-                                  const std::vector<std::vector<SeenPoint>>& seen,
-                                  const std::vector<double>& squares) {
-  std::vector<std::vector<Colour>> colours;
-  std::vector<ScreenPoints::Pictures> pictures;
+/// What surfaces look like with one texture.
+using SeenColours = std::vector<std::vector<Colour>>;
+
+SeenColours coloursOf(const ScreenPoints& points, const std::vector<std::vector<SeenPoint>>& seen,
+                      const ScreenTexture& texture) {
+  SeenColours colours;
   colours.reserve(seen.size());
-  for (const auto& surface : seen) {
-    colours.push_back(points.coloursOf(surface, texture));
-    pictures.push_back({surface, colours.back()});
-  }
+  for (const auto& surface : seen) colours.push_back(points.coloursOf(surface, texture));
+  return colours;
+}
+
+/// Those of outlines, of the surfaces before the original, which is the last.
+std::vector<double> outlineErrors(const ScreenPoints& points,
+                                  const std::vector<std::vector<SeenPoint>>& seen,
+                                  const SeenColours& colours, const std::vector<double>& squares) {
+  std::vector<ScreenPoints::Pictures> pictures;
+  for (size_t g = 0; g < seen.size(); ++g) pictures.push_back({seen[g], colours[g]});
   const ScreenPoints::Pictures truth = pictures.back();
   pictures.pop_back();
   std::vector<double> errors = points.errorsOfOutlines(truth, pictures, squares);
@@ -195,18 +202,15 @@ std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const Gro
   seen.push_back(points.seenOf(ground, texels.extent()));
   const size_t columns = nodes.textures.size() + 1;
   std::vector<double> errors(seen.size() * columns);
-  const ScreenTexture whole(texels, texels.extent());
-  const std::vector<Colour> truth = points.coloursOf(seen.back(), whole);
-  const std::vector<double> outlines = outlineErrors(points, whole, seen, nodes.square_metres);
+  const SeenColours whole = coloursOf(points, seen, ScreenTexture(texels, texels.extent()));
+  const ScreenPoints::Pictures truth{seen.back(), whole.back()};
+  const std::vector<double> outlines = outlineErrors(points, seen, whole, nodes.square_metres);
   for (size_t t = 0; t < columns; ++t) {
-    const auto look = [&](const ScreenTexture& texture) {
-      for (size_t g = 0; g < seen.size(); ++g) {
-        const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
-        errors[g * columns + t] =
-            points.errorInside({seen.back(), truth}, {seen[g], colours}) + outlines[g];
-      }
-    };
-    t + 1 < columns ? look(decoded.textureAt(nodes.textures[t])) : look(whole);
+    const bool original = t + 1 == columns;
+    const SeenColours shown =
+        original ? whole : coloursOf(points, seen, decoded.textureAt(nodes.textures[t]));
+    for (size_t g = 0; g < seen.size(); ++g)
+      errors[g * columns + t] = points.errorInside(truth, {seen[g], shown[g]}) + outlines[g];
   }
   return errors;
 }
