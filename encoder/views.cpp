@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "base/samples.hpp"
 #include "codec/geometry/voids.hpp"
 #include "encoder/height_errors.hpp"
+#include "encoder/shown_mesh.hpp"
 #include "encoder/view_inputs.hpp"
 #include "ratecontrol/screen_points.hpp"
 
@@ -93,6 +95,8 @@ class Decoded {
           const Rated<CodedTexture>& texture)
       : inputs_(inputs), heights_(heights), texture_(texture) {
     heights_memory_.tracks.all_levels = texture_memory_.tracks.all_levels = true;
+    if (looksAtMeshes(inputs, *heights.coded.of))
+      mesh_.emplace(inputs, *heights.coded.of, texture.coded.of->texels);
   }
 
   struct Samples {
@@ -101,15 +105,22 @@ class Decoded {
   };
   Samples heightsAt(size_t point, const View& view) {
     const CodedHeights& coded = heights_.coded;
-    const uint64_t bytes = heights_.curve.points[point].bytes;
-    const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
-    DecodedHeights shown = decodeHeights(coded.header, coded.layers, prefix, view,
-                                         {inputs_.options.threads, &heights_memory_});
+    DecodedHeights shown = decodedAt(point, view);
     std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
                                    shown.geometry.heights.size());
     fromSteps(shown, coded.header, coded.layers, samples.data());
     return {std::move(samples), std::move(shown.geometry.valid)};
   }
+  /// What viewers see of the heights.
+  Relief shownAt(size_t point) {
+    if (mesh_) {
+      std::optional<Relief> mesh = mesh_->ofDecoded(decodedAt(point, mesh_->view()).geometry);
+      if (mesh) return std::move(*mesh);
+    }
+    return reliefAt(point);
+  }
+  /// What they see of all heights, if that is a mesh.
+  std::optional<Relief> meshOfAll() const { return mesh_ ? mesh_->ofOriginal() : std::nullopt; }
   /// Voids have every sample of their border.
   Relief reliefAt(size_t point) {
     const tks_heights& whole = *inputs_.heights;
@@ -147,6 +158,14 @@ class Decoded {
   }
 
  private:
+  DecodedHeights decodedAt(size_t point, const View& view) {
+    const CodedHeights& coded = heights_.coded;
+    const uint64_t bytes = heights_.curve.points[point].bytes;
+    const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
+    return decodeHeights(coded.header, coded.layers, prefix, view,
+                         {inputs_.options.threads, &heights_memory_});
+  }
+
   static constexpr uint64_t kTexelsPerByte = 8, kSamplesPerByte = 16, kLeast = 4096;
 
   /// What few bytes can show is shown by the coarser levels as well, in less time: one that every
@@ -163,9 +182,21 @@ class Decoded {
   const EncodeInputs& inputs_;
   Rated<CodedHeights> heights_;
   Rated<CodedTexture> texture_;
+  std::optional<ShownMesh> mesh_;  ///< what viewers see, if it is not the grid
   HeightsMemory heights_memory_;
   TextureMemory texture_memory_;
 };
+
+/// Mean squared difference of two reliefs of all samples.
+double squaresBetween(const Relief& a, const Relief& b) {
+  assert(a.heights.size() == b.heights.size());
+  double squares = 0;
+  for (size_t i = 0; i < a.heights.size(); ++i) {
+    const double difference = double{a.heights[i]} - double{b.heights[i]};
+    squares += difference * difference;
+  }
+  return squares / static_cast<double>(a.heights.size());
+}
 
 /// What surfaces look like with one texture.
 using SeenColours = std::vector<std::vector<Colour>>;
@@ -178,17 +209,37 @@ SeenColours coloursOf(const ScreenPoints& points, const std::vector<std::vector<
   return colours;
 }
 
-/// Those of outlines, of the surfaces before the original, which is the last.
-std::vector<double> outlineErrors(const ScreenPoints& points,
-                                  const std::vector<std::vector<SeenPoint>>& seen,
-                                  const SeenColours& colours, const std::vector<double>& squares) {
+/// Prefixes of the heights as viewers see them, and at last all heights.
+struct Surfaces {
+  std::vector<std::vector<SeenPoint>> seen;
+  std::vector<double> square_metres;  ///< their errors
+};
+
+Surfaces surfacesOf(const ScreenPoints& points, const GroundRays& ground, Decoded& decoded,
+                    const Nodes& nodes, Extent texels) {
+  Surfaces surfaces;
+  std::optional<Relief> mesh = decoded.meshOfAll();
+  const Relief original = mesh ? decoded.original() : Relief();
+  const auto add = [&](Relief relief, double squares) {
+    surfaces.square_metres.push_back(mesh ? squaresBetween(relief, original) : squares);
+    surfaces.seen.push_back(points.seenOf(GroundRays(std::move(relief)), texels));
+  };
+  for (size_t g = 0; g < nodes.heights.size(); ++g)
+    add(decoded.shownAt(nodes.heights[g]), nodes.square_metres[g]);
+  if (mesh) {
+    add(std::move(*mesh), 0);
+  } else {
+    surfaces.seen.push_back(points.seenOf(ground, texels));
+    surfaces.square_metres.push_back(0);
+  }
+  return surfaces;
+}
+
+std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenPoints::Pictures& truth,
+                                  const Surfaces& surfaces, const SeenColours& colours) {
   std::vector<ScreenPoints::Pictures> pictures;
-  for (size_t g = 0; g < seen.size(); ++g) pictures.push_back({seen[g], colours[g]});
-  const ScreenPoints::Pictures truth = pictures.back();
-  pictures.pop_back();
-  std::vector<double> errors = points.errorsOfOutlines(truth, pictures, squares);
-  errors.push_back(0);
-  return errors;
+  for (size_t g = 0; g < colours.size(); ++g) pictures.push_back({surfaces.seen[g], colours[g]});
+  return points.errorsOfOutlines(truth, pictures, surfaces.square_metres);
 }
 
 /// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
@@ -196,19 +247,21 @@ std::vector<double> outlineErrors(const ScreenPoints& points,
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
                                    Decoded& decoded, const Nodes& nodes, const Texels& texels) {
   const ScreenPoints points(cameras, kPoints);
-  std::vector<std::vector<SeenPoint>> seen;
-  for (const size_t node : nodes.heights)
-    seen.push_back(points.seenOf(GroundRays(decoded.reliefAt(node)), texels.extent()));
-  seen.push_back(points.seenOf(ground, texels.extent()));
+  const Extent extent = texels.extent();
+  const Surfaces surfaces = surfacesOf(points, ground, decoded, nodes, extent);
+  const std::vector<std::vector<SeenPoint>>& seen = surfaces.seen;
+  const ScreenTexture original(texels, extent);
+  const std::vector<SeenPoint> in_truth = points.seenOf(ground, extent);
+  const std::vector<Colour> true_colours = points.coloursOf(in_truth, original);
+  const ScreenPoints::Pictures truth{in_truth, true_colours};
+  const SeenColours whole = coloursOf(points, seen, original);
+  const std::vector<double> outlines = outlineErrors(points, truth, surfaces, whole);
   const size_t columns = nodes.textures.size() + 1;
   std::vector<double> errors(seen.size() * columns);
-  const SeenColours whole = coloursOf(points, seen, ScreenTexture(texels, texels.extent()));
-  const ScreenPoints::Pictures truth{seen.back(), whole.back()};
-  const std::vector<double> outlines = outlineErrors(points, seen, whole, nodes.square_metres);
   for (size_t t = 0; t < columns; ++t) {
-    const bool original = t + 1 == columns;
+    const bool last = t + 1 == columns;
     const SeenColours shown =
-        original ? whole : coloursOf(points, seen, decoded.textureAt(nodes.textures[t]));
+        last ? whole : coloursOf(points, seen, decoded.textureAt(nodes.textures[t]));
     for (size_t g = 0; g < seen.size(); ++g)
       errors[g * columns + t] = points.errorInside(truth, {seen[g], shown[g]}) + outlines[g];
   }
@@ -297,8 +350,10 @@ Status checkCameras(const EncodeInputs& inputs) {
 
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture) {
-  // Pictures that are drawn take long: fewer of them.
-  const double ratio = inputs.options.picture_error != nullptr ? 4 : 2;
+  // Pictures that are drawn take long, and meshes for cameras: fewer of them.
+  const bool meshes_for_cameras =
+      inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.of);
+  const double ratio = inputs.options.picture_error != nullptr || meshes_for_cameras ? 4 : 2;
   const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
   Decoded decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
