@@ -24,6 +24,10 @@ namespace {
 
 /// Points of all pictures. Twice as many change the mean loss by less than 0.01 dB.
 constexpr size_t kPoints = 6144;
+/// Of those that show meshes: their outlines are no finer than those of coarser prefixes, which
+/// could otherwise stand for them (errorsOfOutlines()).
+constexpr size_t kMeshPoints = 8 * kPoints;
+constexpr size_t kPooledOutlines = 4;
 /// Of one picture: at first, and about each pixel of 768 x 512.
 constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
 
@@ -111,6 +115,7 @@ class Decoded {
     fromSteps(shown, coded.header, coded.layers, samples.data());
     return {std::move(samples), std::move(shown.geometry.valid)};
   }
+  bool showsMeshes() const { return mesh_.has_value(); }
   /// What viewers see of the heights.
   Relief shownAt(size_t point) {
     if (mesh_) {
@@ -239,14 +244,15 @@ std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenPoints
                                   const Surfaces& surfaces, const SeenColours& colours) {
   std::vector<ScreenPoints::Pictures> pictures;
   for (size_t g = 0; g < colours.size(); ++g) pictures.push_back({surfaces.seen[g], colours[g]});
-  return points.errorsOfOutlines(truth, pictures, surfaces.square_metres);
+  const size_t pooled = surfaces.square_metres.back() > 0 ? 1 : kPooledOutlines;
+  return points.errorsOfOutlines(truth, pictures, surfaces.square_metres, pooled);
 }
 
 /// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
 /// texture is looked at through all of them.
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
                                    Decoded& decoded, const Nodes& nodes, const Texels& texels) {
-  const ScreenPoints points(cameras, kPoints);
+  const ScreenPoints points(cameras, decoded.showsMeshes() ? kMeshPoints : kPoints);
   const Extent extent = texels.extent();
   const Surfaces surfaces = surfacesOf(points, ground, decoded, nodes, extent);
   const std::vector<std::vector<SeenPoint>>& seen = surfaces.seen;
