@@ -71,3 +71,6 @@ if [[ -e "$libraries/libtetrakis_decoder.so" ]]; then
 fi
 
 "$prefix/bin/tetrakis" --version
+# Greymaps are read through the module of picture formats.
+printf 'P2\n3 2\n255\n1 2 3 4 5 6\n' > "$scratch/a.pgm"
+quiet "$prefix/bin/tetrakis" encode "$scratch/a.pgm" --lossless -o "$scratch/a.tks"

@@ -2,18 +2,16 @@
 // The orientation in EXIF data that OpenImageIO does not look for.
 #include "tools/files/exif.hpp"
 
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/tiffutils.h>
-
 #include <algorithm>
+
+#include "tools/files/picture_formats.hpp"
 
 namespace tetrakis::tools {
 
 int exifOrientation(std::span<const std::byte> exif) {
-  OIIO::ImageSpec spec;
-  const OIIO::string_view text(reinterpret_cast<const char*>(exif.data()), exif.size());
-  if (exif.empty() || !OIIO::decode_exif(text, spec)) return 1;
-  const int tag = spec.get_int_attribute("Orientation", 1);
+  if (exif.empty()) return 1;
+  const auto formats = pictureFormats();
+  const int tag = formats.ok() ? (*formats)->orientation(exif) : 1;
   return tag >= 1 && tag <= 8 ? tag : 1;
 }
 

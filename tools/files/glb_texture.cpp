@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The texture inside a GLB: JPEG and PNG, which glTF 2.0 has, or WebP (EXT_texture_webp).
-#include <OpenImageIO/imageio.h>
-
 #include "tools/files/glb_document.hpp"
 #include "tools/files/png.hpp"
 #include "tools/files/raster.hpp"
@@ -50,11 +48,8 @@ Result<std::vector<std::byte>> encodeWebp(const ImageFile& image) {
   constexpr uint32_t kMaxSide = 16383;
   if (std::max(image.width, image.height) > kMaxSide)
     return Status(TKS_USAGE, "a WebP has sides of at most 16383: write --mesh-texture png");
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
-                       static_cast<int>(image.channels), OIIO::TypeDesc::UINT8);
-  spec["compression"] = "webp:" + std::to_string(kTextureQuality);
-  if (image.channels == 4) spec["oiio:UnassociatedAlpha"] = 1;
-  return encodeRaster("webp", spec, image.data);
+  return encodeRaster("webp",
+                      {shapeOf(image), image.data, "webp:" + std::to_string(kTextureQuality)});
 }
 
 Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format) {

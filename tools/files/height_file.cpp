@@ -20,33 +20,30 @@
 namespace tetrakis::tools {
 namespace {
 
-using OIIO::TypeDesc;
-
 struct SampleType {
-  TypeDesc::BASETYPE stored;
+  PictureSample stored;
   tks_sample sample;
 };
-constexpr std::array<SampleType, 9> kSampleTypes{{{TypeDesc::UINT8, TKS_U8},
-                                                  {TypeDesc::INT8, TKS_I8},
-                                                  {TypeDesc::UINT16, TKS_U16},
-                                                  {TypeDesc::INT16, TKS_I16},
-                                                  {TypeDesc::UINT32, TKS_U32},
-                                                  {TypeDesc::INT32, TKS_I32},
-                                                  {TypeDesc::FLOAT, TKS_F32},
-                                                  {TypeDesc::HALF, TKS_F32},
-                                                  {TypeDesc::DOUBLE, TKS_F32}}};
+constexpr std::array<SampleType, 9> kSampleTypes{{{PictureSample::kU8, TKS_U8},
+                                                  {PictureSample::kI8, TKS_I8},
+                                                  {PictureSample::kU16, TKS_U16},
+                                                  {PictureSample::kI16, TKS_I16},
+                                                  {PictureSample::kU32, TKS_U32},
+                                                  {PictureSample::kI32, TKS_I32},
+                                                  {PictureSample::kFloat, TKS_F32},
+                                                  {PictureSample::kHalf, TKS_F32},
+                                                  {PictureSample::kDouble, TKS_F32}}};
 
-/// What OpenImageIO calls a sample type.
-TypeDesc heightTypeOf(tks_sample sample) {
+PictureSample storedAs(tks_sample sample) {
   return std::find_if(kSampleTypes.begin(), kSampleTypes.end(),
                       [sample](const SampleType& type) { return type.sample == sample; })
       ->stored;
 }
 
 Result<tks_sample> heightSampleOf(const Raster& raster) {
-  const OIIO::ImageSpec& spec = raster.spec;
-  if (spec.nchannels != 1 || raster.palette) {
-    const int channels = raster.palette ? 3 : spec.nchannels;
+  const PictureShape& shape = raster.shape;
+  if (shape.channels != 1 || raster.palette) {
+    const int channels = raster.palette ? 3 : shape.channels;
     return Status(TKS_USAGE, raster.name + " has " + std::to_string(channels) +
                                  " channels: heights are one channel");
   }
@@ -58,10 +55,9 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
                                  " has samples that reading would stretch to all of 8 or "
                                  "16 bits: convert it to TIFF");
   }
-  const int bits = static_cast<int>(8 * spec.format.size());
-  const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(), [&](const auto& known) {
-    return known.stored == spec.format.basetype;
-  });
+  const int bits = static_cast<int>(8 * sizeOf(shape.sample));
+  const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(),
+                                  [&](const auto& known) { return known.stored == shape.sample; });
   if (type == kSampleTypes.end() || (raster.stored_bits != 0 && raster.stored_bits != bits)) {
     return Status(TKS_USAGE,
                   raster.name + " has samples of " +
@@ -109,16 +105,16 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
   if (!sample.ok()) return sample.status();
   Reading reading;
   HeightFile& heights = reading.heights;
-  heights.width = static_cast<uint32_t>(raster->spec.width);
-  heights.height = static_cast<uint32_t>(raster->spec.height);
+  heights.width = static_cast<uint32_t>(raster->shape.width);
+  heights.height = static_cast<uint32_t>(raster->shape.height);
   heights.sample = *sample;
   if (raster->is_tiff()) {
     const Status tags = readGeoTags(raster->file.path(), heights, notes);
     if (!tags.ok()) return tags;
   }
   if (nodata) heights.nodata = nodata;
-  const bool wide = raster->spec.format == TypeDesc::DOUBLE;
-  auto data = readSamples(*raster, wide ? TypeDesc(TypeDesc::DOUBLE) : heightTypeOf(*sample));
+  const bool wide = raster->shape.sample == PictureSample::kDouble;
+  auto data = readSamples(*raster, wide ? PictureSample::kDouble : storedAs(*sample));
   if (data.ok() && wide) data = narrowed(*data, heights.nodata, raster->name);
   if (!data.ok()) return data.status();
   heights.data = std::move(*data);
@@ -183,9 +179,9 @@ Status writePng(const std::string& path, const HeightFile& heights) {
 
 Status writeExr(const std::string& path, const HeightFile& heights) {
   if (heights.sample != TKS_U32 && heights.sample != TKS_F32) return cannotHold("exr");
-  const OIIO::ImageSpec spec(static_cast<int>(heights.width), static_cast<int>(heights.height), 1,
-                             heightTypeOf(heights.sample));
-  const auto bytes = encodeRaster("exr", spec, heights.data);
+  const PictureShape shape{static_cast<int>(heights.width), static_cast<int>(heights.height), 1,
+                           storedAs(heights.sample)};
+  const auto bytes = encodeRaster("openexr", {shape, heights.data});
   return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
 }
 

@@ -13,22 +13,26 @@
 namespace tetrakis::tools {
 namespace {
 
-using OIIO::TypeDesc;
-
-TypeDesc typeOf(tks_sample sample) {
-  return sample == TKS_U8 ? TypeDesc::UINT8 : TypeDesc::UINT16;
-}
-
 /// The type to read: OpenImageIO widens fewer bits to full range itself.
 Result<tks_sample> sampleOf(const Raster& raster) {
-  const TypeDesc type = raster.spec.format;
-  if (type.is_floating_point()) {
-    return Status(TKS_USAGE, raster.name + " holds floats: a texture is 8 or 16 bits");
+  switch (raster.shape.sample) {
+    case PictureSample::kU8:
+      return TKS_U8;
+    case PictureSample::kU16:
+    case PictureSample::kU32:
+      return TKS_U16;
+    case PictureSample::kHalf:
+    case PictureSample::kFloat:
+    case PictureSample::kDouble:
+      return Status(TKS_USAGE, raster.name + " holds floats: a texture is 8 or 16 bits");
+    case PictureSample::kI8:
+    case PictureSample::kI16:
+    case PictureSample::kI32:
+      return Status(TKS_USAGE, raster.name + " holds signed samples: a texture is 8 or 16 bits");
+    case PictureSample::kOther:
+      break;
   }
-  if (type.is_signed()) {
-    return Status(TKS_USAGE, raster.name + " holds signed samples: a texture is 8 or 16 bits");
-  }
-  return type == TypeDesc::UINT8 ? TKS_U8 : TKS_U16;
+  return Status(TKS_USAGE, raster.name + " holds samples of 64 bits: a texture is 8 or 16 bits");
 }
 
 std::string noteOn(const Raster& raster) {
@@ -38,7 +42,7 @@ std::string noteOn(const Raster& raster) {
   };
   if (raster.palette) add("palette converted to RGB");
   if (raster.cmyk) add("CMYK converted to RGB");
-  if (raster.spec.format == TypeDesc::UINT32) add("32 bits reduced to 16");
+  if (raster.shape.sample == PictureSample::kU32) add("32 bits reduced to 16");
   if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
   if (raster.orientation != 1) add("turned upright as its orientation tag says");
   if (raster.profile) add("colour profile not applied and not kept");
@@ -89,17 +93,17 @@ Result<Georeference> placeOf(const Raster& raster, const std::string& path) {
 Result<ImageFile> readImage(const std::string& path, std::string* note) {
   auto raster = openRaster(path);
   if (!raster.ok()) return raster.status();
-  const OIIO::ImageSpec& spec = raster->spec;
-  if (spec.nchannels > 4) {
-    return Status(TKS_USAGE, raster->name + " has " + std::to_string(spec.nchannels) +
+  const PictureShape& shape = raster->shape;
+  if (shape.channels > 4) {
+    return Status(TKS_USAGE, raster->name + " has " + std::to_string(shape.channels) +
                                  " channels: a texture has 1 to 4");
   }
   const auto sample = sampleOf(*raster);
   if (!sample.ok()) return sample.status();
-  auto data = readSamples(*raster, typeOf(*sample));
+  auto data = readSamples(*raster, *sample == TKS_U8 ? PictureSample::kU8 : PictureSample::kU16);
   if (!data.ok()) return data.status();
-  ImageFile image{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height),
-                  static_cast<uint32_t>(spec.nchannels), *sample, std::move(*data)};
+  ImageFile image{static_cast<uint32_t>(shape.width), static_cast<uint32_t>(shape.height),
+                  static_cast<uint32_t>(shape.channels), *sample, std::move(*data)};
   if (raster->alpha == Raster::Alpha::kMultiplied && !isOpaque(image)) {
     return Status(TKS_USAGE, raster->name +
                                  " has an alpha that reading multiplies into the colours: convert "

@@ -45,20 +45,26 @@ constexpr std::array kFormats{
     Format{"webp", kRgb | kRgba, 0, false},
 };
 
-/// By the extension; null if OpenImageIO writes no such format, or none that holds textures.
-const Format* formatNamed(const std::string& extension) {
-  const auto output = OIIO::ImageOutput::create("x." + extension);
-  if (!output) {
-    OIIO::geterror();  // clears it
-    return nullptr;
-  }
-  const std::string_view name = output->format_name();
+/// OpenImageIO's name of the format with this extension; "": there is none. It need not be loaded
+/// for those that are written without it.
+Result<std::string> nameOf(const std::string& extension) {
+  if (extension == "png") return std::string("png");
+  if (extension == "jpg" || extension == "jpeg") return std::string("jpeg");
+  const auto formats = pictureFormats();
+  if (!formats.ok()) return formats.status();
+  return (*formats)->named(extension);
+}
+
+/// Null if OpenImageIO writes no such format, or none that holds textures.
+Result<const Format*> formatNamed(const std::string& extension) {
+  const auto name = nameOf(extension);
+  if (!name.ok()) return name.status();
   const auto* format = std::find_if(kFormats.begin(), kFormats.end(),
-                                    [name](const Format& known) { return name == known.name; });
+                                    [&name](const Format& known) { return *name == known.name; });
   return format == kFormats.end() ? nullptr : format;
 }
 
-std::string shapeOf(uint32_t channels, tks_sample sample) {
+std::string wordsFor(uint32_t channels, tks_sample sample) {
   return std::to_string(channels) + (channels == 1 ? " channel of " : " channels of ") +
          std::to_string(8 * tks_sample_bytes(sample)) + " bits";
 }
@@ -74,30 +80,20 @@ Status checkShape(const ImageFile& image) {
   return {TKS_USAGE, "an image has 1 to 4 channels of 8 or 16 bits, and all its samples"};
 }
 
-OIIO::ImageSpec specOf(const ImageFile& image) {
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
-                       static_cast<int>(image.channels),
-                       image.sample == TKS_U8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
-  spec["oiio:UnassociatedAlpha"] = 1;
-  return spec;
-}
-
 bool same(const ImageFile& a, const ImageFile& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels &&
          a.sample == b.sample && a.data == b.data;
 }
 
 Status writeOther(const std::string& path, const ImageFile& image, const Format& format) {
-  OIIO::ImageSpec spec = specOf(image);
-  if (format.name == std::string_view("heif")) {
-    spec["compression"] = "heic:" + std::to_string(kQuality);
-  }
-  const auto output = OIIO::ImageOutput::create(format.name);
-  if (!output || !output->open(path, spec) ||
-      !output->write_image(spec.format, image.data.data()) || !output->close()) {
-    const std::string reason = output ? output->geterror() : OIIO::geterror();
-    return {TKS_IO, "cannot write " + quoted(path) + ": " + firstLine(reason)};
-  }
+  PictureToWrite picture{shapeOf(image), image.data};
+  if (format.name == std::string_view("heif"))
+    picture.compression = "heic:" + std::to_string(kQuality);
+  const auto formats = pictureFormats();
+  if (!formats.ok()) return formats.status();
+  const Status status = (*formats)->write(path, format.name, picture);
+  if (!status.ok())
+    return {TKS_IO, "cannot write " + quoted(path) + ": " + firstLine(status.message())};
   if (!format.exact) return {};
   // OpenImageIO 2.4 writes some sizes of RLA, IFF and JPEG 2000 that nobody can read.
   const auto written = readImage(path);
@@ -109,12 +105,9 @@ Status writeOther(const std::string& path, const ImageFile& image, const Format&
 Status writePixels(const std::string& path, const ImageFile& image, const Format& format) {
   const std::string_view kind = format.name;
   if (kind != "png" && kind != "jpeg" && kind != "tiff") return writeOther(path, image, format);
-  OIIO::ImageSpec spec = specOf(image);
-  spec["compression"] = "zip";
-  const Result<std::vector<std::byte>> bytes = kind == "png" ? encodePng(image)
-                                               : kind == "jpeg"
-                                                   ? encodeJpeg(image, kQuality)
-                                                   : encodeRaster("tif", spec, image.data);
+  const auto bytes = kind == "png"    ? encodePng(image)
+                     : kind == "jpeg" ? encodeJpeg(image, kQuality)
+                                      : encodeRaster("tiff", {shapeOf(image), image.data, "zip"});
   return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
 }
 
@@ -122,14 +115,15 @@ Status writePixels(const std::string& path, const ImageFile& image, const Format
 
 Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample) {
   const std::string name = formatOf(path, "");
-  const Format* const format = formatNamed(name);
-  if (!format) {
+  const auto format = formatNamed(name);
+  if (!format.ok()) return format.status();
+  if (!*format) {
     return {TKS_USAGE, "cannot tell a format of textures from " + quoted(path) +
                            ": end the name in .png, .tif, .jpg or another of docs/CLI.md"};
   }
-  const unsigned held = sample == TKS_U8 ? format->channels8 : format->channels16;
+  const unsigned held = sample == TKS_U8 ? (*format)->channels8 : (*format)->channels16;
   if (held >> channels & 1u) return {};
-  return {TKS_USAGE, "a ." + name + " file cannot hold " + shapeOf(channels, sample) +
+  return {TKS_USAGE, "a ." + name + " file cannot hold " + wordsFor(channels, sample) +
                          ": write a .png instead"};
 }
 
@@ -140,7 +134,7 @@ Status writeImage(const std::string& path, const ImageFile& image, const std::st
           checkImageFormat(format.empty() ? path : "x." + name, image.channels, image.sample);
       !status.ok())
     return status;
-  const Format& chosen = *formatNamed(name);
+  const Format& chosen = **formatNamed(name);
   if (Status status = writePixels(path, image, chosen); !status.ok()) return status;
   if (chosen.name == std::string_view("tiff")) return addGeoreference(path, image.place);
   return image.place.geotransform ? writeWorldFile(path, *image.place.geotransform) : Status();

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures through OpenImageIO.
 #include "tools/files/raster.hpp"
-#include "tools/files/memory_limit.hpp"
-
-#include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <exception>
+#include <fstream>
 #include <new>
+#include <system_error>
 #include <utility>
 
+#include "tools/files/memory_limit.hpp"
+#include "tools/files/plain_tiff.hpp"
 #include "tools/files/png.hpp"
 #include "tools/files/stored_form.hpp"
 
@@ -25,10 +27,12 @@ Status outOfMemory(const std::string& name) {
   return {TKS_NO_MEMORY, name + " does not fit in memory"};
 }
 
-bool startsAsPng(const InputFile& file) {
-  std::array<unsigned char, 4> head{};
-  const size_t count = OIIO::Filesystem::read_bytes(file.path(), head.data(), head.size());
-  return isPng(std::as_bytes(std::span(head).first(count)));
+Result<bool> startsAsPng(const InputFile& file, const std::string& name) {
+  std::array<char, 4> head{};
+  std::ifstream stream(file.path(), std::ios::binary);
+  if (!stream) return unreadable(name, std::generic_category().message(errno));
+  stream.read(head.data(), head.size());
+  return isPng(std::as_bytes(std::span(head).first(static_cast<size_t>(stream.gcount()))));
 }
 
 Result<Raster> openPng(InputFile file, const std::string& name) {
@@ -37,10 +41,7 @@ Result<Raster> openPng(InputFile file, const std::string& name) {
   auto png = decodePng(*bytes, name);
   if (!png.ok()) return png.status();
   const ImageFile& image = png->image;
-  Raster raster{std::move(file), name, nullptr, {}};
-  raster.spec = {static_cast<int>(image.width), static_cast<int>(image.height),
-                 static_cast<int>(image.channels),
-                 image.sample == TKS_U8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16};
+  Raster raster{std::move(file), name, nullptr, shapeOf(image)};
   raster.stored_bits = png->stored_bits;
   raster.palette = png->palette;
   raster.profile = png->profile;
@@ -49,43 +50,34 @@ Result<Raster> openPng(InputFile file, const std::string& name) {
   return raster;
 }
 
+Result<std::unique_ptr<PictureReader>> openReader(const std::string& path) {
+  if (auto plain = openPlainTiff(path)) return plain;
+  const auto formats = pictureFormats();
+  if (!formats.ok()) return formats.status();
+  auto reader = (*formats)->open(path);
+  if (!reader.ok() &&
+      reader.status().message().find("could not find a format reader") != std::string::npos)
+    return Status(TKS_IO, "it is in no known picture format");
+  return reader;
+}
+
 Result<Raster> openUnguarded(const std::string& path) {
   auto file = InputFile::open(path);
   if (!file.ok()) return file.status();
-  if (startsAsPng(*file)) return openPng(std::move(*file), quoted(path));
-  OIIO::ImageSpec how;
-  how["oiio:UnassociatedAlpha"] = 1;
-  auto input = OIIO::ImageInput::open(file->path(), &how);
-  if (!input) {
-    const std::string reason = OIIO::geterror();
-    const bool unknown = reason.find("could not find a format reader") != std::string::npos;
-    return unreadable(quoted(path), unknown ? "it is in no known picture format" : reason);
-  }
-  Raster raster{std::move(*file), quoted(path), std::move(input), {}};
-  raster.spec = raster.input->spec();
-  if (raster.spec.depth > 1 || raster.spec.width < 1 || raster.spec.height < 1) {
+  const auto png = startsAsPng(*file, quoted(path));
+  if (!png.ok()) return png.status();
+  if (*png) return openPng(std::move(*file), quoted(path));
+  auto reader = openReader(file->path());
+  if (!reader.ok()) return unreadable(quoted(path), reader.status().message());
+  Raster raster{std::move(*file), quoted(path), std::move(*reader), {}};
+  raster.shape = raster.reader->shape();
+  if (raster.shape.depth > 1 || raster.shape.width < 1 || raster.shape.height < 1) {
     return Status(TKS_USAGE, raster.name + " is not a flat picture");
   }
-  Status status = checkSize(raster.name, raster.spec.image_pixels() * raster.spec.nchannels,
-                            raster.spec.format.size());
+  Status status = checkSize(raster.name, raster.shape.samples(), sizeOf(raster.shape.sample));
   if (status.ok()) status = noteStoredForm(raster);
   if (!status.ok()) return status;
   return raster;
-}
-
-Result<std::vector<std::byte>> encodeUnguarded(const std::string& format, OIIO::ImageSpec& spec,
-                                               std::span<const std::byte> samples) {
-  const auto output = OIIO::ImageOutput::create(format);
-  if (!output) return Status(TKS_IO, "OpenImageIO lacks the format " + format);
-  OIIO::Filesystem::IOVecOutput file;
-  output->set_ioproxy(&file);
-  spec["oiio:UnassociatedAlpha"] = 1;
-  if (!output->open("memory." + format, spec) ||
-      !output->write_image(spec.format, samples.data()) || !output->close()) {
-    return Status(TKS_IO, "cannot encode " + format + ": " + firstLine(output->geterror()));
-  }
-  const auto bytes = std::as_bytes(std::span(file.buffer()));
-  return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
 }  // namespace
@@ -112,16 +104,18 @@ Result<Raster> openRaster(const std::string& path) {
   }
 }
 
-Result<std::vector<std::byte>> readSamples(Raster& raster, OIIO::TypeDesc type) {
-  if (!raster.input) return std::move(raster.decoded);
+PictureShape shapeOf(const ImageFile& image) {
+  return {static_cast<int>(image.width), static_cast<int>(image.height),
+          static_cast<int>(image.channels),
+          image.sample == TKS_U8 ? PictureSample::kU8 : PictureSample::kU16};
+}
+
+Result<std::vector<std::byte>> readSamples(Raster& raster, PictureSample type) {
+  if (!raster.reader) return std::move(raster.decoded);
   try {
-    const OIIO::ImageSpec& spec = raster.spec;
-    std::vector<std::byte> samples(spec.image_pixels() * spec.nchannels * type.size());
-    const bool read = raster.input->read_image(0, 0, 0, spec.nchannels, type, samples.data());
-    // Some of its readers note that the file ends early, and go on.
-    if (!read || raster.input->has_error()) {
-      return unreadable(raster.name, raster.input->geterror());
-    }
+    std::vector<std::byte> samples(raster.shape.samples() * sizeOf(type));
+    const Status read = raster.reader->read(type, samples);
+    if (!read.ok()) return unreadable(raster.name, read.message());
     return samples;
   } catch (const std::bad_alloc&) {
     return outOfMemory(raster.name);
@@ -130,12 +124,17 @@ Result<std::vector<std::byte>> readSamples(Raster& raster, OIIO::TypeDesc type) 
   }
 }
 
-Result<std::vector<std::byte>> encodeRaster(const std::string& format, OIIO::ImageSpec spec,
-                                            std::span<const std::byte> samples) {
+Result<std::vector<std::byte>> encodeRaster(const std::string& format,
+                                            const PictureToWrite& picture) {
+  const auto formats = pictureFormats();
+  if (!formats.ok()) return formats.status();
+  const std::string what = "cannot encode " + format + ": ";
   try {
-    return encodeUnguarded(format, spec, samples);
+    auto bytes = (*formats)->encode(format, picture);
+    if (bytes.ok()) return bytes;
+    return Status(TKS_IO, what + firstLine(bytes.status().message()));
   } catch (const std::exception& error) {
-    return Status(TKS_IO, "cannot encode " + format + ": " + error.what());
+    return Status(TKS_IO, what + error.what());
   }
 }
 

@@ -16,7 +16,8 @@ namespace tetrakis::tools {
 namespace {
 
 Status noteTiff(Raster& raster) {
-  raster.stored_bits = raster.spec.get_int_attribute("oiio:BitsPerSample");
+  constexpr const char* kPhotometric = "tiff:PhotometricInterpretation";
+  raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   const auto form = tiffForm(raster.file.path());
   if (!form.ok()) return form.status();
   if (!form->whole)
@@ -25,22 +26,23 @@ Status noteTiff(Raster& raster) {
   if (form->bits != raster.stored_bits) {
     return {TKS_USAGE, raster.name + " does not state its bits per sample: convert it to 8 bits"};
   }
-  raster.white_is_zero = raster.spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
+  raster.white_is_zero =
+      raster.reader->has(kPhotometric) && raster.reader->number(kPhotometric) == 0;
   // OpenImageIO inverts these up to 8 bits and leaves them alone above.
-  if (raster.white_is_zero && raster.spec.format != OIIO::TypeDesc::UINT8) {
+  if (raster.white_is_zero && raster.shape.sample != PictureSample::kU8) {
     return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
   }
   raster.further_pages = form->further_pages;
   raster.mask = form->mask;
   if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
-  const std::string colours = raster.spec.get_string_attribute("tiff:ColorSpace");
+  const std::string colours = raster.reader->text("tiff:ColorSpace");
   raster.palette = colours == "palette";
   raster.cmyk = colours == "CMYK";
   return {};
 }
 
 Status noteJpeg(Raster& raster) {
-  const std::string colours = raster.spec.get_string_attribute("jpeg:ColorSpace");
+  const std::string colours = raster.reader->text("jpeg:ColorSpace");
   raster.cmyk = colours == "CMYK" || colours == "YCbCrK";
   const auto bytes = readBytes(raster.file.path());
   if (!bytes.ok()) return bytes.status();
@@ -88,14 +90,8 @@ Status notePnm(Raster& raster) {
 
 /// OpenImageIO states the bits of palette files alone, and reads those of greys as grey.
 void noteBmp(Raster& raster) {
-  const int bits = raster.spec.get_int_attribute("bmp:bitsperpixel");
-  raster.palette = bits > 0 && bits <= 8 && raster.spec.nchannels > 1;
-}
-
-/// By another reader: this one is to stay where it is.
-bool hasSecondFrame(const Raster& raster) {
-  const auto input = OIIO::ImageInput::open(raster.file.path());
-  return input && input->seek_subimage(1, 0);
+  const int bits = raster.reader->number("bmp:bitsperpixel");
+  raster.palette = bits > 0 && bits <= 8 && raster.shape.channels > 1;
 }
 
 Status noteWebp(Raster& raster) {
@@ -104,26 +100,29 @@ Status noteWebp(Raster& raster) {
   raster.profile = !webpChunk(*bytes, "ICCP").empty();
   raster.orientation = exifOrientation(webpChunk(*bytes, "EXIF"));
   raster.further_pages = !webpChunk(*bytes, "ANIM").empty();
-  if (raster.spec.nchannels == 4) raster.alpha = Raster::Alpha::kMultiplied;
+  if (raster.shape.channels == 4) raster.alpha = Raster::Alpha::kMultiplied;
   return {};
 }
 
 }  // namespace
 
 Status noteStoredForm(Raster& raster) {
-  const std::string_view format = raster.input->format_name();
+  const std::string format = raster.reader->format();
   // OpenImageIO can turn images, but its 2.4 takes orientation 5 for 7.
-  const int orientation = raster.spec.get_int_attribute("Orientation", 1);
+  const int orientation = raster.reader->number("Orientation");
   raster.orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
-  raster.profile = raster.spec.find_attribute("ICCProfile") != nullptr;
+  raster.profile = raster.reader->has("ICCProfile");
   if (format == "tiff") return noteTiff(raster);
   if (format == "jpeg") return noteJpeg(raster);
   if (format == "jpeg2000") return noteJpeg2000(raster);
   if (format == "webp") return noteWebp(raster);
-  raster.stored_bits = raster.spec.get_int_attribute("oiio:BitsPerSample");
+  raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   if (format == "pnm") return notePnm(raster);
-  if (format == "gif") raster.further_pages = hasSecondFrame(raster);
-  if (format == "gif") raster.palette = true;
+  if (format == "gif") {
+    const auto formats = pictureFormats();
+    raster.further_pages = formats.ok() && (*formats)->hasSecond(raster.file.path());
+    raster.palette = true;
+  }
   if (format == "bmp") noteBmp(raster);
   return {};
 }

@@ -60,7 +60,9 @@ class TiffFile {
   /// mode as TIFFOpen takes it: "r", "w", "w8" (BigTIFF).
   static Result<TiffFile> open(const std::string& path, const char* mode);
   TIFF* get() const { return tiff_.get(); }
+  /// Of the last call, with a sentence that names the file, or without.
   Status failure() const;
+  Status reason() const { return {TKS_IO, *error_}; }
 
  private:
   struct Close {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report as one HTML page that needs no other file. What it shows is measured here; how, page/
 // says, with D3 (https://d3js.org, BSD-3-Clause).
-#include <OpenImageIO/strutil.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/files/picture_formats.hpp"
 #include "tools/files/text.hpp"
 #include "tools/report/report.hpp"
 
@@ -92,10 +92,10 @@ ImageFile withoutAlpha(const Picture& picture) {
 Result<std::string> figure(const Picture& picture, const std::string& caption) {
   const Result<std::vector<std::byte>> jpeg = encodeJpeg(withoutAlpha(picture), kJpegQuality);
   if (!jpeg.ok()) return jpeg.status();
-  const OIIO::string_view bytes(reinterpret_cast<const char*>(jpeg->data()), jpeg->size());
+  const auto formats = pictureFormats();
+  if (!formats.ok()) return formats.status();
   return "<figure><img alt=\"" + caption + "\" src=\"data:image/jpeg;base64," +
-         OIIO::Strutil::base64_encode(bytes) + "\"><figcaption>" + caption +
-         "</figcaption></figure>\n";
+         (*formats)->base64(*jpeg) + "\"><figcaption>" + caption + "</figcaption></figure>\n";
 }
 
 std::string caption(const ReportRow& row, size_t camera) {
