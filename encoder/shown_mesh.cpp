@@ -112,6 +112,9 @@ std::optional<Relief> ShownMesh::forCameras(std::span<const int32_t> heights,
   std::vector<ScreenView> views;
   for (const Camera& camera : givenCameras(inputs_.options))
     if (camera.weight > 0) views.push_back(screenViewOf(camera, frame_, at, by));
+  for (const ScreenView& view : views)
+    for (const double number : view.clip)
+      if (!std::isfinite(number)) return {};
   WeightedSurface surface{{frame_.width, frame_.height, heights}};
   const std::vector<float> weights = screenWeights(surface, views, image_);
   surface.view.weights = weights;

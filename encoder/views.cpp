@@ -381,7 +381,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   }
   if (errors.empty() && !cameras.empty())
     errors = modelledErrors(cameras, ground, decoded, nodes, texture.coded.of->texels);
-  if (errors.empty() || errors.front() <= 0) return unseen(heights.curve, texture.curve);
+  if (errors.empty() || !(errors.front() > 0)) return unseen(heights.curve, texture.curve);
   return {std::move(squares), std::move(errors)};
 }
 

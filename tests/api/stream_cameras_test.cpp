@@ -246,8 +246,13 @@ TEST(ToldStreams, TakeOddTerrain) {
         const tks_image image = picture.image();
         for (const double scale : {1.0, 1e300}) {
           heights.scale = scale;
-          const std::string sentence = refusal(&heights, &image, options);
-          EXPECT_TRUE(sentence.empty() || sentence.find("'low'") != std::string::npos) << sentence;
+          for (const auto& [triangles, cameras] : {std::pair(0u, 1u), {7u, 1u}, {7u, 0u}}) {
+            options.triangles = triangles;
+            options.camera_count = cameras;
+            const std::string sentence = refusal(&heights, &image, options);
+            EXPECT_TRUE(sentence.empty() || sentence.find("'low'") != std::string::npos)
+                << sentence;
+          }
         }
       }
     }
