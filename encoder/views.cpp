@@ -63,7 +63,6 @@ std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t 
   constexpr double kFirst = 64;  // bytes
   const std::vector<RatePoint>& points = curve.points;
   std::vector<size_t> nodes = {curve.opened};
-  const auto most = static_cast<double>(budget);
   double next = kFirst;
   for (size_t i = curve.opened + 1; i < points.size(); ++i) {
     const double bytes =
@@ -73,7 +72,7 @@ std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t 
     const RatePoint& before = points[nodes.back()];
     if (!(points[i].distortion > 0 && points[i].distortion < before.distortion)) continue;
     nodes.push_back(i);
-    next = std::min(std::max(bytes, next) * ratio, std::max(most, bytes));
+    next = std::max(bytes, next) * ratio;
     if (points[i].bytes >= budget) break;
   }
   return nodes;

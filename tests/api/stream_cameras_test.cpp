@@ -246,9 +246,10 @@ TEST(ToldStreams, TakeOddTerrain) {
         const tks_image image = picture.image();
         for (const double scale : {1.0, 1e300}) {
           heights.scale = scale;
-          for (const auto& [triangles, cameras] : {std::pair(0u, 1u), {7u, 1u}, {7u, 0u}}) {
+          const bool meshes = texels == 1 && scale == 1 && width == 35;  // these take long
+          for (const uint32_t triangles : {0u, 7u}) {
+            if (triangles > 0 && !meshes) continue;
             options.triangles = triangles;
-            options.camera_count = cameras;
             const std::string sentence = refusal(&heights, &image, options);
             EXPECT_TRUE(sentence.empty() || sentence.find("'low'") != std::string::npos)
                 << sentence;
