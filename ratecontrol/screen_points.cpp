@@ -20,17 +20,6 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// Place on a curve through the pixels of a picture that keeps near ones together (G. M. Morton
-/// 1966): then points that follow each other look at texels and triangles that do.
-uint64_t mortonOf(uint32_t column, uint32_t row) {
-  uint64_t place = 0;
-  for (uint32_t bit = 0; bit < 32; ++bit) {
-    place |= uint64_t{column >> bit & 1} << (2 * bit);
-    place |= uint64_t{row >> bit & 1} << (2 * bit + 1);
-  }
-  return place;
-}
-
 double squaresBetween(const Colour& a, const Colour& b) {
   double squares = 0;
   for (size_t c = 0; c < 3; ++c) squares += double{a[c] - b[c]} * double{a[c] - b[c]};
@@ -63,28 +52,17 @@ void ScreenPoints::addPoints(const Camera& camera, size_t count) {
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
   const double tan_y = std::tan(camera.fov_y * std::numbers::pi / 360);
   const double pixel = 2 * tan_y / camera.height;
-  struct Pixel {
-    uint32_t column, row;
-  };
-  std::vector<Pixel> pixels;
   for (size_t i = 0; i < count; ++i) {
     const double at = static_cast<double>(i);
-    pixels.push_back(
-        {static_cast<uint32_t>(fraction(0.5 + at / kGolden) * camera.width),
-         static_cast<uint32_t>(fraction(0.5 + at / (kGolden * kGolden)) * camera.height)});
-  }
-  std::sort(pixels.begin(), pixels.end(), [](const Pixel& a, const Pixel& b) {
-    return mortonOf(a.column, a.row) < mortonOf(b.column, b.row);
-  });
-  for (const auto& [column, row] : pixels) {
+    const double column = std::floor(fraction(0.5 + at / kGolden) * camera.width) + 0.5;
+    const double row = std::floor(fraction(0.5 + at / (kGolden * kGolden)) * camera.height) + 0.5;
     Point point;
     point.right = scale(axes.right, pixel);
     point.down = scale(axes.up, -pixel);
     point.ray.origin = camera.eye;
-    point.ray.direction =
-        add(axes.forward, add(scale(point.right, column + 0.5 - camera.width / 2.0),
-                              scale(point.down, row + 0.5 - camera.height / 2.0)));
-    const auto sky = skyAt(row, camera.height);
+    point.ray.direction = add(axes.forward, add(scale(point.right, column - camera.width / 2.0),
+                                                scale(point.down, row - camera.height / 2.0)));
+    const auto sky = skyAt(static_cast<uint32_t>(row), camera.height);
     for (size_t c = 0; c < 3; ++c) point.sky[c] = static_cast<float>(sky[c]);
     points_.push_back(point);
   }
