@@ -5,6 +5,7 @@
 
 #include "codec/mesh/decimation.hpp"
 #include "encoder/height_errors.hpp"
+#include "encoder/shown_mesh.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -14,9 +15,10 @@ AuditScope auditScope(const EncodeInputs& inputs, size_t samples) {
   return {samples, inputs.budgeted() ? inputs.options.bytes : UINT64_MAX};
 }
 
-/// With a triangle budget, the mean squared error of the heights (in steps) below which more bytes
-/// no longer help: a mesh of that many triangles is itself off by sixteen times as much, so that
-/// its RMSE would fall by 3 % at most. 0 without a budget.
+/// With a triangle budget, where cameras do not look at meshes (encoder/shown_mesh.hpp), the mean
+/// squared error of the heights (in steps) below which more bytes no longer help: a mesh of that
+/// many triangles is itself off by sixteen times as much, so that its RMSE would fall by 3 % at
+/// most. 0 without a budget.
 double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
   if (triangles == 0) return 0;
   const Result<MeshSequence> sequence =
@@ -31,7 +33,9 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
 
 ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights) {
   const QuantisedHeights& source = *heights.of;
-  const Pricing pricing{heights.counted(), meshFloor(source, inputs.options.triangles),
+  const bool modelled = looksAtMeshes(inputs, source);
+  const Pricing pricing{heights.counted(),
+                        modelled ? 0 : meshFloor(source, inputs.options.triangles),
                         inputs.image != nullptr};
   HeightsMemory memory;
   const auto measure = [&](uint64_t bytes) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "base/samples.hpp"
 #include "codec/geometry/voids.hpp"
 #include "encoder/height_errors.hpp"
+#include "encoder/shown_mesh.hpp"
 #include "encoder/view_inputs.hpp"
 #include "ratecontrol/screen_points.hpp"
 
@@ -22,27 +24,23 @@ namespace {
 
 /// Points of all pictures. Twice as many change the mean loss by less than 0.01 dB.
 constexpr size_t kPoints = 6144;
+/// Of those that show meshes: their outlines are no finer than those of coarser prefixes, which
+/// could otherwise stand for them (errorsOfOutlines()).
+constexpr size_t kMeshPoints = 8 * kPoints;
+constexpr size_t kPooledOutlines = 4;
 /// Of one picture: at first, and about each pixel of 768 x 512.
 constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
 
-/// The heights that a view of a coarser level shows, and between them those of straight lines.
-std::vector<float> spread(const std::vector<float>& shown, Extent whole, const View& view) {
-  const Extent coarse = view.extentIn(whole);
-  const uint32_t step = view.step();
+/// The heights that a view of a coarser level shows, with the last ones once more where they do not
+/// reach the border.
+std::vector<float> toBorder(std::vector<float> shown, Extent extent, Extent reaching) {
+  if (extent == reaching) return shown;
   std::vector<float> heights;
-  heights.reserve(whole.samples());
-  std::vector<float> row(coarse.width);
-  for (uint32_t y = 0; y < whole.height; ++y) {
-    const float* north = &shown[size_t{y >> view.level} * coarse.width];
-    const bool below = (y >> view.level) + 1 < coarse.height;
-    const float* south = below ? north + coarse.width : north;
-    const float part = static_cast<float>(y % step) / static_cast<float>(step);
-    for (uint32_t x = 0; x < coarse.width; ++x) row[x] = north[x] + (south[x] - north[x]) * part;
-    for (uint32_t x = 0; x < whole.width; ++x) {
-      const uint32_t west = x >> view.level, east = std::min(west + 1, coarse.width - 1);
-      heights.push_back(row[west] + (row[east] - row[west]) * static_cast<float>(x % step) /
-                                        static_cast<float>(step));
-    }
+  heights.reserve(reaching.samples());
+  for (uint32_t y = 0; y < reaching.height; ++y) {
+    const float* row = &shown[size_t{std::min(y, extent.height - 1)} * extent.width];
+    heights.insert(heights.end(), row, row + extent.width);
+    if (extent.width < reaching.width) heights.push_back(row[extent.width - 1]);
   }
   return heights;
 }
@@ -98,7 +96,11 @@ class Decoded {
  public:
   Decoded(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
           const Rated<CodedTexture>& texture)
-      : inputs_(inputs), heights_(heights), texture_(texture) {}
+      : inputs_(inputs), heights_(heights), texture_(texture) {
+    heights_memory_.tracks.all_levels = texture_memory_.tracks.all_levels = true;
+    if (looksAtMeshes(inputs, *heights.coded.of))
+      mesh_.emplace(inputs, *heights.coded.of, texture.coded.of->texels);
+  }
 
   struct Samples {
     std::vector<std::byte> data;  ///< of the type of the inputs
@@ -106,16 +108,23 @@ class Decoded {
   };
   Samples heightsAt(size_t point, const View& view) {
     const CodedHeights& coded = heights_.coded;
-    const uint64_t bytes = heights_.curve.points[point].bytes;
-    const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
-    HeightsMemory* memory = view.isWhole() ? &heights_memory_ : nullptr;
-    DecodedHeights shown =
-        decodeHeights(coded.header, coded.layers, prefix, view, {inputs_.options.threads, memory});
+    DecodedHeights shown = decodedAt(point, view);
     std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
                                    shown.geometry.heights.size());
     fromSteps(shown, coded.header, coded.layers, samples.data());
     return {std::move(samples), std::move(shown.geometry.valid)};
   }
+  bool showsMeshes() const { return mesh_.has_value(); }
+  /// What viewers see of the heights.
+  Relief shownAt(size_t point) {
+    if (mesh_) {
+      std::optional<Relief> mesh = mesh_->ofDecoded(decodedAt(point, mesh_->view()).geometry);
+      if (mesh) return std::move(*mesh);
+    }
+    return reliefAt(point);
+  }
+  /// What they see of all heights, if that is a mesh.
+  std::optional<Relief> meshOfAll() const { return mesh_ ? mesh_->ofOriginal() : std::nullopt; }
   /// Voids have every sample of their border.
   Relief reliefAt(size_t point) {
     const tks_heights& whole = *inputs_.heights;
@@ -129,7 +138,8 @@ class Decoded {
     shown.height = view.extentIn(extent).height;
     Relief relief = reliefOf(shown, samples.data.data(), samples.valid);
     relief.frame = frameOf(whole);
-    if (view.level > 0) relief.heights = spread(relief.heights, extent, view);
+    relief.step = view.step();
+    relief.heights = toBorder(std::move(relief.heights), view.extentIn(extent), relief.extent());
     return relief;
   }
   Relief original() const {
@@ -148,11 +158,18 @@ class Decoded {
     const CodedTexture& coded = texture_.coded;
     const uint64_t bytes = texture_.curve.points[point].bytes;
     const Codewords prefix = prefixAfter(coded.rated(), texture_.curve.packets, bytes);
-    TextureMemory* memory = view.level == 0 ? &texture_memory_ : nullptr;
-    return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, memory});
+    return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, &texture_memory_});
   }
 
  private:
+  DecodedHeights decodedAt(size_t point, const View& view) {
+    const CodedHeights& coded = heights_.coded;
+    const uint64_t bytes = heights_.curve.points[point].bytes;
+    const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
+    return decodeHeights(coded.header, coded.layers, prefix, view,
+                         {inputs_.options.threads, &heights_memory_});
+  }
+
   static constexpr uint64_t kTexelsPerByte = 8, kSamplesPerByte = 16, kLeast = 4096;
 
   /// What few bytes can show is shown by the coarser levels as well, in less time: one that every
@@ -169,51 +186,89 @@ class Decoded {
   const EncodeInputs& inputs_;
   Rated<CodedHeights> heights_;
   Rated<CodedTexture> texture_;
+  std::optional<ShownMesh> mesh_;  ///< what viewers see, if it is not the grid
   HeightsMemory heights_memory_;
   TextureMemory texture_memory_;
 };
 
-/// Those of outlines, of the surfaces before the original, which is the last.
-std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenTexture& texture,
-                                  const std::vector<std::vector<SeenPoint>>& seen,
-                                  const std::vector<double>& squares) {
-  std::vector<std::vector<Colour>> colours;
-  std::vector<ScreenPoints::Pictures> pictures;
-  colours.reserve(seen.size());
-  for (const auto& surface : seen) {
-    colours.push_back(points.coloursOf(surface, texture));
-    pictures.push_back({surface, colours.back()});
+/// Mean squared difference of two reliefs of all samples.
+double squaresBetween(const Relief& a, const Relief& b) {
+  assert(a.heights.size() == b.heights.size());
+  double squares = 0;
+  for (size_t i = 0; i < a.heights.size(); ++i) {
+    const double difference = double{a.heights[i]} - double{b.heights[i]};
+    squares += difference * difference;
   }
-  const ScreenPoints::Pictures truth = pictures.back();
-  pictures.pop_back();
-  std::vector<double> errors = points.errorsOfOutlines(truth, pictures, squares);
-  errors.push_back(0);
-  return errors;
+  return squares / static_cast<double>(a.heights.size());
+}
+
+/// What surfaces look like with one texture.
+using SeenColours = std::vector<std::vector<Colour>>;
+
+SeenColours coloursOf(const ScreenPoints& points, const std::vector<std::vector<SeenPoint>>& seen,
+                      const ScreenTexture& texture) {
+  SeenColours colours;
+  colours.reserve(seen.size());
+  for (const auto& surface : seen) colours.push_back(points.coloursOf(surface, texture));
+  return colours;
+}
+
+/// Prefixes of the heights as viewers see them, and at last all heights.
+struct Surfaces {
+  std::vector<std::vector<SeenPoint>> seen;
+  std::vector<double> square_metres;  ///< their errors
+};
+
+Surfaces surfacesOf(const ScreenPoints& points, const GroundRays& ground, Decoded& decoded,
+                    const Nodes& nodes, Extent texels) {
+  Surfaces surfaces;
+  std::optional<Relief> mesh = decoded.meshOfAll();
+  const Relief original = mesh ? decoded.original() : Relief();
+  const auto add = [&](Relief relief, double squares) {
+    surfaces.square_metres.push_back(mesh ? squaresBetween(relief, original) : squares);
+    surfaces.seen.push_back(points.seenOf(GroundRays(std::move(relief)), texels));
+  };
+  for (size_t g = 0; g < nodes.heights.size(); ++g)
+    add(decoded.shownAt(nodes.heights[g]), nodes.square_metres[g]);
+  if (mesh) {
+    add(std::move(*mesh), 0);
+  } else {
+    surfaces.seen.push_back(points.seenOf(ground, texels));
+    surfaces.square_metres.push_back(0);
+  }
+  return surfaces;
+}
+
+std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenPoints::Pictures& truth,
+                                  const Surfaces& surfaces, const SeenColours& colours) {
+  std::vector<ScreenPoints::Pictures> pictures;
+  for (size_t g = 0; g < colours.size(); ++g) pictures.push_back({surfaces.seen[g], colours[g]});
+  const size_t pooled = surfaces.square_metres.back() > 0 ? 1 : kPooledOutlines;
+  return points.errorsOfOutlines(truth, pictures, surfaces.square_metres, pooled);
 }
 
 /// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
 /// texture is looked at through all of them.
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
                                    Decoded& decoded, const Nodes& nodes, const Texels& texels) {
-  const ScreenPoints points(cameras, kPoints);
-  std::vector<std::vector<SeenPoint>> seen;
-  for (const size_t node : nodes.heights)
-    seen.push_back(points.seenOf(GroundRays(decoded.reliefAt(node)), texels.extent()));
-  seen.push_back(points.seenOf(ground, texels.extent()));
+  const ScreenPoints points(cameras, decoded.showsMeshes() ? kMeshPoints : kPoints);
+  const Extent extent = texels.extent();
+  const Surfaces surfaces = surfacesOf(points, ground, decoded, nodes, extent);
+  const std::vector<std::vector<SeenPoint>>& seen = surfaces.seen;
+  const ScreenTexture original(texels, extent);
+  const std::vector<SeenPoint> in_truth = points.seenOf(ground, extent);
+  const std::vector<Colour> true_colours = points.coloursOf(in_truth, original);
+  const ScreenPoints::Pictures truth{in_truth, true_colours};
+  const SeenColours whole = coloursOf(points, seen, original);
+  const std::vector<double> outlines = outlineErrors(points, truth, surfaces, whole);
   const size_t columns = nodes.textures.size() + 1;
   std::vector<double> errors(seen.size() * columns);
-  const ScreenTexture whole(texels, texels.extent());
-  const std::vector<Colour> truth = points.coloursOf(seen.back(), whole);
-  const std::vector<double> outlines = outlineErrors(points, whole, seen, nodes.square_metres);
   for (size_t t = 0; t < columns; ++t) {
-    const auto look = [&](const ScreenTexture& texture) {
-      for (size_t g = 0; g < seen.size(); ++g) {
-        const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
-        errors[g * columns + t] =
-            points.errorInside({seen.back(), truth}, {seen[g], colours}) + outlines[g];
-      }
-    };
-    t + 1 < columns ? look(decoded.textureAt(nodes.textures[t])) : look(whole);
+    const bool last = t + 1 == columns;
+    const SeenColours shown =
+        last ? whole : coloursOf(points, seen, decoded.textureAt(nodes.textures[t]));
+    for (size_t g = 0; g < seen.size(); ++g)
+      errors[g * columns + t] = points.errorInside(truth, {seen[g], shown[g]}) + outlines[g];
   }
   return errors;
 }
@@ -300,8 +355,10 @@ Status checkCameras(const EncodeInputs& inputs) {
 
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture) {
-  // Pictures that are drawn take long: fewer of them.
-  const double ratio = inputs.options.picture_error != nullptr ? 4 : 2;
+  // Pictures that are drawn take long, and meshes for cameras: fewer of them.
+  const bool meshes_for_cameras =
+      inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.of);
+  const double ratio = inputs.options.picture_error != nullptr || meshes_for_cameras ? 4 : 2;
   const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
   Decoded decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
@@ -323,7 +380,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   }
   if (errors.empty() && !cameras.empty())
     errors = modelledErrors(cameras, ground, decoded, nodes, texture.coded.of->texels);
-  if (errors.empty() || errors.front() <= 0) return unseen(heights.curve, texture.curve);
+  if (errors.empty() || !(errors.front() > 0)) return unseen(heights.curve, texture.curve);
   return {std::move(squares), std::move(errors)};
 }
 

@@ -45,11 +45,11 @@ std::array<CellPlane, 2> planesOf(const Corners& h, bool even) {
 struct GroundRays::Path {
   Vec3 origin, direction;  ///< column, height, row
 
-  Path(const Ray& ray, const GroundFrame& frame)
-      : origin{ray.origin[0] / frame.spacing_x + (frame.width - 1.0) / 2, ray.origin[1],
-               ray.origin[2] / frame.spacing_y + (frame.height - 1.0) / 2},
-        direction{ray.direction[0] / frame.spacing_x, ray.direction[1],
-                  ray.direction[2] / frame.spacing_y} {}
+  Path(const Ray& ray, const GroundFrame& frame, double step = 1)
+      : origin{(ray.origin[0] / frame.spacing_x + (frame.width - 1.0) / 2) / step, ray.origin[1],
+               (ray.origin[2] / frame.spacing_y + (frame.height - 1.0) / 2) / step},
+        direction{ray.direction[0] / frame.spacing_x / step, ray.direction[1],
+                  ray.direction[2] / frame.spacing_y / step} {}
 
   double at(size_t axis, double t) const { return origin[axis] + t * direction[axis]; }
   /// When it comes to a column (axis 0), height or row; kNever if it does not.
@@ -60,15 +60,16 @@ struct GroundRays::Path {
 
 GroundRays::GroundRays(Relief relief) : relief_(std::move(relief)) {
   const GroundFrame& f = relief_.frame;
-  assert(f.width >= 2 && f.height >= 2 && relief_.heights.size() == size_t{f.width} * f.height);
+  const Extent grid = relief_.extent();
+  assert(f.width >= 2 && f.height >= 2 && relief_.heights.size() == grid.samples());
   constexpr float kLowest = -std::numeric_limits<float>::infinity();
-  Level cells{f.width - 1, f.height - 1, {}};
+  Level cells{grid.width - 1, grid.height - 1, {}};
   cells.highest.resize(size_t{cells.width} * cells.height);
   // A comparison with NaN is false: voids raise no cell.
   const auto raise = [](float& highest, float h) { highest = h > highest ? h : highest; };
   for (uint32_t y = 0; y < cells.height; ++y) {
-    const float* north = &relief_.heights[size_t{y} * f.width];
-    const float* south = north + f.width;
+    const float* north = &relief_.heights[size_t{y} * grid.width];
+    const float* south = north + grid.width;
     for (uint32_t x = 0; x < cells.width; ++x) {
       float highest = kLowest;
       for (const float h : {north[x], north[x + 1], south[x], south[x + 1]}) raise(highest, h);
@@ -96,7 +97,7 @@ GroundRays::GroundRays(Relief relief) : relief_(std::move(relief)) {
 
 std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, const Path& path,
                                                double enter, double leave) const {
-  const uint32_t width = relief_.frame.width;
+  const uint32_t width = relief_.extent().width;
   const float* north = &relief_.heights[size_t{row} * width + column];
   const float* south = north + width;
   const Corners corners{north[0], north[1], south[0], south[1]};
@@ -120,9 +121,19 @@ std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, co
 }
 
 std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
-  const Path path(ray, relief_.frame);
-  const std::array<double, 3> last = {relief_.frame.width - 1.0, bounds_.high[1],
-                                      relief_.frame.height - 1.0};
+  const double step = relief_.step;
+  std::optional<GroundHit> found = firstHit(Path(ray, relief_.frame, step));
+  if (!found) return found;
+  found->column *= step;
+  found->row *= step;
+  found->slope_c /= step;
+  found->slope_r /= step;
+  return found;
+}
+
+std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
+  const std::array<double, 3> last = {(relief_.frame.width - 1.0) / relief_.step, bounds_.high[1],
+                                      (relief_.frame.height - 1.0) / relief_.step};
   double t = 0, end = kNever;
   for (const size_t axis : {0u, 1u, 2u}) {
     const double low = axis == 1 ? bounds_.low[1] : 0;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "ground/frame.hpp"
 #include "ground/vec3.hpp"
 
@@ -17,6 +18,12 @@ namespace tetrakis::inline ratecontrol {
 struct Relief {
   GroundFrame frame;
   std::vector<float> heights;
+  /// Columns and rows of the frame from one height to the next. The last ones lie on the border or
+  /// beyond it.
+  uint32_t step = 1;
+
+  /// How many heights there are.
+  Extent extent() const { return {(frame.width - 2) / step + 2, (frame.height - 2) / step + 2}; }
 };
 
 /// In the axes of GroundFrame.
@@ -54,6 +61,8 @@ class GroundRays {
   };
   struct Path;  ///< a ray in columns and rows
 
+  /// In the columns and rows of the relief's own heights, as hitInCell().
+  std::optional<GroundHit> firstHit(const Path& path) const;
   std::optional<GroundHit> hitInCell(uint32_t column, uint32_t row, const Path& path, double enter,
                                      double leave) const;
 

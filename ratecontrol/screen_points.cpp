@@ -154,9 +154,9 @@ ScreenPoints::Outline ScreenPoints::outlineOf(const View& view, const Pictures& 
 
 std::vector<double> ScreenPoints::errorsOfOutlines(const Pictures& truth,
                                                    const std::vector<Pictures>& others,
-                                                   const std::vector<double>& squares) const {
-  assert(others.size() == squares.size());
-  constexpr size_t kCoarser = 3;
+                                                   const std::vector<double>& squares,
+                                                   size_t pooled) const {
+  assert(others.size() == squares.size() && pooled > 0);
   std::vector<double> errors(others.size());
   double weights = 0;
   for (const View& view : views_) weights += view.weight;
@@ -165,13 +165,13 @@ std::vector<double> ScreenPoints::errorsOfOutlines(const Pictures& truth,
     for (size_t g = 0; g < others.size(); ++g) {
       outlines.push_back(outlineOf(view, truth, others[g]));
       double error = 0, shifts = 0, metres = 0, count = 0;
-      for (size_t k = g < kCoarser ? 0 : g - kCoarser; k <= g; ++k) {
+      for (size_t k = g < pooled ? 0 : g + 1 - pooled; k <= g; ++k) {
         error += outlines[k].error;
         shifts += std::sqrt(squares[k]);
         metres += outlines[k].metres;
         count += static_cast<double>(outlines[k].count);
       }
-      if (!(error > 0 && metres > 0)) continue;
+      if (!(error > 0 && metres > 0 && shifts > 0)) continue;
       const double shift = std::sqrt(squares[g]) * count / metres;  // pixels
       const double smoothed = (1 + 3 * smoothedEdge(shift)) / 4;
       errors[g] += view.weight / weights * smoothed * error / shifts * std::sqrt(squares[g]);

@@ -52,11 +52,12 @@ class ScreenPoints {
   /// The same where one picture shows ground and the other one sky, for surfaces whose squared
   /// errors, in square metres, fall. Such errors are large and few points see them. But what an
   /// outline covers is in proportion to its shift, so to the error of the heights: those of coarser
-  /// surfaces say what finer ones cover. Pixels smooth a shift s of less than a pixel: an edge
-  /// then errs by s^2 - s^3 / 3 pixels, by s - 1 / 3 beyond; but as they are means of 2 x 2
-  /// samples, of which one makes a sixteenth, by s / 4 at least.
+  /// surfaces say what finer ones cover, so each is pooled with those before it, `pooled` in all.
+  /// Pixels smooth a shift s of less than a pixel: an edge then errs by s^2 - s^3 / 3 pixels, by
+  /// s - 1 / 3 beyond; but as they are means of 2 x 2 samples, of which one makes a sixteenth, by
+  /// s / 4 at least.
   std::vector<double> errorsOfOutlines(const Pictures& truth, const std::vector<Pictures>& others,
-                                       const std::vector<double>& squares) const;
+                                       const std::vector<double>& squares, size_t pooled) const;
 
   /// Terrain that is looked at, and a typical error of its heights, in metres.
   struct Surface {

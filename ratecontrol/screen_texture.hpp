@@ -26,13 +26,14 @@ class ScreenTexture {
  private:
   struct Level {
     uint32_t width = 0, height = 0;
-    std::vector<uint8_t> rgb;
+    std::vector<uint8_t> texels;  ///< R, G, B and nothing: four are one load
     /// Place of a level's texel = scale * (place from 0 to 1) - shift.
     double scale_x = 1, scale_y = 1, shift = 0;
   };
   static Level halved(const Level& fine);
   void place(Level& level, int halvings) const;
-  static void addBilinear(const Level& level, double u, double v, float weight, Colour& sum);
+  using Sum = std::array<float, 4>;
+  static void addBilinear(const Level& level, double u, double v, float weight, Sum& sum);
 
   Extent whole_;
   int first_;                  ///< level of detail of levels_[0]

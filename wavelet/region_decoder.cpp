@@ -62,6 +62,8 @@ int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const 
     std::vector<BandPlan> plan = plan_of(i);
     if (plan.empty()) return;
     if (memory == nullptr) return take(i, decodeTrack(plan, bit_planes, codewords[i]), more_bits);
+    if (memory->all_levels)
+      for (BandPlan& band : plan) band.needed = true;
     take(i, memory->tracks[i].emplace(std::move(plan), bit_planes).decode(codewords[i]), more_bits);
   });
   return bits;

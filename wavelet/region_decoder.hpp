@@ -21,6 +21,7 @@ namespace tetrakis::inline wavelet {
 /// each track of which something is known. It is empty before the first call.
 struct TrackMemory {
   std::vector<std::optional<GrowingTrack>> tracks;
+  bool all_levels = false;  ///< for calls with views of several levels
 
   uint64_t bytes() const;
 };

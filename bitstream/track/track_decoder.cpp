@@ -63,39 +63,58 @@ TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
 }
 
 GrowingTrack::GrowingTrack(std::vector<BandPlan> plan, int planes)
-    : plan_(std::move(plan)), passes_(plan_, planes), state_(plan_, planes) {}
+    : plan_(std::move(plan)), planes_(planes), passes_(plan_, planes), state_(plan_, planes) {}
 
 /// Takes back what a shorter prefix told of the pass in which it ended.
-void GrowingTrack::restore() {
-  assert(passes_.needed());
-  const uint16_t band = passes_.front().band;
-  if (band_) {
-    state_.bands[band] = *band_;
-    state_.models[plan_[band].models] = *models_;
+void GrowingTrack::goOn(std::span<const uint8_t> codeword) {
+  if (!decoder_ || lost_) {
+    if (lost_) {
+      passes_ = PassQueue(plan_, planes_);
+      state_ = TrackState(plan_, planes_);
+      lost_ = false;
+    }
+    decoder_.emplace(codeword);
   } else {
-    band_ = state_.bands[band];
-    models_ = state_.models[plan_[band].models];
+    decoder_->grow(codeword, read_);
   }
+  read_ = decoder_->read(codeword);
+  if (!band_) return;
+  const uint16_t band = passes_.front().band;
+  state_.bands[band] = std::move(*band_);
+  state_.models[plan_[band].models] = *models_;
+  band_.reset();
+}
+
+void GrowingTrack::keep() {
+  const uint16_t band = passes_.front().band;
+  band_ = state_.bands[band];
+  models_ = state_.models[plan_[band].models];
+}
+
+/// A copy of the band before each pass would take as long as the passes. So only those are kept in
+/// which the codeword is likely to end; where it ends in another one, the next call starts anew.
+bool GrowingTrack::mayEnd() const {
+  constexpr size_t kLeast = 64, kTimes = 4;
+  return bytes_ - read_ <= kLeast + kTimes * longest_;
 }
 
 const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   assert(codeword.size() >= bytes_);
   if (decoder_ && codeword.size() == bytes_) return state_;
   bytes_ = codeword.size();
-  if (decoder_) {
-    decoder_->grow(codeword, read_);
-  } else {
-    decoder_.emplace(codeword);
-  }
-  read_ = decoder_->read(codeword);
+  goOn(codeword);
   while (passes_.needed()) {
-    restore();
+    if (mayEnd()) keep();
     const Pass pass = passes_.front();
     DecodingIo io{{*decoder_}};
     state_.run(plan_, pass, io);
-    if (io.stopped()) return state_;
+    if (io.stopped()) {
+      lost_ = !band_;
+      return state_;
+    }
     decoder_ = io.decoder;
-    read_ = decoder_->read(codeword);
+    const size_t before = std::exchange(read_, decoder_->read(codeword));
+    longest_ = std::max(longest_, read_ - before);
     passes_.pop(state_.bands[pass.band]);
     band_.reset();
   }

@@ -35,17 +35,22 @@ class GrowingTrack {
   uint64_t bytes() const;
 
  private:
-  void restore();
+  void goOn(std::span<const uint8_t> codeword);
+  void keep();
+  bool mayEnd() const;
 
   std::vector<BandPlan> plan_;
+  int planes_;
   PassQueue passes_;
   TrackState state_;
+  size_t bytes_ = 0;    ///< of the codeword before
+  size_t longest_ = 0;  ///< bytes that a pass has taken at most
   // As they were at the beginning of the pass that is next, if it has begun.
   std::optional<RangeDecoder> decoder_;
-  size_t read_ = 0;   ///< by the decoder
-  size_t bytes_ = 0;  ///< of the codeword before
+  size_t read_ = 0;  ///< by the decoder
   std::optional<Band> band_;
   std::optional<BandModels> models_;
+  bool lost_ = false;  ///< it has begun, and they were not kept
 };
 
 }  // namespace tetrakis::inline track

@@ -246,8 +246,14 @@ TEST(ToldStreams, TakeOddTerrain) {
         const tks_image image = picture.image();
         for (const double scale : {1.0, 1e300}) {
           heights.scale = scale;
-          const std::string sentence = refusal(&heights, &image, options);
-          EXPECT_TRUE(sentence.empty() || sentence.find("'low'") != std::string::npos) << sentence;
+          const bool meshes = texels == 1 && scale == 1 && width == 35;  // these take long
+          for (const uint32_t triangles : {0u, 7u}) {
+            if (triangles > 0 && !meshes) continue;
+            options.triangles = triangles;
+            const std::string sentence = refusal(&heights, &image, options);
+            EXPECT_TRUE(sentence.empty() || sentence.find("'low'") != std::string::npos)
+                << sentence;
+          }
         }
       }
     }

@@ -305,6 +305,21 @@ TEST(TrackCoding, GrowingTracksForgetNothingAndInventNothing) {
   }
 }
 
+/// Not even if a prefix ends in a pass that takes much more than all passes before it.
+TEST(TrackCoding, GrowingTracksEndInLongPasses) {
+  const Material m = material(7, {60, 90}, 3);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  ASSERT_GT(track.codeword.size(), 8000u);
+  for (const size_t first : {300u, 1500u, 4000u}) {
+    GrowingTrack growing(m.plan, track.planes);
+    for (size_t bytes = first; bytes <= track.codeword.size(); bytes += bytes / 2) {
+      const auto prefix = std::span(track.codeword).first(bytes);
+      ASSERT_TRUE(sameKnowledge(growing.decode(prefix), decodeTrack(m.plan, track.planes, prefix)))
+          << bytes << " of " << track.codeword.size() << " bytes";
+    }
+  }
+}
+
 /// Coefficients of 30 bits, the most there may be, all of them.
 TEST(TrackCoding, TheLargestMagnitudesComeBack) {
   Material m = material(9, {6, 9}, 5);

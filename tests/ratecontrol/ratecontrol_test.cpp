@@ -293,6 +293,26 @@ TEST(GroundRays, MeetTheGroundWhereItIs) {
   EXPECT_FALSE(ground.heightAt(33, 0));
 }
 
+/// A slope is the same ground if only some heights of it are given, up to the border.
+TEST(GroundRays, MeetHeightsThatAreSeveralSamplesApart) {
+  for (const uint32_t step : {1u, 2u, 4u, 16u, 64u}) {
+    Relief relief{{50, 34, 3, 5, 1}, {}, step};
+    const Extent grid = relief.extent();
+    for (uint32_t y = 0; y < grid.height; ++y)
+      for (uint32_t x = 0; x < grid.width; ++x)
+        relief.heights.push_back(static_cast<float>(step * (2 * x + y)));
+    const GroundRays ground(relief);
+    const auto hit = ground.hit({{10, 200, 20}, {-0.1, -1, 0.1}});
+    ASSERT_TRUE(hit) << step;
+    EXPECT_NEAR(hit->slope_c, 2, 1e-9);
+    EXPECT_NEAR(hit->slope_r, 1, 1e-9);
+    EXPECT_NEAR(hit->at + 2 * hit->column + hit->row, 200 - hit->far, 1e-9);
+    EXPECT_NEAR(*ground.heightAt(73.4, 82.4), 2 * (24.5 + 73.4 / 3) + 16.5 + 82.4 / 5, 1e-9);
+    EXPECT_FALSE(ground.heightAt(73.6, 0)) << step;
+    EXPECT_FALSE(ground.heightAt(0, 82.6)) << step;
+  }
+}
+
 /// Brute force: the ray is above the ground until it meets the triangle that is found. It starts
 /// above the grid, as from beside it rays also come in below the ground.
 TEST(GroundRays, FindTheFirstTriangle) {
