@@ -128,7 +128,7 @@ TEST_F(PlainTiffs, ConvertAsOpenImageIoDoes) {
 TEST_F(PlainTiffs, OthersAreLeftAlone) {
   EXPECT_TRUE(openPlainTiff(write({PictureSample::kU8, 1, 8, 1, COMPRESSION_NONE, 0, 0})));
   EXPECT_FALSE(openPlainTiff(write({PictureSample::kHalf, 3, 16, 1, COMPRESSION_NONE, 0, 0})));
-  EXPECT_FALSE(openPlainTiff(write({PictureSample::kOther, 1, 4, 1, COMPRESSION_NONE, 0, 0})));
+  EXPECT_FALSE(openPlainTiff(write({PictureSample::kOther, 1, 24, 1, COMPRESSION_NONE, 0, 0})));
   EXPECT_FALSE(openPlainTiff(path("missing.tif")));
 }
 
