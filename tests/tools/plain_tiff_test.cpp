@@ -4,10 +4,12 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <random>
 
 #include "tests/support/scratch_folder.hpp"
+#include "tools/files/files.hpp"
 #include "tools/files/plain_tiff.hpp"
 
 namespace tetrakis::tools {
@@ -21,7 +23,7 @@ struct Layout {
 
 class PlainTiffs : public test::ScratchFolder {
  protected:
-  static constexpr uint32_t kWidth = 37, kHeight = 21;
+  static constexpr uint32_t kWidth = 37, kHeight = 21, kRows = 5;
 
   std::string write(const Layout& layout) {
     const std::string name = path("a.tif");
@@ -42,7 +44,7 @@ class PlainTiffs : public test::ScratchFolder {
       TIFFSetField(tiff, TIFFTAG_TILEWIDTH, layout.tile);
       TIFFSetField(tiff, TIFFTAG_TILELENGTH, layout.tile);
     } else {
-      TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
+      TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, kRows);
     }
     writeNoise(tiff, layout);
     TIFFClose(tiff);
@@ -56,7 +58,7 @@ class PlainTiffs : public test::ScratchFolder {
     written.resize(row * kHeight);
     for (std::byte& byte : written) byte = std::byte(random() % 64);
     if (layout.tile) return writeTiles(tiff, layout.tile, pixel);
-    for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t y = 0; y < (first_block_only ? kRows : kHeight); ++y) {
       std::vector<std::byte> line(row);  // which the predictor changes
       std::copy_n(&written[y * row], row, line.data());
       TIFFWriteScanline(tiff, line.data(), y, 0);
@@ -71,11 +73,13 @@ class PlainTiffs : public test::ScratchFolder {
           std::copy_n(&written[(line * kWidth + x) * pixel], std::min(side, kWidth - x) * pixel,
                       &tile[(line - y) * side * pixel]);
         TIFFWriteTile(tiff, tile.data(), x, y, 0, 0);
+        if (first_block_only) return;
       }
     }
   }
 
   std::vector<std::byte> written;
+  bool first_block_only = false;
 };
 
 std::vector<std::byte> samplesOf(PictureReader& reader, PictureSample type) {
@@ -123,6 +127,31 @@ TEST_F(PlainTiffs, ConvertAsOpenImageIoDoes) {
     std::memcpy(&whole, &wide[4 * i], sizeof whole);
     EXPECT_NEAR(half, whole / 65537.0, 1);
   }
+}
+
+/// As GDAL's SPARSE_OK=TRUE leaves tiles and strips out.
+TEST_F(PlainTiffs, WhatIsMissingIsVoid) {
+  for (const uint32_t tile : {16U, 0U}) {
+    const Layout layout{PictureSample::kFloat, 3, 32, 1, COMPRESSION_ADOBE_DEFLATE, 0, tile};
+    first_block_only = true;
+    const std::string name = write(layout);
+    Notes notes;
+    const auto heights = readHeights(name, {}, &notes);
+    ASSERT_TRUE(heights.ok()) << heights.status().message();
+    ASSERT_FALSE(notes.empty());
+    EXPECT_NE(notes[0].text.find("leaves out are void"), std::string::npos) << notes[0].text;
+    for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
+      float sample = 0;
+      std::memcpy(&sample, &heights->data[i * sizeof sample], sizeof sample);
+      const bool there = tile ? i / kWidth < tile && i % kWidth < tile : i / kWidth < kRows;
+      ASSERT_EQ(std::isnan(sample), !there) << i;
+      if (there) {
+        EXPECT_EQ(std::memcmp(&sample, &written[i * sizeof sample], sizeof sample), 0);
+      }
+    }
+  }
+  const auto image = readImage(write({PictureSample::kU8, 1, 8, 1, COMPRESSION_NONE, 0, 16}));
+  EXPECT_EQ(image.status().code(), TKS_IO) << image.status().message();
 }
 
 TEST_F(PlainTiffs, OthersAreLeftAlone) {

@@ -106,6 +106,22 @@ struct Reading {
   std::vector<uint8_t> mask;
 };
 
+/// Of a mask page, or of what is missing; empty: all is there.
+Result<std::vector<uint8_t>> maskOf(const Raster& raster, uint32_t width, uint32_t height) {
+  std::vector<uint8_t> mask;
+  if (raster.mask) {
+    auto page = readMaskPage(raster.file.path(), width, height);
+    if (!page.ok()) return page;
+    mask = std::move(*page);
+  }
+  if (!raster.sparse) return mask;
+  auto there = maskOfMissing(raster.file.path(), width, height);
+  if (!there.ok()) return there;
+  for (size_t i = 0; i < mask.size(); ++i)
+    if (mask[i] == 0) (*there)[i] = 0;
+  return there;
+}
+
 /// The nodata value is as given, else as the file declares it.
 Result<Reading> readRasterHeights(const std::string& path, const std::optional<double>& nodata,
                                   Notes& notes) {
@@ -135,10 +151,10 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
     if (heights.rounding > 0) notes.push_back(noteOnRounding(heights.rounding));
   }
   if (raster->further_pages) notes.push_back({"only the first page is read", ""});
-  if (!raster->mask) return reading;
-  auto mask = readMaskPage(raster->file.path(), heights.width, heights.height);
+  auto mask = maskOf(*raster, heights.width, heights.height);
   if (!mask.ok()) return mask.status();
   reading.mask = std::move(*mask);
+  if (raster->sparse) notes.push_back({"strips or tiles that the file leaves out are void", ""});
   return reading;
 }
 

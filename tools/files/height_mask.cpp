@@ -102,4 +102,30 @@ Result<Mask> readMaskBeside(const std::string& path, uint32_t width, uint32_t he
   return readCurrent(*file, name, width, height);
 }
 
+Result<Mask> maskOfMissing(const std::string& path, uint32_t width, uint32_t height) {
+  const auto file = TiffFile::open(path, "r");
+  if (!file.ok()) return file.status();
+  TIFF* const tiff = file->get();
+  const bool tiled = TIFFIsTiled(tiff);
+  uint32_t side_x = width, side_y = height;
+  if (tiled) {
+    TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &side_x);
+    TIFFGetField(tiff, TIFFTAG_TILELENGTH, &side_y);
+  } else {
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ROWSPERSTRIP, &side_y);
+  }
+  if (side_x == 0 || side_y == 0) return file->failure();
+  Mask mask(size_t{width} * height, 255);
+  for (uint32_t y = 0; y < height; y += std::min(side_y, height - y)) {
+    for (uint32_t x = 0; x < width; x += std::min(side_x, width - x)) {
+      if (!isMissing(tiff,
+                     tiled ? TIFFComputeTile(tiff, x, y, 0, 0) : TIFFComputeStrip(tiff, y, 0)))
+        continue;
+      for (uint32_t row = y; row < y + std::min(side_y, height - y); ++row)
+        std::fill_n(&mask[size_t{row} * width + x], std::min(side_x, width - x), uint8_t{0});
+    }
+  }
+  return mask;
+}
+
 }  // namespace tetrakis::tools

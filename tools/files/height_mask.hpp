@@ -18,4 +18,8 @@ Result<std::vector<uint8_t>> readMaskPage(const std::string& path, uint32_t widt
 Result<std::vector<uint8_t>> readMaskBeside(const std::string& path, uint32_t width,
                                             uint32_t height);
 
+/// 0 in the strips and tiles that the first page leaves out, 255 elsewhere.
+Result<std::vector<uint8_t>> maskOfMissing(const std::string& path, uint32_t width,
+                                           uint32_t height);
+
 }  // namespace tetrakis::tools

@@ -98,6 +98,8 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
     return Status(TKS_USAGE, raster->name + " has " + std::to_string(shape.channels) +
                                  " channels: a texture has 1 to 4");
   }
+  if (raster->sparse)
+    return Status(TKS_IO, "cannot read " + raster->name + ": a part of its samples is missing");
   const auto sample = sampleOf(*raster);
   if (!sample.ok()) return sample.status();
   auto data = readSamples(*raster, *sample == TKS_U8 ? PictureSample::kU8 : PictureSample::kU16);

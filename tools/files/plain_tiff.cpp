@@ -98,9 +98,11 @@ class PlainTiff final : public PictureReader {
   Status readRows(std::span<std::byte> samples) const {
     const size_t row_bytes = shape_.width * pixelBytes();
     if (static_cast<size_t>(TIFFScanlineSize64(file_.get())) != row_bytes) return damaged();
-    for (int y = 0; y < shape_.height; ++y)
-      if (TIFFReadScanline(file_.get(), &samples[y * row_bytes], static_cast<uint32_t>(y), 0) < 0)
-        return file_.reason();
+    for (int y = 0; y < shape_.height; ++y) {
+      const auto row = static_cast<uint32_t>(y);
+      if (isMissing(file_.get(), TIFFComputeStrip(file_.get(), row, 0))) continue;
+      if (TIFFReadScanline(file_.get(), &samples[y * row_bytes], row, 0) < 0) return file_.reason();
+    }
     return {};
   }
 
@@ -117,6 +119,7 @@ class PlainTiff final : public PictureReader {
     const auto height = static_cast<uint32_t>(shape_.height);
     for (uint32_t y = 0; y < height; y += std::min(side_y, height - y)) {
       for (uint32_t x = 0; x < width; x += std::min(side_x, width - x)) {
+        if (isMissing(file_.get(), TIFFComputeTile(file_.get(), x, y, 0, 0))) continue;
         if (TIFFReadTile(file_.get(), tile.data(), x, y, 0, 0) < 0) return file_.reason();
         const size_t row_bytes = std::min(side_x, width - x) * pixelBytes();
         for (uint32_t row = 0; row < std::min(side_y, height - y); ++row)

@@ -50,8 +50,7 @@ Result<Raster> openPng(InputFile file, const std::string& name) {
   return raster;
 }
 
-Result<std::unique_ptr<PictureReader>> openReader(const std::string& path) {
-  if (auto plain = openPlainTiff(path)) return plain;
+Result<std::unique_ptr<PictureReader>> openByOpenImageIo(const std::string& path) {
   const auto formats = pictureFormats();
   if (!formats.ok()) return formats.status();
   auto reader = (*formats)->open(path);
@@ -67,9 +66,14 @@ Result<Raster> openUnguarded(const std::string& path) {
   const auto png = startsAsPng(*file, quoted(path));
   if (!png.ok()) return png.status();
   if (*png) return openPng(std::move(*file), quoted(path));
-  auto reader = openReader(file->path());
-  if (!reader.ok()) return unreadable(quoted(path), reader.status().message());
-  Raster raster{std::move(*file), quoted(path), std::move(*reader), {}};
+  Raster raster{std::move(*file), quoted(path), nullptr, {}};
+  raster.reader = openPlainTiff(raster.file.path());
+  raster.plain = raster.reader != nullptr;
+  if (!raster.plain) {
+    auto reader = openByOpenImageIo(raster.file.path());
+    if (!reader.ok()) return unreadable(raster.name, reader.status().message());
+    raster.reader = std::move(*reader);
+  }
   raster.shape = raster.reader->shape();
   if (raster.shape.depth > 1 || raster.shape.width < 1 || raster.shape.height < 1) {
     return Status(TKS_USAGE, raster.name + " is not a flat picture");

@@ -21,6 +21,7 @@ struct Raster {
   std::string name;                       ///< for messages
   std::unique_ptr<PictureReader> reader;  ///< null for a PNG, which is decoded already
   PictureShape shape;                     ///< what reading gives
+  bool plain = false;                     ///< a TIFF that libtiff reads alone
   int stored_bits = 0;                    ///< of one sample in the file; 0: as shape.sample
   bool palette = false;                   ///< expanded to RGB by reading
   bool cmyk = false;                      ///< converted to RGB by reading
@@ -28,8 +29,9 @@ struct Raster {
   bool white_is_zero = false;             ///< inverted by reading
   bool further_pages = false;             ///< pages or frames that are not read
   bool mask = false;                      ///< a TIFF's mask page, which is not applied by reading
-  bool profile = false;                   ///< an ICC profile that is not applied
-  int orientation = 1;                    ///< as TIFF counts; not applied by reading
+  bool sparse = false;   ///< parts of a TIFF are missing, which reading leaves at 0
+  bool profile = false;  ///< an ICC profile that is not applied
+  int orientation = 1;   ///< as TIFF counts; not applied by reading
   /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
   enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
   std::vector<std::byte> decoded{};  ///< samples of a PNG

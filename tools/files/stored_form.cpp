@@ -20,7 +20,9 @@ Status noteTiff(Raster& raster) {
   raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   const auto form = tiffForm(raster.file.path());
   if (!form.ok()) return form.status();
-  if (!form->whole)
+  raster.sparse = form->sparse;
+  // OpenImageIO cannot read those.
+  if (!form->whole || (form->sparse && !raster.plain))
     return {TKS_IO, "cannot read " + raster.name + ": a part of its samples is missing"};
   // OpenImageIO takes a missing BitsPerSample for 8, where TIFF means 1, and reads past the rows.
   if (form->bits != raster.stored_bits) {

@@ -74,13 +74,17 @@ class TiffFile {
 
 /// What the first directory says of its samples.
 struct TiffForm {
-  int bits = 1;       ///< per sample, with TIFF's default where the tag is missing
-  bool whole = true;  ///< all strips or tiles lie inside the file
+  int bits = 1;         ///< per sample, with TIFF's default where the tag is missing
+  bool whole = true;    ///< all strips or tiles lie inside the file, but for those that are missing
+  bool sparse = false;  ///< some, not all, are missing
   bool associated_alpha = false;
   bool mask = false;           ///< there is a mask page for the first
   bool further_pages = false;  ///< other than that, and smaller versions of the first (overviews)
 };
 Result<TiffForm> tiffForm(const std::string& path);
+
+/// Whether the file leaves out a strip or tile, as GDAL's sparse files do: a void without bytes.
+bool isMissing(TIFF* tiff, uint32_t strip_or_tile);
 
 /// Width and height of the current directory.
 std::pair<uint32_t, uint32_t> sizeOfPage(TIFF* tiff);

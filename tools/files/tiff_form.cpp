@@ -7,15 +7,20 @@
 namespace tetrakis::tools {
 namespace {
 
-/// libtiff fills what is missing with zeros, or leaves it as it was.
-bool holdsAllStrips(TIFF* tiff, uint64_t file_bytes) {
+/// libtiff fills what lies outside with zeros, or leaves it as it was.
+void noteBlocks(TIFF* tiff, uint64_t file_bytes, TiffForm& form) {
   const uint32_t count = TIFFIsTiled(tiff) ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  uint32_t missing = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const uint64_t offset = TIFFGetStrileOffset(tiff, i), bytes = TIFFGetStrileByteCount(tiff, i);
-    if (offset == 0 || bytes == 0 || bytes > file_bytes || offset > file_bytes - bytes)
-      return false;
+    if (isMissing(tiff, i)) {
+      ++missing;
+    } else if (offset == 0 || bytes == 0 || bytes > file_bytes || offset > file_bytes - bytes) {
+      form.whole = false;
+    }
   }
-  return true;
+  form.sparse = missing > 0;
+  if (missing == count) form.whole = false;
 }
 
 bool associatedAlpha(TIFF* tiff) {
@@ -45,6 +50,11 @@ void notePages(TIFF* tiff, TiffForm& form) {
 
 }  // namespace
 
+bool isMissing(TIFF* tiff, uint32_t strip_or_tile) {
+  return TIFFGetStrileOffset(tiff, strip_or_tile) == 0 &&
+         TIFFGetStrileByteCount(tiff, strip_or_tile) == 0;
+}
+
 std::pair<uint32_t, uint32_t> sizeOfPage(TIFF* tiff) {
   std::pair<uint32_t, uint32_t> size(0, 0);
   TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &size.first);
@@ -66,7 +76,9 @@ Result<TiffForm> tiffForm(const std::string& path) {
   const uint64_t bytes = std::filesystem::file_size(path, unknown_size);
   uint16_t bits = 1;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
-  TiffForm form{bits, unknown_size || holdsAllStrips(tiff, bytes), associatedAlpha(tiff)};
+  TiffForm form{bits};
+  form.associated_alpha = associatedAlpha(tiff);
+  noteBlocks(tiff, unknown_size ? UINT64_MAX : bytes, form);
   notePages(tiff, form);
   return form;
 }
