@@ -30,8 +30,9 @@ Status noteTiff(Raster& raster) {
   }
   raster.white_is_zero =
       raster.reader->has(kPhotometric) && raster.reader->number(kPhotometric) == 0;
-  // OpenImageIO inverts these up to 8 bits and leaves them alone above.
-  if (raster.white_is_zero && raster.shape.sample != PictureSample::kU8) {
+  // OpenImageIO inverts these up to 8 bits, alpha too, and leaves them alone above.
+  if (raster.white_is_zero &&
+      (raster.shape.sample != PictureSample::kU8 || raster.shape.channels > 1)) {
     return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
   }
   raster.further_pages = form->further_pages;
