@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures through OpenImageIO.
+// Pictures: which library reads them.
 #include "tools/files/raster.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures through OpenImageIO (PNG through libspng), with the samples exactly as stored: no gamma,
-// no colour profile, no multiplication by alpha.
+// Pictures by libspng (PNG), libtiff (plain TIFFs) or OpenImageIO (all others), with the samples
+// exactly as stored: no gamma, no colour profile, no multiplication by alpha.
 #pragma once
 
 #include <memory>
