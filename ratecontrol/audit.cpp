@@ -15,6 +15,8 @@ namespace {
 // not.
 constexpr double kDip = 1.0067, kSparseDip = 1.005;
 constexpr uint64_t kFirstBytes = 8192;  // of which each is measured
+// Samples that small tracks decode for it in all: a few tenths of a second.
+constexpr uint64_t kDecodedSamples = uint64_t{1} << 23;
 
 /// The points that improve on all before them, and what dips between.
 class Records {
@@ -35,31 +37,60 @@ class Records {
   bool dips_ = false;
 };
 
-/// Prefixes to measure from one point of the account to the next: of tiny tracks, and of the first
-/// kFirstBytes, where single coefficients count most, all; else so many that the quality of
-/// neighbours differs by 0.03 dB (in 12 288 samples, less in fewer) and that they are no more than
-/// a few bytes apart: passes of little gain are those that dip.
-uint64_t measurementsBetween(const RatePoint& a, const RatePoint& b, const AuditScope& scope) {
-  constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
-  const double gain =
-      b.distortion > 0 ? std::min(kMost, 10 * std::log10(a.distortion / b.distortion)) : kMost;
-  const double wanted = std::ceil(gain / (kDecibelsPerSample * static_cast<double>(scope.samples)));
-  const uint64_t bytes = b.bytes - a.bytes;
-  if (b.bytes <= kFirstBytes) return bytes;
-  return std::min(bytes, std::max(static_cast<uint64_t>(wanted),
-                                  1 + bytes * (kTinySamples / 2) / scope.samples));
-}
+/// How many prefixes to measure from each point of the account to the next.
+class MeasuringPlan {
+ public:
+  MeasuringPlan(std::span<const RatePoint> points, const AuditScope& scope) : scope_(scope) {
+    const uint64_t most = kDecodedSamples / scope.samples;
+    first_bytes_ = std::min(kFirstBytes, most / 2);
+    const uint64_t reach =
+        scope.budget < UINT64_MAX / 2 ? scope.budget + scope.budget / 4 : UINT64_MAX;
+    parts_.assign(points.size(), 1);
+    uint64_t first = 0, later = 0;
+    for (size_t i = 1; i < points.size(); ++i) {
+      if (points[i].bytes > reach) continue;
+      parts_[i] = wantedBetween(points[i - 1], points[i]);
+      (points[i].bytes <= first_bytes_ ? first : later) += parts_[i];
+    }
+    if (first + later <= most) return;
+    const double share = static_cast<double>(most - first) / static_cast<double>(later);
+    for (size_t i = 1; i < points.size(); ++i)
+      if (points[i].bytes > first_bytes_)
+        parts_[i] = 1 + static_cast<uint64_t>(share * static_cast<double>(parts_[i] - 1));
+  }
+  /// Between point i - 1 and point i: from 1 to as many as there are bytes.
+  uint64_t between(size_t i) const { return parts_[i]; }
+
+ private:
+  /// All prefixes of tiny tracks and of the first bytes, where single coefficients count most; else
+  /// so many that the quality of neighbours differs by 0.03 dB (in 12 288 samples, less in fewer)
+  /// and that they are no more than a few bytes apart: passes of little gain are those that dip.
+  uint64_t wantedBetween(const RatePoint& a, const RatePoint& b) const {
+    constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
+    const double gain =
+        b.distortion > 0 ? std::min(kMost, 10 * std::log10(a.distortion / b.distortion)) : kMost;
+    const double wanted =
+        std::ceil(gain / (kDecibelsPerSample * static_cast<double>(scope_.samples)));
+    const uint64_t bytes = b.bytes - a.bytes;
+    if (b.bytes <= first_bytes_) return bytes;
+    return std::min(bytes, std::max(static_cast<uint64_t>(wanted),
+                                    1 + bytes * (kTinySamples / 2) / scope_.samples));
+  }
+
+  AuditScope scope_;
+  uint64_t first_bytes_ = 0;
+  std::vector<uint64_t> parts_;
+};
 
 std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScope& scope,
                                       const Measure& measure) {
-  const uint64_t reach =
-      scope.budget < UINT64_MAX / 2 ? scope.budget + scope.budget / 4 : UINT64_MAX;
+  const MeasuringPlan plan(track.points, scope);
   Records records;
   records.add({0, measure(0)});
   for (size_t i = 1; i < track.points.size() && !records.exact(); ++i) {
     const RatePoint &a = track.points[i - 1], &b = track.points[i];
     assert(a.bytes < b.bytes);
-    const uint64_t parts = b.bytes > reach ? 1 : measurementsBetween(a, b, scope);
+    const uint64_t parts = plan.between(i);
     for (uint64_t k = 1; k <= parts && !records.exact(); ++k) {
       const uint64_t bytes = a.bytes + (b.bytes - a.bytes) * k / parts;
       records.add({bytes, measure(bytes)}, parts == b.bytes - a.bytes ? kDip : kSparseDip);

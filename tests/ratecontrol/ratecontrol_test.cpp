@@ -251,6 +251,23 @@ TEST(Audit, TinyTracksGetAPointForEveryRecord) {
   EXPECT_FALSE(points[4].dips);  // 50.1 after 50 is too little to see
 }
 
+/// Noise takes more bytes than a small track can afford to measure one by one.
+TEST(Audit, SmallTracksDecodeABoundedNumberOfSamples) {
+  for (const uint64_t samples : {uint64_t{4000}, kSmallSamples}) {
+    EncodedTrack track;
+    track.codeword.resize(40000);
+    for (uint64_t i = 0; i <= 1000; ++i)
+      track.points.push_back({40 * i, static_cast<double>(1001 - i)});
+    uint64_t measured = 0;
+    const auto points = audit(track, {samples}, [&](uint64_t bytes) {
+      ++measured;
+      return 1001 - static_cast<double>(bytes) / 40;
+    });
+    EXPECT_LE(measured * samples, (uint64_t{1} << 23) + 2 * samples * track.points.size());
+    EXPECT_EQ(points[1].bytes, 1u) << "the first bytes are measured one by one";
+  }
+}
+
 TEST(Audit, LargeTracksAreCorrectedOnlyWithoutABudget) {
   EncodedTrack track;
   track.codeword.resize(5900);
