@@ -56,7 +56,8 @@ Result<std::unique_ptr<PictureReader>> openByOpenImageIo(const std::string& path
   auto reader = (*formats)->open(path);
   if (!reader.ok() &&
       reader.status().message().find("could not find a format reader") != std::string::npos)
-    return Status(TKS_IO, "it is in no known picture format");
+    return Status(
+        TKS_IO, "it is in no known picture format; gdal_translate makes TIFFs of what GDAL reads");
   return reader;
 }
 
