@@ -221,7 +221,7 @@ bool applyMask(const std::string& name, GDALRasterBand& band, CopiedHeights& cop
   return applied;
 }
 
-/// Metres per degree east and north at a latitude on WGS 84, as tools/files/earth.hpp.
+/// Metres per degree east and north at a latitude on WGS 84, as tools/files/place/earth.hpp.
 void groundSpacing(const OGRSpatialReference* system, tks_heights& heights) {
   if (system == nullptr || !heights.has_geotransform || system->IsLocal()) return;
   const double* const t = heights.geotransform;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Bjøntegaard rate difference on curves whose answer is known, and the properties of its parts.
-#include "bench/bjontegaard.hpp"
+#include "bench/harness/bjontegaard.hpp"
 
 #include <gtest/gtest.h>
 

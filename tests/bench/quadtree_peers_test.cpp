@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "bench/quadtree_classics.hpp"
+#include "bench/meshes/quadtree_classics.hpp"
 
 namespace tetrakis::bench {
 namespace {

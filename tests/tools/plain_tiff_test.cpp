@@ -10,7 +10,7 @@
 
 #include "tests/support/scratch_folder.hpp"
 #include "tools/files/files.hpp"
-#include "tools/files/plain_tiff.hpp"
+#include "tools/files/pictures/plain_tiff.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "tools/files/little_endian.hpp"
-#include "tools/files/png.hpp"
+#include "tools/files/pictures/png.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -11,12 +11,12 @@
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"
 #include "tools/files/height_mask.hpp"
+#include "tools/files/pictures/png.hpp"
+#include "tools/files/pictures/raster.hpp"
+#include "tools/files/pictures/tiff.hpp"
+#include "tools/files/place/world_file.hpp"
 #include "tools/files/plain_heights.hpp"
-#include "tools/files/png.hpp"
-#include "tools/files/raster.hpp"
-#include "tools/files/tiff.hpp"
 #include "tools/files/void_samples.hpp"
-#include "tools/files/world_file.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tools/files/file_bytes.hpp"
-#include "tools/files/tiff.hpp"
+#include "tools/files/pictures/tiff.hpp"
 
 namespace tetrakis::tools {
 namespace {

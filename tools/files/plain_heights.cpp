@@ -13,7 +13,7 @@
 #include <regex>
 
 #include "tools/files/file_bytes.hpp"
-#include "tools/files/ground_spacing.hpp"
+#include "tools/files/place/ground_spacing.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/files/picture_formats.hpp"
+#include "tools/files/pictures/picture_formats.hpp"
 #include "tools/files/text.hpp"
 #include "tools/report/report.hpp"
 

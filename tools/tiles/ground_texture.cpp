@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "tools/files/mesh_writers.hpp"
+#include "tools/files/meshes/mesh_writers.hpp"
 #include "tools/tiles/terrain_level.hpp"
 
 namespace tetrakis::tools {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/files/mesh_writers.hpp"
+#include "tools/files/meshes/mesh_writers.hpp"
 #include "tools/tiles/placed_mesh.hpp"
 
 namespace tetrakis::tools {

@@ -7,7 +7,7 @@
 
 #include "base/status.hpp"
 #include "tools/files/files.hpp"
-#include "tools/files/proj_objects.hpp"
+#include "tools/files/place/proj_objects.hpp"
 
 namespace tetrakis::tools {
 

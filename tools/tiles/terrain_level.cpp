@@ -12,7 +12,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tools/files/earth.hpp"
+#include "tools/files/place/earth.hpp"
 
 namespace tetrakis::tools {
 

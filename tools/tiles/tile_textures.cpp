@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "tools/files/earth.hpp"
 #include "tools/files/file_bytes.hpp"
-#include "tools/files/mesh_writers.hpp"
+#include "tools/files/meshes/mesh_writers.hpp"
+#include "tools/files/place/earth.hpp"
 #include "tools/files/stream.hpp"
 
 namespace tetrakis::tools {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alpha as the last of two or four channels.
+#include "tools/files/pictures/alpha.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+namespace tetrakis::tools {
+namespace {
+
+/// Calls `visit` with the samples of each pixel, in their type.
+template <class T, class Visit>
+void forEachPixel(std::span<T> samples, uint32_t channels, const Visit& visit) {
+  for (; !samples.empty(); samples = samples.subspan(channels)) visit(samples.first(channels));
+}
+
+template <class Visit>
+void forEachPixel(ImageFile& image, const Visit& visit) {
+  const size_t count = image.data.size() / tks_sample_bytes(image.sample);
+  if (image.sample == TKS_U8) {
+    forEachPixel(std::span(reinterpret_cast<uint8_t*>(image.data.data()), count), image.channels,
+                 visit);
+  } else {
+    forEachPixel(std::span(reinterpret_cast<uint16_t*>(image.data.data()), count), image.channels,
+                 visit);
+  }
+}
+
+template <class T>
+void divide(std::span<T> pixel) {
+  constexpr uint64_t kFull = std::numeric_limits<T>::max();
+  const uint64_t alpha = pixel.back();
+  if (alpha == 0 || alpha == kFull) return;
+  for (T& colour : pixel.first(pixel.size() - 1)) {
+    colour = static_cast<T>(std::min(kFull, (colour * kFull + alpha / 2) / alpha));
+  }
+}
+
+}  // namespace
+
+bool isOpaque(const ImageFile& image) {
+  if (image.channels % 2 != 0) return true;
+  const size_t sample = tks_sample_bytes(image.sample), pixel = image.channels * sample;
+  for (size_t at = pixel - sample; at < image.data.size(); at += pixel) {
+    for (size_t i = 0; i < sample; ++i) {
+      if (image.data[at + i] != std::byte{0xff}) return false;
+    }
+  }
+  return true;
+}
+
+void divideByAlpha(ImageFile& image) {
+  if (image.channels % 2 != 0) return;
+  forEachPixel(image, [](auto pixel) { divide(pixel); });
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures by libspng (PNG), libtiff (plain TIFFs) or OpenImageIO (all others), with the samples
+// exactly as stored: no gamma, no colour profile, no multiplication by alpha.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tools/files/file_bytes.hpp"
+#include "tools/files/files.hpp"
+#include "tools/files/pictures/picture_formats.hpp"
+
+namespace tetrakis::tools {
+
+/// An open picture file. Keep it until the samples are read.
+struct Raster {
+  InputFile file;
+  std::string name;                       ///< for messages
+  std::unique_ptr<PictureReader> reader;  ///< null for a PNG, which is decoded already
+  PictureShape shape;                     ///< what reading gives
+  bool plain = false;                     ///< a TIFF that libtiff reads alone
+  int stored_bits = 0;                    ///< of one sample in the file; 0: as shape.sample
+  bool palette = false;                   ///< expanded to RGB by reading
+  bool cmyk = false;                      ///< converted to RGB by reading
+  bool stretched = false;                 ///< to the whole range of the type by reading
+  bool white_is_zero = false;             ///< inverted by reading
+  bool further_pages = false;             ///< pages or frames that are not read
+  bool mask = false;                      ///< a TIFF's mask page, which is not applied by reading
+  bool sparse = false;   ///< parts of a TIFF are missing, which reading leaves at 0
+  bool profile = false;  ///< an ICC profile that is not applied
+  int orientation = 1;   ///< as TIFF counts; not applied by reading
+  /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
+  enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
+  std::vector<std::byte> decoded{};  ///< samples of a PNG
+  bool is_tiff() const { return reader && reader->format() == "tiff"; }
+};
+
+/// Opens the file (or standard input for "-") by its content, whatever it is called.
+Result<Raster> openRaster(const std::string& path);
+
+/// Hands over all samples, converted to `type`, interleaved. Call once. A PNG has its own type
+/// only.
+Result<std::vector<std::byte>> readSamples(Raster& raster, PictureSample type);
+
+/// Of its samples.
+PictureShape shapeOf(const ImageFile& image);
+
+/// A message of OpenImageIO, cut to its first line and without the full stop.
+std::string firstLine(std::string message);
+
+/// The file content that `format` ("tiff", "openexr", "webp") gives to the picture.
+Result<std::vector<std::byte>> encodeRaster(const std::string& format,
+                                            const PictureToWrite& picture);
+
+}  // namespace tetrakis::tools

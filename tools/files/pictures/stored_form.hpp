@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a picture file holds beside the samples that OpenImageIO hands over, or lacks.
+#pragma once
+
+#include "tools/files/pictures/raster.hpp"
+
+namespace tetrakis::tools {
+
+/// Fills in how the samples of an open file are stored. TKS_IO if the file ends before they do,
+/// which OpenImageIO does not tell; TKS_USAGE if it would hand over other samples than the file
+/// means.
+Status noteStoredForm(Raster& raster);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// What TIFF tags tell of the samples that OpenImageIO does not.
+#include <filesystem>
+
+#include "tools/files/pictures/tiff.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+/// libtiff fills what lies outside with zeros, or leaves it as it was.
+void noteBlocks(TIFF* tiff, uint64_t file_bytes, TiffForm& form) {
+  const uint32_t count = TIFFIsTiled(tiff) ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  uint32_t missing = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint64_t offset = TIFFGetStrileOffset(tiff, i), bytes = TIFFGetStrileByteCount(tiff, i);
+    if (isMissing(tiff, i)) {
+      ++missing;
+    } else if (offset == 0 || bytes == 0 || bytes > file_bytes || offset > file_bytes - bytes) {
+      form.whole = false;
+    }
+  }
+  form.sparse = missing > 0;
+  if (missing == count) form.whole = false;
+}
+
+bool associatedAlpha(TIFF* tiff) {
+  uint16_t count = 0;
+  const uint16_t* kinds = nullptr;
+  return TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) && count > 0 &&
+         kinds[0] == EXTRASAMPLE_ASSOCALPHA;
+}
+
+uint32_t kindOf(TIFF* tiff) {
+  uint32_t kind = 0;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
+  return kind;
+}
+
+/// Leaves the first directory.
+void notePages(TIFF* tiff, TiffForm& form) {
+  const auto [width, height] = sizeOfPage(tiff);
+  while (TIFFReadDirectory(tiff)) {
+    if (isMaskPage(tiff, width, height)) {
+      form.mask = true;
+    } else if (!(kindOf(tiff) & FILETYPE_REDUCEDIMAGE)) {
+      form.further_pages = true;
+    }
+  }
+}
+
+}  // namespace
+
+bool isMissing(TIFF* tiff, uint32_t strip_or_tile) {
+  return TIFFGetStrileOffset(tiff, strip_or_tile) == 0 &&
+         TIFFGetStrileByteCount(tiff, strip_or_tile) == 0;
+}
+
+std::pair<uint32_t, uint32_t> sizeOfPage(TIFF* tiff) {
+  std::pair<uint32_t, uint32_t> size(0, 0);
+  TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &size.first);
+  TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &size.second);
+  return size;
+}
+
+bool isMaskPage(TIFF* tiff, uint32_t width, uint32_t height) {
+  const uint32_t kind = kindOf(tiff);
+  return (kind & FILETYPE_MASK) && !(kind & FILETYPE_REDUCEDIMAGE) &&
+         sizeOfPage(tiff) == std::pair(width, height);
+}
+
+Result<TiffForm> tiffForm(const std::string& path) {
+  const auto file = TiffFile::open(path, "r");
+  if (!file.ok()) return file.status();
+  TIFF* const tiff = file->get();
+  std::error_code unknown_size;
+  const uint64_t bytes = std::filesystem::file_size(path, unknown_size);
+  uint16_t bits = 1;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TiffForm form{bits};
+  form.associated_alpha = associatedAlpha(tiff);
+  noteBlocks(tiff, unknown_size ? UINT64_MAX : bytes, form);
+  notePages(tiff, form);
+  return form;
+}
+
+}  // namespace tetrakis::tools

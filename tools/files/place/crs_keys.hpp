@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GeoTIFF keys of a reference system, as GDAL writes them.
+#pragma once
+
+#include <string>
+
+#include "tools/files/place/geo_keys.hpp"
+
+namespace tetrakis::tools {
+
+/// Of a CRS ("EPSG:code", WKT, or a name; "" if unknown) and what the heights are above, likewise:
+/// codes where PROJ has some, names and, of a CRS, WKT where it does not. unit: of heights above
+/// something that has no code.
+GeoKeys crsKeys(const std::string& crs, const std::string& vertical_datum, const std::string& unit);
+
+/// All keys of heights: their geo_keys, or what their CRS, vertical datum and spacing make.
+GeoKeys keysOf(const HeightFile& heights);
+
+/// All keys of a raster without heights.
+GeoKeys keysOf(const Georeference& place);
+
+}  // namespace tetrakis::tools

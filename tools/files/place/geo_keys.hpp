@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a GeoTIFF (OGC GeoTIFF 1.1, 19-008r4, section 7.1).
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/files/pictures/tiff.hpp"
+
+namespace tetrakis::tools {
+
+/// The values of a tag, empty unless it is there with this type.
+template <class T>
+std::vector<T> tagValues(TIFF* tiff, uint32_t tag, TIFFDataType type) {
+  const TIFFField* field = TIFFFindField(tiff, tag, TIFF_ANY);
+  // libtiff gives tags that it does not know a 32-bit count before the values.
+  if (!field || TIFFFieldDataType(field) != type || !TIFFFieldPassCount(field) ||
+      TIFFFieldReadCount(field) != TIFF_VARIABLE2) {
+    return {};
+  }
+  uint32_t count = 0;
+  const T* values = nullptr;
+  if (!TIFFGetField(tiff, tag, &count, &values) || !values) return {};
+  return {values, values + count};
+}
+
+/// Up to its terminating zero; "" if the tag is no text.
+std::string tagText(TIFF* tiff, uint32_t tag);
+
+struct GeoKeys {
+  std::map<uint16_t, uint16_t> codes;
+  std::map<uint16_t, std::vector<double>> numbers;
+  std::map<uint16_t, std::string> texts;
+
+  /// 0 (undefined) when missing.
+  uint16_t code(GeoKey key) const { return codes.contains(key) ? codes.at(key) : uint16_t{0}; }
+  double number(GeoKey key) const { return numbers.contains(key) ? numbers.at(key).at(0) : 0; }
+  std::string text(GeoKey key) const { return texts.contains(key) ? texts.at(key) : ""; }
+
+  /// "EPSG:code"; "" when the key is missing or says that the user defines it.
+  std::string epsg(GeoKey key) const;
+  /// The first text that is not empty, or "".
+  std::string firstText(std::initializer_list<GeoKey> order) const;
+  bool empty() const { return codes.empty() && numbers.empty() && texts.empty(); }
+  void remove(GeoKey key);
+  /// Whether all of the other's keys are here with the same values.
+  bool contain(const GeoKeys& other) const;
+};
+
+/// What makes no sense counts as missing.
+GeoKeys readGeoKeys(TIFF* tiff);
+
+/// False if libtiff refuses them, or they are too many for the tags. No keys, no tags.
+bool writeGeoKeys(TIFF* tiff, const GeoKeys& keys);
+
+/// Keys in rising order, each `number=value`, blanks between them (docs/FORMAT.md, section 2): a
+/// code as an integer, numbers with a point or an exponent and commas between them, text in double
+/// quotes, of which those inside are doubled.
+std::string textOf(const GeoKeys& keys);
+
+/// The reverse; nothing if the text is not of that form.
+std::optional<GeoKeys> parseGeoKeys(std::string_view text);
+
+}  // namespace tetrakis::tools

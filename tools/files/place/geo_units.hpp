@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// In which units the grid and the heights of a GeoTIFF are.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/files/place/geo_keys.hpp"
+
+namespace tetrakis::tools {
+
+/// Metres in one unit of a projected grid: as the unit keys say, else as the CRS says by its code
+/// or citation; nothing if neither tells. GDAL leaves the unit keys out of compound CRSs.
+std::optional<double> gridUnit(const GeoKeys& keys);
+
+/// Whether a vertical CRS or unit is stated at all.
+bool statesHeights(const GeoKeys& keys);
+
+/// The unit of the heights, as the unit key or the vertical CRS says; nothing if neither tells.
+std::optional<std::string> heightUnit(const GeoKeys& keys);
+
+}  // namespace tetrakis::tools

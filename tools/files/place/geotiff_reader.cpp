@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// What TIFF tags tell: place, CRS, grid spacing, and of heights nodata, unit and datum.
+// Sources: OGC GeoTIFF 1.1 (19-008r4), sections 7.1 (keys), 7.3 (model); GDAL GTiff driver.
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <pugixml.hpp>
+#include <vector>
+
+#include "base/length_unit.hpp"
+#include "tools/files/pictures/tiff.hpp"
+#include "tools/files/place/crs_keys.hpp"
+#include "tools/files/place/geo_tags.hpp"
+#include "tools/files/place/geo_units.hpp"
+#include "tools/files/place/ground_spacing.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+/// Where the model is neither projected nor geographic, Esri and GDAL write WKT here; "" if none.
+std::string wktIn(const GeoKeys& keys) {
+  constexpr std::string_view kEsri = "ESRI PE String = ";
+  const uint16_t model = keys.code(kGtModelTypeGeoKey);
+  const std::string text = keys.text(kProjectedCitationGeoKey);
+  if (model == kModelTypeProjected || model == kModelTypeGeographic || !text.starts_with(kEsri))
+    return "";
+  return text.substr(kEsri.size());
+}
+
+GridUnit gridUnitIn(const GeoKeys& keys) {
+  const uint16_t model = keys.code(kGtModelTypeGeoKey);
+  if (model == kModelTypeGeographic) {
+    constexpr uint16_t kDegree = 9102;
+    const uint16_t unit = keys.code(kGeogAngularUnitsGeoKey);
+    return {unit == 0 || unit == kDegree, 0};
+  }
+  if (model != kModelTypeProjected) return gridUnitOf(wktIn(keys));
+  return {false, gridUnit(keys).value_or(0)};
+}
+
+bool speaksOfPoints(const GeoKeys& keys) {
+  return keys.code(kGtRasterTypeGeoKey) == TKS_REGISTRATION_POINT;
+}
+
+void setSpacing(HeightFile& heights, const GeoKeys& keys,
+                const std::optional<GeoTransform>& transform, Notes& notes) {
+  if (!transform) return;
+  const GridUnit unit = gridUnitIn(keys);
+  const bool projected = keys.code(kGtModelTypeGeoKey) == kModelTypeProjected;
+  if (projected && unit.metres == 0) {
+    notes.push_back(
+        {"the unit of the grid is not stated, so its spacing is unknown: give --spacing",
+         "--spacing"});
+  }
+  const auto spacing = groundSpacing(*transform, heights.width, heights.height, unit);
+  if (!spacing) return;
+  heights.spacing_x = (*spacing)[0];
+  heights.spacing_y = (*spacing)[1];
+}
+
+void setPlace(Georeference& place, const GeoKeys& keys,
+              const std::optional<GeoTransform>& transform) {
+  if (transform && isSound(*transform)) place.geotransform = transform;
+  const uint16_t type = keys.code(kGtRasterTypeGeoKey);
+  if (type == TKS_REGISTRATION_AREA || type == TKS_REGISTRATION_POINT)
+    place.registration = static_cast<tks_registration>(type);
+  const bool projected = keys.code(kGtModelTypeGeoKey) == kModelTypeProjected;
+  place.crs = wktIn(keys);
+  if (place.crs.empty())
+    place.crs = keys.epsg(projected ? kProjectedCrsGeoKey : kGeodeticCrsGeoKey);
+  if (place.crs.empty()) {
+    place.crs = keys.firstText(
+        {projected ? kProjectedCitationGeoKey : kGeodeticCitationGeoKey, kGtCitationGeoKey});
+  }
+}
+
+/// Keys that writing would not make of the rest are kept.
+template <class Raster>
+void keepKeys(Raster& raster, GeoKeys keys) {
+  keys.remove(kGtRasterTypeGeoKey);
+  if (!keys.empty() && !keysOf(raster).contain(keys)) raster.geo_keys = textOf(keys);
+}
+
+void setVerticalDatum(HeightFile& heights, const GeoKeys& keys) {
+  heights.vertical_datum = keys.epsg(kVerticalGeoKey);
+  if (heights.vertical_datum.empty()) heights.vertical_datum = keys.text(kVerticalCitationGeoKey);
+}
+
+/// What GDAL's metadata say of the unit goes before the keys.
+void setUnit(HeightFile& heights, const GeoKeys& keys, Notes& notes) {
+  if (!heights.unit.empty() || !statesHeights(keys)) return;
+  if (const std::optional<std::string> unit = heightUnit(keys)) {
+    heights.unit = *unit;
+    return;
+  }
+  const std::string& datum = heights.vertical_datum;
+  notes.push_back({"the unit of the heights" + (datum.empty() ? "" : " over " + datum) +
+                       " is not known and counts as metres: give --unit",
+                   "--unit"});
+}
+
+std::optional<double> number(std::string_view text) {
+  const size_t start = text.find_first_not_of(" +");
+  if (start == std::string_view::npos) return {};
+  double value = 0;
+  const auto end = std::from_chars(text.data() + start, text.data() + text.size(), value);
+  return end.ec == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+/// <GDALMetadata><Item sample="0" role="ROLE">value</Item></GDALMetadata>
+void setGdalMetadata(HeightFile& heights, const std::string& xml) {
+  pugi::xml_document document;
+  if (!document.load_string(xml.c_str())) return;
+  for (const pugi::xml_node item : document.child("GDALMetadata").children("Item")) {
+    if (item.attribute("sample").as_int() != 0) continue;
+    const std::string_view role = item.attribute("role").value();
+    const std::string text = item.text().get();
+    const double value = number(text).value_or(std::numeric_limits<double>::quiet_NaN());
+    if (role == "scale" && std::isfinite(value) && value != 0) heights.scale = value;
+    if (role == "offset" && std::isfinite(value)) heights.offset = value;
+    if (role == "unittype") heights.unit = canonicalUnit(text);
+    if (role == "description") heights.description = text;
+  }
+}
+
+}  // namespace
+
+Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
+  const auto file = TiffFile::open(path, "r");
+  if (!file.ok()) return file.status();
+  TIFF* const tiff = file->get();
+  const GeoKeys keys = readGeoKeys(tiff);
+  const auto transform = readTransform(tiff, speaksOfPoints(keys));
+  setSpacing(heights, keys, transform, notes);
+  setPlace(heights, keys, transform);
+  setVerticalDatum(heights, keys);
+  setGdalMetadata(heights, tagText(tiff, kGdalMetadataTag));
+  setUnit(heights, keys, notes);
+  keepKeys(heights, keys);
+  heights.nodata = number(tagText(tiff, kGdalNodataTag));
+  return {};
+}
+
+Result<Georeference> readGeoreference(const std::string& path) {
+  const auto file = TiffFile::open(path, "r");
+  if (!file.ok()) return file.status();
+  const GeoKeys keys = readGeoKeys(file->get());
+  Georeference place;
+  setPlace(place, keys, readTransform(file->get(), speaksOfPoints(keys)));
+  keepKeys(place, keys);
+  return place;
+}
+
+}  // namespace tetrakis::tools

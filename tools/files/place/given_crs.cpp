@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/files/place/given_crs.hpp"
+
+#include "tools/files/place/crs_units.hpp"
+#include "tools/files/place/geo_keys.hpp"
+#include "tools/files/place/ground_spacing.hpp"
+
+namespace tetrakis::tools {
+
+void giveCrs(HeightFile& heights, const std::string& crs) {
+  heights.crs = crs;
+  heights.geo_keys.clear();
+  if (crsUnit(crs, CrsAxis::kVertical)) heights.vertical_datum.clear();
+  setGroundSpacing(heights);
+}
+
+void giveVerticalDatum(HeightFile& heights, const std::string& datum) {
+  heights.vertical_datum = datum;
+  std::optional<GeoKeys> keys = parseGeoKeys(heights.geo_keys);
+  if (!keys) return;
+  for (const GeoKey key :
+       {kVerticalGeoKey, kVerticalCitationGeoKey, kVerticalDatumGeoKey, kVerticalUnitsGeoKey})
+    keys->remove(key);
+  heights.geo_keys = textOf(*keys);
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/files/place/ground_spacing.hpp"
+
+#include <cmath>
+
+#include "tools/files/place/crs_units.hpp"
+#include "tools/files/place/earth.hpp"
+
+namespace tetrakis::tools {
+
+std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& t, uint32_t width,
+                                                   uint32_t height, const GridUnit& unit) {
+  const double middle = t[3] + width / 2.0 * t[4] + height / 2.0 * t[5];
+  const MetresPerDegree metres =
+      unit.degrees ? metresPerDegree(middle) : MetresPerDegree{unit.metres, unit.metres};
+  const double x = std::hypot(t[1] * metres.east, t[4] * metres.north);
+  const double y = std::hypot(t[2] * metres.east, t[5] * metres.north);
+  if (!std::isfinite(x) || !std::isfinite(y) || x <= 0 || y <= 0) return std::nullopt;
+  return std::array<double, 2>{x, y};
+}
+
+GridUnit gridUnitOf(const std::string& crs) {
+  if (crs.empty()) return {};
+  if (isInDegrees(crs)) return {true, 0};
+  const auto unit = crsUnit(crs, CrsAxis::kHorizontal);
+  return {false, unit ? unit->metres : 0};
+}
+
+void setGroundSpacing(HeightFile& heights) {
+  if (!heights.geotransform) return;
+  const auto spacing =
+      groundSpacing(*heights.geotransform, heights.width, heights.height, gridUnitOf(heights.crs));
+  if (!spacing) return;
+  heights.spacing_x = (*spacing)[0];
+  heights.spacing_y = (*spacing)[1];
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/files/place/proj_objects.hpp"
+
+#include <string_view>
+#include <utility>
+
+namespace tetrakis::tools {
+namespace {
+
+ProjObject partOf(PJ_CONTEXT* context, ProjObject crs, int index) {
+  if (crs && proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS)
+    crs.reset(proj_crs_get_sub_crs(context, crs.get(), index));
+  if (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS)
+    crs.reset(proj_get_source_crs(context, crs.get()));
+  return crs;
+}
+
+/// PROJ's general search also takes names that are only similar, for which it looks for a second.
+ProjObject findNamed(PJ_CONTEXT* context, const std::string& name) {
+  constexpr int kExactly = 0;
+  const PJ_TYPE type = PJ_TYPE_CRS;
+  PJ_OBJ_LIST* const found =
+      proj_create_from_name(context, nullptr, name.c_str(), &type, 1, kExactly, 1, nullptr);
+  ProjObject crs(found && proj_list_get_count(found) > 0 ? proj_list_get(context, found, 0)
+                                                         : nullptr);
+  proj_list_destroy(found);
+  return crs;
+}
+
+}  // namespace
+
+ProjContext quietContext() {
+  ProjContext context(proj_context_create());
+  if (context) proj_log_func(context.get(), nullptr, [](void*, int, const char*) {});
+  return context;
+}
+
+ProjObject findCrs(PJ_CONTEXT* context, std::string text) {
+  constexpr std::string_view kEsri = "ESRI PE String = ";
+  if (text.starts_with(kEsri)) text.erase(0, kEsri.size());
+  if (text.empty()) return nullptr;
+  const bool exact = text.starts_with("EPSG:") || text.find('[') != text.npos;
+  const bool compound = text.find(" + ") != text.npos;
+  ProjObject crs =
+      exact || compound ? ProjObject(proj_create(context, text.c_str())) : findNamed(context, text);
+  if (crs && !proj_is_crs(crs.get())) crs.reset();
+  if (crs && !exact && text != proj_get_name(crs.get())) crs.reset();
+  if (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS)
+    crs.reset(proj_get_source_crs(context, crs.get()));
+  return crs;
+}
+
+ProjObject horizontalPart(PJ_CONTEXT* context, ProjObject crs) {
+  crs = partOf(context, std::move(crs), 0);
+  if (crs && proj_get_type(crs.get()) == PJ_TYPE_VERTICAL_CRS) crs.reset();
+  return crs;
+}
+
+ProjObject verticalPart(PJ_CONTEXT* context, ProjObject crs) {
+  crs = partOf(context, std::move(crs), 1);
+  if (crs && proj_get_type(crs.get()) != PJ_TYPE_VERTICAL_CRS) crs.reset();
+  return crs;
+}
+
+}  // namespace tetrakis::tools
