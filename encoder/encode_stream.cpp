@@ -27,6 +27,7 @@ using Texture = std::shared_ptr<const CodedTexture>;
 Heights codeHeightsForTarget(const EncodeInputs& inputs,
                              const std::shared_ptr<const QuantisedHeights>& of) {
   if (inputs.options.max_error > 0) return codeBoundedHeights(inputs, of);
+  if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, of);
   HeightTarget target(of->restored() ? Purpose::kLossless : purposeOf(inputs));
   // What a texture leaves of a budget is not known yet; most of it is the texture's.
   constexpr uint64_t kShareBesideTexture = 4;
