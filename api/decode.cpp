@@ -33,7 +33,7 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
   const int level = texture ? decoder.texture_level : decoder.heights_level;
   if (window == nullptr) return View{level, {}};
   if (level > 0) return Status(TKS_USAGE, "Windows are parts of level 0; set the level to 0.");
-  const Extent extent = texture ? header.texture->extent() : header.geometry->extent();
+  const Extent extent = texture ? header.texture->extent() : header.geometry->shown();
   const Window asked{window->x, window->y, window->width, window->height};
   if (asked.isInside(extent)) return View{0, asked};
   return Status(TKS_USAGE, "The window must lie inside the " + std::to_string(extent.width) +
@@ -100,7 +100,7 @@ Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, 
                    const Unsent& unsent) {
   const Result<View> view = call.view(decoder);
   if (!view.ok()) return view.status();
-  const size_t count = view->extentIn(decoder.parsed.header.geometry->extent()).samples();
+  const size_t count = view->extentIn(decoder.parsed.header.geometry->shown()).samples();
   if (Status s = call.check(decoder, *view, count, sample_bytes); !s.ok()) return s;
   if (decoder.payload.nothingOf(Component::kGeometry)) {
     unsent(count);
@@ -136,7 +136,7 @@ Status giveValidity(tks_decoder& decoder, const Call& call) {
   const Result<View> view = call.view(decoder);
   if (!view.ok()) return view.status();
   const StreamHeader& header = decoder.parsed.header;
-  const size_t count = view->extentIn(header.geometry->extent()).samples();
+  const size_t count = view->extentIn(header.geometry->shown()).samples();
   if (Status s = call.check(decoder, *view, count, 1); !s.ok()) return s;
   std::vector<uint8_t> valid;
   if (decoder.heights) {

@@ -69,7 +69,7 @@ SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geo
 
 /// The coarsest level of the heights or the texture of a header; 0 where there are none.
 inline int coarsestLevelOf(const auto& component) {
-  return component ? coarsestLevel(component->extent()) : 0;
+  return component ? coarsestLevel(component->shown()) : 0;
 }
 
 /// Runs f and keeps its sentence in the decoder.

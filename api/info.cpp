@@ -112,7 +112,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.max_error = -1;
   if (header.geometry) {
     const GeometryHeader& g = *header.geometry;
-    const Extent shown = View{decoder.heights_level, {}}.extentIn(g.extent());
+    const Extent shown = View{decoder.heights_level, {}}.extentIn(g.shown());
     info.width = shown.width;
     info.height = shown.height;
     info.coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.geometry));

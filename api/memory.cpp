@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "codec/geometry/shown_lines.hpp"
 #include "codec/geometry/value_table.hpp"
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/screen_weights.hpp"
@@ -73,26 +74,31 @@ class HeightsBytes {
       : decoder_(decoder),
         header_(*decoder.parsed.header.geometry),
         layers_(decoder.parsed.header.layers),
-        view_(view),
-        shown_(area(view.extentIn(header_.extent()))),
+        view_(codedView(header_, view)),
+        shown_(area(view_.extentIn(header_.extent()))),
+        copied_(header_.repeats.none() ? 0 : area(view.extentIn(header_.shown()))),
         voids_(layers_.validity_bytes > 0),
         flat_(layers_.flat_bytes > 0),
         table_(layers_.table_bytes > 0),
         corrected_(header_.stored() ||
-                   (view.level == 0 && layers_.corrections != CorrectionKind::kNone)) {}
+                   (view_.level == 0 && layers_.corrections != CorrectionKind::kNone)) {}
 
   /// What is left when a level is decoded: heights, marks, masks, corrections.
   uint64_t kept() const {
     const bool of_samples = header_.stored() || layers_.corrections == CorrectionKind::kSamples;
     const bool corrections = table_ || (corrected_ && of_samples);
-    return low() * (kValue + 1 + (voids_ ? 1 : 0) + (corrections ? kValue : 0));
+    return std::max(low(), copied_) * (kValue + 1 + (voids_ ? 1 : 0) + (corrections ? kValue : 0));
   }
 
   /// What decoding takes.
-  uint64_t decoding() const {
+  uint64_t decoding() const { return decodingLines() + copyBytes(); }
+
+  uint64_t validity() const { return kOnce + (voids_ ? area(header_) + shown_ : 0) + copyBytes(); }
+
+ private:
+  uint64_t decodingLines() const {
     // Corrections and stored samples of a window are cut out of the whole plane.
-    if (view_.window && corrected_)
-      return HeightsBytes(decoder_, {}).decoding() + shown_ * (2 * kValue + 1);
+    if (view_.window && corrected_) return wholeLines() + shown_ * (2 * kValue + 1);
     const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
     const uint64_t marks = view_.window ? 0 : low();
     const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
@@ -103,9 +109,19 @@ class HeightsBytes {
     return kOnce + trackBytes(header_) + std::max(surface, flatOpeningBytes());
   }
 
-  uint64_t validity() const { return kOnce + (voids_ ? area(header_) + shown_ : 0); }
-
- private:
+  /// Of all coded lines.
+  uint64_t wholeLines() const {
+    HeightsBytes whole(decoder_, {});
+    return whole.decodingLines();
+  }
+  /// Heights, marks, mask and corrections that are copied, beside what they are copied from, and
+  /// the maps of lines.
+  uint64_t copyBytes() const {
+    constexpr uint64_t kLine = 4 * sizeof(uint32_t);
+    if (header_.repeats.none()) return 0;
+    const auto [width, height] = header_.shown();
+    return copied_ * 2 * (kValue + 1) + kLine * (uint64_t{width} + height);
+  }
   /// The table, its values as heights, and a correction for each sample.
   uint64_t tableBytes() const {
     constexpr uint64_t kEntry = sizeof(uint32_t) + sizeof(DrawnValue);
@@ -131,7 +147,8 @@ class HeightsBytes {
   const GeometryHeader& header_;
   const GeometryLayers& layers_;
   const View view_;
-  uint64_t shown_;  ///< samples of the view
+  uint64_t shown_;   ///< samples of the view, of coded lines
+  uint64_t copied_;  ///< of the view; 0: no lines are copied
   bool voids_;
   bool flat_;
   bool table_;
@@ -148,7 +165,8 @@ uint64_t meshBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   constexpr uint64_t kEverySample = 92;
   constexpr uint64_t kFitted = 26, kFewTriangles = 520, kManyTriangles = 180;
   const StreamHeader& header = decoder.parsed.header;
-  const Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
+  const Result<Lattice> lattice =
+      Lattice::make(header.geometry->shown().width, header.geometry->shown().height);
   if (!lattice.ok()) return 0;  // refused for that
   const uint64_t samples = verticesOf(*lattice);
   const HeightsBytes heights(decoder, {});

@@ -15,7 +15,7 @@ namespace {
 std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
   const StreamHeader& header = decoder.parsed.header;
   const auto sides = [&](const auto& component) {
-    const Extent shown = request.view.extentIn(component.extent());
+    const Extent shown = request.view.extentIn(component.shown());
     return std::to_string(shown.width) + " x " + std::to_string(shown.height);
   };
   if (request.part == TKS_PART_TEXTURE) {

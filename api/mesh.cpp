@@ -57,8 +57,8 @@ Result<DecodedLevel> decodedLevel(tks_decoder& decoder, uint32_t level) {
     coarse = decodeHeights(decoder, {static_cast<int>(level), {}});
     geometry = &coarse.geometry;
   }
-  return DecodedLevel{{ofMipLevel(geometry->heights, g.width, g.height, level), level,
-                       level + geometry->quiet_levels},
+  return DecodedLevel{{ofMipLevel(geometry->heights, g.shown().width, g.shown().height, level),
+                       level, level + geometry->quiet_levels},
                       surfaceScale(header, *geometry)};
 }
 
@@ -91,7 +91,8 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
     return Status(TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles.");
   const StreamHeader& header = decoder.parsed.header;
   if (!header.geometry) return noHeights();
-  Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
+  Result<Lattice> lattice =
+      Lattice::make(header.geometry->shown().width, header.geometry->shown().height);
   if (!lattice.ok()) return lattice.status();
   const tks_part part = kind == TKS_MESH_CODED ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
   if (Status s = checkMemory(decoder, {part, {}, max_triangles}); !s.ok()) return s;

@@ -6,6 +6,7 @@
 
 #include "api/memory.hpp"
 #include "api/ranges.hpp"
+#include "codec/geometry/shown_lines.hpp"
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -37,7 +38,8 @@ bool takesAll(const StreamHeader& header, const View& view) {
 
 std::vector<bool> neededTracks(const StreamHeader& header, Component component, const View& view) {
   if (component == Component::kTexture) return neededTracks(*header.texture, view, false);
-  return neededTracks(*header.geometry, view, takesAll(header, view));
+  const View lines = codedView(*header.geometry, view);
+  return neededTracks(*header.geometry, lines, takesAll(header, lines));
 }
 
 /// Calls see(entry, place, size) for each packet of the index that the stream has bytes of; size:

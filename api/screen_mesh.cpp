@@ -87,7 +87,8 @@ class ScreenMeshCall {
     if (max_triangles_ == 0) return {TKS_USAGE, "A mesh for the screen takes a triangle or more."};
     if (decoder_.heights_level > 0)
       return {TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles."};
-    const Result<Lattice> lattice = Lattice::make(header.geometry->width, header.geometry->height);
+    const Result<Lattice> lattice =
+        Lattice::make(header.geometry->shown().width, header.geometry->shown().height);
     if (!lattice.ok()) return lattice.status();
     tks_screen screen{};
     if (given != nullptr) {

@@ -30,6 +30,7 @@ float surfaceAt(const DecodedGeometry& geometry, const SurfaceScale& scale, size
 DecodedHeights unsentHeights(const StreamHeader& header) {
   GeometryHeader smallest = *header.geometry;
   smallest.width = smallest.height = 2;
+  smallest.repeats = {};
   return decodeHeights(smallest, header.layers, Codewords(1));
 }
 

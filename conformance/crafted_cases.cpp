@@ -6,6 +6,7 @@
 
 #include "bitstream/coder/range_encoder.hpp"
 #include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/line_repeats_encoder.hpp"
 #include "conformance/crafted_streams.hpp"
 #include "lattice/levels.hpp"
 #include "texture_wavelet/drawn/drawn_pass.hpp"
@@ -125,6 +126,25 @@ std::vector<VectorCase> flatCases() {
                     heightsHeader(3, 90, TKS_I16, 14), VoidShape::kChecker, 87),
           crafted("noise_flat_none_30x30", "noise: other flat areas than are announced",
                   streamOf(wrong, noise(900, 90)))};
+}
+
+/// Lines that repeat others, in runs of any lengths, and noise for coefficients.
+std::vector<VectorCase> repeatedCases() {
+  const auto runs = [](uint32_t lines, uint32_t seed) {
+    std::vector<uint8_t> repeated(lines);
+    for (uint32_t i = 1; i < lines; ++i) repeated[i] = samples::hash(i, seed, 46) % 3 == 0;
+    return repeated;
+  };
+  StreamHeader corrected = heightsHeader(70, 31, TKS_F32, 14),
+               ends = heightsHeader(40, 60, TKS_U16, 12);
+  corrected.geometry->repeats = encodeRepeats(runs(70, 1), runs(31, 2));
+  corrected.layers.corrections = CorrectionKind::kSamples;
+  corrected.layers.coefficient_bytes = 300;
+  ends.geometry->repeats = {{40, 60}, std::string("\x35\x17", 2)};
+  return {crafted("noise_repeats_f32_70x31", "noise: repeated lines in runs of any lengths",
+                  streamOf(corrected, noise(900, 91))),
+          crafted("noise_repeats_end_40x60", "noise: a map of repeated lines that ends early",
+                  streamOf(ends, noise(700, 92)))};
 }
 
 std::vector<VectorCase> correctionCases() {
@@ -317,8 +337,9 @@ std::vector<VectorCase> shearCases() {
 
 std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = {weightCase(3, 2), weightCase(4, 8)};
-  for (const auto& cases : {wideCases(), craftedTableCases(), flatCases(), correctionCases(),
-                            nodataCases(), shearCases(), drawnCases(), roundedCases()})
+  for (const auto& cases :
+       {wideCases(), craftedTableCases(), flatCases(), repeatedCases(), correctionCases(),
+        nodataCases(), shearCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

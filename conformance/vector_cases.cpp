@@ -125,7 +125,7 @@ std::vector<VectorCase> geometryCases() {
                   {Pattern::kRidges, 20, 12, 1, TKS_U32}, lossless()),
       heightsCase("long_160x5", "long side: levels that split one side alone",
                   {Pattern::kRidges, 160, 5, 1, TKS_U16}, lossless()),
-      heightsCase("steps_40x40", "walls and terraces: quiet groups and blocks, abrupt signs",
+      heightsCase("steps_40x40", "walls and terraces, whose lines repeat: abrupt signs",
                   {Pattern::kSteps, 40, 40, 1, TKS_I32}, lossless()),
       negative,
       heightsCase("float_65x65", "32-bit float heights on an exact step",
@@ -372,6 +372,27 @@ std::vector<VectorCase> sparseCases() {
   };
 }
 
+/// Samples that were copied to a larger grid.
+std::vector<VectorCase> copiedCases() {
+  const auto copied = [](VectorCase vector_case, uint32_t across, uint32_t down) {
+    vector_case.copies[0] = across;
+    vector_case.copies[1] = down;
+    return vector_case;
+  };
+  return {
+      copied(heightsCase("copies_3x3_i16_88x73", "samples copied to a larger grid, lossless",
+                         {Pattern::kRidges, 30, 25, 1, TKS_I16}, lossless()),
+             3, 3),
+      copied(withVoids(heightsCase("copies_2x4_u16_79x77", "copies beside voids, by a byte budget",
+                                   {Pattern::kRidges, 40, 20, 1, TKS_U16}, budget(700)),
+                       samples::VoidShape::kCoast, 3),
+             2, 4),
+      copied(heightsCase("copies_1x5_f32_36x96", "rows of floats that are copies, in regions",
+                         {Pattern::kRidges, 36, 20, 1, TKS_F32}, inRegions(lossless(), 16)),
+             1, 5),
+  };
+}
+
 /// Flat areas.
 std::vector<VectorCase> waterCases() {
   using samples::VoidShape;
@@ -442,6 +463,24 @@ std::vector<VectorCase> damagedCases() {
           damaged("damaged_header", "the header's checksum does not match", 12)};
 }
 
+/// Each height as often as the case says, the first ones of either side once less.
+samples::Raster enlarged(const samples::Raster& of, const uint32_t (&copies)[2]) {
+  samples::Raster raster = of;
+  raster.width = of.width * copies[0] - (copies[0] - 1);
+  raster.height = of.height * copies[1] - (copies[1] - 1);
+  raster.data.clear();
+  const size_t bytes = tks_sample_bytes(of.sample);
+  for (uint32_t y = 0; y < raster.height; ++y) {
+    const size_t row = (y + copies[1] - 1) / copies[1];
+    for (uint32_t x = 0; x < raster.width; ++x) {
+      const size_t column = (x + copies[0] - 1) / copies[0];
+      const auto from = of.data.begin() + static_cast<ptrdiff_t>((row * of.width + column) * bytes);
+      raster.data.insert(raster.data.end(), from, from + static_cast<ptrdiff_t>(bytes));
+    }
+  }
+  return raster;
+}
+
 samples::Raster surfaceOf(const VectorCase& vector_case) {
   samples::Raster surface = samples::make(*vector_case.heights);
   if (vector_case.values) surface = samples::withFewValues(surface, *vector_case.values);
@@ -469,7 +508,7 @@ samples::Raster surfaceOf(const VectorCase& vector_case) {
       std::memcpy(at, &sample, sizeof sample);
     }
   });
-  return surface;
+  return enlarged(surface, vector_case.copies);
 }
 
 template <class T>
@@ -520,6 +559,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
+  for (VectorCase& next : copiedCases()) all.push_back(std::move(next));
   for (VectorCase& next : waterCases()) all.push_back(std::move(next));
   for (VectorCase& next : toldCases()) all.push_back(std::move(next));
   for (VectorCase& next : placedCases()) all.push_back(std::move(next));

@@ -25,7 +25,8 @@ struct VectorCase {
   std::optional<samples::FewValues> values;  ///< u8 heights are made into samples of these
   bool thirds = false;  ///< heights are divided by 3, which leaves them without a common step
   std::optional<samples::VoidShape> voids;
-  std::optional<samples::VoidShape> water;    ///< at one of two levels there, left and right
+  std::optional<samples::VoidShape> water;  ///< at one of two levels there, left and right
+  uint32_t copies[2] = {1, 1};              ///< heights are enlarged so many times, across and down
   std::optional<samples::VoidShape> cutout;   ///< alpha is 0 there, else the largest value
   std::optional<samples::VoidShape> overlay;  ///< drawn over there
   double nodata = NAN;                        ///< the value of voids; a number is declared

@@ -96,16 +96,15 @@ EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
 }
 
 /// What a cut that corrections follow usually leaves.
-HeightPurpose usualCut(const Bound& bound, int32_t largest) {
-  const double usual = kUsualCut * largest;
-  return {bound.of->steps.range_bits, bound.purpose, UINT64_MAX, usual * usual,
+HeightPurpose cutPurpose(const Bound& bound, int32_t largest) {
+  return {bound.of->steps.range_bits, bound.purpose, UINT64_MAX, usualCut(largest),
           bound.options.threads};
 }
 
 FlatChoice flatAreasOf(const Bound& bound, int32_t largest) {
   const HeightSteps& steps = bound.of->steps;
   return chooseFlatAreas({steps.steps, extentOf(*bound.of->samples), steps.valid},
-                         usualCut(bound, largest));
+                         cutPurpose(bound, largest));
 }
 
 /// mean_square: that the cut leaves, in steps; nothing: what takes the fewest bytes.
@@ -189,6 +188,20 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
     if (!made.empty()) return fewestBytes(std::move(made)).coded;
   }
   return exactly();
+}
+
+std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
+                                                        const Quantised& of) {
+  CoefficientOptions options = heightOptions(inputs);
+  auto whole = candidateOf(codeHeights(of, Purpose::kLossless, options));
+  const HeightSteps& steps = of->steps;
+  const PlaneView<const int32_t> plane(steps.steps, extentOf(*of->samples), steps.valid);
+  if (whole.coded->tracks.size() > 1 || !steps.exact || !steps.table.empty()) return whole.coded;
+  if (!correctionsMayPay(plane, steps.range_bits, whole.bytes())) return whole.coded;
+  options.limit = whole.bytes();
+  const Bound bound{of, Purpose::kLossy, chooseHeightFilters(*of, Purpose::kLossy), options, 0};
+  auto corrected = candidateOf(correct(bound, 0, flatAreasOf(bound, 0), {}));
+  return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
 /// Corrections pay from about this RMSE on, in steps: where more of the coefficients are sent, the

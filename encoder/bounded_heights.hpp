@@ -23,6 +23,11 @@ namespace tetrakis::inline encoder {
 std::shared_ptr<const CodedHeights> codeBoundedHeights(
     const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
 
+/// Heights to the last bit: coefficients without fraction bits, or corrections behind a cut of
+/// lossy coefficients, where these take fewer bytes.
+std::shared_ptr<const CodedHeights> codeLosslessHeights(
+    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
+
 /// Lossy heights cut where little of a step is left of most of them, and corrections of all that
 /// are still off. Prefixes up to the cut are those of the lossy heights, and the end is exact.
 /// lossy: of one track, of exact steps without a table.

@@ -2,6 +2,7 @@
 #include "encoder/encode_stream.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <future>
 #include <memory>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "encoder/coded_texture.hpp"
 #include "encoder/meet_target.hpp"
 #include "encoder/quantised_heights.hpp"
+#include "encoder/repeated_lines.hpp"
 #include "encoder/view_priorities.hpp"
 #include "encoder/views.hpp"
 #include "encoder/write_stream.hpp"
@@ -27,6 +29,7 @@ using Texture = std::shared_ptr<const CodedTexture>;
 Heights codeHeightsForTarget(const EncodeInputs& inputs,
                              const std::shared_ptr<const QuantisedHeights>& of) {
   if (inputs.options.max_error > 0) return codeBoundedHeights(inputs, of);
+  if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, of);
   HeightTarget target(of->restored() ? Purpose::kLossless : purposeOf(inputs));
   // What a texture leaves of a budget is not known yet; most of it is the texture's.
   constexpr uint64_t kShareBesideTexture = 4;
@@ -79,10 +82,7 @@ Result<Components> quantiseAndCode(const EncodeInputs& inputs) {
   return codeComponents(inputs, *heights, texture);
 }
 
-}  // namespace
-
-Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
-  assert(given.heights != nullptr || given.image != nullptr);
+Result<std::vector<uint8_t>> encodeLines(const EncodeInputs& given) {
   if (Status status = reportProgress(given.options, 0); !status.ok()) return status;
   if (Status status = checkCameras(given); !status.ok()) return status;
   const ViewPriorities priorities = prioritiesOf(given);
@@ -97,6 +97,23 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   Result<std::vector<uint8_t>> stream = writeStream(inputs, *selection);
   if (Status status = reportProgress(inputs.options, 0.95); !status.ok()) return status;
   return stream;
+}
+
+}  // namespace
+
+/// A PSNR is that of all samples: the coded ones then err less by what the heaviest may weigh.
+Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
+  assert(given.heights != nullptr || given.image != nullptr);
+  CodedLines lines;
+  if (given.heights != nullptr) lines = findRepeatedLines(*given.heights);
+  const bool masked = given.heights != nullptr &&
+                      (given.heights->has_nodata != 0 || given.heights->sample == TKS_F32);
+  const bool weighs = given.options.psnr > 0 && (masked || lines.heaviest > 1.1);
+  if (lines.repeats.none() || weighs) return encodeLines(given);
+  const tks_heights coded = lines.of(*given.heights);
+  tks_encode_options options = given.options;
+  if (options.psnr > 0) options.psnr += 10 * std::log10(lines.heaviest);
+  return encodeLines({&coded, given.image, options, nullptr, given.heights, &lines.repeats});
 }
 
 }  // namespace tetrakis::inline encoder

@@ -41,7 +41,9 @@ Purpose purposeOf(const EncodeInputs& inputs) {
 /// alone.
 CoefficientOptions heightOptions(const EncodeInputs& inputs) {
   assert(inputs.heights != nullptr);
-  const auto& [heights, image, options, priorities] = inputs;
+  const tks_heights* const heights = inputs.heights;
+  const tks_encode_options& options = inputs.options;
+  const ViewPriorities* const priorities = inputs.priorities;
   const bool large = uint64_t{heights->width} * heights->height > kOneRegionHeights;
   CoefficientOptions coefficients{
       limitOf(inputs),

@@ -7,6 +7,7 @@
 
 #include "base/status.hpp"
 #include "base/texels.hpp"
+#include "bitstream/stream/line_repeats.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "tetrakis/tetrakis.h"
 #include "texture_wavelet/texture_source.hpp"
@@ -27,6 +28,9 @@ struct EncodeInputs {
   const tks_image* image;      ///< null: there is none
   const tks_encode_options& options;
   const ViewPriorities* priorities = nullptr;  ///< null: none; else it outlives this as well
+  /// The caller's heights, of which `heights` are the coded lines; null: they are the same.
+  const tks_heights* whole = nullptr;
+  const LineRepeats* repeats = nullptr;  ///< not null with `whole`
 
   bool budgeted() const { return options.bytes != 0; }
 };

@@ -49,10 +49,12 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     header.geometry = selection.heights->header;
     header.geometry->max_error = options.max_error > 0 ? options.max_error : lossless ? 0 : -1;
     header.layers = selection.heights->layers;
-    header.metadata = metadataOf(*inputs.heights);
+    if (inputs.repeats != nullptr) header.geometry->repeats = *inputs.repeats;
+    header.metadata = metadataOf(inputs.whole != nullptr ? *inputs.whole : *inputs.heights);
   }
   if (selection.texture) header.texture = selection.texture->header;
-  header.georeference = georeferenceOf(inputs.heights, inputs.image);
+  header.georeference =
+      georeferenceOf(inputs.whole != nullptr ? inputs.whole : inputs.heights, inputs.image);
   if (options.index != 0) header.index = indexOf(selection.packets);
   return header;
 }

@@ -20,7 +20,7 @@ constexpr double kOpening = std::numeric_limits<double>::infinity();
 
 /// The grid that the columns and rows of views count.
 Extent gridOf(const StreamHeader& header) {
-  return header.geometry ? header.geometry->extent() : header.texture->extent();
+  return header.geometry ? header.geometry->shown() : header.texture->extent();
 }
 
 /// Pixels of a texel for a point with so many of a sample.

@@ -189,6 +189,27 @@ WaveletHeader withoutFraction(WaveletHeader lossy) {
   return lossy;
 }
 
+PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step) {
+  const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
+  const WaveletHeader header =
+      chooseAmong(samples, bits, step == 0 ? Purpose::kLossless : Purpose::kLossy).header;
+  const WaveletSpec spec = specOf(header);
+  const double unit = std::exp2(header.fraction_bits);
+  PlaneCost sum;
+  for (const Sample& sample : samples) {
+    std::vector<int32_t> values = sample.values;
+    for (int32_t& v : values)
+      v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
+    const PlaneLayout layout(spec, sample.extent, sample.valid, {});
+    forwardWavelet(spec, layout.pyramid(), values);
+    const PlaneCost cost = costOf(layout, values, step * unit);
+    sum.bits += cost.bits;
+    sum.squares += cost.squares / (unit * unit);
+  }
+  const double whole = static_cast<double>(plane.extent().samples()) / samplesIn(samples);
+  return {sum.bits * whole, sum.squares * whole};
+}
+
 double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
   const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
   const double whole = static_cast<double>(plane.extent().samples()) / samplesIn(samples);

@@ -9,6 +9,7 @@
 #include "base/plane.hpp"
 #include "bitstream/stream/header.hpp"
 #include "wavelet/held_samples.hpp"
+#include "wavelet/plane_cost.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -32,6 +33,9 @@ WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, in
 
 /// The filters of a lossy choice, for the last bit.
 WaveletHeader withoutFraction(WaveletHeader lossy);
+
+/// About what the coefficients of a plane cost that is coded with a step: 0 is to the last bit.
+PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step);
 
 /// About how many bits the coefficients of a plane take that is coded to the last bit.
 double losslessBits(const PlaneView<const int32_t>& plane, int bits);

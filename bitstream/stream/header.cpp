@@ -70,8 +70,8 @@ void visitGeoreference(V& v, StreamHeader& header) {
   if (!header.texture) return;
   if (header.geometry && place.heights.has_transform) {
     const double columns = header.texture->width, rows = header.texture->height;
-    basis.heights = stretched(place.heights.transform, header.geometry->width / columns,
-                              header.geometry->height / rows);
+    basis.heights = stretched(place.heights.transform, header.geometry->shown().width / columns,
+                              header.geometry->shown().height / rows);
     basis.has_heights = true;
   }
   place.visitTexture(v, basis);
@@ -226,10 +226,19 @@ Status checkPriorities(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its map of priorities has more than 65536 tiles."};
 }
 
+Status checkLines(const StreamHeader& header) {
+  if (!header.geometry) return {};
+  const GeometryHeader& g = *header.geometry;
+  if (g.sample > TKS_F32) return {TKS_CORRUPT, "Corrupt stream: the type of its heights is none."};
+  if (g.width >= 2 && g.height >= 2) return {};
+  return {TKS_CORRUPT, "Corrupt stream: all columns or all rows of its heights repeat the first."};
+}
+
 Status checkMeaning(const StreamHeader& header) {
   if (!header.geometry && !header.texture) {
     return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
   }
+  if (Status lines = checkLines(header); !lines.ok()) return lines;
   if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
   if (Status place = checkGeoreference(header); !place.ok()) return place;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
@@ -260,7 +269,7 @@ TrackCounts trackCounts(const StreamHeader& header) {
 
 uint8_t levelFor(const StreamHeader& header) {
   uint64_t samples = 0;
-  if (header.geometry) samples = uint64_t{header.geometry->width} * header.geometry->height;
+  if (header.geometry) samples = header.geometry->shown().samples();
   if (header.texture) {
     samples = std::max(samples, uint64_t{header.texture->width} * header.texture->height);
   }

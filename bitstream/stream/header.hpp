@@ -14,6 +14,7 @@
 #include "base/status.hpp"
 #include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/georeference.hpp"
+#include "bitstream/stream/line_repeats.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/regions.hpp"
@@ -94,8 +95,9 @@ enum class CorrectionKind : uint8_t {
 
 /// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
 struct GeometryHeader {
-  uint32_t width = 0, height = 0;
-  uint8_t sample = 0;  ///< tks_sample of the input and of the decoded output
+  uint32_t width = 0, height = 0;  ///< of the lines that are coded
+  LineRepeats repeats;             ///< which of those that are shown they are
+  uint8_t sample = 0;              ///< tks_sample of the input and of the decoded output
   uint8_t planes = 0;
   uint8_t exact = 0;  ///< the steps restore every input sample
   double base = 0, step = 1;
@@ -106,9 +108,14 @@ struct GeometryHeader {
 
   template <class V>
   void visit(V& v) {
-    v.varint("geometry_width", width, 2, kMaxSide);
-    v.varint("geometry_height", height, 2, kMaxSide);
-    v.u8("geometry_sample", sample, 0, TKS_F32);
+    Extent whole = shown();
+    v.varint("geometry_width", whole.width, 2, kMaxSide);
+    v.varint("geometry_height", whole.height, 2, kMaxSide);
+    auto kind = static_cast<uint8_t>(sample + (repeats.none() ? 0 : kWithRepeats));
+    v.u8("geometry_sample", kind, 0, kWithRepeats + TKS_F32);
+    sample = kind % kWithRepeats;
+    if (kind >= kWithRepeats) v.text("repeated_lines", repeats.code);
+    if (v.ok()) setLines(whole, kind >= kWithRepeats);
     auto coding = static_cast<uint8_t>(planes + (priorities.none() ? 0 : kWithPriorities));
     v.u8("geometry_planes", coding, 0, kWithPriorities + kStoredPlanes - 1);
     planes = coding % kWithPriorities;
@@ -120,12 +127,22 @@ struct GeometryHeader {
     if (!stored()) wavelet.visit(v);
   }
   Extent extent() const { return {width, height}; }
+  Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
   bool stored() const { return planes == kStoredPlanes; }
 
   /// In the place of a number of bit-planes: the samples are stored
   /// (bitstream/coder/byte_planes.hpp).
   static constexpr uint8_t kStoredPlanes = 31;
   static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes
+  static constexpr uint8_t kWithRepeats = 8;      ///< bit beside the type of the samples
+
+ private:
+  void setLines(Extent whole, bool repeated) {
+    if (repeated) repeats.shown = whole;
+    const Extent coded = repeated ? lineMapsOf(repeats).coded() : whole;
+    width = coded.width;
+    height = coded.height;
+  }
 };
 
 /// A point of the polyline that stands for a table of values while that is missing.
@@ -270,6 +287,7 @@ struct TextureHeader {
   bool stored = false;  ///< sample by sample, without a transform
 
   Extent extent() const { return {width, height}; }
+  Extent shown() const { return extent(); }
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
   template <class V>

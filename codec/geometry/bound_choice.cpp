@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/bound_choice.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -75,8 +78,7 @@ BestCut bestCut(const std::vector<PartTrial>& trials, int32_t largest) {
     for (const PartTrial& trial : trials) cut.bytes += trial.corrected(mean_square);
     return cut;
   };
-  const double usual = kUsualCut * largest;
-  BestCut best = at(usual * usual);
+  BestCut best = at(usualCut(largest));
   for (const double ratio : {2.0, 0.5, 1.3, 1 / 1.3}) {
     for (;;) {
       const BestCut next = at(best.mean_square * ratio);
@@ -85,6 +87,13 @@ BestCut bestCut(const std::vector<PartTrial>& trials, int32_t largest) {
     }
   }
   return best;
+}
+
+/// Entropy of a normal error that is rounded, where few exceed 1.
+double correctionBits(double mean_square) {
+  const double off = std::erfc(0.5 / std::sqrt(2 * mean_square));
+  if (off <= 0 || off >= 1) return off;
+  return off - off * std::log2(off) - (1 - off) * std::log2(1 - off);
 }
 
 }  // namespace
@@ -103,6 +112,19 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   const BestCut cut = bestCut(trials, largest);
   const bool correct = cut.bytes < rounded;
   return {!correct, correct, cut.mean_square};
+}
+
+bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes) {
+  constexpr double kLeastBits = 0.5, kMostBits = 1.8, kTries = 1.05;
+  const auto samples = static_cast<double>(heights.extent().samples());
+  const double bits = 8 * static_cast<double>(bytes) / samples;
+  if (bits < kLeastBits || bits > kMostBits) return false;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double step : {1.0, 1.4, 2.0}) {
+    const PlaneCost cost = typicalCost(heights, range_bits, step);
+    least = std::min(least, cost.bits + samples * correctionBits(cost.squares / samples));
+  }
+  return least < kTries * typicalCost(heights, range_bits, 0).bits;
 }
 
 }  // namespace tetrakis::inline geometry

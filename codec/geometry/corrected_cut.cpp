@@ -42,12 +42,11 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
   return coefficients_.codeword.size();
 }
 
-/// The bytes have one minimum, usually where the RMSE is 0.3 to 0.6 of the largest error: descent
+/// The bytes have one minimum, near the usual cut: descent
 /// from there with ever smaller strides. Every turn but the last of each stride has fewer bytes
 /// than the one before.
 uint64_t CorrectedCut::best() const {
-  const double usual = kUsualCut * largest_;
-  uint64_t best = bytesFor(usual * usual), least = total(best);
+  uint64_t best = bytesFor(usualCut(largest_)), least = total(best);
   for (const double stride : {1.3, 1.1, 1.04}) {
     for (const double factor : {1 / stride, stride}) {
       for (;;) {

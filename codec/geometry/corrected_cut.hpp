@@ -53,7 +53,11 @@ class CorrectedCut {
   int32_t largest_;
 };
 
-/// The RMSE, over the largest error, that cuts usually leave where the bytes are fewest.
-inline constexpr double kUsualCut = 0.45;
+/// The mean squared error, in steps, that cuts usually leave where the bytes are fewest. Samples
+/// are rounded: below an RMSE of 0.3 steps a cut would have to code that noise.
+inline double usualCut(int32_t largest) {
+  const double rmse = largest == 0 ? 0.3 : 0.45 * largest;
+  return rmse * rmse;
+}
 
 }  // namespace tetrakis::inline geometry

@@ -9,6 +9,7 @@
 #include "codec/geometry/corrections_decoder.hpp"
 #include "codec/geometry/flat_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
+#include "codec/geometry/shown_lines.hpp"
 #include "codec/geometry/stored_heights.hpp"
 #include "codec/geometry/value_stand_in.hpp"
 #include "codec/geometry/value_table_decoder.hpp"
@@ -159,19 +160,22 @@ std::vector<uint8_t> activityHints(const DecodedGeometry& geometry) {
 
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view) {
-  std::vector<uint8_t> valid = validityOf(TakenLayers(codewords, layers), header, layers);
-  if (view.isWhole()) return valid;
-  return cut(std::span<const uint8_t>(valid), header.extent(), view);
+  const std::vector<uint8_t> valid = validityOf(TakenLayers(codewords, layers), header, layers);
+  const ShownLines lines(header, view);
+  return lines.shown(cut(std::span<const uint8_t>(valid), header.extent(), lines.coded()));
 }
 
-DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,
-                             const Codewords& codewords, const View& view,
-                             const DecodeContext<HeightsMemory>& context) {
+namespace {
+
+/// Of the coded lines.
+DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& layers,
+                           const Codewords& codewords, const View& view,
+                           const DecodeContext<HeightsMemory>& context) {
   TakenLayers taken(codewords, layers);
   // A stored sample's place depends on the voids before it, and contexts of corrections come from
   // the corrections and heights of the whole plane.
   if (view.window && (header.stored() || !taken.corrections.empty()))
-    return cutWindow(decodeHeights(header, layers, codewords, {}, {context.threads}), view);
+    return cutWindow(decodeLines(header, layers, codewords, {}, {context.threads}), view);
   HeightsMemory* const memory = context.memory;
   std::vector<uint8_t> valid = validityOf(taken, header, layers, memory);
   if (header.stored()) return decodeStored(header, taken.coefficients.front(), valid, view.level);
@@ -193,6 +197,17 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(geometry), header);
   addCorrections(decodeCorrections(taken.corrections, {hints, header.extent(), geometry.valid}),
                  decoded.corrections);
+  return decoded;
+}
+
+}  // namespace
+
+DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,
+                             const Codewords& codewords, const View& view,
+                             const DecodeContext<HeightsMemory>& context) {
+  const ShownLines lines(header, view);
+  DecodedHeights decoded = decodeLines(header, layers, codewords, lines.coded(), context);
+  lines.show(decoded);
   return decoded;
 }
 

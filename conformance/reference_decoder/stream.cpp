@@ -47,12 +47,25 @@ PriorityHeader readPriorities(Reader& in, int width, int height) {
   return priorities;
 }
 
+/// FORMAT 8.3: the size becomes that of the coded lines.
+void readLines(Reader& in, GeometryHeader& g) {
+  const auto code = in.take(in.varint(0, UINT64_MAX));
+  if (in.outcome() != Outcome::kDone) return;
+  g.lines = LineMap(code, g.width, g.height);
+  g.width = g.lines.columns.back() + 1;
+  g.height = g.lines.rows.back() + 1;
+  if (g.width < 2 || g.height < 2) in.fail(Outcome::kCorrupt);
+}
+
 /// FORMAT 2, table Geometry.
 GeometryHeader readGeometry(Reader& in) {
   GeometryHeader g;
   g.width = static_cast<int>(in.varint(2, 1 << 20));
   g.height = static_cast<int>(in.varint(2, 1 << 20));
-  g.sample = in.u8(kU8, kF32);
+  const int kind = in.u8(0, 14);
+  g.sample = kind % 8;
+  if (g.sample > kF32) in.fail(Outcome::kCorrupt);
+  if (kind >= 8) readLines(in, g);
   const int coding = in.u8(0, 62);
   g.planes = coding % 32;
   if (coding >= 32) g.priorities = readPriorities(in, g.width, g.height);
@@ -203,8 +216,10 @@ void skipIndex(Reader& in, const Stream& stream) {
 
 /// Of the larger component.
 uint64_t samplesOf(const Stream& stream) {
-  const auto count = [](const auto& c) { return c ? uint64_t(c->width) * uint64_t(c->height) : 0; };
-  return std::max(count(stream.geometry), count(stream.texture));
+  uint64_t heights = 0, texels = 0;
+  if (const auto& g = stream.geometry) heights = uint64_t(g->shownWidth()) * g->shownHeight();
+  if (const auto& t = stream.texture) texels = uint64_t(t->width) * t->height;
+  return std::max(heights, texels);
 }
 
 /// FORMAT 2: "smallest n such that neither component has more than 4^(n + 8) samples".
@@ -305,7 +320,7 @@ Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels leve
   if (decoded.outcome != Outcome::kDone) return decoded;
   if (stream.geometry)
     decoded.heights =
-        decodeHeights(*stream.geometry, stream.layers, stream.codewords[0], levels.heights);
+        decodeShownHeights(*stream.geometry, stream.layers, stream.codewords[0], levels.heights);
   if (stream.texture)
     decoded.texture = decodeTexture(*stream.texture, stream.codewords[1], levels.texture);
   return decoded;

@@ -33,12 +33,24 @@ struct PriorityHeader {
   std::vector<uint8_t> code;
 };
 
+/// FORMAT 8.3: the coded line that each line shows; empty: all lines are coded.
+struct LineMap {
+  std::vector<int> columns, rows;
+
+  LineMap() = default;
+  LineMap(std::span<const uint8_t> code, int width, int height);
+};
+
 struct GeometryHeader {
-  int width = 0, height = 0, sample = 0, planes = 0;
+  int width = 0, height = 0, sample = 0, planes = 0;  ///< width and height: of the coded lines
+  LineMap lines;
   double base = 0, step = 1;
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;
+
+  int shownWidth() const { return lines.columns.empty() ? width : int(lines.columns.size()); }
+  int shownHeight() const { return lines.rows.empty() ? height : int(lines.rows.size()); }
 };
 
 /// FORMAT 2, table Layers.
@@ -96,6 +108,10 @@ constexpr int32_t wrap(int64_t value) {
 /// Samples of the header's type, little endian (FORMAT 8).
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
                                    const Codewords& codewords, int level);
+
+/// The same with repeated lines (FORMAT 8.3).
+std::vector<uint8_t> decodeShownHeights(const GeometryHeader& header, const Layers& layers,
+                                        const Codewords& codewords, int level);
 
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,

@@ -274,6 +274,22 @@ TEST(DecodeMemory, FlatAreasAndTablesStayBelowTheBound) {
   }
 }
 
+/// Samples that were copied to a grid three times as wide and twice as high.
+TEST(DecodeMemory, RepeatedLinesStayBelowTheBound) {
+  const Raster small = make({Pattern::kRidges, 60, 35, 1, TKS_U16});
+  Raster large = make({Pattern::kRidges, 180, 70, 1, TKS_U16});
+  for (size_t i = 0; i < size_t{180} * 70; ++i) {
+    const size_t from = i / 360 * 60 + i % 180 / 3;
+    std::memcpy(large.data.data() + 2 * i, small.data.data() + 2 * from, 2);
+  }
+  const auto expectCopies = [&](const Bytes& bytes, const std::string& what) {
+    EXPECT_FALSE(readHeader(bytes)->header.geometry->repeats.none()) << what;
+    expectWithinBounds(bytes, what);
+  };
+  expectCopies(encode(&large, nullptr, inRegions(budget(2000), 16)), "copies in regions");
+  expectCopies(withVoids(large, lossless()), "copies beside voids");
+}
+
 TEST(DecodeMemory, StoredSamplesStayBelowTheBound) {
   const Raster noise = make({Pattern::kExtreme, 161, 124, 1, TKS_I16});
   const Bytes heights = encode(&noise, nullptr, lossless());

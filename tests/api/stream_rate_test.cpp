@@ -73,6 +73,33 @@ TEST(StreamRate, AmpleBudgetsKeepPrefixes) {
   }
 }
 
+/// Whole metres of a surface as smooth as it may be.
+Raster roundedHills(double height) {
+  Raster hills = make({Pattern::kRidges, 120, 90, 1, TKS_I16});
+  auto* out = reinterpret_cast<int16_t*>(hills.data.data());
+  for (uint32_t y = 0; y < 90; ++y) {
+    for (uint32_t x = 0; x < 120; ++x)
+      *out++ = static_cast<int16_t>(std::lround(height * std::sin(x / 29.) * std::cos(y / 23.)));
+  }
+  return hills;
+}
+
+/// Of smooth heights the coefficients are cut, and corrections restore the samples: no budget finds
+/// a shorter stream to the last bit, and prefixes are those of lossy streams.
+TEST(StreamRate, LosslessIsTheShortestWayToTheLastBit) {
+  for (const double height : {40., 90.}) {
+    const Raster hills = roundedHills(height);
+    const Bytes whole = encode(&hills, nullptr, lossless()),
+                ample = encode(&hills, nullptr, budget(1 << 20));
+    Stream stream(whole), exact(ample);
+    EXPECT_TRUE(stream.heights() == hills.data && exact.heights() == hills.data);
+    EXPECT_LE(whole.size(), ample.size());
+    const size_t half = whole.size() / 2;
+    EXPECT_LE(squaredError(hills, Stream(Prefix(whole).first(half)).heights()),
+              squaredError(hills, Stream(Prefix(ample).first(half)).heights()) * 1.1);
+  }
+}
+
 /// The smaller stream is a prefix of the larger one, behind the header.
 TEST(StreamRate, BudgetsShareOneOrder) {
   const Raster heights = terrain(), image = photograph();

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Planes that were enlarged by copying samples have columns and rows that repeat the one before
+// them. These are not coded: a map says which they are, and decoders copy them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "bitstream/coder/adaptive_bit.hpp"
+
+namespace tetrakis::inline stream {
+
+/// Of a plane whose coded lines are fewer than those that are shown.
+struct LineRepeats {
+  Extent shown = {0, 0};  ///< lines of the plane; 0: no map, all lines are coded
+  std::string code;       ///< of the map
+
+  bool none() const { return shown.width == 0; }
+};
+
+/// Coding of the map, line by line: whether it repeats the one before. A run is a line and its
+/// repeats; runs have the length of the last one, or of the one before that. Io:
+/// bitstream/coder/decision_decoding.hpp, decision_encoding.hpp.
+template <class Io>
+class RepeatPass {
+ public:
+  explicit RepeatPass(Io& io) : io_(io) {}
+
+  /// repeats: of the lines of one side, of the decoder as many zeros. It fills them up to the first
+  /// decision that does not count.
+  void run(std::span<uint8_t> repeats) {
+    size_t run = 1, last = 0, before = 0;
+    for (size_t i = 1; i < repeats.size(); ++i) {
+      const size_t context = 3 * order(run, last) + order(run, before);
+      const bool repeated = io_.decide(repeated_[context], repeats[i] != 0);
+      if (io_.stopped()) return;
+      repeats[i] = repeated;
+      if (repeated) {
+        ++run;
+      } else {
+        before = last;
+        last = run;
+        run = 1;
+      }
+    }
+  }
+
+ private:
+  /// 0 less, 1 equal, 2 greater.
+  static size_t order(size_t a, size_t b) { return size_t{a > b} + size_t{a >= b}; }
+
+  Io& io_;
+  std::array<AdaptiveBit, 9> repeated_;
+};
+
+/// The coded line that each line of a side shows.
+struct LineMaps {
+  std::vector<uint32_t> columns, rows;
+
+  Extent coded() const { return {columns.back() + 1, rows.back() + 1}; }
+};
+
+/// The map that a header describes. Safe on any code.
+LineMaps lineMapsOf(const LineRepeats& repeats);
+
+}  // namespace tetrakis::inline stream

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/repeated_lines.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <numeric>
+
+#include "codec/geometry/line_repeats_encoder.hpp"
+#include "ground/frame.hpp"
+
+namespace tetrakis::inline encoder {
+
+namespace {
+
+/// The samples as bytes.
+class SampleBytes {
+ public:
+  explicit SampleBytes(const tks_heights& heights)
+      : data_(static_cast<const std::byte*>(heights.data)),
+        width_(heights.width),
+        height_(heights.height),
+        size_(tks_sample_bytes(heights.sample)) {}
+
+  /// 1 for each row that equals the one before.
+  std::vector<uint8_t> repeatedRows() const {
+    std::vector<uint8_t> repeated(height_);
+    for (uint32_t y = 1; y < height_; ++y)
+      repeated[y] = std::memcmp(at(0, y), at(0, y - 1), width_ * size_) == 0;
+    return repeated;
+  }
+  /// Likewise of columns. Those that differ somewhere are not looked at again.
+  std::vector<uint8_t> repeatedColumns() const {
+    std::vector<uint32_t> alike(width_ - 1);
+    std::iota(alike.begin(), alike.end(), 1u);
+    for (uint32_t y = 0; y < height_ && !alike.empty(); ++y) {
+      std::erase_if(alike,
+                    [&](uint32_t x) { return std::memcmp(at(x, y), at(x - 1, y), size_) != 0; });
+    }
+    std::vector<uint8_t> repeated(width_);
+    for (const uint32_t x : alike) repeated[x] = 1;
+    return repeated;
+  }
+  /// Those of lines that are not repeated.
+  std::vector<std::byte> without(const std::vector<uint8_t>& columns,
+                                 const std::vector<uint8_t>& rows) const {
+    std::vector<std::byte> samples;
+    for (uint32_t y = 0; y < height_; ++y) {
+      if (rows[y]) continue;
+      for (uint32_t x = 0; x < width_; ++x) {
+        if (!columns[x]) samples.insert(samples.end(), at(x, y), at(x, y) + size_);
+      }
+    }
+    return samples;
+  }
+
+ private:
+  const std::byte* at(uint32_t x, uint32_t y) const {
+    return data_ + (size_t{y} * width_ + x) * size_;
+  }
+
+  const std::byte* data_;
+  uint32_t width_, height_;
+  size_t size_;
+};
+
+/// The lengths of a line and its repeats.
+std::vector<uint32_t> runsOf(const std::vector<uint8_t>& repeated) {
+  std::vector<uint32_t> runs;
+  for (const uint8_t repeat : repeated) {
+    if (!repeat) runs.push_back(0);
+    ++runs.back();
+  }
+  return runs;
+}
+
+uint32_t codedOf(const std::vector<uint8_t>& repeated) {
+  return static_cast<uint32_t>(std::count(repeated.begin(), repeated.end(), 0));
+}
+
+/// Takes repeats out of runs that are longer than 19 of 20 are, or that would leave one line alone;
+/// all of them where the longest run that is left is more than twice the mean. Returns that.
+uint32_t even(std::vector<uint8_t>& repeated) {
+  std::vector<uint32_t> runs = runsOf(repeated);
+  const auto usual = runs.begin() + static_cast<ptrdiff_t>((runs.size() - 1) * 19 / 20);
+  std::nth_element(runs.begin(), usual, runs.end());
+  const uint32_t most = std::min(*usual, static_cast<uint32_t>((repeated.size() + 1) / 2));
+  uint32_t run = 0;
+  for (uint8_t& repeat : repeated) {
+    if (run == most) repeat = 0;
+    run = repeat ? run + 1 : 1;
+  }
+  if (size_t{most} * codedOf(repeated) <= 2 * repeated.size()) return most;
+  std::fill(repeated.begin(), repeated.end(), uint8_t{0});
+  return 1;
+}
+
+}  // namespace
+
+tks_heights CodedLines::of(const tks_heights& whole) const {
+  tks_heights coded = whole;
+  coded.width = extent.width;
+  coded.height = extent.height;
+  coded.data = samples.data();
+  const GroundFrame frame =
+      knownFrame({whole.width, whole.height, whole.spacing_x, whole.spacing_y, 1});
+  coded.spacing_x = frame.spacing_x * whole.width / extent.width;
+  coded.spacing_y = frame.spacing_y * whole.height / extent.height;
+  return coded;
+}
+
+CodedLines findRepeatedLines(const tks_heights& heights) {
+  constexpr double kPays = 0.9;  // of the samples are left
+  assert(heights.width >= 2 && heights.height >= 2);
+  const SampleBytes samples(heights);
+  std::vector<uint8_t> columns = samples.repeatedColumns(), rows = samples.repeatedRows();
+  const uint64_t heaviest = uint64_t{even(columns)} * even(rows);
+  CodedLines lines;
+  lines.extent = {codedOf(columns), codedOf(rows)};
+  if (lines.extent.width == 2 && lines.extent.height == 2) return {};  // one height, most likely
+  const auto all = static_cast<double>(size_t{heights.width} * heights.height);
+  const double left = static_cast<double>(lines.extent.samples()) / all;
+  if (left > kPays) return {};
+  lines.heaviest = static_cast<double>(heaviest) * left;
+  lines.samples = samples.without(columns, rows);
+  lines.repeats = encodeRepeats(std::move(columns), std::move(rows));
+  return lines;
+}
+
+}  // namespace tetrakis::inline encoder

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole streams of heights that were enlarged by copying samples: they come back, their bytes are
+// those of the small grid, and prefixes, levels, windows and meshes are those of any other heights.
+#include <algorithm>
+#include <span>
+
+#include "bitstream/stream/header.hpp"
+#include "conformance/reference_decoder.hpp"
+#include "conformance/samples/void_masks.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+constexpr tks_sample kTypes[] = {TKS_U8, TKS_I8, TKS_U16, TKS_I16, TKS_U32, TKS_I32, TKS_F32};
+
+/// Which line of the small grid each line of a larger one shows: runs of some lengths by turns.
+std::vector<uint32_t> linesOf(uint32_t lines, std::initializer_list<uint32_t> runs) {
+  std::vector<uint32_t> shown;
+  for (uint32_t line = 0; line < lines; ++line)
+    shown.insert(shown.end(), runs.begin()[line % runs.size()], line);
+  return shown;
+}
+
+Raster copied(const Raster& small, const std::vector<uint32_t>& columns,
+              const std::vector<uint32_t>& rows) {
+  Raster large = small;
+  large.width = static_cast<uint32_t>(columns.size());
+  large.height = static_cast<uint32_t>(rows.size());
+  large.data.clear();
+  const size_t bytes = tks_sample_bytes(small.sample);
+  for (const uint32_t row : rows) {
+    for (const uint32_t column : columns) {
+      const std::byte* from = small.data.data() + (size_t{row} * small.width + column) * bytes;
+      large.data.insert(large.data.end(), from, from + bytes);
+    }
+  }
+  return large;
+}
+
+Raster small(tks_sample sample = TKS_I16) {
+  return make({Pattern::kRidges, 40, 33, 1, sample});
+}
+
+bool repeats(const Bytes& stream) {
+  return !readHeader(stream)->header.geometry->repeats.none();
+}
+
+tks_encode_options inRegions(tks_encode_options options) {
+  options.regions = 16;
+  return options;
+}
+
+TEST(RepeatedLines, ComeBackWithAllTypesAndRuns) {
+  for (const tks_sample type : kTypes) {
+    const Raster of = small(type);
+    for (const auto& runs :
+         {linesOf(33, {2}), linesOf(33, {1, 2}), linesOf(33, {5}), linesOf(33, {2, 2, 3})}) {
+      const Raster large = copied(of, linesOf(40, {3}), runs);
+      const Bytes stream = encode(&large, nullptr, lossless());
+      EXPECT_TRUE(repeats(stream));
+      EXPECT_TRUE(Stream(stream).heights() == large.data) << type;
+    }
+  }
+}
+
+/// A grid of copies may begin anywhere.
+TEST(RepeatedLines, TakeTheBytesOfTheSmallGrid) {
+  const Raster of = small();
+  const size_t alone = encode(&of, nullptr, lossless()).size();
+  for (uint32_t k = 2; k <= 6; ++k) {
+    std::vector<uint32_t> columns = linesOf(40, {k}), rows = linesOf(33, {k});
+    columns.erase(columns.begin());
+    rows.erase(rows.begin(), rows.begin() + k / 2);
+    const Raster large = copied(of, columns, rows);
+    EXPECT_LE(encode(&large, nullptr, lossless()).size(), alone + 24) << k;
+  }
+}
+
+TEST(RepeatedLines, AreNoneWhereOnlyAFewAre) {
+  Raster sea = small();
+  std::fill_n(sea.data.begin(), size_t{2} * 40 * 12, std::byte{0});
+  EXPECT_FALSE(repeats(encode(&sea, nullptr, lossless())));
+}
+
+/// At every 41st byte, and as the reference decoder shows it.
+TEST(RepeatedLines, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
+  const Raster large = copied(small(), linesOf(40, {3}), linesOf(33, {1, 2}));
+  for (const tks_encode_options& options :
+       {lossless(), budget(900), inRegions(lossless()), inRegions(budget(900))}) {
+    const Bytes stream = encode(&large, nullptr, options);
+    ASSERT_TRUE(repeats(stream));
+    for (size_t bytes = readHeader(stream)->bytes; bytes <= stream.size(); bytes += 141) {
+      const Prefix prefix = Prefix(stream).first(bytes);
+      for (const uint32_t level : {0u, 1u, 2u, 3u, 5u}) {
+        Stream decoded(prefix);
+        ASSERT_EQ(tks_set_levels(decoded.get(), level, 0), TKS_OK);
+        const size_t columns = ((large.width - 1) >> level) + 1;
+        const size_t rows = ((large.height - 1) >> level) + 1;
+        std::vector<uint8_t> heights(2 * columns * rows);
+        ASSERT_EQ(tks_decode_heights(decoded.get(), heights.data(), heights.size()), TKS_OK);
+        const int wanted = static_cast<int>(level);
+        ASSERT_EQ(heights, reference::decode(prefix, 1 << 20, {wanted, 0}).heights)
+            << bytes << ", level " << level;
+      }
+    }
+  }
+}
+
+TEST(RepeatedLines, WindowsAreThoseOfTheWhole) {
+  Raster of = small();
+  const Raster large = copied(of, linesOf(40, {3}), linesOf(33, {2, 3}));
+  for (const tks_encode_options& options : {budget(900), inRegions(lossless())}) {
+    const Bytes stream = encode(&large, nullptr, options);
+    const std::vector<std::byte> whole = Stream(stream).heights();
+    for (const tks_window& window : {tks_window{0, 0, large.width, large.height},
+                                     tks_window{31, 40, 20, 3}, tks_window{119, 81, 1, 1}}) {
+      Stream again(stream);
+      std::vector<std::byte> part(size_t{2} * window.width * window.height);
+      ASSERT_EQ(tks_decode_heights_window(again.get(), &window, part.data(), part.size()), TKS_OK);
+      for (uint32_t y = 0; y < window.height; ++y) {
+        const size_t from = 2 * (size_t{window.y + y} * large.width + window.x);
+        ASSERT_TRUE(std::equal(part.begin() + size_t{2} * y * window.width,
+                               part.begin() + size_t{2} * (y + 1) * window.width,
+                               whole.begin() + static_cast<ptrdiff_t>(from)));
+      }
+    }
+  }
+}
+
+/// All targets are met for the samples that are shown, beside voids as well.
+TEST(RepeatedLines, MeetTargets) {
+  Raster of = small(TKS_U16);
+  const Raster large = copied(of, linesOf(40, {2}), linesOf(33, {4}));
+  tks_encode_options bounded = lossless();
+  bounded.lossless = 0;
+  bounded.max_error = 300;
+  const Bytes bound = encode(&large, nullptr, bounded);
+  EXPECT_TRUE(repeats(bound));
+  EXPECT_LE(largestError(large, Stream(bound).heights()), 300);
+  const Bytes less = encode(&large, nullptr, budget(700));
+  EXPECT_LE(less.size(), 700u);
+  const Bytes alone = encode(&of, nullptr, budget(680));
+  EXPECT_LE(squaredError(large, Stream(less).heights()),
+            8 * 1.02 * squaredError(of, Stream(alone).heights()));
+}
+
+/// Meshes are made of all samples.
+TEST(RepeatedLines, HaveMeshes) {
+  const Raster large = copied(small(), linesOf(40, {2}), linesOf(33, {2}));
+  const Bytes stream = encode(&large, nullptr, lossless());
+  for (const tks_mesh_kind kind : {TKS_MESH_CODED, TKS_MESH_BUDGET}) {
+    Stream decoded(stream);
+    tks_mesh mesh = {};
+    ASSERT_EQ(tks_decode_mesh(decoded.get(), kind, 400, &mesh), TKS_OK) << kind;
+    EXPECT_GT(mesh.triangle_count, 0u);
+    tks_free_mesh(&mesh);
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test
