@@ -27,7 +27,8 @@ constexpr size_t kPoints = 6144;
 /// Of those that show meshes: their outlines are no finer than those of coarser prefixes, which
 /// could otherwise stand for them (errorsOfOutlines()).
 constexpr size_t kMeshPoints = 8 * kPoints;
-constexpr size_t kPooledOutlines = 4;
+/// Points at outlines, over all cameras: they make the error of these right to an eighth.
+constexpr size_t kEnoughAtOutlines = 64;
 /// Of one picture: at first, and about each pixel of 768 x 512.
 constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
 
@@ -243,8 +244,8 @@ std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenPoints
                                   const Surfaces& surfaces, const SeenColours& colours) {
   std::vector<ScreenPoints::Pictures> pictures;
   for (size_t g = 0; g < colours.size(); ++g) pictures.push_back({surfaces.seen[g], colours[g]});
-  const size_t pooled = surfaces.square_metres.back() > 0 ? 1 : kPooledOutlines;
-  return points.errorsOfOutlines(truth, pictures, surfaces.square_metres, pooled);
+  const size_t enough = surfaces.square_metres.back() > 0 ? 0 : kEnoughAtOutlines;
+  return points.errorsOfOutlines(truth, pictures, surfaces.square_metres, enough);
 }
 
 /// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each

@@ -132,11 +132,14 @@ std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
 }
 
 std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
-  const std::array<double, 3> last = {(relief_.frame.width - 1.0) / relief_.step, bounds_.high[1],
+  // Flat ground may be the lowest there is: a ray that ended just there would miss it by rounding.
+  constexpr double kMargin = 1;  // metre
+  const std::array<double, 3> last = {(relief_.frame.width - 1.0) / relief_.step,
+                                      bounds_.high[1] + kMargin,
                                       (relief_.frame.height - 1.0) / relief_.step};
   double t = 0, end = kNever;
   for (const size_t axis : {0u, 1u, 2u}) {
-    const double low = axis == 1 ? bounds_.low[1] : 0;
+    const double low = axis == 1 ? bounds_.low[1] - kMargin : 0;
     if (path.direction[axis] == 0) {
       if (path.origin[axis] < low || path.origin[axis] > last[axis]) return {};
       continue;

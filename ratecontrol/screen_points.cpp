@@ -155,29 +155,40 @@ ScreenPoints::Outline ScreenPoints::outlineOf(const View& view, const Pictures& 
 std::vector<double> ScreenPoints::errorsOfOutlines(const Pictures& truth,
                                                    const std::vector<Pictures>& others,
                                                    const std::vector<double>& squares,
-                                                   size_t pooled) const {
-  assert(others.size() == squares.size() && pooled > 0);
+                                                   size_t enough) const {
+  assert(others.size() == squares.size());
   std::vector<double> errors(others.size());
+  std::vector<std::vector<Outline>> outlines;  // of each surface: the views
   double weights = 0;
   for (const View& view : views_) weights += view.weight;
-  for (const View& view : views_) {
-    std::vector<Outline> outlines;
-    for (size_t g = 0; g < others.size(); ++g) {
-      outlines.push_back(outlineOf(view, truth, others[g]));
+  for (size_t g = 0; g < others.size(); ++g) {
+    outlines.emplace_back();
+    for (const View& view : views_) outlines[g].push_back(outlineOf(view, truth, others[g]));
+    const size_t first = pooledFrom(outlines, enough);
+    for (size_t v = 0; v < views_.size(); ++v) {
       double error = 0, shifts = 0, metres = 0, count = 0;
-      for (size_t k = g < pooled ? 0 : g + 1 - pooled; k <= g; ++k) {
-        error += outlines[k].error;
+      for (size_t k = first; k <= g; ++k) {
+        error += outlines[k][v].error;
         shifts += std::sqrt(squares[k]);
-        metres += outlines[k].metres;
-        count += static_cast<double>(outlines[k].count);
+        metres += outlines[k][v].metres;
+        count += static_cast<double>(outlines[k][v].count);
       }
       if (!(error > 0 && metres > 0 && shifts > 0)) continue;
       const double shift = std::sqrt(squares[g]) * count / metres;  // pixels
       const double smoothed = (1 + 3 * smoothedEdge(shift)) / 4;
-      errors[g] += view.weight / weights * smoothed * error / shifts * std::sqrt(squares[g]);
+      errors[g] += views_[v].weight / weights * smoothed * error / shifts * std::sqrt(squares[g]);
     }
   }
   return errors;
+}
+
+size_t ScreenPoints::pooledFrom(const std::vector<std::vector<Outline>>& outlines, size_t enough) {
+  size_t first = outlines.size() - 1, count = 0;
+  const auto add = [&] {
+    for (const Outline& outline : outlines[first]) count += outline.count;
+  };
+  for (add(); count < enough && first > 0; add()) --first;
+  return first;
 }
 
 double ScreenPoints::inside(const Point& point, const SeenPoint& seen, const GroundHit& plane,

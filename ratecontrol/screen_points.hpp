@@ -52,12 +52,13 @@ class ScreenPoints {
   /// The same where one picture shows ground and the other one sky, for surfaces whose squared
   /// errors, in square metres, fall. Such errors are large and few points see them. But what an
   /// outline covers is in proportion to its shift, so to the error of the heights: those of coarser
-  /// surfaces say what finer ones cover, so each is pooled with those before it, `pooled` in all.
+  /// surfaces say what finer ones cover, so each is pooled with those before it until they have
+  /// `enough` points at outlines in all.
   /// Pixels smooth a shift s of less than a pixel: an edge then errs by s^2 - s^3 / 3 pixels, by
   /// s - 1 / 3 beyond; but as they are means of 2 x 2 samples, of which one makes a sixteenth, by
   /// s / 4 at least.
   std::vector<double> errorsOfOutlines(const Pictures& truth, const std::vector<Pictures>& others,
-                                       const std::vector<double>& squares, size_t pooled) const;
+                                       const std::vector<double>& squares, size_t enough) const;
 
   /// Terrain that is looked at, and a typical error of its heights, in metres.
   struct Surface {
@@ -94,6 +95,8 @@ class ScreenPoints {
     size_t count = 0;
   };
   Outline outlineOf(const View& view, const Pictures& a, const Pictures& b) const;
+  /// The surfaces from here to the last one have so many points, over all views.
+  static size_t pooledFrom(const std::vector<std::vector<Outline>>& outlines, size_t enough);
 
   void addPoints(const Camera& camera, size_t count);
   /// Squared change of a point's colour if the ground that it shows rises or falls.

@@ -310,6 +310,23 @@ TEST(GroundRays, MeetTheGroundWhereItIs) {
   EXPECT_FALSE(ground.heightAt(33, 0));
 }
 
+/// Ground as flat as a lake at the bottom of its bounds stops every ray.
+TEST(GroundRays, MeetTheLowestGround) {
+  for (const float height : {0.f, 0.3f, 1234.56f, -4000.1f}) {
+    Relief relief = walled(0);
+    std::fill(relief.heights.begin(), relief.heights.end(), height);
+    const GroundRays ground(relief);
+    for (uint32_t i = 0; i < 2000; ++i) {
+      const double x = samples::hash(i, 1, 3) % 640 / 10.0 - 32;
+      const double z = samples::hash(i, 2, 3) % 640 / 10.0 - 32;
+      const Vec3 eye{50, height + 30.0, 23};
+      const auto hit = ground.hit({eye, subtract({x, height, z}, eye)});
+      ASSERT_TRUE(hit) << height << " at " << x << ", " << z;
+      EXPECT_NEAR(hit->far, 1, 1e-6);
+    }
+  }
+}
+
 /// A slope is the same ground if only some heights of it are given, up to the border.
 TEST(GroundRays, MeetHeightsThatAreSeveralSamplesApart) {
   for (const uint32_t step : {1u, 2u, 4u, 16u, 64u}) {
@@ -413,6 +430,40 @@ TEST(ScreenPoints, HeightErrorsMoveTheTexture) {
   Texels flat = stripes(16);
   std::fill(flat.samples.begin(), flat.samples.end(), uint16_t{90});
   EXPECT_NEAR(errorOfShift(flat, 5, aside), 0, 1e-6);
+}
+
+/// Errors of outlines of a plain that lies too high, by falling metres.
+std::vector<double> errorsOfEdges(size_t points, size_t enough) {
+  Camera askew = lookingAt({50, 30, 23}, {0, 0, 0});  // no outline along rows of pixels
+  askew.width = askew.height = 2048;
+  const ScreenPoints screen({askew}, points);
+  const Texels texels = stripes(16);
+  const ScreenTexture texture(texels, texels.extent());
+  std::vector<std::vector<SeenPoint>> seen;
+  std::vector<double> squares;
+  for (float shift = 4; shift > 0.05f; shift /= 2) {
+    Relief relief = walled(0);
+    for (float& height : relief.heights) height += shift;
+    seen.push_back(screen.seenOf(GroundRays(relief), texels.extent()));
+    squares.push_back(double{shift} * double{shift});
+  }
+  const auto here = screen.seenOf(GroundRays(walled(0)), texels.extent());
+  const auto colours = screen.coloursOf(here, texture);
+  std::vector<std::vector<Colour>> moved;
+  for (const auto& surface : seen) moved.push_back(screen.coloursOf(surface, texture));
+  std::vector<ScreenPoints::Pictures> pictures;
+  for (size_t g = 0; g < seen.size(); ++g) pictures.push_back({seen[g], moved[g]});
+  return screen.errorsOfOutlines({here, colours}, pictures, squares, enough);
+}
+
+/// Few points see how little an outline moves at last; those that saw more of it say how much.
+TEST(ScreenPoints, FewPointsKnowTheErrorsOfOutlines) {
+  const std::vector<double> many = errorsOfEdges(100000, 0), few = errorsOfEdges(2000, 64);
+  ASSERT_EQ(many.size(), few.size());
+  for (size_t g = 0; g < many.size(); ++g) {
+    EXPECT_GT(many[g], 0);
+    EXPECT_NEAR(few[g], many[g], 0.2 * many[g]) << g;
+  }
 }
 
 /// The error over two cameras is the mean of their errors, which are squares, by their weights.
