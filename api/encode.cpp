@@ -90,6 +90,13 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
   }
   if (o.weights != TKS_WEIGHTS_PSNR && o.weights != TKS_WEIGHTS_VISUAL)
     return misuse("The weights of the texture are unknown.");
+  if (o.index < TKS_INDEX_NONE || o.index > TKS_INDEX_WINDOWS)
+    return misuse("The kind of index is unknown.");
+  if (o.index == TKS_INDEX_WINDOWS && o.lossless == 0) {
+    return misuse(
+        "Only a lossless stream is laid out for windows: a shorter one would lack whole "
+        "regions.");
+  }
   if (o.camera_count > 0 && o.cameras == nullptr) return misuse("The cameras are missing.");
   return {};
 }

@@ -15,6 +15,12 @@ AuditScope auditScope(const EncodeInputs& inputs, size_t samples) {
   return {samples, inputs.budgeted() ? inputs.options.bytes : UINT64_MAX};
 }
 
+/// A stream with a front index is fetched by ranges.
+TrackOrder trackOrderOf(const tks_encode_options& options) {
+  if (options.index == TKS_INDEX_WINDOWS) return TrackOrder::kTracks;
+  return options.index != TKS_INDEX_NONE ? TrackOrder::kOctaves : TrackOrder::kSlopes;
+}
+
 /// With a triangle budget, where cameras do not look at meshes (encoder/shown_mesh.hpp), the mean
 /// squared error of the heights (in steps) below which more bytes no longer help: a mesh of that
 /// many triangles is itself off by sixteen times as much, so that its RMSE would fall by 3 % at
@@ -36,7 +42,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
   const bool modelled = looksAtMeshes(inputs, source);
   const Pricing pricing{heights.counted(),
                         modelled ? 0 : meshFloor(source, inputs.options.triangles),
-                        inputs.image != nullptr};
+                        inputs.image != nullptr, trackOrderOf(inputs.options)};
   HeightsMemory memory;
   const auto measure = [&](uint64_t bytes) {
     return squaresOf(heights, prefixAfter(heights.rated(), {}, bytes), inputs.options.threads,
@@ -52,7 +58,7 @@ ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& te
                      &memory);
   };
   return curveOf(texture.rated(), auditScope(inputs, texture.of->texels.samples.size()), measure,
-                 {texture.counted(), 0, inputs.heights != nullptr});
+                 {texture.counted(), 0, inputs.heights != nullptr, trackOrderOf(inputs.options)});
 }
 
 }  // namespace tetrakis::inline encoder

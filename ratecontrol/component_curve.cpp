@@ -103,7 +103,7 @@ ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> point
 }
 
 ComponentCurve curveOfMany(const CodedTracks& coded, const Pricing& pricing) {
-  OrderedTracks tracks = orderTracks(coded);
+  OrderedTracks tracks = orderTracks(coded, pricing.order);
   for (size_t i = 0; i < tracks.packets.size(); ++i)
     tracks.packets[i].quality = statedQuality(tracks.points[i + 1].squares(), pricing);
   for (RatePoint& point : tracks.points) point.distortion = costOf(point.distortion, pricing);

@@ -12,6 +12,7 @@
 #include "bitstream/track/track_encoder.hpp"
 #include "ratecontrol/audit.hpp"
 #include "ratecontrol/coded_tracks.hpp"
+#include "ratecontrol/track_order.hpp"
 
 namespace tetrakis::inline ratecontrol {
 
@@ -23,11 +24,12 @@ struct ComponentCurve {
   size_t opened = 0;  ///< the first point behind the opening
 };
 
-/// Which errors count, and beside what.
+/// Which errors count, beside what, and whether packets keep together.
 struct Pricing {
   double samples = 1;   ///< over which errors are means
   double floor = 0;     ///< mean squared error below which less is worth nothing
   bool shared = false;  ///< another component's packets come between: long ones are divided
+  TrackOrder order = TrackOrder::kSlopes;
 };
 
 /// Several tracks are ordered among each other by their accounts (ratecontrol/track_order.hpp); a

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
 
 #include "ratecontrol/hull.hpp"
 
@@ -45,8 +48,26 @@ void appendHull(std::span<const RatePoint> points, Component component, size_t t
   }
 }
 
+/// Pieces that lie side by side in the same class are in the order of their tracks.
+int classOf(const Piece& piece, TrackOrder order) {
+  if (order == TrackOrder::kTracks || piece.slope <= 0) return std::numeric_limits<int>::min();
+  return std::ilogb(piece.slope);
+}
+
+/// Hulls are convex, and packets between two vertices share a slope: stable sorts keep every
+/// codeword in order.
+void sortPieces(std::span<Piece> pieces, TrackOrder order) {
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.slope > b.slope; });
+  if (order == TrackOrder::kSlopes) return;
+  std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
+    const int of_a = classOf(a, order), of_b = classOf(b, order);
+    return of_a != of_b ? of_a > of_b : a.packet.track < b.packet.track;
+  });
+}
+
 /// All pieces in their order.
-std::vector<Piece> orderedPieces(const CodedTracks& coded) {
+std::vector<Piece> orderedPieces(const CodedTracks& coded, TrackOrder order) {
   const auto& [component, tracks, opening_bytes, closing_bytes] = coded;
   const std::span<const RatePoint> base = tracks.front().points;
   std::vector<Piece> pieces;
@@ -55,19 +76,16 @@ std::vector<Piece> orderedPieces(const CodedTracks& coded) {
   if (opening > 0) pieces.push_back(pieceBetween(base[0], base[1], component, 0));
   appendHull(base.subspan(opening, base.size() - opening - closing), component, 0, pieces);
   for (size_t i = 1; i < tracks.size(); ++i) appendHull(tracks[i].points, component, i, pieces);
-  // Hulls are convex, and packets between two vertices share a slope: a stable sort keeps every
-  // codeword in order.
-  std::stable_sort(pieces.begin() + static_cast<ptrdiff_t>(opening), pieces.end(),
-                   [](const Piece& a, const Piece& b) { return a.slope > b.slope; });
+  sortPieces(std::span(pieces).subspan(opening), order);
   if (closing > 0) pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));
   return pieces;
 }
 
 }  // namespace
 
-OrderedTracks orderTracks(const CodedTracks& coded) {
+OrderedTracks orderTracks(const CodedTracks& coded, TrackOrder by) {
   assert(!coded.tracks.empty());
-  const std::vector<Piece> pieces = orderedPieces(coded);
+  const std::vector<Piece> pieces = orderedPieces(coded, by);
   // Summed from the end, so that rounding leaves every packet but the last something to do.
   OrderedTracks order;
   order.packets.resize(pieces.size());

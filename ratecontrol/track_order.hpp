@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of the packets of a component that is coded in regions. It is the marginal allocation
 // (thesis 6.3) among the component's tracks, in its own distortion: what is cheap to improve
-// anywhere comes first.
+// anywhere comes first. Then the packets of a region, and of its neighbours, are strewn over the
+// stream, and who fetches a window by ranges takes hundreds of them, or what lies between. Two
+// coarser orders keep them together. docs/MEASUREMENTS.md has what these take from prefixes.
 #pragma once
 
 #include <vector>
@@ -12,6 +14,12 @@
 
 namespace tetrakis::inline ratecontrol {
 
+enum class TrackOrder {
+  kSlopes,   ///< steepest first: the best prefixes
+  kOctaves,  ///< by powers of two that slopes lie between, and track by track where these are equal
+  kTracks,   ///< track by track, whatever the slopes: the base, then region by region
+};
+
 struct OrderedTracks {
   std::vector<Packet> packets;  ///< their quality is not set
   /// Bytes sent and distortion of the whole component: at the beginning and after each packet.
@@ -19,6 +27,6 @@ struct OrderedTracks {
 };
 
 /// The opening comes first and the closing last, whatever their slopes.
-OrderedTracks orderTracks(const CodedTracks& coded);
+OrderedTracks orderTracks(const CodedTracks& coded, TrackOrder by);
 
 }  // namespace tetrakis::inline ratecontrol

@@ -56,8 +56,13 @@ struct CopiedTexture {
 std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
                                            bool strict, const ProgressPart& progress);
 
+/// Whether it becomes a texture without heights: colours, or anything with alpha.
+bool isPicture(GDALDataset& dataset);
+
 /// `file` is opened. Null after a reported error.
 std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file);
+/// A picture. Null after a reported error.
+std::unique_ptr<CopiedTexture> copyTexture(GDALDataset& dataset);
 
 struct Place {
   double geotransform[6];

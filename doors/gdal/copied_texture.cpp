@@ -67,6 +67,10 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
 
 }  // namespace
 
+bool isPicture(GDALDataset& dataset) {
+  return dataset.GetRasterCount() > 1 && objection(dataset).empty();
+}
+
 std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file) {
   const std::unique_ptr<GDALDataset, DatasetCloser> dataset(
       GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
@@ -75,17 +79,21 @@ std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::s
     reportFailure(TKS_USAGE, name, "TEXTURE=" + file + ": " + why);
     return nullptr;
   }
+  return copyTexture(*dataset);
+}
+
+std::unique_ptr<CopiedTexture> copyTexture(GDALDataset& dataset) {
   auto copy = std::make_unique<CopiedTexture>();
   tks_image& image = copy->image;
   image.size = sizeof image;
-  image.width = static_cast<uint32_t>(dataset->GetRasterXSize());
-  image.height = static_cast<uint32_t>(dataset->GetRasterYSize());
-  image.channels = static_cast<uint32_t>(dataset->GetRasterCount() + masked(*dataset));
-  image.sample = dataset->GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
-  if (!readTexels(*dataset, *copy)) return nullptr;
-  if (const OGRSpatialReference* const system = dataset->GetSpatialRef())
+  image.width = static_cast<uint32_t>(dataset.GetRasterXSize());
+  image.height = static_cast<uint32_t>(dataset.GetRasterYSize());
+  image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + masked(dataset));
+  image.sample = dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
+  if (!readTexels(dataset, *copy)) return nullptr;
+  if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
     copy->crs = crsTexts(*system);
-  const Place place = placeOf(*dataset);
+  const Place place = placeOf(dataset);
   std::copy_n(place.geotransform, 6, image.geotransform);
   image.has_geotransform = place.has_geotransform;
   image.registration = place.registration;

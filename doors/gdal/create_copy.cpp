@@ -4,7 +4,9 @@
 #include <cmath>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <cpl_vsi_error.h>
 #include <gdal_pam.h>
@@ -38,17 +40,41 @@ struct Watch {
   }
 };
 
-bool encode(const std::string& name, const CopiedHeights& heights, const CopiedTexture* texture,
-            CopySettings settings, Watch watch, Stream& out) {
+/// What goes into the stream: at least one of the two.
+struct Parts {
+  std::unique_ptr<CopiedHeights> heights;
+  std::unique_ptr<CopiedTexture> texture;
+
+  const tks_heights* heightsOrNull() const { return heights ? &heights->heights : nullptr; }
+  const tks_image* textureOrNull() const { return texture ? &texture->image : nullptr; }
+};
+
+/// Nothing after a reported error.
+std::optional<Parts> readParts(const std::string& name, GDALDataset& source, bool strict,
+                               const CopySettings& settings, const ProgressPart& progress) {
+  Parts parts;
+  if (settings.texture.empty() && isPicture(source)) {
+    parts.texture = copyTexture(source);
+    return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
+  }
+  parts.heights = copyHeights(name, source, strict, progress);
+  if (!parts.heights) return std::nullopt;
+  if (settings.texture.empty()) return parts;
+  parts.texture = copyTexture(name, settings.texture);
+  return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
+}
+
+bool encode(const std::string& name, const Parts& parts, CopySettings settings, Watch watch,
+            Stream& out) {
   tks_encode_options& options = settings.encode;
+  const tks_heights* const heights = parts.heightsOrNull();
   // The library counts errors in the unit of the heights, GDAL in samples.
-  options.max_error = settings.max_z_error * std::abs(heights.heights.scale);
+  options.max_error = settings.max_z_error * (heights != nullptr ? std::abs(heights->scale) : 1);
   options.progress = Watch::call;
   options.user = &watch;
   char sentence[512] = "";
   const tks_status status =
-      tks_encode(&heights.heights, texture != nullptr ? &texture->image : nullptr, &options,
-                 &out.buffer, sentence, sizeof sentence);
+      tks_encode(heights, parts.textureOrNull(), &options, &out.buffer, sentence, sizeof sentence);
   if (status == TKS_OK) return true;
   if (watch.stopped) {
     CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
@@ -99,14 +125,9 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
                     const CopySettings& settings, const Progress& progress) {
   Stream stream;
   {
-    const auto heights = copyHeights(name, source, strict, {progress, 0, kReadShare});
-    if (!heights) return nullptr;
-    std::unique_ptr<CopiedTexture> texture;
-    if (!settings.texture.empty()) {
-      texture = copyTexture(name, settings.texture);
-      if (!texture) return nullptr;
-    }
-    if (!encode(name, *heights, texture.get(), settings, {{progress, kReadShare, 1}}, stream))
+    const std::optional<Parts> parts =
+        readParts(name, source, strict, settings, {progress, 0, kReadShare});
+    if (!parts || !encode(name, *parts, settings, {{progress, kReadShare, 1}}, stream))
       return nullptr;
   }
   if (!write(name, stream.buffer)) return nullptr;

@@ -30,8 +30,10 @@ const char* const kCreationOptions =
     "of 1 to 4 bands of Byte or UInt16'/>"
     "<Option name='BLOCKSIZE' type='string' description='Side of the regions that can be read by "
     "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
-    "<Option name='INDEX' type='boolean' default='NO' description='Write the byte ranges of all "
-    "packets into the header'/>"
+    "<Option name='INDEX' type='string-select' default='NO' description='Write the byte ranges of "
+    "all packets into the header; WINDOWS, for lossless files: also lay each region out in one "
+    "piece, for windows over a network'><Value>NO</Value><Value>YES</Value>"
+    "<Value>WINDOWS</Value></Option>"
     "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
     "ALL_CPUS' default='1'/>"
     "</CreationOptionList>";
@@ -105,6 +107,12 @@ uint32_t regions(Options& options) {
   return 0;
 }
 
+int indexKind(const Options& options) {
+  const char* const given = options.text("INDEX");
+  if (given != nullptr && EQUAL(given, "WINDOWS")) return TKS_INDEX_WINDOWS;
+  return options.flag("INDEX") ? TKS_INDEX_PACKETS : TKS_INDEX_NONE;
+}
+
 }  // namespace
 
 std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList options) {
@@ -133,7 +141,7 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   if (targets[2] && encode.psnr == 0) given.refuse("PSNR must be more than 0.");
   encode.lossless = !targets[1] && !targets[2] && settings.max_z_error == 0;
   encode.regions = regions(given);
-  encode.index = given.flag("INDEX");
+  encode.index = indexKind(given);
   encode.threads = given.threads();
   if (const char* const texture = given.text("TEXTURE")) settings.texture = texture;
   return given.good() ? std::optional(settings) : std::nullopt;

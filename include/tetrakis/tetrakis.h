@@ -157,6 +157,16 @@ typedef struct tks_camera {
 typedef int (*tks_picture_error)(void* user, const void* heights, const void* texels,
                                  double* squares, double* values);
 
+/* The front index of a stream, by which windows of regions are fetched without the rest. */
+typedef enum tks_index {
+  TKS_INDEX_NONE = 0,
+  TKS_INDEX_PACKETS = 1, /* an index; packets lie by octaves of what a byte is worth, and region by
+                            region within one */
+  TKS_INDEX_WINDOWS = 2  /* an index; each region lies in one piece, so that windows take few
+                            requests, but a prefix has some regions and lacks others. Lossless
+                            streams alone */
+} tks_index;
+
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
 typedef struct tks_encode_options {
   size_t size;       /* sizeof(tks_encode_options) */
@@ -172,7 +182,7 @@ typedef struct tks_encode_options {
   uint32_t regions;  /* side of the spatial regions by which windows can be decoded, in samples (of
                         either component): a power of two from 16 to 2^20; 1: none; 0: chosen, none
                         up to 1025 x 1025 heights, 2048 x 2048 texels, or heights with max_error */
-  int index;         /* non-zero: write the front index (byte ranges of every packet) */
+  int index;         /* tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;

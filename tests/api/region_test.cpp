@@ -259,7 +259,7 @@ TEST(Tracks, AreOrderedBySlope) {
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const auto tracks =
       encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
-  const OrderedTracks order = orderTracks({Component::kGeometry, tracks});
+  const OrderedTracks order = orderTracks({Component::kGeometry, tracks}, TrackOrder::kSlopes);
   std::vector<uint64_t> sent(tracks.size());
   ASSERT_EQ(order.points.size(), order.packets.size() + 1);
   double before = 1e300;
@@ -277,6 +277,34 @@ TEST(Tracks, AreOrderedBySlope) {
   }
   for (size_t i = 0; i < tracks.size(); ++i) EXPECT_EQ(sent[i], tracks[i].codeword.size());
   EXPECT_EQ(order.points.back().distortion, 0);
+}
+
+/// The same bytes of every codeword in order; classes of slopes fall, and tracks rise within one.
+TEST(Tracks, KeepTogether) {
+  Random random(12);
+  const Size size{150, 130};
+  const Plane heights = randomPlane(random, size.count(), -300, 300);
+  const auto tracks =
+      encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
+  const CodedTracks coded{Component::kGeometry, tracks};
+  const auto changes = [&](TrackOrder by) {
+    const OrderedTracks order = orderTracks(coded, by);
+    std::vector<uint64_t> sent(tracks.size());
+    uint32_t last = 0;
+    size_t backwards = 0;
+    for (const Packet& packet : order.packets) {
+      EXPECT_EQ(packet.begin, sent[*packet.track]);
+      sent[*packet.track] = packet.end;
+      backwards += *packet.track < last;
+      last = *packet.track;
+    }
+    for (size_t i = 0; i < tracks.size(); ++i) EXPECT_EQ(sent[i], tracks[i].codeword.size());
+    EXPECT_EQ(order.points.back().distortion, 0);
+    return backwards;
+  };
+  EXPECT_EQ(changes(TrackOrder::kTracks), 0u);
+  EXPECT_LT(changes(TrackOrder::kOctaves), 40u);
+  EXPECT_GT(changes(TrackOrder::kSlopes), 2 * changes(TrackOrder::kOctaves));
 }
 
 TEST(ParallelFor, CallsEachOnceAndPassesExceptionsOn) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where rasters lie, without tags: .hgt tiles by their names, world files beside pictures.
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/cli/cli_fixture.hpp"
 
@@ -116,6 +119,42 @@ TEST_F(CliPlace, WorldFilesPlaceTexturesOfAllFormats) {
     EXPECT_EQ(placeOf("s.tks", "texture"), wanted);
     ASSERT_EQ(cli(std::string("decode s.tks -f --texture o-") + name).code, 0);
     EXPECT_EQ(gdalinfo(std::string("o-") + name)["geoTransform"], Json(wanted));
+  }
+}
+
+/// A texture of 10 x 10 texels that begins 20 m east and 10 m south of 9 x 9 heights, turned by 90
+/// degrees; beyond it its border.
+TEST_F(CliPlace, MeshesPutTexturesWhereTheyLie) {
+  ASSERT_TRUE(tools::writeHeights(path("h.png"), hills(9)).ok());
+  ASSERT_TRUE(tools::writeImage(path("t.png"), photo(10)).ok());
+  write("h.pgw", "10\n0\n0\n-10\n1005\n2005\n");
+  const auto coordinates = [&] {
+    EXPECT_EQ(cli("-q encode h.png --texture t.png --spacing 10 --lossless -f -o s.tks").code, 0);
+    EXPECT_EQ(cli("-q decode s.tks -f --mesh m.obj").code, 0);
+    std::vector<std::array<double, 4>> all;  // x, z, u, v
+    std::istringstream lines(content("m.obj"));
+    size_t textured = 0;
+    for (std::string line; std::getline(lines, line);) {
+      std::array<double, 4> at{};
+      double height = 0;
+      if (std::sscanf(line.c_str(), "v %lf %lf %lf", &at[0], &height, &at[1]) == 3)
+        all.push_back(at);
+      if (std::sscanf(line.c_str(), "vt %lf %lf", &at[2], &at[3]) == 2) {
+        all[textured][2] = at[2];
+        all[textured++][3] = 1 - at[3];
+      }
+    }
+    EXPECT_EQ(textured, 81u);
+    return all;
+  };
+  for (const auto& [x, z, u, v] : coordinates()) {
+    EXPECT_NEAR(u, (x + 40) / 80, 1e-6);
+    EXPECT_NEAR(v, (z + 40) / 80, 1e-6);
+  }
+  write("t.pgw", "0\n-5\n5\n0\n1022.5\n1997.5\n");  // columns go south, rows east
+  for (const auto& [x, z, u, v] : coordinates()) {
+    EXPECT_NEAR(u, std::clamp((z + 45 - 10) / 50, 0.0, 1.0), 1e-6) << x << ' ' << z;
+    EXPECT_NEAR(v, std::clamp((x + 45 - 20) / 50, 0.0, 1.0), 1e-6) << x << ' ' << z;
   }
 }
 

@@ -12,8 +12,14 @@ namespace {
 Bytes encodeRegions(const samples::Raster* heights, const samples::Raster* image,
                     tks_encode_options options) {
   options.regions = 16;
-  options.index = 1;
+  if (options.index == TKS_INDEX_NONE) options.index = TKS_INDEX_PACKETS;
   return encode(heights, image, options);
+}
+
+tks_encode_options forWindows() {
+  tks_encode_options options = lossless();
+  options.index = TKS_INDEX_WINDOWS;
+  return options;
 }
 
 samples::Raster ridges(uint32_t width, uint32_t height, tks_sample sample) {
@@ -92,12 +98,36 @@ void expectWindows(const Bytes& bytes, tks_part part, uint32_t width, uint32_t h
 TEST(NeededRanges, OfWindowsAreEnoughHoweverTheStreamIsCoded) {
   const samples::Raster heights = ridges(201, 170, TKS_I16), floats = ridges(150, 131, TKS_F32),
                         image = samples::make({samples::Pattern::kRidges, 180, 150, 3, TKS_U8});
-  for (const tks_encode_options& options : {lossless(), budget(9000)}) {
+  for (const tks_encode_options& options : {lossless(), budget(9000), forWindows()}) {
     const Bytes both = encodeRegions(&heights, &image, options);
     expectWindows(both, TKS_PART_HEIGHTS, 201, 170);
     expectWindows(both, TKS_PART_TEXTURE, 180, 150);
     expectWindows(encodeRegions(&floats, nullptr, options), TKS_PART_HEIGHTS, 150, 131);
   }
+}
+
+TEST(NeededRanges, LieTogetherWhereTheIndexIsForWindows) {
+  const samples::Raster heights = ridges(401, 370, TKS_I16);
+  const tks_window window{170, 160, 60, 50};
+  const auto pieces = [&](const Bytes& bytes) {
+    Stream stream(bytes);
+    tks_ranges ranges = {};
+    EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, &window, &ranges), TKS_OK);
+    const size_t count = ranges.count;
+    tks_free_ranges(&ranges);
+    return count;
+  };
+  const Bytes together = encodeRegions(&heights, nullptr, forWindows());
+  const Bytes strewn = encodeRegions(&heights, nullptr, lossless());
+  EXPECT_LT(4 * pieces(together), pieces(strewn));
+  EXPECT_LT(together.size(), strewn.size());
+  Stream stream(together);
+  EXPECT_EQ(stream.info().lossless, 1);
+  tks_encode_options cut = budget(9000);
+  cut.index = TKS_INDEX_WINDOWS;
+  tks_buffer none = {};
+  const tks_heights source = heights.heights();
+  EXPECT_EQ(tks_encode(&source, nullptr, &cut, &none, nullptr, 0), TKS_USAGE);
 }
 
 TEST(NeededRanges, OfLevelsLeaveOutTheFinestRegions) {

@@ -13,6 +13,7 @@
 #include "tools/commands/output.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/plain_heights.hpp"
+#include "tools/report/draped_texture.hpp"
 #include "tools/report/surface_normals.hpp"
 #include "tools/report/viewed_mesh.hpp"
 
@@ -130,6 +131,7 @@ class Decoding {
     if (!normals.ok()) return normals.status();
     tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
     MeshFile file = placeMesh(*mesh, frameOf(info));
+    drapeTexture(info, mesh->gridIndices(), file);
     file.texture = texture;
     file.normals = std::move(*normals);
     return mesh_->stage([&](const std::string& path) {

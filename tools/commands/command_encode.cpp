@@ -129,7 +129,9 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   options.lossless = arguments.lossless;
   options.triangles = arguments.triangles;
   options.threads = arguments.threads;
-  options.index = arguments.index;
+  options.index = arguments.windows ? TKS_INDEX_WINDOWS
+                  : arguments.index ? TKS_INDEX_PACKETS
+                                    : TKS_INDEX_NONE;
   options.weights = arguments.weights == "visual" ? TKS_WEIGHTS_VISUAL : TKS_WEIGHTS_PSNR;
   const Result<uint32_t> regions = parseRegions(arguments.regions);
   if (!regions.ok()) return regions.status();

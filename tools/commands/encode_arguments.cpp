@@ -49,6 +49,9 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
       ->type_name("WEIGHTS");
   addThreads(verb, arguments.threads);
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
+  verb.add_flag(
+      "--windows", arguments.windows,
+      "With --lossless: an index, and each region in one piece, for windows over a network");
 }
 
 void addDescription(CLI::App& verb, EncodeArguments& arguments) {

@@ -23,7 +23,7 @@ struct EncodeArguments {
   std::string spacing;
   std::optional<std::string> unit, vertical_datum, crs;
   CameraChoice cameras;
-  bool index = false, force = false;
+  bool index = false, windows = false, force = false;
 };
 
 void addArguments(CLI::App& verb, EncodeArguments& arguments);

@@ -207,6 +207,17 @@ def test_vsicurl_windows_of_an_indexed_stream(server):
     np.testing.assert_array_equal(dataset.GetRasterBand(1).GetOverview(2).ReadAsArray(), overview)
 
 
+@pytest.mark.parametrize("server", [["INDEX=WINDOWS", "BLOCKSIZE=128"]], indirect=True)
+def test_vsicurl_windows_of_a_stream_made_for_them(server):
+    heights = terrain(1500, 1400, "u2")
+    dataset = opened(server)
+    window = dataset.ReadAsArray(650, 660, 100, 80)
+    np.testing.assert_array_equal(window, heights[660:740, 650:750])
+    assert len(Server.ranges) <= 8, Server.ranges
+    assert sum(last - first for first, last in Server.ranges) < 0.3 * len(Server.data)
+    np.testing.assert_array_equal(dataset.ReadAsArray(), heights)
+
+
 def test_windows_of_an_indexed_file(tmp_path):
     """Heights and texture, by windows and as a whole: ranges give what the whole file gives."""
     heights = terrain(700, 600, "i2")

@@ -96,6 +96,8 @@ def test_blocksize_and_index(tmp_path):
     assert copy_size(tmp_path, heights, "BLOCKSIZE=NONE") == plain
     assert copy_size(tmp_path, heights, "INDEX=NO") == plain
     assert copy_size(tmp_path, heights, "INDEX=YES") > plain
+    assert copy_size(tmp_path, heights, "INDEX=WINDOWS", "BLOCKSIZE=32") > plain
+    refused(lambda: copy(heights, tmp_path / "b.tks", "INDEX=WINDOWS", "BYTES=4000"), "lossless")
     for side in ("8", "100", "2097152", "-64", "x"):
         option = "BLOCKSIZE=" + side
         refused(lambda option=option: copy(heights, tmp_path / "b.tks", option), option)
@@ -155,6 +157,31 @@ def test_textures(tmp_path):
     ):
         gdal.GetDriverByName("GTiff").CreateCopy(image, memory(layers))
         refused(lambda: copy(heights, tmp_path / "b.tks", "TEXTURE=" + image), words)
+
+
+def test_an_image_alone_is_a_texture(tmp_path):
+    """Of colours, or with alpha. Grey alone is heights, and other bands are refused."""
+    rgba = (*RGB, gdal.GCI_AlphaBand)
+    grey = (gdal.GCI_GrayIndex, gdal.GCI_AlphaBand)
+    for colours in (RGB, rgba, grey):
+        for dtype in ("u1", "u2"):
+            layers = np.stack([terrain(45, 60, dtype, seed) for seed in range(len(colours))])
+            source = memory(layers, colours=colours)
+            source.SetGeoTransform((500000, 10, 0, 4000000, 0, -10))
+            back = copy(source, tmp_path / "a.tks")
+            np.testing.assert_array_equal(back.ReadAsArray(), layers)
+            assert back.GetGeoTransform() == source.GetGeoTransform()
+            assert back.GetMetadataItem("COMPRESSION_REVERSIBILITY", "IMAGE_STRUCTURE") == "LOSSLESS"
+            assert [back.GetRasterBand(i + 1).GetColorInterpretation()
+                    for i in range(len(colours))] == list(colours)
+    name = tmp_path / "a.tks"
+    copy(memory(layers, colours=grey), name, "BYTES=1500")
+    assert name.stat().st_size <= 1500
+    picture = memory(np.zeros((3, 8, 9), np.uint8), colours=RGB)
+    refused(lambda: copy(picture, tmp_path / "b.tks", "MAX_Z_ERROR=1"), "needs heights")
+    for layers in (np.zeros((5, 8, 9), np.uint8), np.zeros((3, 8, 9), np.float32)):
+        refused(lambda: copy(memory(layers), tmp_path / "b.tks"), "band")
+    assert not (tmp_path / "b.tks").exists()
 
 
 def test_texture_with_a_mask(tmp_path):

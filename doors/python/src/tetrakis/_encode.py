@@ -76,7 +76,7 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         spacing_y=values.real(spacing_y or 0, "spacing"),
         unit=values.text(place["unit"], "unit"),
         vertical_datum=values.text(place["vertical_datum"], "vertical_datum"),
-        crs=values.text(place["crs"], "crs"),
+        crs=values.crs(place["crs"], "crs"),
         has_nodata=nodata is not None,
         nodata=values.real(0 if nodata is None else nodata, "nodata"),
         geotransform=transform,
@@ -110,7 +110,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
         geotransform=transform,
         has_geotransform=has_transform,
         registration=values.choice(place["registration"], c.REGISTRATIONS, "texture_registration"),
-        crs=values.text(place["crs"], "texture_crs"),
+        crs=values.crs(place["crs"], "texture_crs"),
         geo_keys=values.text(place["geo_keys"], "texture_geo_keys"),
     ), data
 
@@ -187,7 +187,7 @@ def encode(
     triangles: Optional[int] = None,
     weights: str = "psnr",
     regions: Optional[int] = None,
-    index: bool = False,
+    index: Union[bool, str] = False,
     threads: int = 1,
     progress: Optional[Progress] = None,
 ) -> builtins.bytes:
@@ -214,15 +214,17 @@ def encode(
         unit: of heights, such as "m". vertical_datum: such as "EPSG:5703".
         spacing: metres from one sample to the next, one number or (x, y).
         step: quantisation step in sample units; chosen unless given.
-        crs: "EPSG:32611", WKT, or a name. geotransform: six numbers in the order of GDAL and in
-            units of the CRS. registration: "area" or "point". texture_...: likewise for a texture
+        crs: "EPSG:32611" (also "EPSG:32611+5773"), WKT, or a name. It is kept as it is given and
+            not looked up: GDAL warns of a CRS that it cannot parse, and opens the raster without
+            one. geotransform: six numbers in the order of GDAL and in units of the CRS. registration: "area" or "point". texture_...: likewise for a texture
             whose place is not that of the heights, or that comes without heights.
         description, geo_keys: as tks_heights in tetrakis.h has them.
 
     How it is coded
         triangles: meshes will have at most so many. weights: "psnr", or "visual" for the eye.
         regions: side in samples of the regions by which windows decode, a power of two from 16;
-            1: none; chosen unless given. index: write where every packet lies.
+            1: none; chosen unless given. index: write where every packet lies; "windows" (lossless
+            only) also lays each region out in one piece, for windows over a network.
         threads: how many may work; the bytes never depend on it.
         progress: called with a number from 0 to 1, from the threads that work; true stops. What it
             raises, `encode` raises.
@@ -236,7 +238,7 @@ def encode(
         triangles=values.unsigned(triangles, "triangles"),
         threads=values.unsigned(threads, "threads"),
         regions=values.unsigned(regions, "regions"),
-        index=bool(index),
+        index=values.choice(index, c.INDEXES, "index"),
         weights=values.choice(weights, c.WEIGHTS, "weights"),
         progress=_watched(progress, raised),
     )

@@ -30,6 +30,7 @@ GEOTRANSFORM = c_double * 6
 
 REGISTRATIONS = (None, "area", "point")
 WEIGHTS = ("psnr", "visual")
+INDEXES = (False, True, "windows")
 
 PART_HEIGHTS, PART_VALIDITY, PART_TEXTURE = 0, 1, 2
 MESH_BUDGET = 1

@@ -5,6 +5,7 @@ here first."""
 from __future__ import annotations
 
 import operator
+import re
 from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -46,6 +47,14 @@ def text(value: Optional[str], what: str) -> Optional[bytes]:
     if not isinstance(value, str) or "\0" in value:
         raise TksUsageError(f"{what} must be text without NUL characters, not {value!r}.")
     return value.encode()
+
+
+def crs(value: Optional[str], what: str) -> Optional[bytes]:
+    """A name or WKT is whatever its readers know; a code that is none is a mistake."""
+    code = value[5:] if isinstance(value, str) and value[:5].upper() == "EPSG:" else None
+    if code is not None and not re.fullmatch(r"[0-9]+(\+[0-9]+)?", code):
+        raise TksUsageError(f"{what} {value!r} has no code of EPSG behind the colon.")
+    return text(value, what)
 
 
 def choice(value: Any, choices: Sequence[Any], what: str) -> int:

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture coordinates of a mesh whose texture has a place of its own: an orthophoto that begins
+// elsewhere than the heights, covers more of the ground or less, or is turned against them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "tetrakis/tetrakis.h"
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+/// grid_indices: of the mesh's vertices. Places beyond the texture get its border. Where the stream
+/// does not say how the two lie to each other (a geotransform is missing, or their CRSs differ) the
+/// coordinates stay: the texture covers the heights from the first sample to the last.
+void drapeTexture(const tks_info& info, std::span<const uint32_t> grid_indices, MeshFile& mesh);
+
+}  // namespace tetrakis::tools
