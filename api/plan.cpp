@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which bytes of a stream a viewer should fetch next.
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "api/ranges.hpp"
 #include "api/screen_camera.hpp"
 #include "api/sighting.hpp"
+#include "api/sized.hpp"
 
 namespace tetrakis::inline api {
 namespace {
@@ -30,12 +32,13 @@ std::vector<ByteRange> missingIn(const tks_decoder& decoder, ByteRange wanted) {
   return wanted.begin < wanted.end ? std::vector{wanted} : std::vector<ByteRange>();
 }
 
-Status plan(tks_decoder& decoder, std::span<const WeightedSighting> sightings, uint64_t bytes,
-            tks_ranges& out) {
+Status plan(tks_decoder& decoder, std::span<const WeightedSighting> sightings,
+            const tks_fetch& fetch, tks_ranges& out) {
   const auto missing = [&](uint64_t begin, uint64_t end) {
     return missingIn(decoder, {begin, end});
   };
-  const auto ranges = planFetch(decoder.parsed, sightings, missing, bytes);
+  const auto ranges =
+      planFetch(decoder.parsed, sightings, missing, {fetch.bytes, fetch.request_bytes});
   if (!ranges.ok()) return ranges.status();
   std::vector<tks_range> planned;
   for (const FetchRange& range : *ranges)
@@ -47,14 +50,19 @@ Status plan(tks_decoder& decoder, std::span<const WeightedSighting> sightings, u
 }  // namespace
 }  // namespace tetrakis::inline api
 
-tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, uint64_t bytes,
-                    uint32_t triangles, tks_ranges* out) {
+tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const tks_fetch* fetch,
+                    tks_ranges* out) {
   if (out == nullptr) return TKS_USAGE;
   *out = {};
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
-    if (tetrakis::Status status = tetrakis::checkPlanMemory(*decoder); !status.ok()) return status;
-    const auto sightings = tetrakis::sightingsIn(*decoder, view, triangles);
+    if (fetch == nullptr) return {TKS_USAGE, "What to fetch at most is missing."};
+    tks_fetch limits{};
+    tetrakis::Status status =
+        tetrakis::takeSized("limits of a plan", *fetch, offsetof(tks_fetch, request_bytes), limits);
+    if (!status.ok()) return status;
+    if (status = tetrakis::checkPlanMemory(*decoder); !status.ok()) return status;
+    const auto sightings = tetrakis::sightingsIn(*decoder, view, limits.triangles);
     if (!sightings.ok()) return sightings.status();
-    return tetrakis::plan(*decoder, *sightings, bytes, *out);
+    return tetrakis::plan(*decoder, *sightings, limits, *out);
   });
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "base/length_unit.hpp"
@@ -204,15 +205,13 @@ class IndexWalk {
   std::map<std::pair<Component, uint32_t>, Worth> last_;
 };
 
-/// What helps more comes first; of what helps alike the greater slope, then the stream's order.
-void sortByWorth(std::vector<PlacedPacket>& packets) {
-  std::stable_sort(packets.begin(), packets.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.worth.all, a.worth.slope) > std::pair(b.worth.all, b.worth.slope);
-  });
+/// What helps more comes first; of what helps alike the greater slope.
+bool helpsMore(const Worth& a, const Worth& b) {
+  return a.all != b.all ? a.all > b.all : a.slope > b.slope;
 }
 
-/// All packets, those first that help all sightings most.
-Result<std::vector<PlacedPacket>> sortedPackets(const StreamHeader& header, uint64_t begin,
+/// All packets in the stream's order.
+Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint64_t begin,
                                                 std::span<const WeightedSighting> sightings) {
   std::vector<Costs> costs;
   costs.reserve(sightings.size());
@@ -233,72 +232,232 @@ Result<std::vector<PlacedPacket>> sortedPackets(const StreamHeader& header, uint
     }
     packets.push_back(walk.take(entry, worth));
   }
-  sortByWorth(packets);
   return packets;
 }
 
-/// A range, and its place among those that were chosen.
-struct RankedRange {
-  FetchRange range;
-  size_t rank = 0;
+/// A part of a packet that is missing, or bytes between two of them that are there.
+struct Piece {
+  uint64_t begin = 0, end = 0;
+  Worth worth;
+  bool is_missing = true;
+
+  uint64_t size() const { return end - begin; }
+  bool helps() const { return worth.now > 0; }
 };
 
-/// Neighbours become one, unless only one of them helps.
-std::vector<FetchRange> merged(std::vector<RankedRange> ranges) {
-  std::sort(ranges.begin(), ranges.end(), [](const RankedRange& a, const RankedRange& b) {
-    return a.range.begin < b.range.begin;
+/// In the stream's order, without a gap between them.
+std::vector<Piece> piecesOf(std::span<const PlacedPacket> packets, const Missing& missing,
+                            uint64_t end) {
+  std::vector<Piece> pieces;
+  for (const PlacedPacket& packet : packets) {
+    for (const ByteRange& gap : missing(packet.begin, std::min(packet.end, end))) {
+      if (gap.begin == gap.end) continue;
+      if (!pieces.empty() && pieces.back().end < gap.begin)
+        pieces.push_back({pieces.back().end, gap.begin, {}, false});
+      pieces.push_back({gap.begin, gap.end, packet.worth, true});
+    }
+  }
+  return pieces;
+}
+
+/// Numbers of the missing pieces, those first that help most.
+std::vector<uint32_t> rankedPieces(std::span<const Piece> pieces) {
+  std::vector<uint32_t> order;
+  for (uint32_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i].is_missing) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
+    const Worth &a = pieces[i].worth, &b = pieces[j].worth;
+    return helpsMore(a, b) || (!helpsMore(b, a) && i < j);
   });
-  std::vector<RankedRange> joined;
-  for (const RankedRange& next : ranges) {
-    if (joined.empty() || joined.back().range.end != next.range.begin ||
-        (joined.back().range.gain > 0) != (next.range.gain > 0)) {
-      joined.push_back(next);
+  return order;
+}
+
+/// Bytes of each piece, from its begin on.
+using Choice = std::vector<uint64_t>;
+
+Choice chooseFirst(std::span<const Piece> pieces, std::span<const uint32_t> order, uint64_t bytes) {
+  Choice chosen(pieces.size());
+  for (const uint32_t i : order) {
+    chosen[i] = std::min(bytes, pieces[i].size());
+    bytes -= chosen[i];
+  }
+  return chosen;
+}
+
+/// The pieces that are worth most where a byte costs `price`, and each run of pieces as much as
+/// `request` bytes. A run goes on over pieces that are worth less, or are there, where that is
+/// cheaper than to begin another one. The best choice, by dynamic programming.
+Choice chooseRuns(std::span<const Piece> pieces, double price, double request) {
+  // What the best choice gains from the pieces so far, if the last one is in a run and if not.
+  double in = -std::numeric_limits<double>::infinity(), out = 0;
+  std::vector<bool> goes_on(pieces.size()), ends(pieces.size());
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    const double begun = out - price * request, before = std::max(in, begun);
+    goes_on[i] = in >= begun;
+    ends[i] = in > out;
+    out = std::max(out, in);
+    in = before + (pieces[i].worth.all - price) * static_cast<double>(pieces[i].size());
+  }
+  Choice chosen(pieces.size());
+  bool is_in = in > out;
+  for (size_t i = pieces.size(); i-- > 0;) {
+    if (is_in) chosen[i] = pieces[i].size();
+    is_in = is_in ? goes_on[i] : ends[i];
+  }
+  return chosen;
+}
+
+uint64_t bytesOf(const Choice& choice) {
+  return std::accumulate(choice.begin(), choice.end(), uint64_t{0});
+}
+
+/// Runs at the lowest price for which they have no more than so many bytes. Nothing where the first
+/// packet alone has more.
+Choice chooseRequests(std::span<const Piece> pieces, std::span<const uint32_t> order,
+                      const FetchLimits& limits) {
+  const auto request = static_cast<double>(limits.request_bytes);
+  const auto priced = [&](size_t rank) {
+    constexpr double kBelow = 0.999;  // the piece itself, and those like it, are worth more
+    return chooseRuns(pieces, kBelow * pieces[order[rank]].worth.all, request);
+  };
+  // Of pieces that help nobody none is worth a request.
+  size_t fitting = 0, count = order.size();
+  while (count > 0 && !(pieces[order[count - 1]].worth.all > 0)) --count;
+  Choice best(pieces.size());
+  while (fitting < count) {
+    const size_t rank = fitting + (count - fitting) / 2;
+    Choice choice = priced(rank);
+    if (bytesOf(choice) > limits.bytes) {
+      count = rank;
       continue;
     }
-    RankedRange& last = joined.back();
-    last.range.end = next.range.end;
-    last.range.gain = std::max(last.range.gain, next.range.gain);
-    last.rank = std::min(last.rank, next.rank);
+    best = std::move(choice);
+    fitting = rank + 1;
   }
-  std::sort(joined.begin(), joined.end(),
-            [](const RankedRange& a, const RankedRange& b) { return a.rank < b.rank; });
-  std::vector<FetchRange> result;
-  for (const RankedRange& r : joined) result.push_back(r.range);
-  return result;
+  return best;
+}
+
+/// Where no run is worth its request: one from the most helpful piece on, which ends with one that
+/// helps as well.
+Choice chooseOne(std::span<const Piece> pieces, std::span<const uint32_t> order, uint64_t bytes) {
+  Choice chosen(pieces.size());
+  if (order.empty()) return chosen;
+  size_t end = order[0];
+  for (size_t i = order[0]; i < pieces.size() && bytes > 0; ++i) {
+    chosen[i] = std::min(bytes, pieces[i].size());
+    bytes -= chosen[i];
+    if (pieces[i].is_missing && pieces[i].helps() == pieces[order[0]].helps()) end = i + 1;
+  }
+  std::fill(chosen.begin() + static_cast<ptrdiff_t>(end), chosen.end(), 0);
+  return chosen;
+}
+
+/// Runs go on with what helps, up to so many bytes: no request is left over for the last ones.
+void growRuns(std::span<const Piece> pieces, std::span<const uint32_t> order, uint64_t bytes,
+              Choice& chosen) {
+  uint64_t left = bytes - bytesOf(chosen);
+  for (const uint32_t i : order) {
+    const bool follows = i > 0 && chosen[i - 1] == pieces[i - 1].size();
+    if (chosen[i] > 0 || !follows || !pieces[i].helps()) continue;
+    chosen[i] = std::min(left, pieces[i].size());
+    left -= chosen[i];
+  }
+}
+
+/// Openings are worth more than any request costs, and yet finite, so that sums are.
+void boundOpenings(std::vector<PlacedPacket>& packets, const FetchLimits& limits) {
+  double most = std::numeric_limits<double>::min();
+  for (const PlacedPacket& packet : packets)
+    if (packet.worth.all < kOpening) most = std::max(most, packet.worth.all);
+  const double opening = 2 * most * (static_cast<double>(limits.request_bytes) + 2);
+  for (PlacedPacket& packet : packets)
+    if (packet.worth.all == kOpening) packet.worth = {opening, opening, opening};
+}
+
+/// A range, and the best place among the pieces of the plan that are in it.
+struct RankedRange {
+  FetchRange range;
+  uint32_t rank = 0;
+
+  void join(const RankedRange& next) {
+    range.end = next.range.end;
+    range.gain = std::max(range.gain, next.range.gain);
+    rank = std::min(rank, next.rank);
+  }
+};
+
+/// Chosen pieces in the stream's order; neighbours are one, unless only one of them helps.
+std::vector<RankedRange> stretches(std::span<const Piece> pieces, std::span<const uint32_t> order,
+                                   const Choice& chosen) {
+  std::vector<uint32_t> ranks(pieces.size(), static_cast<uint32_t>(pieces.size()));
+  for (uint32_t rank = 0; rank < order.size(); ++rank) ranks[order[rank]] = rank;
+  std::vector<RankedRange> found;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    if (chosen[i] == 0) continue;
+    const uint64_t begin = pieces[i].begin;
+    const RankedRange next{{begin, begin + chosen[i], pieces[i].worth.now}, ranks[i]};
+    const bool touches = !found.empty() && found.back().range.end == begin;
+    if (touches && (found.back().range.gain > 0) == pieces[i].helps())
+      found.back().join(next);
+    else
+      found.push_back(next);
+  }
+  return found;
+}
+
+/// Ranges that help go on over bytes that do not, where a request costs more than these. The most
+/// helpful come first.
+std::vector<FetchRange> rangesOf(std::span<const Piece> pieces, std::span<const uint32_t> order,
+                                 const Choice& chosen, const FetchLimits& limits) {
+  std::vector<RankedRange> joined;
+  const std::vector<RankedRange> found = stretches(pieces, order, chosen);
+  for (size_t i = 0; i < found.size(); ++i) {
+    joined.push_back(found[i]);
+    while (joined.back().range.gain > 0 && i + 2 < found.size()) {
+      const FetchRange &between = found[i + 1].range, &next = found[i + 2].range;
+      const bool touch = joined.back().range.end == between.begin && between.end == next.begin;
+      if (!touch || between.end - between.begin > limits.request_bytes) break;
+      joined.back().join(found[i + 1]);
+      joined.back().join(found[i + 2]);
+      i += 2;
+    }
+  }
+  std::vector<FetchRange> ranked(pieces.size() + 1);
+  for (const RankedRange& r : joined) ranked[r.rank] = r.range;
+  std::erase_if(ranked, [](const FetchRange& range) { return range.begin == range.end; });
+  return ranked;
 }
 
 }  // namespace
 
 Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
                                           std::span<const WeightedSighting> sightings,
-                                          const Missing& missing, uint64_t bytes) {
+                                          const Missing& missing, const FetchLimits& limits) {
   const StreamHeader& header = parsed.header;
   const uint64_t end = parsed.bytes + header.payload_bytes;
   std::vector<PlacedPacket> packets = {{0, parsed.bytes, end, {1, 1, 1}}};
   if (!header.index.empty()) {
-    auto sorted = sortedPackets(header, parsed.bytes, sightings);
-    if (!sorted.ok()) return sorted.status();
-    packets = std::move(*sorted);
+    auto placed = placedPackets(header, parsed.bytes, sightings);
+    if (!placed.ok()) return placed.status();
+    packets = std::move(*placed);
   }
-  std::vector<RankedRange> chosen;
-  uint64_t left = bytes;
-  for (const PlacedPacket& packet : packets) {
-    if (left == 0) break;
-    for (const ByteRange& gap : missing(packet.begin, std::min(packet.end, end))) {
-      const uint64_t taken = std::min(left, gap.end - gap.begin);
-      if (taken == 0) break;
-      left -= taken;
-      const double gain = std::min(packet.worth.now, std::numeric_limits<double>::max());
-      chosen.push_back({{gap.begin, gap.begin + taken, gain}, chosen.size()});
-    }
-  }
-  return merged(std::move(chosen));
+  boundOpenings(packets, limits);
+  const std::vector<Piece> pieces = piecesOf(packets, missing, end);
+  const std::vector<uint32_t> order = rankedPieces(pieces);
+  if (limits.request_bytes == 0)
+    return rangesOf(pieces, order, chooseFirst(pieces, order, limits.bytes), limits);
+  Choice chosen = chooseRequests(pieces, order, limits);
+  if (bytesOf(chosen) == 0) chosen = chooseOne(pieces, order, limits.bytes);
+  growRuns(pieces, order, limits.bytes, chosen);
+  return rangesOf(pieces, order, chosen, limits);
 }
 
 Result<std::vector<size_t>> orderFor(const StreamHeader& header,
                                      std::span<const WeightedSighting> sightings) {
-  const auto packets = sortedPackets(header, 0, sightings);
+  auto packets = placedPackets(header, 0, sightings);
   if (!packets.ok()) return packets.status();
+  std::stable_sort(packets->begin(), packets->end(),
+                   [](const auto& a, const auto& b) { return helpsMore(a.worth, b.worth); });
   std::vector<size_t> order;
   for (const PlacedPacket& packet : *packets) order.push_back(packet.number);
   for (size_t i = order.size(); i < header.index.size(); ++i) order.push_back(i);
@@ -309,7 +468,9 @@ uint64_t planBytes(const StreamHeader& header) {
   uint64_t tracks = 0;
   for (const TrackCount& count : trackCounts(header)) tracks += count.tracks;
   constexpr uint64_t kTrack = sizeof(Region) + 2 * sizeof(double) + 96;  // in a map
-  constexpr uint64_t kPacket = 3 * (sizeof(PlacedPacket) + sizeof(RankedRange));
+  constexpr uint64_t kPiece = sizeof(Piece) + 2 * sizeof(uint64_t) + 2 * sizeof(uint32_t) +
+                              2 * sizeof(RankedRange) + sizeof(FetchRange);
+  constexpr uint64_t kPacket = sizeof(PlacedPacket) + 4 * kPiece;  // what is there lies between
   return tracks * kTrack + header.index.size() * kPacket;
 }
 

@@ -39,14 +39,22 @@ struct FetchRange {
   double gain = 0;
 };
 
+/// What a plan may take.
+struct FetchLimits {
+  uint64_t bytes = 0;          ///< of all ranges
+  uint64_t request_bytes = 0;  ///< that come in the time that a request costs beside its own
+};
+
 /// What is missing of so many bytes that help most, those that help most first. The first sighting
 /// is the present picture, of which gains are; the others are what the viewer may look at later.
 /// The opening of a component comes before the rest, and each track in its order. Neighbours are
-/// one range, in the place of the one that helps more. TKS_CORRUPT where the index names a track
-/// that there is not. Without an index: the bytes in their order.
+/// one range, in the place of the one that helps more. Where requests cost something, ranges are
+/// few: the plan has the greatest worth beside the costs of its bytes and of its requests, with
+/// bytes in ranges that help little or are there; it leaves out what helps nobody. TKS_CORRUPT
+/// where the index names a track that there is not. Without an index: the bytes in their order.
 Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
                                           std::span<const WeightedSighting> sightings,
-                                          const Missing& missing, uint64_t bytes);
+                                          const Missing& missing, const FetchLimits& limits);
 
 /// The numbers of the packets of an index in the order that helps all of these most. Errors as of
 /// planFetch().

@@ -7,7 +7,7 @@ namespace tetrakis::inline wavelet {
 
 namespace {
 
-template <class Sum, size_t kPairs, bool kAdd>
+template <class Sum, size_t kPairs>
 void lift(int32_t* __restrict target, const LiftingSources& sources, const LiftingRule& rule,
           size_t count) {
   using Unsigned = std::make_unsigned_t<Sum>;
@@ -16,6 +16,8 @@ void lift(int32_t* __restrict target, const LiftingSources& sources, const Lifti
   std::array<Unsigned, kPairs> weights;
   for (size_t k = 0; k < kPairs; ++k) weights[k] = static_cast<Unsigned>(Sum{rule.step.weights[k]});
   const Unsigned half = Unsigned{1} << (shift - 1);
+  // change ^ sign - sign is change or, with all bits of sign set, -change.
+  const uint32_t sign = rule.direction == Direction::kAnalysis ? 0 : ~uint32_t{0};
   for (size_t j = 0; j < count; ++j) {
     Unsigned sum = half;
     for (size_t k = 0; k < kPairs; ++k) {
@@ -24,22 +26,22 @@ void lift(int32_t* __restrict target, const LiftingSources& sources, const Lifti
     }
     const auto change = static_cast<uint32_t>(static_cast<Sum>(sum) >> shift);
     const auto value = static_cast<uint32_t>(target[j]);
-    target[j] = static_cast<int32_t>(kAdd ? value + change : value - change);
+    target[j] = static_cast<int32_t>(value + (change ^ sign) - sign);
   }
 }
 
-template <class Sum, bool kAdd>
+template <class Sum>
 void liftPairs(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                size_t count) {
   switch (rule.step.pairs) {
     case 1:
-      return lift<Sum, 1, kAdd>(target, sources, rule, count);
+      return lift<Sum, 1>(target, sources, rule, count);
     case 2:
-      return lift<Sum, 2, kAdd>(target, sources, rule, count);
+      return lift<Sum, 2>(target, sources, rule, count);
     case 3:
-      return lift<Sum, 3, kAdd>(target, sources, rule, count);
+      return lift<Sum, 3>(target, sources, rule, count);
     default:
-      return lift<Sum, kMaxPairs, kAdd>(target, sources, rule, count);
+      return lift<Sum, kMaxPairs>(target, sources, rule, count);
   }
 }
 
@@ -58,13 +60,8 @@ void liftStep(int32_t* target, const LiftingSources& sources, const LiftingRule&
 
 void liftStepScalar(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                     size_t count) {
-  if (rule.direction == Direction::kAnalysis) {
-    rule.wide ? liftPairs<int64_t, true>(target, sources, rule, count)
-              : liftPairs<int32_t, true>(target, sources, rule, count);
-  } else {
-    rule.wide ? liftPairs<int64_t, false>(target, sources, rule, count)
-              : liftPairs<int32_t, false>(target, sources, rule, count);
-  }
+  rule.wide ? liftPairs<int64_t>(target, sources, rule, count)
+            : liftPairs<int32_t>(target, sources, rule, count);
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -57,8 +57,8 @@ class Regression {
   }
 
   /// Halves what holds the hull at `triangles` beyond the roots, and nothing else.
-  std::vector<HullSide> sidesOf(int64_t triangles) {
-    std::vector<HullSide> sides(order_.size(), HullSide::kAcross);
+  std::vector<double> sidesOf(int64_t triangles) {
+    std::vector<double> sides(order_.size(), hull_side::kAcross);
     std::span<uint32_t> members = order_;
     for (bool at_mean = false; !members.empty();) {
       const Sums sums = sumsOf(members);
@@ -68,7 +68,7 @@ class Regression {
       if (whole && sums.cost > 0 && !std::exchange(at_mean, true)) continue;
       if (whole) {  // from one corner to the next
         if (sums.cost <= triangles)
-          for (const uint32_t v : members) sides[v] = HullSide::kWithin;
+          for (const uint32_t v : members) sides[v] = hull_side::kWithin;
         break;
       }
       flow_.split(members);
@@ -80,7 +80,7 @@ class Regression {
       const bool fits = cost <= triangles;
       if (fits) triangles -= cost;
       for (const uint32_t v : fits ? inside : outside)
-        sides[v] = fits ? HullSide::kWithin : HullSide::kBeyond;
+        sides[v] = fits ? hull_side::kWithin : hull_side::kBeyond;
       members = fits ? outside : inside;
       at_mean = false;
     }
@@ -235,26 +235,47 @@ std::vector<double> closureSlopes(const Lattice& lattice, std::span<const Vertex
   return regressionOf(lattice, vertices, gains).run();
 }
 
-std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
-                                std::span<const double> gains, uint32_t triangles) {
+std::vector<double> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
+                              std::span<const double> gains, uint32_t triangles) {
   const int64_t roots = int64_t{2} * lattice.rootColumns() * lattice.rootRows();
   return regressionOf(lattice, vertices, gains).sidesOf(triangles - roots);
 }
 
-void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
-                        std::span<VertexId> order) {
+std::vector<VertexId> ascending(std::span<const VertexId> order) {
   std::vector<VertexId> vertices(order.begin(), order.end());
   std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+void sortByKeys(std::span<const VertexId> vertices, std::span<const double> keys,
+                std::span<VertexId> order) {
+  assert(keys.size() == vertices.size() && order.size() == vertices.size());
+  if (vertices.empty()) return;
+  std::vector<double> key_of(vertices.back() + 1);
+  for (size_t i = 0; i < vertices.size(); ++i) key_of[vertices[i]] = keys[i];
+  struct Ranked {
+    double key;
+    uint32_t place;
+    VertexId vertex;
+  };
+  std::vector<Ranked> ranked;
+  ranked.reserve(order.size());
+  for (const VertexId v : order)
+    ranked.push_back({key_of[v], static_cast<uint32_t>(ranked.size()), v});
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return a.key != b.key ? a.key > b.key : a.place < b.place;
+  });
+  std::transform(ranked.begin(), ranked.end(), order.begin(),
+                 [](const Ranked& r) { return r.vertex; });
+}
+
+void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
+                        std::span<VertexId> order) {
+  const std::vector<VertexId> vertices = ascending(order);
   std::vector<double> own;
   own.reserve(vertices.size());
   for (const VertexId v : vertices) own.push_back(gains[v]);
-  const std::vector<double> slopes = closureSlopes(lattice, vertices, own);
-  const auto slopeOf = [&](VertexId v) {
-    return slopes[static_cast<size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
-                                      vertices.begin())];
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](VertexId v, VertexId w) { return slopeOf(v) > slopeOf(w); });
+  sortByKeys(vertices, closureSlopes(lattice, vertices, own), order);
 }
 
 }  // namespace tetrakis::inline mesh

@@ -30,18 +30,25 @@ std::vector<double> closureSlopes(const Lattice& lattice, std::span<const Vertex
                                   std::span<const double> gains);
 
 /// Whether the best meshes around a number of triangles hold a vertex. The corners of the hull on
-/// either side of that number are meshes; in the order of this enumeration parents come before
-/// their children.
-enum class HullSide : uint8_t {
-  kWithin,  ///< the vertex is in the last corner that has no more triangles than that
-  kAcross,  ///< the vertex is in the next corner only
-  kBeyond,  ///< the vertex is in neither of the two
-};
+/// either side of that number are meshes; parents have no smaller value than their children.
+namespace hull_side {
+inline constexpr double kWithin = 2;  ///< in the last corner that has no more triangles than that
+inline constexpr double kAcross = 1;  ///< in the next corner only
+inline constexpr double kBeyond = 0;  ///< in neither of the two
+}  // namespace hull_side
 
 /// Returns the side of each vertex, in a small part of the time of closureSlopes(). vertices and
 /// gains are as for that function.
-std::vector<HullSide> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
-                                std::span<const double> gains, uint32_t triangles);
+std::vector<double> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
+                              std::span<const double> gains, uint32_t triangles);
+
+/// The same vertices by their ids.
+std::vector<VertexId> ascending(std::span<const VertexId> order);
+
+/// Sorts the vertices of an order by falling keys; those with equal keys stay in their order.
+/// vertices: the same by their ids; keys: one for each of them.
+void sortByKeys(std::span<const VertexId> vertices, std::span<const double> keys,
+                std::span<VertexId> order);
 
 /// Sorts a closed set, the first vertices of an order, so that its prefixes pass through every
 /// corner of the hull of the meshes within it; between corners they keep their order. gains: of all

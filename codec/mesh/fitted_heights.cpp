@@ -78,33 +78,16 @@ void FittedSequence::refineFor(uint32_t wanted) {
 
 /// The first `count` vertices, those of the mesh; equal slopes keep their order.
 void FittedSequence::sortBySlope(size_t count, const FittedMoments& fitted) {
-  const std::vector<VertexId> vertices = firstById(count);
-  sortFirst(vertices, closureSlopes(lattice_, vertices, fitted.gains(vertices)), std::greater<>());
+  const std::span<VertexId> first = std::span(order_).first(count);
+  const std::vector<VertexId> vertices = ascending(first);
+  sortByKeys(vertices, closureSlopes(lattice_, vertices, fitted.gains(vertices)), first);
 }
 
 /// So that the best of them for so many triangles come first.
 void FittedSequence::sortBySide(size_t count, const FittedMoments& fitted, uint32_t triangles) {
-  const std::vector<VertexId> vertices = firstById(count);
-  sortFirst(vertices, hullSides(lattice_, vertices, fitted.gains(vertices), triangles),
-            std::less<>());
-}
-
-std::vector<VertexId> FittedSequence::firstById(size_t count) const {
-  assert(count <= order_.size());
-  std::vector<VertexId> vertices(order_.begin(), order_.begin() + static_cast<ptrdiff_t>(count));
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-/// keys: of each vertex; equal ones keep their order.
-template <class Key, class Before>
-void FittedSequence::sortFirst(std::span<const VertexId> vertices, const std::vector<Key>& keys,
-                               Before before) {
-  assert(keys.size() == vertices.size());
-  std::vector<Key> key_of(lattice_.vertexCount());
-  for (size_t i = 0; i < vertices.size(); ++i) key_of[vertices[i]] = keys[i];
-  std::stable_sort(order_.begin(), order_.begin() + static_cast<ptrdiff_t>(vertices.size()),
-                   [&](VertexId v, VertexId w) { return before(key_of[v], key_of[w]); });
+  const std::span<VertexId> first = std::span(order_).first(count);
+  const std::vector<VertexId> vertices = ascending(first);
+  sortByKeys(vertices, hullSides(lattice_, vertices, fitted.gains(vertices), triangles), first);
 }
 
 size_t FittedSequence::longestPrefix(uint32_t triangles) const {

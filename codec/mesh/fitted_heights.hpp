@@ -52,9 +52,6 @@ class FittedSequence {
   void refineFor(uint32_t wanted);
   void sortBySlope(size_t count, const FittedMoments& fitted);
   void sortBySide(size_t count, const FittedMoments& fitted, uint32_t triangles);
-  std::vector<VertexId> firstById(size_t count) const;
-  template <class Key, class Before>
-  void sortFirst(std::span<const VertexId> vertices, const std::vector<Key>& keys, Before before);
 
   Lattice lattice_;
   WeightedSurface surface_;

@@ -468,6 +468,15 @@ typedef struct tks_screen {
 tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen,
                                   uint32_t max_triangles, tks_mesh* out);
 
+/* What a plan may take. */
+typedef struct tks_fetch {
+  size_t size;            /* sizeof(tks_fetch) */
+  uint64_t bytes;         /* of all ranges together */
+  uint32_t triangles;     /* of the mesh that will be drawn; 0: any number */
+  uint64_t request_bytes; /* what a request costs beside its bytes: latency times bytes a second,
+                             shared by those that go out at a time; 0: nothing */
+} tks_fetch;
+
 /* What to fetch next: the ranges of at most `bytes` bytes that are not there yet and help a view
  * most, the most helpful first. Hand them to tks_put as they come, in any order, and ask again. A
  * stream without a front index (tks_encode_options.index) is fetched in its order. Viewers turn:
@@ -483,11 +492,16 @@ tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen
  * only one of them is 0. All plans until nothing is missing cover every byte of the stream
  * once.
  *
+ * With request_bytes the ranges are fewer: the plan is the one whose worth is greatest beside what
+ * its bytes and its requests cost. Ranges then go on over bytes that help little or are there
+ * already, and what is worth less than its request comes in a later plan. What helps no view is in
+ * none.
+ *
  * view: NULL: all ground counts alike. Its weight is not looked at; its columns and rows are those
  * of the heights, or of a texture without heights. Decodes a coarse mip level of the heights, which
  * says what hides what. TKS_USAGE, TKS_UNSUPPORTED: as tks_decode_screen_mesh of a camera. */
-tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, uint64_t bytes,
-                    uint32_t triangles, tks_ranges* out);
+tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const tks_fetch* fetch,
+                    tks_ranges* out);
 
 /* The stream that is open, with its packets in the order that helps these cameras most: as tks_plan
  * chooses, with what they see together, by their weights, and the stream's own triangle budget. No

@@ -259,9 +259,10 @@ class Decoder {
 
   /// What to fetch next for a view (null: all ground alike): tks_plan says what comes first.
   Result<std::vector<tks_range>> plan(const tks_screen_camera* view, uint64_t bytes,
-                                      uint32_t triangles = 0) {
+                                      uint32_t triangles = 0, uint64_t request_bytes = 0) {
+    const tks_fetch fetch = {sizeof fetch, bytes, triangles, request_bytes};
     tks_ranges ranges{};
-    const tks_status status = tks_plan(decoder_.get(), view, bytes, triangles, &ranges);
+    const tks_status status = tks_plan(decoder_.get(), view, &fetch, &ranges);
     if (status != TKS_OK) return failure(status);
     std::vector<tks_range> result(ranges.ranges, ranges.ranges + ranges.count);
     tks_free_ranges(&ranges);

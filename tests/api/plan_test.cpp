@@ -51,9 +51,10 @@ struct Both {
 
 class Ranges {
  public:
-  Ranges(Stream& stream, const tks_screen_camera* view, uint64_t bytes, uint32_t triangles = 0) {
-    EXPECT_EQ(tks_plan(stream.get(), view, bytes, triangles, &ranges_), TKS_OK)
-        << tks_message(stream.get());
+  Ranges(Stream& stream, const tks_screen_camera* view, uint64_t bytes, uint32_t triangles = 0,
+         uint64_t request_bytes = 0) {
+    const tks_fetch fetch = {sizeof fetch, bytes, triangles, request_bytes};
+    EXPECT_EQ(tks_plan(stream.get(), view, &fetch, &ranges_), TKS_OK) << tks_message(stream.get());
   }
   Ranges(const Ranges&) = delete;
   Ranges& operator=(const Ranges&) = delete;
@@ -182,6 +183,48 @@ TEST(Plan, DetailBelowAPixelAndBelowTheMeshComesLast) {
   EXPECT_LT(helpful(near, 2), helpful(near, 0));
 }
 
+/// Of the same bytes a fraction of the requests, which bring nearly as much.
+TEST(Plan, WhereRequestsCostSomethingThereAreFew) {
+  const Both terrain;
+  const tks_screen_camera view = alongRows(45, -20, 900);
+  Stream stream(Prefix(terrain.bytes).first(terrain.header));
+  const uint64_t budget = terrain.bytes.size() / 3;
+  size_t before = SIZE_MAX;
+  for (const uint64_t cost : {0, 50, 500, 5000}) {
+    const Ranges plan(stream, &view, budget, 0, cost);
+    EXPECT_LE(plan.bytes(), budget);
+    EXPECT_GT(plan.bytes(), budget / 2) << cost;
+    EXPECT_LE(plan.all().size(), before) << cost;
+    before = plan.all().size();
+  }
+  EXPECT_LE(before, 2u);
+}
+
+/// All comes in steps from any cache, by fewer requests where they cost something.
+TEST(Plan, EveryCostOfRequestsBringsTheWholeStream) {
+  const Both terrain;
+  const tks_screen_camera view = mapOf(0, 0, 30, 20);
+  size_t free = 0;
+  for (const uint64_t cost : {uint64_t{0}, uint64_t{300}, UINT64_MAX}) {
+    Stream stream(Prefix(terrain.bytes).first(terrain.header + 100));
+    size_t requests = 0;
+    for (size_t lap = 0;; ++lap) {
+      const Ranges plan(stream, &view, 4000, 0, cost);
+      ASSERT_LE(plan.bytes(), 4000u);
+      if (plan.all().empty()) break;
+      requests += plan.all().size();
+      for (const tks_range& range : plan.all())
+        ASSERT_NO_FATAL_FAILURE(put(stream, terrain.bytes, range));
+      ASSERT_LT(lap, terrain.bytes.size());
+    }
+    EXPECT_EQ(tks_verify(stream.get()), TKS_OK) << tks_message(stream.get());
+    if (cost == 0) free = requests;
+    if (cost > 0) {
+      EXPECT_LT(requests, free) << cost;
+    }
+  }
+}
+
 TEST(Plan, WithoutAnIndexBytesComeInTheirOrder) {
   const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
   const Bytes bytes = encode(&heights, nullptr, lossless());
@@ -199,8 +242,9 @@ TEST(Plan, BadViewsAreRefusedInASentence) {
   const Both terrain;
   Stream stream(Prefix(terrain.bytes).first(terrain.header));
   tks_ranges ranges = {};
+  tks_fetch fetch = {sizeof fetch, 1000, 0, 0};
   const auto refused = [&](const tks_screen_camera& view, const std::string& part) {
-    EXPECT_EQ(tks_plan(stream.get(), &view, 1000, 0, &ranges), TKS_USAGE);
+    EXPECT_EQ(tks_plan(stream.get(), &view, &fetch, &ranges), TKS_USAGE);
     EXPECT_NE(std::string(tks_message(stream.get())).find(part), std::string::npos)
         << tks_message(stream.get());
     EXPECT_EQ(ranges.count, 0u);
@@ -214,8 +258,11 @@ TEST(Plan, BadViewsAreRefusedInASentence) {
   view = mapOf(0, 0, 10, 10);
   view.size = 3;
   refused(view, "the view takes a size of at least");
-  EXPECT_EQ(tks_plan(stream.get(), nullptr, 1, 0, nullptr), TKS_USAGE);
-  EXPECT_EQ(tks_plan(nullptr, nullptr, 1, 0, &ranges), TKS_USAGE);
+  EXPECT_EQ(tks_plan(stream.get(), nullptr, &fetch, nullptr), TKS_USAGE);
+  EXPECT_EQ(tks_plan(stream.get(), nullptr, nullptr, &ranges), TKS_USAGE);
+  EXPECT_EQ(tks_plan(nullptr, nullptr, &fetch, &ranges), TKS_USAGE);
+  fetch.size = 7;
+  EXPECT_EQ(tks_plan(stream.get(), nullptr, &fetch, &ranges), TKS_USAGE);
   view = mapOf(1000, 1000, 1010, 1010);  // sees nothing: a view like any other
   const Ranges nothing(stream, &view, UINT64_MAX);
   EXPECT_EQ(nothing.bytes(), terrain.bytes.size() - terrain.header);
@@ -328,7 +375,8 @@ TEST(Plan, SurvivesEveryDamagedByte) {
         Stream stream(Prefix(damaged).first(size), &limits);
         if (stream.status() != TKS_OK) continue;
         tks_ranges ranges = {};
-        tks_plan(stream.get(), &view, 700, 30, &ranges);
+        const tks_fetch fetch = {sizeof fetch, 700, 30, flip == 0x40 ? uint64_t{100} : 0};
+        tks_plan(stream.get(), &view, &fetch, &ranges);
         tks_free_ranges(&ranges);
         tks_buffer buffer = {};
         tks_reorder(stream.get(), &view, 1, &buffer);

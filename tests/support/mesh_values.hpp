@@ -19,11 +19,6 @@ inline std::ostream& operator<<(std::ostream& out, const Worth& worth) {
   return out << "distortion " << worth.distortion << ", cost " << worth.cost;
 }
 
-inline std::ostream& operator<<(std::ostream& out, HullSide side) {
-  constexpr const char* kNames[] = {"within", "across", "beyond"};
-  return out << kNames[static_cast<size_t>(side)];
-}
-
 inline std::ostream& operator<<(std::ostream& out, const Square& square) {
   return out << "level " << square.level << ", column " << square.column << ", row " << square.row;
 }

@@ -159,19 +159,19 @@ static tks_status give(tks_status status, tks_ranges* ranges, web_ranges* out) {
   return status;
 }
 
-/// tks_plan. view: width and height of the picture and 16 numbers, or NULL.
-tks_status web_plan(tks_decoder* decoder, const double* view, double bytes, uint32_t triangles,
+/// tks_plan. limits: those of tks_fetch in the order in which it has them; view: width and height
+/// of the picture and 16 numbers.
+tks_status web_plan(tks_decoder* decoder, const double* limits, const double* view,
                     web_ranges* out) {
   tks_screen_camera camera{};
-  if (view != nullptr) {
-    camera.size = sizeof camera;
-    camera.width = static_cast<uint32_t>(view[0]);
-    camera.height = static_cast<uint32_t>(view[1]);
-    std::copy_n(view + 2, 16, camera.clip);
-  }
+  camera.size = sizeof camera;
+  camera.width = static_cast<uint32_t>(view[0]);
+  camera.height = static_cast<uint32_t>(view[1]);
+  std::copy_n(view + 2, 16, camera.clip);
+  const tks_fetch fetch = {sizeof fetch, static_cast<uint64_t>(limits[0]),
+                           static_cast<uint32_t>(limits[1]), static_cast<uint64_t>(limits[2])};
   tks_ranges ranges{};
-  const tks_status status = tks_plan(decoder, view != nullptr ? &camera : nullptr,
-                                     static_cast<uint64_t>(bytes), triangles, &ranges);
+  const tks_status status = tks_plan(decoder, &camera, &fetch, &ranges);
   return give(status, &ranges, out);
 }
 

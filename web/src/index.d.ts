@@ -18,6 +18,11 @@ export interface OpenOptions {
   wasm?: string | URL | BufferSource | WebAssembly.Module;
   /** Bytes that one decoding may take; default 2^30. */
   memory?: number;
+  /**
+   * What a request costs, in bytes that the link brings meanwhile: the more, the fewer requests a
+   * view takes. Default 4096; 0: each byte is asked for in the order in which it helps.
+   */
+  requestBytes?: number;
 }
 
 export interface View {

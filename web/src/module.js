@@ -126,12 +126,13 @@ class Opened {
     });
   }
   /** What to fetch next for a view {clip, width, height}. */
-  plan(view, bytes, triangles) {
+  plan({view, bytes, triangles, requestBytes}) {
     const {instance} = this;
-    return instance.with(18 * 8, (address) => {
-      instance.view(Float64Array, address, 18).set([view.width, view.height, ...view.clip]);
+    return instance.with(21 * 8, (limits) => {
+      instance.view(Float64Array, limits, 21)
+        .set([bytes, triangles, requestBytes, view.width, view.height, ...view.clip]);
       return this.#ranges((out) =>
-        instance.calls.web_plan(this.decoder, address, bytes, triangles, out));
+        instance.calls.web_plan(this.decoder, limits, limits + 3 * 8, out));
     });
   }
   /** What a window {x, y, width, height} of a part of tks_part takes. */
@@ -398,8 +399,8 @@ export class Decoder {
     });
   }
 
-  plan({view, bytes, triangles}) {
-    return this.opened(Infinity, (opened) => opened.plan(view, bytes, triangles));
+  plan(request) {
+    return this.opened(Infinity, (opened) => opened.plan(request));
   }
   needed({part, window}) {
     return this.opened(Infinity, (opened) => opened.needed(part, window));

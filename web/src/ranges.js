@@ -29,29 +29,13 @@ export class Held {
   }
 }
 
-/** So few bytes between two ranges, or a larger share of all: each is a request. */
-const MOST_GAP = 4096, GAP_SHARE = 1 / 8;
 /** At a time: browsers keep six connections to a server of HTTP/1.1. */
 const MOST_REQUESTS = 12;
 
-/**
- * Requests [begin, end) for the first of these ranges [begin, end, ...], in their order, of at most
- * `bytes` bytes together.
- */
-export function requestsFor(ranges, bytes) {
-  const all = ranges.reduce((sum, [b, e]) => sum + e - b, 0);
-  const gap = Math.min(GAP_SHARE * Math.min(all, bytes), MOST_GAP);
-  let requests = [], left = bytes;
-  for (let [begin, end] of ranges) {
-    end = Math.min(end, begin + bytes);
-    const isNear = ([b, e]) => b <= end + gap && begin <= e + gap;
-    const near = requests.filter(isNear);
-    const joined = near.reduce(([b, e], [b2, e2]) => [Math.min(b, b2), Math.max(e, e2)], [begin, end]);
-    const more = joined[1] - joined[0] - near.reduce((sum, [b, e]) => sum + e - b, 0);
-    if (more > left) break;
-    if (near.length === 0 && requests.length === MOST_REQUESTS) continue;
-    requests = [...requests.filter((range) => !isNear(range)), joined];
-    left -= more;
-  }
-  return requests;
+/** Requests [begin, end) for the first of the ranges {begin, end, gain} of a plan that help. */
+export function requestsFor(plan, size) {
+  return plan
+    .filter(({begin, gain}) => gain > 0 && begin < size)
+    .slice(0, MOST_REQUESTS)
+    .map(({begin, end}) => [begin, Math.min(end, size)]);
 }

@@ -223,7 +223,7 @@ test('memory returns: a hundred frames take no more than one', async () => {
 });
 
 test('the modules are small', async () => {
-  const limits = {tetrakis: 220, 'tetrakis-raster': 152, 'tetrakis-encode': 365};
+  const limits = {tetrakis: 168, 'tetrakis-raster': 115, 'tetrakis-encode': 300};
   for (const [name, limit] of Object.entries(limits)) {
     const file = await readFile(new URL(`../dist/${name}.wasm`, import.meta.url));
     const zipped = gzipSync(file, {level: 9}).length;

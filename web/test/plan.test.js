@@ -66,18 +66,34 @@ test('bytes that are here, and gaps', () => {
   assert.deepEqual(held.gaps(12, 30), []);
 });
 
-test('neighbours are one request; the bytes are kept', () => {
-  assert.deepEqual(requestsFor([[90000, 94000], [0, 3000], [3300, 9000]], 20000),
-    [[90000, 94000], [0, 9000]]);
-  assert.deepEqual(requestsFor([[0, 500], [9000, 9800]], 1000), [[0, 500]]);
-  assert.deepEqual(requestsFor([[0, 5000]], 1000), [[0, 1000]]);
-  const many = Array.from({length: 99}, (_, i) => [i * 9000, i * 9000 + 10]);
+test('a dozen requests at a time, for what helps and is there', () => {
+  const plan = [[900, 940, 2], [0, 30, 1], [990, 1200, 1], [1500, 1600, 1], [40, 50, 0]]
+    .map(([begin, end, gain]) => ({begin, end, gain}));
+  assert.deepEqual(requestsFor(plan, 1000), [[900, 940], [0, 30], [990, 1000]]);
+  const many = Array.from({length: 99}, (_, i) => ({begin: i * 90, end: i * 90 + 10, gain: 1}));
   assert.equal(requestsFor(many, 1e6).length, 12);
+});
+
+test('where requests cost more there are fewer, and the picture is as good', async () => {
+  const results = [];
+  for (const requestBytes of [0, 1024, 4096]) {
+    await served({}, async (url, server) => {
+      const terrain = await open(url, {requestBytes});
+      let last;
+      for await (const frame of terrain.refine({view: CORNER, mesh: false})) last = frame;
+      const {length} = server.requests, error = errorIn(last.texture, 4, 4, 36);
+      results.push({length, error});
+      terrain.dispose();
+    });
+  }
+  const [free, near, far] = results;
+  assert.ok(far.length < near.length && near.length < free.length / 2);
+  assert.ok(far.error <= 1.1 * free.error);
 });
 
 test('two requests before the first picture; then what the view needs, and no more', async () => {
   await served({}, async (url, server) => {
-    const terrain = await open(url);
+    const terrain = await open(url, {requestBytes: 128});
     assert.equal(terrain.info.hasIndex, true);
     const frames = [];
     for await (const frame of terrain.refine({view: CORNER, mesh: false})) {

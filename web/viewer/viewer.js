@@ -55,11 +55,15 @@ function readOut(frame, triangles) {
   $('triangles-here').textContent = formatCount(triangles);
   $('heights-quality').hidden = !info.hasHeights;
   $('texture-quality').hidden = !info.hasTexture;
+  // The stream states what its packets in their order bring. Where bytes came for a view, as many
+  // or more are here, and the ground that is looked at is better than that.
+  const scattered = terrain.loaded.ranges.length > 1;
+  const [most, least] = scattered ? ['≤ ', '≥ '] : ['', ''];
   const rmse = info.heightsRmse;
   $('rmse').textContent =
-    rmse < 0 ? '–' : rmse === 0 ? 'exact' : `${Number(rmse.toPrecision(2))} ${info.unit}`.trim();
-  $('psnr').textContent =
-    info.texturePsnr < 0 ? '–' : isFinite(info.texturePsnr) ? `${info.texturePsnr.toFixed(1)} dB` : 'exact';
+    rmse < 0 ? '–' : rmse === 0 ? 'exact' : `${most}${Number(rmse.toPrecision(2))} ${info.unit}`.trim();
+  $('psnr').textContent = info.texturePsnr < 0 ? '–'
+    : isFinite(info.texturePsnr) ? `${least}${info.texturePsnr.toFixed(1)} dB` : 'exact';
   const share = (bytes) => `${(100 * bytes) / info.streamBytes}%`;
   $('split-heights').style.width = share(info.geometryBytes);
   $('split-texture').style.width = share(info.textureBytes);

@@ -191,14 +191,14 @@ TEST(Closure, SidesAreThoseOfTheCorners) {
     const std::vector<VertexId> all = allVertices(lattice);
     const uint32_t roots = hull.corners().front().triangles;
     for (uint32_t triangles = roots; triangles < 2 * width * height; triangles += 7) {
-      const std::vector<HullSide> sides = hullSides(lattice, all, gains, triangles);
+      const std::vector<double> sides = hullSides(lattice, all, gains, triangles);
       uint32_t within = roots, across = 0;
       for (const VertexId v : all) {
         const uint32_t cost = lattice.triangleCost(lattice.site(v));
-        within += sides[v] == HullSide::kWithin ? cost : 0;
-        across += sides[v] == HullSide::kAcross ? cost : 0;
+        within += sides[v] == hull_side::kWithin ? cost : 0;
+        across += sides[v] == hull_side::kAcross ? cost : 0;
         lattice.forEachParent(lattice.site(v),
-                              [&](Site parent) { EXPECT_LE(sides[lattice.id(parent)], sides[v]); });
+                              [&](Site parent) { EXPECT_GE(sides[lattice.id(parent)], sides[v]); });
       }
       const auto after =
           std::upper_bound(hull.corners().begin(), hull.corners().end(), triangles,

@@ -239,6 +239,17 @@ class ScreenCamera(ctypes.Structure):
     ]
 
 
+class Fetch(ctypes.Structure):
+    """tks_fetch."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("bytes", c_uint64),
+        ("triangles", c_uint32),
+        ("request_bytes", c_uint64),
+    ]
+
+
 class Screen(ctypes.Structure):
     """tks_screen."""
 
@@ -263,6 +274,7 @@ STRUCTS = {
     "tks_ranges": Ranges,
     "tks_mesh": Mesh,
     "tks_screen_camera": ScreenCamera,
+    "tks_fetch": Fetch,
     "tks_screen": Screen,
 }
 
