@@ -3,8 +3,8 @@
 // all of it, for several costs of a request.
 import {dirname, basename} from 'node:path';
 
-import {open} from '../web/src/index.js';
-import {serve} from '../web/test/server.js';
+import {open} from '../../web/src/index.js';
+import {serve} from '../../web/test/server.js';
 
 const file = process.argv[2], server = await serve(dirname(file), {});
 
