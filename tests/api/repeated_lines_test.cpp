@@ -149,6 +149,17 @@ TEST(RepeatedLines, MeetTargets) {
             8 * 1.02 * squaredError(of, Stream(alone).heights()));
 }
 
+/// Limits are those of all samples, however few are coded.
+TEST(RepeatedLines, CountInLimits) {
+  const Raster of = small();
+  StreamHeader header = readHeader(encode(&of, nullptr, lossless()))->header;
+  for (const uint32_t side : {1u << 20, 1u << 13}) {
+    header.geometry->repeats = {{side, side}, "few"};
+    Stream huge(writeHeader(header));
+    EXPECT_EQ(huge.status(), side > (1u << 14) ? TKS_LIMIT : TKS_OK);
+  }
+}
+
 /// Meshes are made of all samples.
 TEST(RepeatedLines, HaveMeshes) {
   const Raster large = copied(small(), linesOf(40, {2}), linesOf(33, {2}));
