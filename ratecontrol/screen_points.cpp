@@ -187,7 +187,7 @@ size_t ScreenPoints::pooledFrom(const std::vector<std::vector<Outline>>& outline
   const auto add = [&] {
     for (const Outline& outline : outlines[first]) count += outline.count;
   };
-  for (add(); count < enough && first > 0; add()) --first;
+  for (add(); count < enough && first > 1; add()) --first;
   return first;
 }
 

@@ -95,7 +95,8 @@ class ScreenPoints {
     size_t count = 0;
   };
   Outline outlineOf(const View& view, const Pictures& a, const Pictures& b) const;
-  /// The surfaces from here to the last one have so many points, over all views.
+  /// The surfaces from here to the last one have so many points, over all views. The first surface,
+  /// that of no coefficients, says nothing of others.
   static size_t pooledFrom(const std::vector<std::vector<Outline>>& outlines, size_t enough);
 
   void addPoints(const Camera& camera, size_t count);
