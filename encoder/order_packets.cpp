@@ -18,7 +18,7 @@ AuditScope auditScope(const EncodeInputs& inputs, size_t samples) {
 /// A stream with a front index is fetched by ranges.
 TrackOrder trackOrderOf(const tks_encode_options& options) {
   if (options.index == TKS_INDEX_WINDOWS) return TrackOrder::kTracks;
-  return options.index != TKS_INDEX_NONE ? TrackOrder::kOctaves : TrackOrder::kSlopes;
+  return options.index != TKS_INDEX_NONE ? TrackOrder::kClasses : TrackOrder::kSlopes;
 }
 
 /// With a triangle budget, where cameras do not look at meshes (encoder/shown_mesh.hpp), the mean

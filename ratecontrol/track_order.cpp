@@ -51,7 +51,7 @@ void appendHull(std::span<const RatePoint> points, Component component, size_t t
 /// Pieces that lie side by side in the same class are in the order of their tracks.
 int classOf(const Piece& piece, TrackOrder order) {
   if (order == TrackOrder::kTracks || piece.slope <= 0) return std::numeric_limits<int>::min();
-  return std::ilogb(piece.slope);
+  return std::ilogb(piece.slope * piece.slope);
 }
 
 /// Hulls are convex, and packets between two vertices share a slope: stable sorts keep every

@@ -16,7 +16,7 @@ namespace tetrakis::inline ratecontrol {
 
 enum class TrackOrder {
   kSlopes,   ///< steepest first: the best prefixes
-  kOctaves,  ///< by powers of two that slopes lie between, and track by track where these are equal
+  kClasses,  ///< by classes of slopes, two an octave, and track by track within one
   kTracks,   ///< track by track, whatever the slopes: the base, then region by region
 };
 

@@ -46,9 +46,10 @@ class Band final : public GDALPamRasterBand {
     eDataType = typeOf(source.sample());
     nRasterXSize = static_cast<int>(source.width(dataset.level()));
     nRasterYSize = static_cast<int>(source.height(dataset.level()));
-    // Small blocks decode each region several times; large ones would fill the cache.
+    // A window is decoded from the first block that it meets to the last one: small blocks decode
+    // little around it. Smaller ones than regions save nothing more, nor do those below 128.
     const uint32_t regions = source.regionSide();
-    const int side = regions == 0 ? kBlock : static_cast<int>(std::clamp(regions, 64u, 1024u));
+    const int side = regions == 0 ? kBlock : static_cast<int>(std::clamp(regions, 64u, 128u));
     nBlockXSize = std::min(side, nRasterXSize);
     nBlockYSize = std::min(side, nRasterYSize);
     if (source.sample() == TKS_I8 && eDataType == GDT_Byte)
@@ -216,10 +217,12 @@ class Band final : public GDALPamRasterBand {
   }
 
   /// Columns, or rows, of blocks around some that are decoded with them: coefficients of coarse
-  /// levels reach far.
-  static uint32_t around(int side) {
+  /// levels reach far, and regions are decoded whole.
+  uint32_t around(int side) const {
     constexpr uint32_t kReach = 256;
-    return 2 * DIV_ROUND_UP(kReach, static_cast<uint32_t>(side));
+    const auto blocks = static_cast<uint32_t>(side);
+    const uint32_t regions = std::max(dataset().source().regionSide(), blocks);
+    return 2 * DIV_ROUND_UP(kReach, blocks) + regions / blocks - 1;
   }
 
   BandFacts facts_;

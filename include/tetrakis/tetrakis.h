@@ -160,8 +160,8 @@ typedef int (*tks_picture_error)(void* user, const void* heights, const void* te
 /* The front index of a stream, by which windows of regions are fetched without the rest. */
 typedef enum tks_index {
   TKS_INDEX_NONE = 0,
-  TKS_INDEX_PACKETS = 1, /* an index; packets lie by octaves of what a byte is worth, and region by
-                            region within one */
+  TKS_INDEX_PACKETS = 1, /* an index; packets lie by half octaves of what a byte is worth, and
+                            region by region within one */
   TKS_INDEX_WINDOWS = 2  /* an index; each region lies in one piece, so that windows take few
                             requests, but a prefix has some regions and lacks others. Lossless
                             streams alone */

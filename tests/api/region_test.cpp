@@ -303,8 +303,8 @@ TEST(Tracks, KeepTogether) {
     return backwards;
   };
   EXPECT_EQ(changes(TrackOrder::kTracks), 0u);
-  EXPECT_LT(changes(TrackOrder::kOctaves), 40u);
-  EXPECT_GT(changes(TrackOrder::kSlopes), 2 * changes(TrackOrder::kOctaves));
+  EXPECT_LT(changes(TrackOrder::kClasses), 40u);
+  EXPECT_GT(changes(TrackOrder::kSlopes), 2 * changes(TrackOrder::kClasses));
 }
 
 TEST(ParallelFor, CallsEachOnceAndPassesExceptionsOn) {

@@ -339,7 +339,7 @@ def test_doubles(tmp_path):
 
 def test_sources_that_are_no_heights(tmp_path):
     name = tmp_path / "a.tks"
-    three = np.zeros((3, 8, 9), np.uint8)
+    three = np.zeros((3, 8, 9), np.int16)
     message = refused(lambda: copy(three, name), "one band", "has 3", "-b 1")
     assert "TEXTURE" in message
     refused(lambda: copy(np.zeros((8, 9), np.complex64), name), "CFloat32")
