@@ -28,7 +28,8 @@ Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
   const uint64_t most_samples = orDefault(limits.max_samples, kDefaultSamples);
   const uint64_t most_texels = orDefault(limits.max_texels, kDefaultSamples);
   if (header.geometry) {
-    const uint64_t samples = header.geometry->shown().samples();
+    const Extent shown = header.geometry->shown();
+    const uint64_t samples = uint64_t{shown.width} * shown.height;
     if (samples > most_samples) return exceeds("height samples", samples, most_samples);
   }
   if (header.texture) {

@@ -201,6 +201,8 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inpu
   options.limit = whole.bytes();
   const Bound bound{of, Purpose::kLossy, chooseHeightFilters(*of, Purpose::kLossy), options, 0};
   auto corrected = candidateOf(correct(bound, 0, flatAreasOf(bound, 0), {}));
+  // Without corrections its account would not end at exact.
+  if (corrected.coded->layers.corrections == CorrectionKind::kNone) return whole.coded;
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 

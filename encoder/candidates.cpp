@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "codec/geometry/stored_heights.hpp"
@@ -24,7 +25,8 @@ uint8_t statedAfter(const EncodeInputs& inputs, const Candidate<Coded>& candidat
   const Coded& coded = *candidate.coded;
   const Codewords prefix = prefixAfter(coded.rated(), candidate.curve->packets, bytes);
   const double squares = squaresOf(coded, prefix, inputs.options.threads);
-  return qualityOf(std::sqrt(squares / coded.counted()));
+  const double weight = std::is_same_v<Coded, CodedHeights> ? inputs.heaviest : 1;
+  return qualityOf(std::sqrt(squares * weight / coded.counted()));
 }
 
 template <class Coded>

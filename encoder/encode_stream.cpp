@@ -2,7 +2,6 @@
 #include "encoder/encode_stream.hpp"
 
 #include <cassert>
-#include <cmath>
 #include <future>
 #include <memory>
 #include <utility>
@@ -38,7 +37,7 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs,
   if (inputs.options.psnr > 0) {
     const SampleRange range = rangeOf(*inputs.heights, of->steps.valid);
     target.mean_square = worstMeanSquare(range.high - range.low, inputs.options.psnr) /
-                         (of->steps.step * of->steps.step);
+                         (of->steps.step * of->steps.step * inputs.heaviest);
   }
   return std::make_shared<const CodedHeights>(codeHeights(of, target, heightOptions(inputs)));
 }
@@ -83,8 +82,6 @@ Result<Components> quantiseAndCode(const EncodeInputs& inputs) {
 }
 
 Result<std::vector<uint8_t>> encodeLines(const EncodeInputs& given) {
-  if (Status status = reportProgress(given.options, 0); !status.ok()) return status;
-  if (Status status = checkCameras(given); !status.ok()) return status;
   const ViewPriorities priorities = prioritiesOf(given);
   EncodeInputs inputs = given;
   inputs.priorities = &priorities;
@@ -99,21 +96,31 @@ Result<std::vector<uint8_t>> encodeLines(const EncodeInputs& given) {
   return stream;
 }
 
+/// The lines to code; none where all are. A judge of pictures takes whole heights. A PSNR is that
+/// of all samples, of which those of long runs count more: with voids nobody knows by how much.
+/// Small budgets have no bytes for a long map.
+CodedLines linesFor(const EncodeInputs& given) {
+  const tks_encode_options& options = given.options;
+  if (given.heights == nullptr || options.picture_error != nullptr) return {};
+  CodedLines lines = findRepeatedLines(*given.heights);
+  const bool has_voids = given.heights->has_nodata != 0 || given.heights->sample == TKS_F32;
+  if (options.psnr > 0 && (has_voids || lines.heaviest > 1.1)) return {};
+  constexpr uint64_t kMostOfBudget = 8;
+  if (given.budgeted() && lines.repeats.code.size() > options.bytes / kMostOfBudget) return {};
+  return lines;
+}
+
 }  // namespace
 
-/// A PSNR is that of all samples: the coded ones then err less by what the heaviest may weigh.
 Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   assert(given.heights != nullptr || given.image != nullptr);
-  CodedLines lines;
-  if (given.heights != nullptr) lines = findRepeatedLines(*given.heights);
-  const bool masked = given.heights != nullptr &&
-                      (given.heights->has_nodata != 0 || given.heights->sample == TKS_F32);
-  const bool weighs = given.options.psnr > 0 && (masked || lines.heaviest > 1.1);
-  if (lines.repeats.none() || weighs) return encodeLines(given);
+  if (Status status = reportProgress(given.options, 0); !status.ok()) return status;
+  if (Status status = checkCameras(given); !status.ok()) return status;
+  const CodedLines lines = linesFor(given);
+  if (lines.repeats.none()) return encodeLines(given);
   const tks_heights coded = lines.of(*given.heights);
-  tks_encode_options options = given.options;
-  if (options.psnr > 0) options.psnr += 10 * std::log10(lines.heaviest);
-  return encodeLines({&coded, given.image, options, nullptr, given.heights, &lines.repeats});
+  return encodeLines(
+      {&coded, given.image, given.options, nullptr, given.heights, &lines.repeats, lines.heaviest});
 }
 
 }  // namespace tetrakis::inline encoder

@@ -31,6 +31,8 @@ struct EncodeInputs {
   /// The caller's heights, of which `heights` are the coded lines; null: they are the same.
   const tks_heights* whole = nullptr;
   const LineRepeats* repeats = nullptr;  ///< not null with `whole`
+  /// How many times the mean squared error of the coded lines that of all lines may be.
+  double heaviest = 1;
 
   bool budgeted() const { return options.bytes != 0; }
 };

@@ -131,7 +131,8 @@ std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCan
   return leastBytes(packets, [&](uint64_t bytes) {
     if (bytes < coded.layers.validity_bytes) return false;
     const Codewords prefix = prefixAfter(coded.rated(), packets, bytes);
-    return sampleErrorsOf(coded, prefix, inputs.options.threads).mean_square <= worst;
+    const SampleErrors errors = sampleErrorsOf(coded, prefix, inputs.options.threads);
+    return errors.mean_square * inputs.heaviest <= worst;
   });
 }
 

@@ -48,15 +48,17 @@ class MeasuringPlan {
     parts_.assign(points.size(), 1);
     uint64_t first = 0, later = 0;
     for (size_t i = 1; i < points.size(); ++i) {
-      if (points[i].bytes > reach) continue;
       parts_[i] = wantedBetween(points[i - 1], points[i]);
       (points[i].bytes <= first_bytes_ ? first : later) += parts_[i];
     }
-    if (first + later <= most) return;
-    const double share = static_cast<double>(most - first) / static_cast<double>(later);
-    for (size_t i = 1; i < points.size(); ++i)
-      if (points[i].bytes > first_bytes_)
+    const double share =
+        std::min(1., static_cast<double>(most - first) / static_cast<double>(later));
+    for (size_t i = 1; i < points.size(); ++i) {
+      if (points[i].bytes > reach)
+        parts_[i] = 1;
+      else if (points[i].bytes > first_bytes_)
         parts_[i] = 1 + static_cast<uint64_t>(share * static_cast<double>(parts_[i] - 1));
+    }
   }
   /// Between point i - 1 and point i: from 1 to as many as there are bytes.
   uint64_t between(size_t i) const { return parts_[i]; }

@@ -23,9 +23,10 @@ struct AuditScope {
 
 /// Returns the track's points so that their distortion falls strictly.
 ///   small tracks    every point is measured, and so many prefixes in between that the quality
-///                   between two of them changes by little: all of the first bytes (at most
-///                   8192, of 16 384 samples 256), and of tiny tracks. Dips are those that were
-///                   seen. A quarter behind the budget is as far as anything in it can depend on
+///                   between two of them changes by little, or as many as 2^23 decoded samples
+///                   allow: all of the first bytes (8192 of 512 samples, 256 of 16 384). Dips are
+///                   those that were seen. A quarter behind the budget is as far as anything in
+///                   it can depend on
 ///   large tracks    a few points are measured and the others scaled in between; not with a
 ///                   budget: then the account stands as it is, because the order must not depend
 ///                   on it

@@ -66,6 +66,11 @@ int levelBelowMesh(const StreamHeader& header, uint32_t triangles) {
   return most < 4 ? 0 : static_cast<int>(std::floor(std::log2(most) / 2));
 }
 
+/// Ground of absurd spacing costs nothing.
+double finite(double cost) {
+  return std::isfinite(cost) ? cost : 0;
+}
+
 /// What errors of the tracks cost in one view beside what they cost on average.
 class Costs {
  public:
@@ -76,11 +81,11 @@ class Costs {
         unseen_(levelBelowMesh(header, sighting.triangles)) {
     if (header.geometry) {
       for (const Region& region : regionsIn(*header.geometry))
-        costs_[0].push_back(costOfHeights(region));
+        costs_[0].push_back(finite(costOfHeights(region)));
     }
     if (header.texture) {
       for (const Region& region : regionsIn(*header.texture))
-        costs_[1].push_back(costOfTexture(region));
+        costs_[1].push_back(finite(costOfTexture(region)));
     }
   }
 

@@ -47,11 +47,12 @@ struct FetchLimits {
 
 /// What is missing of so many bytes that help most, those that help most first. The first sighting
 /// is the present picture, of which gains are; the others are what the viewer may look at later.
-/// The opening of a component comes before the rest, and each track in its order. Neighbours are
-/// one range, in the place of the one that helps more. Where requests cost something, ranges are
-/// few: the plan has the greatest worth beside the costs of its bytes and of its requests, with
-/// bytes in ranges that help little or are there; it leaves out what helps nobody. TKS_CORRUPT
-/// where the index names a track that there is not. Without an index: the bytes in their order.
+/// The opening of a component comes before the rest, and, where requests cost nothing, each track
+/// in its order. Neighbours are one range, in the place of the one that helps more. Where requests
+/// cost something, ranges are few: the plan has the greatest worth beside the costs of its bytes
+/// and of its requests, with bytes in ranges that help little or are there, and a packet may come
+/// before an earlier one of its track. TKS_CORRUPT where the index names a track that there is not.
+/// Without an index: the bytes in their order.
 Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
                                           std::span<const WeightedSighting> sightings,
                                           const Missing& missing, const FetchLimits& limits);

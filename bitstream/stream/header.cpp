@@ -269,7 +269,10 @@ TrackCounts trackCounts(const StreamHeader& header) {
 
 uint8_t levelFor(const StreamHeader& header) {
   uint64_t samples = 0;
-  if (header.geometry) samples = header.geometry->shown().samples();
+  if (header.geometry) {
+    const Extent shown = header.geometry->shown();
+    samples = uint64_t{shown.width} * shown.height;
+  }
   if (header.texture) {
     samples = std::max(samples, uint64_t{header.texture->width} * header.texture->height);
   }

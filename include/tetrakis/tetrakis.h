@@ -494,8 +494,9 @@ typedef struct tks_fetch {
  *
  * With request_bytes the ranges are fewer: the plan is the one whose worth is greatest beside what
  * its bytes and its requests cost. Ranges then go on over bytes that help little or are there
- * already, and what is worth less than its request comes in a later plan. What helps no view is in
- * none.
+ * already, and what is worth less than its request comes in a later plan. Where nothing is worth
+ * one, the most helpful bytes are the plan. A packet may come before an earlier one of its region:
+ * it counts when that has come.
  *
  * view: NULL: all ground counts alike. Its weight is not looked at; its columns and rows are those
  * of the heights, or of a texture without heights. Decodes a coarse mip level of the heights, which

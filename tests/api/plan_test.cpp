@@ -225,6 +225,27 @@ TEST(Plan, EveryCostOfRequestsBringsTheWholeStream) {
   }
 }
 
+TEST(Plan, CoversGroundOfAbsurdSpacing) {
+  const Both terrain;
+  tks_heights heights = terrain.heights.heights();
+  const tks_image image = terrain.image.image();
+  tks_encode_options options = lossless();
+  options.regions = 16;
+  options.index = 1;
+  for (const double spacing : {1e-200, 1e200}) {
+    heights.spacing_x = heights.spacing_y = spacing;
+    tks_buffer buffer = {};
+    ASSERT_EQ(tks_encode(&heights, &image, &options, &buffer, nullptr, 0), TKS_OK);
+    const Bytes bytes(buffer.data, buffer.data + buffer.size);
+    tks_free_buffer(&buffer);
+    const tks_screen_camera view = alongRows(45, -20, 900);
+    for (const uint64_t request : {0, 500}) {
+      Stream stream(Prefix(bytes).first(terrain.header + 900));
+      EXPECT_GT(Ranges(stream, &view, UINT64_MAX, 0, request).bytes(), 0u) << spacing;
+    }
+  }
+}
+
 TEST(Plan, WithoutAnIndexBytesComeInTheirOrder) {
   const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
   const Bytes bytes = encode(&heights, nullptr, lossless());

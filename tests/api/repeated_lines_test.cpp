@@ -160,6 +160,35 @@ TEST(RepeatedLines, CountInLimits) {
   }
 }
 
+/// What a renderer reads of the heights: all samples that the caller gave.
+int errorOfLines(void* user, const void* heights, const void*, double* sum, double* values) {
+  const Raster& large = *static_cast<const Raster*>(user);
+  const auto* samples = static_cast<const std::byte*>(heights);
+  *sum = squaredError(large, {samples, samples + large.data.size()});
+  *values = static_cast<double>(large.width * large.height);
+  return 0;
+}
+
+TEST(RepeatedLines, AreShownToRenderersWhole) {
+  Raster large = copied(small(), linesOf(40, {3}), linesOf(33, {2}));
+  const Raster image = make({Pattern::kRidges, 48, 48, 3, TKS_U8});
+  tks_encode_options options = budget(3000);
+  options.picture_error = errorOfLines;
+  options.picture_user = &large;
+  EXPECT_LE(encode(&large, &image, options).size(), 3000u);
+}
+
+/// A map of runs without order takes more than small budgets have.
+TEST(RepeatedLines, LeaveSmallBudgetsToTheHeights) {
+  const Raster of = make({Pattern::kRidges, 600, 33, 1, TKS_I16});
+  std::vector<uint32_t> columns;
+  for (uint32_t line = 0; line < 600; ++line)
+    columns.insert(columns.end(), 1 + samples::hash(line, 7, 1) % 3, line);
+  const Raster large = copied(of, columns, linesOf(33, {1}));
+  EXPECT_TRUE(repeats(encode(&large, nullptr, budget(6000))));
+  EXPECT_FALSE(repeats(encode(&large, nullptr, budget(300))));
+}
+
 /// Meshes are made of all samples.
 TEST(RepeatedLines, HaveMeshes) {
   const Raster large = copied(small(), linesOf(40, {2}), linesOf(33, {2}));
