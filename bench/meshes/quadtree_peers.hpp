@@ -71,7 +71,7 @@ inline Square stepped(const QuadtreeShape& shape, Square s, Direction direction)
   return s;
 }
 
-/// The semi-linear quadtree of codec/quadtree: one addition a step, one look-up a tile.
+/// The semi-linear quadtree of codec/mesh/quadtree: one addition a step, one look-up a tile.
 class SemilinearStore {
  public:
   using Handle = Square;

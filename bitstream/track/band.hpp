@@ -60,7 +60,7 @@ struct Neighbours {
   }
 };
 
-/// Priorities that a coefficient may have (bitstream/track/priority_map.hpp).
+/// Priorities that a coefficient may have (wavelet/priority_map.hpp).
 inline constexpr size_t kPriorities = 8;
 
 /// The coefficients of one priority in a band: they have passes of their own.
