@@ -78,8 +78,9 @@ uint32_t codedOf(const std::vector<uint8_t>& repeated) {
   return static_cast<uint32_t>(std::count(repeated.begin(), repeated.end(), 0));
 }
 
-/// Takes repeats out of runs that are longer than 19 of 20 are, or that would leave one line alone;
-/// all of them where the longest run that is left is more than twice the mean. Returns that.
+/// Breaks runs that are longer than 19 of 20 runs are, and such as would leave one line alone:
+/// lines in them are coded though they repeat others. Where the longest run that is left is still
+/// more than twice the mean, no line counts as repeated. Returns the length of the longest run.
 uint32_t even(std::vector<uint8_t>& repeated) {
   std::vector<uint32_t> runs = runsOf(repeated);
   const auto usual = runs.begin() + static_cast<ptrdiff_t>((runs.size() - 1) * 19 / 20);

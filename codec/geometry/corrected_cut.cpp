@@ -42,9 +42,8 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
   return coefficients_.codeword.size();
 }
 
-/// The bytes have one minimum, near the usual cut: descent
-/// from there with ever smaller strides. Every turn but the last of each stride has fewer bytes
-/// than the one before.
+/// The bytes have one minimum, near the usual cut: descent from there with ever smaller strides.
+/// Every turn but the last of each stride has fewer bytes than the one before.
 uint64_t CorrectedCut::best() const {
   uint64_t best = bytesFor(usualCut(largest_)), least = total(best);
   for (const double stride : {1.3, 1.1, 1.04}) {

@@ -94,7 +94,7 @@ CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
 inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
   CLI::Option* const file =
       app.add_option("--cameras", choice.file, "Cameras to look with")->type_name("FILE.json");
-  app.add_option("--view", choice.view, "Preset cameras: oblique (default), low, top, all")
+  app.add_option("--view", choice.view, "Preset cameras: oblique, low, top, orbit, all")
       ->type_name("NAME")
       ->excludes(file);
 }

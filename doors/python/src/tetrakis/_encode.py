@@ -216,8 +216,9 @@ def encode(
         step: quantisation step in sample units; chosen unless given.
         crs: "EPSG:32611" (also "EPSG:32611+5773"), WKT, or a name. It is kept as it is given and
             not looked up: GDAL warns of a CRS that it cannot parse, and opens the raster without
-            one. geotransform: six numbers in the order of GDAL and in units of the CRS. registration: "area" or "point". texture_...: likewise for a texture
-            whose place is not that of the heights, or that comes without heights.
+            one. geotransform: six numbers in the order of GDAL and in units of the CRS.
+            registration: "area" or "point". texture_...: likewise for a texture whose place is not
+            that of the heights, or that comes without heights.
         description, geo_keys: as tks_heights in tetrakis.h has them.
 
     How it is coded
