@@ -274,8 +274,8 @@ STRUCTS = {
     "tks_ranges": Ranges,
     "tks_mesh": Mesh,
     "tks_screen_camera": ScreenCamera,
-    "tks_fetch": Fetch,
     "tks_screen": Screen,
+    "tks_fetch": Fetch,
 }
 
 # Handles (tks_decoder*, tks_mesh_tree*) and arrays are addresses: c_void_p.
