@@ -117,7 +117,7 @@ ComponentCurve curveOfMany(const CodedTracks& coded, const Pricing& pricing) {
 
 ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope, const Measure& measure,
                        const Pricing& pricing) {
-  assert(!coded.tracks.empty() && pricing.samples >= 1);
+  assert(!coded.tracks.empty() && pricing.samples > 0);
   if (coded.tracks.size() > 1) return curveOfMany(coded, pricing);
   return curveOfOne(coded, audit(coded.tracks.front(), scope, measure), pricing);
 }
