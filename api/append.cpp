@@ -39,12 +39,14 @@ Status put(tks_decoder& decoder, uint64_t place, std::span<const uint8_t> bytes)
     return {TKS_LIMIT, "The bytes of the stream take more memory than the limit (max_memory) of " +
                            describeBytes(decoder.max_memory) + "."};
   }
+  const bool gap_before = held > decoder.data.size();
   if (decoder.pieces.empty()) decoder.pieces.put(0, decoder.data);
   decoder.pieces.put(place, bytes);
   decoder.data = decoder.pieces.from(0);
   const std::map<uint32_t, size_t> before = heightsKnown(decoder);
   if (Status status = takePackets(decoder); !status.ok()) return status;
-  if (heightsKnown(decoder) != before) decoder.heights.reset();
+  const bool gap = decoder.pieces.bytes() > decoder.data.size();  // then prefixes are not rounded
+  if (heightsKnown(decoder) != before || gap != gap_before) decoder.heights.reset();
   decoder.remembers = true;
   return {};
 }

@@ -108,7 +108,7 @@ Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* windo
   const Result<View> view = viewOfPart(decoder, part, window);
   if (!view.ok()) return view.status();
   const StreamHeader& header = decoder.parsed.header;
-  if (header.index.empty())
+  if (header.index.empty() && header.payload_bytes > 0)
     return {TKS_USAGE, "The stream has no front index, which would tell where its packets lie."};
   if (Status status = checkMemory(decoder, {part, *view, 0}); !status.ok()) return status;
   const Component component = part == TKS_PART_TEXTURE ? Component::kTexture : Component::kGeometry;

@@ -2,7 +2,11 @@
 // The packets of a stream in another order: nothing is decoded or encoded but a coarse surface, for
 // what is hidden.
 #include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -69,6 +73,76 @@ void keepCutLast(const tks_decoder& decoder, const std::vector<std::span<const u
   std::sort(cut, order.end());
 }
 
+/// What is left of a component's error while some of its packets are missing.
+class ErrorLeft {
+ public:
+  /// entries: of the component, in the stream's order.
+  explicit ErrorLeft(const std::vector<IndexEntry>& entries) : is_there_(entries.size()) {
+    for (const auto& [packet, slope] : entries) {
+      qualities_.push_back(packet.quality);
+      gains_.push_back(slopeOf(slope) * static_cast<double>(packet.head >> 2));
+    }
+    for (size_t i = entries.size(); i-- > 0;) {
+      const double taken = squares(i) - squares(entries.size() - 1);
+      if (missing_ > 0) unit_ = std::max(unit_, taken / missing_);
+      missing_ += gains_[i];
+    }
+  }
+
+  /// Takes one of the packets, by its place in the stream, and returns the quality that it leaves:
+  /// that of the packets before the first one missing, or what the slopes of all that are missing
+  /// come to where that is less.
+  uint8_t take(size_t packet) {
+    is_there_[packet] = true;
+    missing_ -= gains_[packet];
+    while (first_ < is_there_.size() && is_there_[first_]) ++first_;
+    if (first_ == is_there_.size()) return qualities_.back();
+    const double left = squares(qualities_.size() - 1) + unit_ * std::max(missing_, 0.0);
+    const uint8_t before = first_ > 0 ? qualities_[first_ - 1] : 255;
+    return std::min(before, qualityOf(std::sqrt(left)));
+  }
+
+ private:
+  double squares(size_t packet) const { return std::pow(rmseOf(qualities_[packet]), 2); }
+
+  std::vector<uint8_t> qualities_;
+  std::vector<double> gains_;  ///< what each takes off the squared error, in `unit_`
+  std::vector<bool> is_there_;
+  double unit_ = 0, missing_ = 0;
+  size_t first_ = 0;  ///< that is missing
+};
+
+/// The index in that order, with what is left of the errors after each packet.
+std::vector<IndexEntry> reorderedIndex(const std::vector<IndexEntry>& index,
+                                       const std::vector<size_t>& order) {
+  std::array<std::vector<IndexEntry>, kComponents> entries;
+  std::vector<size_t> places;  // among those of the component
+  for (const IndexEntry& entry : index) {
+    std::vector<IndexEntry>& of = entries[static_cast<size_t>(entry.packet.component())];
+    places.push_back(of.size());
+    of.push_back(entry);
+  }
+  std::array<ErrorLeft, kComponents> left = {ErrorLeft(entries[0]), ErrorLeft(entries[1])};
+  std::vector<IndexEntry> reordered;
+  for (const size_t i : order) {
+    reordered.push_back(index[i]);
+    PacketHead& packet = reordered.back().packet;
+    packet.quality = left[static_cast<size_t>(packet.component())].take(places[i]);
+  }
+  return reordered;
+}
+
+/// Appends a packet with another head, of which the quality alone differs, up to where it is cut.
+void appendPacket(std::span<const uint8_t> packet, const PacketHead& head, bool named,
+                  std::vector<uint8_t>& stream) {
+  std::vector<uint8_t> bytes = headBytes(head, named);
+  assert(packet.size() <= bytes.size() + (head.head >> 2));
+  bytes.resize(std::min(bytes.size(), packet.size()));
+  stream.insert(stream.end(), bytes.begin(), bytes.end());
+  const std::span<const uint8_t> rest = packet.subspan(bytes.size());
+  stream.insert(stream.end(), rest.begin(), rest.end());
+}
+
 Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sightings,
                tks_buffer& out) {
   const StreamHeader& header = decoder.parsed.header;
@@ -77,9 +151,14 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
   const std::vector<std::span<const uint8_t>> packets = packetsOf(decoder);
   keepCutLast(decoder, packets, *order);
   StreamHeader reordered = header;
-  for (size_t i = 0; i < order->size(); ++i) reordered.index[i] = header.index[(*order)[i]];
+  reordered.index = reorderedIndex(header.index, *order);
   std::vector<uint8_t> stream = writeHeader(reordered);
-  for (const size_t i : *order) stream.insert(stream.end(), packets[i].begin(), packets[i].end());
+  const TrackCounts counts = trackCounts(header);
+  for (size_t i = 0; i < order->size(); ++i) {
+    const PacketHead& head = reordered.index[i].packet;
+    const bool named = counts[static_cast<size_t>(head.component())].named;
+    appendPacket(packets[(*order)[i]], head, named, stream);
+  }
   out.data = static_cast<uint8_t*>(std::malloc(stream.size()));
   if (out.data == nullptr) throw std::bad_alloc();
   std::memcpy(out.data, stream.data(), stream.size());
@@ -95,7 +174,8 @@ tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
   if (out == nullptr) return TKS_USAGE;
   *out = {nullptr, 0};
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
-    if (decoder->parsed.header.index.empty())
+    const tetrakis::StreamHeader& header = decoder->parsed.header;
+    if (header.index.empty() && header.payload_bytes > 0)
       return {TKS_USAGE, "The stream has no front index, which says what its packets are worth."};
     if (tetrakis::Status status = tetrakis::checkPlanMemory(*decoder); !status.ok()) return status;
     const auto sightings = tetrakis::sightingsOf(*decoder, cameras, camera_count);

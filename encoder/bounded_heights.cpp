@@ -154,6 +154,15 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
   return made;
 }
 
+/// The samples that coefficients show: valid ones outside flat areas; empty: all.
+std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
+  std::vector<uint8_t> free = heights.of->steps.valid;
+  const std::vector<uint16_t>& areas = heights.flat.areas.numbers;
+  if (free.empty()) free.assign(areas.size(), 1);
+  for (size_t i = 0; i < areas.size(); ++i) free[i] = free[i] != 0 && areas[i] == 0;
+  return free;
+}
+
 bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
   const SampleErrors errors =
       sampleErrorsOf(coded, codewordsOf(coded.tracks), inputs.options.threads);
@@ -195,8 +204,9 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inpu
   CoefficientOptions options = heightOptions(inputs);
   auto whole = candidateOf(codeHeights(of, Purpose::kLossless, options));
   const HeightSteps& steps = of->steps;
-  const PlaneView<const int32_t> plane(steps.steps, extentOf(*of->samples), steps.valid);
   if (whole.coded->tracks.size() > 1 || !steps.exact || !steps.table.empty()) return whole.coded;
+  const std::vector<uint8_t> free = freeSamples(*whole.coded);
+  const PlaneView<const int32_t> plane(steps.steps, extentOf(*of->samples), free);
   if (!correctionsMayPay(plane, steps.range_bits, whole.bytes())) return whole.coded;
   options.limit = whole.bytes();
   const Bound bound{of, Purpose::kLossy, chooseHeightFilters(*of, Purpose::kLossy), options, 0};

@@ -2,14 +2,16 @@
 #include "encoder/encode_stream.hpp"
 
 #include <cassert>
-#include <future>
+#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "codec/geometry/voids.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
+#include "encoder/exact_heights.hpp"
 #include "encoder/meet_target.hpp"
 #include "encoder/quantised_heights.hpp"
 #include "encoder/repeated_lines.hpp"
@@ -24,10 +26,19 @@ namespace {
 using Heights = std::shared_ptr<const CodedHeights>;
 using Texture = std::shared_ptr<const CodedTexture>;
 
+/// Exact ones where these take fewer bytes.
+Heights codeWithinBound(const EncodeInputs& inputs,
+                        const std::shared_ptr<const QuantisedHeights>& of) {
+  Heights bounded = codeBoundedHeights(inputs, of);
+  Heights exact =
+      exactHeightsFor(inputs, inputs.options.max_error / std::abs(inputs.heights->scale));
+  return exact && bytesOf(exact->tracks) < bytesOf(bounded->tracks) ? exact : bounded;
+}
+
 /// The heights as the target asks for them.
 Heights codeHeightsForTarget(const EncodeInputs& inputs,
                              const std::shared_ptr<const QuantisedHeights>& of) {
-  if (inputs.options.max_error > 0) return codeBoundedHeights(inputs, of);
+  if (inputs.options.max_error > 0) return codeWithinBound(inputs, of);
   if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, of);
   HeightTarget target(of->restored() ? Purpose::kLossless : purposeOf(inputs));
   // What a texture leaves of a budget is not known yet; most of it is the texture's.
@@ -58,16 +69,20 @@ struct Components {
 Result<Components> codeComponents(const EncodeInputs& inputs,
                                   const std::shared_ptr<const QuantisedHeights>& heights,
                                   const std::shared_ptr<const TextureSource>& texture) {
-  const bool parallel = inputs.options.threads > 1 && heights && texture;
-  std::future<Texture> coming;
-  if (texture) {
-    coming = std::async(parallel ? std::launch::async : std::launch::deferred,
-                        [&] { return codeTextureForTarget(inputs, texture); });
-  }
   Components coded;
-  if (heights) coded.heights = codeHeightsForTarget(inputs, heights);
-  if (Status status = reportProgress(inputs.options, 0.4); !status.ok()) return status;
-  if (texture) coded.texture = coming.get();
+  const auto code_heights = [&] {
+    if (heights) coded.heights = codeHeightsForTarget(inputs, heights);
+  };
+  const auto code_texture = [&] {
+    if (texture) coded.texture = codeTextureForTarget(inputs, texture);
+  };
+  if (inputs.options.threads > 1) {
+    parallelFor(2, 2, [&](size_t i) { i == 0 ? code_texture() : code_heights(); });
+  } else {
+    code_heights();
+    if (Status status = reportProgress(inputs.options, 0.4); !status.ok()) return status;
+    code_texture();
+  }
   if (Status status = reportProgress(inputs.options, 0.8); !status.ok()) return status;
   return coded;
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr int kRegionLog2 = 9;
 /// Of streams made for windows: they cost as much again, and a window of 512 takes a third less.
 constexpr int kWindowRegionLog2 = 8;
-constexpr uint64_t kOneRegionHeights = 1025 * 1025, kOneRegionTexels = 2048 * 2048;
+constexpr uint64_t kOneRegionTexels = 2048 * 2048;
 
 /// 0: one region.
 int regionLog2(uint32_t width, uint32_t height, const tks_encode_options& options, bool automatic) {

@@ -16,6 +16,9 @@
 
 namespace tetrakis::inline encoder {
 
+/// Heights of more samples are coded in regions unless the caller says otherwise.
+constexpr uint64_t kOneRegionHeights = 1025 * 1025;
+
 /// What comes earlier in each component; empty maps: nothing.
 struct ViewPriorities {
   PriorityMap heights, texture;

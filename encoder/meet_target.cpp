@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/meet_target.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "codec/geometry/voids.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/candidates.hpp"
+#include "encoder/exact_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "encoder/order_packets.hpp"
 #include "encoder/write_stream.hpp"
@@ -128,8 +130,10 @@ std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCan
   const SampleRange range = rangeOf(*inputs.heights, coded.of->steps.valid);
   const double worst = worstMeanSquare(range.high - range.low, inputs.options.psnr);
   const auto& packets = heights.curve->packets;
+  // The last bytes of a mask may change nothing, and then there are none of them.
+  const uint64_t validity = std::min(coded.layers.validity_bytes, payloadOf(packets));
   return leastBytes(packets, [&](uint64_t bytes) {
-    if (bytes < coded.layers.validity_bytes) return false;
+    if (bytes < validity) return false;
     const Codewords prefix = prefixAfter(coded.rated(), packets, bytes);
     const SampleErrors errors = sampleErrorsOf(coded, prefix, inputs.options.threads);
     return errors.mean_square * inputs.heaviest <= worst;
@@ -146,14 +150,22 @@ uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture
   return least.value_or(payloadOf(packets));
 }
 
+/// The first bytes that are needed of the heights, or heights to the last bit where these take
+/// fewer.
+HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy) {
+  const double steps = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
+  const auto exact = exactHeightsFor(inputs, steps * lossy.coded->of->steps.step);
+  if (!exact) return lossy;
+  return fewestBytes<CodedHeights>({std::move(lossy), {exact}});
+}
+
 /// The candidate, or its lossless sibling if the need lies next to the last bit and that takes
 /// fewer bytes.
-template <class Coded>
-Candidate<Coded> preferLossless(const EncodeInputs& inputs, Candidate<Coded> lossy) {
+TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy) {
   if (!hasLosslessWay(*lossy.coded)) return lossy;
   if (rmseOf(qualityAfter(inputs, lossy, lossy.bytes())) > kNearlyExact) return lossy;
-  Candidate<Coded> lossless = codeLossless(inputs, *lossy.coded);
-  return fewestBytes<Coded>({std::move(lossy), std::move(lossless)});
+  TextureCandidate lossless = codeLossless(inputs, *lossy.coded);
+  return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)});
 }
 
 /// Each component by itself.
@@ -164,14 +176,17 @@ Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
     const std::optional<uint64_t> need = heightsNeed(inputs, heights);
     if (!need) {
       return Status(TKS_USAGE,
-                    "This PSNR is above what the step of the heights allows; give a smaller step.");
+                    inputs.heights->step > 0
+                        ? "This PSNR is above what the step of the heights allows; give a smaller "
+                          "step."
+                        : "No lossy heights reach this PSNR; ask for lossless ones.");
     }
     heights.need = *need;
-    heights = storedIfShorter(inputs, preferLossless(inputs, std::move(heights)));
+    heights = storedIfShorter(inputs, preferExact(inputs, std::move(heights)));
   }
   if (texture.coded) {
     texture.need = textureNeed(inputs, texture);
-    texture = storedIfShorter(preferLossless(inputs, std::move(texture)));
+    texture = storedIfShorter(preferExact(inputs, std::move(texture)));
   }
   return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
 }

@@ -44,8 +44,8 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
                         modelled ? 0 : meshFloor(source, inputs.options.triangles),
                         inputs.image != nullptr, trackOrderOf(inputs.options)};
   HeightsMemory memory;
-  const auto measure = [&](uint64_t bytes) {
-    return squaresOf(heights, prefixAfter(heights.rated(), {}, bytes), inputs.options.threads,
+  const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
+    return squaresOf(heights, prefixAfter(heights.rated(), packets, bytes), inputs.options.threads,
                      &memory);
   };
   return curveOf(heights.rated(), auditScope(inputs, source.steps.steps.size()), measure, pricing);
@@ -53,8 +53,8 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
   TextureMemory memory;
-  const auto measure = [&](uint64_t bytes) {
-    return squaresOf(texture, prefixAfter(texture.rated(), {}, bytes), inputs.options.threads,
+  const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
+    return squaresOf(texture, prefixAfter(texture.rated(), packets, bytes), inputs.options.threads,
                      &memory);
   };
   return curveOf(texture.rated(), auditScope(inputs, texture.of->texels.samples.size()), measure,

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "codec/geometry/line_repeats_encoder.hpp"
+#include "encoder/inputs.hpp"
 #include "ground/frame.hpp"
 
 namespace tetrakis::inline encoder {
@@ -118,8 +119,11 @@ CodedLines findRepeatedLines(const tks_heights& heights) {
   const uint64_t heaviest = uint64_t{even(columns)} * even(rows);
   CodedLines lines;
   lines.extent = {codedOf(columns), codedOf(rows)};
-  if (lines.extent.width == 2 && lines.extent.height == 2) return {};  // one height, most likely
-  const auto all = static_cast<double>(size_t{heights.width} * heights.height);
+  const uint64_t samples_of_all = uint64_t{heights.width} * heights.height;
+  // A map of lines takes more bytes than one height does, but fewer than one height in regions.
+  const bool one_height = lines.extent.width == 2 && lines.extent.height == 2;  // most likely
+  if (one_height && samples_of_all <= kOneRegionHeights) return {};
+  const auto all = static_cast<double>(samples_of_all);
   const double left = static_cast<double>(lines.extent.samples()) / all;
   if (left > kPays) return {};
   lines.heaviest = static_cast<double>(heaviest) * left;

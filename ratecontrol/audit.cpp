@@ -2,6 +2,7 @@
 #include "ratecontrol/audit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -111,13 +112,13 @@ std::vector<RatePoint> falling(std::span<const RatePoint> points) {
 /// stated one.
 class Correction {
  public:
-  Correction(std::span<const RatePoint> points, size_t measurements, const Measure& measure) {
-    for (size_t i = 0; i < measurements; ++i) {
-      const RatePoint& point = points[(points.size() - 1) * (i + 1) / (measurements + 1)];
-      const double squares = point.squares();
-      if (squares <= 0) continue;
-      const double measured = measure(point.bytes);
-      if (measured > 0) knots_.push_back({std::log(squares), std::log(measured / squares)});
+  Correction(std::span<const RatePoint> points, const std::vector<size_t>& measured,
+             const Measure& measure) {
+    for (const size_t i : measured) {
+      const double stated = points[i].squares();
+      if (stated <= 0) continue;
+      const double squares = measure(points[i].bytes);
+      if (squares > 0) knots_.push_back({std::log(stated), std::log(squares / stated)});
     }
   }
   /// What it is to be multiplied with.
@@ -139,6 +140,28 @@ class Correction {
   std::vector<Knot> knots_;
 };
 
+/// Points of an account that is not measured as a whole. Of an exact one they come later, the last
+/// just before the end: the fewer coefficients are missing the more counts what samples lose by
+/// being rounded.
+std::vector<size_t> pointsToMeasure(std::span<const RatePoint> points) {
+  const bool exact = points.back().squares() == 0;
+  std::vector<size_t> measured;
+  for (const double part : exact ? std::array{0.5, 0.75, 0.9} : std::array{0.25, 0.5, 0.75})
+    measured.push_back(static_cast<size_t>(part * static_cast<double>(points.size() - 1)));
+  if (exact && points.size() > 1) measured.push_back(points.size() - 2);
+  return measured;
+}
+
+std::vector<RatePoint> scaled(std::span<const RatePoint> points, const Correction& correction) {
+  std::vector<RatePoint> corrected(points.begin(), points.end());
+  for (RatePoint& point : corrected) {
+    const double factor = correction(point.squares());
+    point.distortion *= factor;
+    point.beyond *= factor;
+  }
+  return corrected;
+}
+
 }  // namespace
 
 std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
@@ -147,16 +170,14 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
   const bool alike = std::all_of(track.points.begin(), track.points.end(),
                                  [](const RatePoint& point) { return point.beyond == 0; });
   if (alike && scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);
-  std::vector<RatePoint> corrected = track.points;
-  if (scope.budget == UINT64_MAX) {
-    const Correction correction(track.points, kLargeMeasurements, measure);
-    for (RatePoint& point : corrected) {
-      const double factor = correction(point.squares());
-      point.distortion *= factor;
-      point.beyond *= factor;
-    }
-  }
-  return falling(corrected);
+  const std::span<const RatePoint> points = track.points;
+  if (scope.budget < UINT64_MAX && points.back().squares() > 0) return falling(points);
+  return falling(scaled(points, {points, pointsToMeasure(points), measure}));
+}
+
+std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure) {
+  if (points.back().squares() > 0) return {points.begin(), points.end()};
+  return scaled(points, {points, pointsToMeasure(points), measure});
 }
 
 }  // namespace tetrakis::inline ratecontrol

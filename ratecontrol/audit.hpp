@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "bitstream/track/track_encoder.hpp"
@@ -28,13 +29,16 @@ struct AuditScope {
 ///                   those that were seen. A quarter behind the budget is as far as anything in
 ///                   it can depend on
 ///   large tracks    a few points are measured and the others scaled in between; not with a
-///                   budget: then the account stands as it is, because the order must not depend
-///                   on it
+///                   budget, because the order must not depend on it. Of exact tracks more
+///                   points are measured late, where samples lose most by being rounded
 std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                              const Measure& measure);
 
+/// The account of several tracks in their order, whose last point is exact, corrected likewise; any
+/// other as it is.
+std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure);
+
 inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
 inline constexpr uint64_t kSmallSamples = uint64_t{1} << 14;
-inline constexpr size_t kLargeMeasurements = 3;
 
 }  // namespace tetrakis::inline ratecontrol

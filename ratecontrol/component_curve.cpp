@@ -102,8 +102,11 @@ ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> point
   return curve;
 }
 
-ComponentCurve curveOfMany(const CodedTracks& coded, const Pricing& pricing) {
+ComponentCurve curveOfMany(const CodedTracks& coded, const MeasurePackets& measure,
+                           const Pricing& pricing) {
   OrderedTracks tracks = orderTracks(coded, pricing.order);
+  tracks.points =
+      auditTogether(tracks.points, [&](uint64_t bytes) { return measure(tracks.packets, bytes); });
   for (size_t i = 0; i < tracks.packets.size(); ++i)
     tracks.packets[i].quality = statedQuality(tracks.points[i + 1].squares(), pricing);
   for (RatePoint& point : tracks.points) point.distortion = costOf(point.distortion, pricing);
@@ -115,11 +118,12 @@ ComponentCurve curveOfMany(const CodedTracks& coded, const Pricing& pricing) {
 
 }  // namespace
 
-ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope, const Measure& measure,
-                       const Pricing& pricing) {
+ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope,
+                       const MeasurePackets& measure, const Pricing& pricing) {
   assert(!coded.tracks.empty() && pricing.samples > 0);
-  if (coded.tracks.size() > 1) return curveOfMany(coded, pricing);
-  return curveOfOne(coded, audit(coded.tracks.front(), scope, measure), pricing);
+  if (coded.tracks.size() > 1) return curveOfMany(coded, measure, pricing);
+  const auto measure_track = [&](uint64_t bytes) { return measure({}, bytes); };
+  return curveOfOne(coded, audit(coded.tracks.front(), scope, measure_track), pricing);
 }
 
 }  // namespace tetrakis::inline ratecontrol

@@ -32,9 +32,14 @@ struct Pricing {
   TrackOrder order = TrackOrder::kSlopes;
 };
 
-/// Several tracks are ordered among each other by their accounts (ratecontrol/track_order.hpp); a
-/// single one is audited with `measure` first. The opening comes first, whatever it costs.
-ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope, const Measure& measure,
-                       const Pricing& pricing);
+/// Squared error of the decoded samples for the first bytes of such packets; without packets, of
+/// the only track. Asked for rising bytes.
+using MeasurePackets = std::function<double(const std::vector<Packet>& packets, uint64_t bytes)>;
+
+/// Several tracks are ordered among each other by their accounts (ratecontrol/track_order.hpp);
+/// what these come to together is audited with `measure`, and so is a single one first. The opening
+/// comes first, whatever it costs.
+ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope,
+                       const MeasurePackets& measure, const Pricing& pricing);
 
 }  // namespace tetrakis::inline ratecontrol

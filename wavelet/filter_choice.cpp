@@ -33,6 +33,7 @@ constexpr std::array<Filters, 3> kLosslessChoices = {{{kM, kM, kM}, {kL, kL, kL}
 constexpr double kSignificant =
     0.1;  // share of the other details that the step T leaves above itself
 constexpr int kMostFractionBits = 4;
+constexpr uint32_t kPartSide = 96;
 constexpr int kOrthogonalBits = 20;  // with more, the growing low bands of kOrthogonal pass 2^30
 
 /// Doubling low bands after level 2 in the place of level 4 halves the roundings of levels 3 and 4,
@@ -83,10 +84,15 @@ void appendDetails(const Sample& sample, const WaveletHeader& header, bool plain
   }
 }
 
+double validIn(size_t samples, const Mask& valid) {
+  if (valid.all()) return static_cast<double>(samples);
+  return static_cast<double>(std::count(valid.bytes().begin(), valid.bytes().end(), 1));
+}
+
 double samplesIn(const std::vector<Sample>& samples) {
   double count = 0;
-  for (const Sample& sample : samples) count += static_cast<double>(sample.extent.samples());
-  return count;
+  for (const Sample& sample : samples) count += validIn(sample.extent.samples(), sample.valid);
+  return std::max(count, 1.0);
 }
 
 float stepOf(std::vector<float> details) {
@@ -135,7 +141,12 @@ std::vector<Sample> samplesOf(std::span<const PlaneView<const int32_t>> planes,
                               const HeldSamples& held = {}) {
   assert(!planes.empty());
   std::vector<Sample> samples;
-  for (const Window& part : typicalParts(planes.front().extent())) {
+  const Mask valid = planes.front().valid;
+  IsCoded is_coded;
+  if (!valid.all() || !held.numbers.empty()) {
+    is_coded = [&](size_t i) { return valid[i] && (held.numbers.empty() || held.numbers[i] == 0); };
+  }
+  for (const Window& part : typicalParts(planes.front().extent(), kPartSide, is_coded)) {
     for (const PlaneView<const int32_t>& plane : planes)
       samples.push_back(sampleOf(plane, held, part));
   }
@@ -206,13 +217,13 @@ PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double st
     sum.bits += cost.bits;
     sum.squares += cost.squares / (unit * unit);
   }
-  const double whole = static_cast<double>(plane.extent().samples()) / samplesIn(samples);
+  const double whole = validIn(plane.extent().samples(), plane.valid) / samplesIn(samples);
   return {sum.bits * whole, sum.squares * whole};
 }
 
 double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
   const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
-  const double whole = static_cast<double>(plane.extent().samples()) / samplesIn(samples);
+  const double whole = validIn(plane.extent().samples(), plane.valid) / samplesIn(samples);
   return chooseAmong(samples, bits, Purpose::kLossless).bits * whole;
 }
 

@@ -26,20 +26,65 @@ Interval middleOf(uint32_t field, uint32_t side, uint32_t most) {
   return {aligned >= begin ? aligned : middle, length};
 }
 
-}  // namespace
+/// Where else in a field a part may lie: half a part apart.
+std::vector<uint32_t> placesIn(uint32_t field, uint32_t side, uint32_t length) {
+  const auto begin = static_cast<uint32_t>(uint64_t{side} * field / kFields);
+  const auto end = static_cast<uint32_t>(uint64_t{side} * (field + 1) / kFields);
+  const uint32_t first = (begin + kAligned - 1) & ~(kAligned - 1);
+  const uint32_t apart = std::max(length / 2 & ~(kAligned - 1), kAligned);
+  std::vector<uint32_t> places;
+  for (uint32_t place = first; place + length <= end; place += apart) places.push_back(place);
+  return places;
+}
 
-std::vector<Window> typicalParts(Extent plane, uint32_t side) {
-  const auto [width, height] = plane;
-  if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};
-  std::vector<Window> parts;
-  for (uint32_t row = 0; row < kFields; ++row) {
-    const Interval y = middleOf(row, height, side);
-    for (uint32_t column = 0; column < kFields; ++column) {
-      const Interval x = middleOf(column, width, side);
-      if (x.length > 0 && y.length > 0) parts.push_back({x.first, y.first, x.length, y.length});
+/// Samples of a part that are coded, of one in 64.
+uint32_t codedIn(const Window& part, Extent plane, const IsCoded& is_coded) {
+  constexpr uint32_t kApart = 8;
+  uint32_t count = 0;
+  for (uint32_t y = 0; y < part.height; y += kApart) {
+    const size_t row = size_t{part.y + y} * plane.width + part.x;
+    for (uint32_t x = 0; x < part.width; x += kApart) count += is_coded(row + x);
+  }
+  return count;
+}
+
+/// The part in the middle of a field, or one in which much more is coded, and how much that is.
+struct FieldPart {
+  Window part;
+  uint32_t coded;
+};
+
+FieldPart partOf(uint32_t column, uint32_t row, Extent plane, uint32_t side,
+                 const IsCoded& is_coded) {
+  const Interval x = middleOf(column, plane.width, side), y = middleOf(row, plane.height, side);
+  const Window middle = {x.first, y.first, x.length, y.length};
+  if (!is_coded) return {middle, 1};
+  FieldPart best = {middle, codedIn(middle, plane, is_coded)};
+  uint32_t least = 2 * best.coded;
+  for (const uint32_t top : placesIn(row, plane.height, y.length)) {
+    for (const uint32_t left : placesIn(column, plane.width, x.length)) {
+      const Window part = {left, top, x.length, y.length};
+      const uint32_t coded = codedIn(part, plane, is_coded);
+      if (coded > least) best = {part, least = coded};
     }
   }
-  return parts;
+  return best;
+}
+
+}  // namespace
+
+std::vector<Window> typicalParts(Extent plane, uint32_t side, const IsCoded& is_coded) {
+  const auto [width, height] = plane;
+  if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};
+  std::vector<Window> parts, empty;
+  for (uint32_t row = 0; row < kFields; ++row) {
+    for (uint32_t column = 0; column < kFields; ++column) {
+      const FieldPart found = partOf(column, row, plane, side, is_coded);
+      if (found.part.width == 0 || found.part.height == 0) continue;
+      (found.coded > 0 ? parts : empty).push_back(found.part);
+    }
+  }
+  return parts.empty() ? empty : parts;
 }
 
 }  // namespace tetrakis::inline wavelet

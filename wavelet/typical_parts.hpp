@@ -2,17 +2,23 @@
 // Encoders look at typical parts of a plane before they code all of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/view.hpp"
 
 namespace tetrakis::inline wavelet {
 
+/// Whether a sample, by its place in the plane, has to be coded; empty: all have to.
+using IsCoded = std::function<bool(size_t)>;
+
 /// Returns the parts that stand for a plane where trying all of it would take too long: the whole
-/// plane if neither side is above 256. Otherwise there is a part in the middle of each field of a
-/// grid of 3 by 3, with at most `side` samples along each side, because a single part may be water,
-/// or a lawn.
-std::vector<Window> typicalParts(Extent plane, uint32_t side = 96);
+/// plane if neither side is above 256. Otherwise there is a part of each field of a grid of 3 by 3,
+/// with at most `side` samples along each side, because a single part may be water, or a lawn. It
+/// lies in the middle, or where more than twice as many samples are coded: parts of voids say
+/// nothing. There is at least one part.
+std::vector<Window> typicalParts(Extent plane, uint32_t side = 96, const IsCoded& is_coded = {});
 
 }  // namespace tetrakis::inline wavelet

@@ -24,23 +24,25 @@ class AdaptiveBit {
   static constexpr int kPrecision = 16;    ///< probabilities are multiples of 2^-16
   static constexpr uint32_t kLimit = 255;  ///< decisions after which the mean forgets
   static constexpr uint16_t kTrust = 20;
-  static constexpr uint32_t kFloor = 24;  ///< no decision is more certain than 1 - 24/65536
+  static constexpr uint32_t kFloor = 4;  ///< no decision is more certain than 1 - 4/65536
 
   AdaptiveBit() = default;
   /// zero: initial P(bit = 0) in 1/256, at most 254, trusted like kTrust decisions.
   explicit AdaptiveBit(uint8_t zero) : zero_(static_cast<uint16_t>(zero << 8)), seen_(kTrust) {}
 
-  /// P(bit = 0) in units of 2^-16, in [kFloor, 65536 - kFloor]: the 1/n rule, rounded down, never
-  /// exceeds that.
-  uint32_t zero() const { return std::max<uint32_t>(zero_, kFloor); }
+  /// P(bit = 0) in units of 2^-16.
+  uint32_t zero() const { return std::clamp<uint32_t>(zero_, kFloor, 65536 - kFloor); }
 
   /// It has seen two decisions, or was trained.
   bool experienced() const { return seen_ >= 2; }
 
   void update(bool bit) {
     assert(seen_ < kDecisionShare.size());
+    // Rounded towards the target: else the mean of zeros would stop 2^-8 before it, and each void
+    // sample of a large plane would take ten times as much.
     const int32_t target = bit ? 0 : 0xffff;
-    zero_ = static_cast<uint16_t>(zero_ + (((target - zero_) * kDecisionShare[seen_]) >> 15));
+    const int32_t step = (target - zero_) * kDecisionShare[seen_] + (target & 0x7fff);
+    zero_ = static_cast<uint16_t>(zero_ + (step >> 15));
     seen_ = static_cast<uint16_t>(seen_ + (seen_ < kLimit));
   }
 

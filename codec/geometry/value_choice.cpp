@@ -211,7 +211,8 @@ class TableChoice {
       using T = decltype(type);
       const auto value = [](uint32_t word) { return static_cast<double>(fromOrder<T>(word)); };
       const double range = value(words.back()) - value(words.front());
-      out.step = range / static_cast<double>(words.size() - 1);
+      out.step =
+          range > 0 ? range / static_cast<double>(words.size() - 1) : 1;  // 0: it is 0 and -0
       out.base = value(words[static_cast<size_t>(middle)]);
     });
     out.valid = multiples_.valid;

@@ -56,7 +56,7 @@ class Model {
 
   std::optional<int> decode(RangeDecoder& decoder) {
     const std::optional<int> bit =
-        decoder.decode(static_cast<uint32_t>(std::clamp(zero_, 24, 65512)));
+        decoder.decode(static_cast<uint32_t>(std::clamp(zero_, 4, 65532)));
     if (bit) learn(*bit);
     return bit;
   }
@@ -64,7 +64,7 @@ class Model {
   void learn(int bit) {
     const int target = bit ? 0 : 0xFFFF;
     const int share = (32768 + (seen_ + 2) / 2) / (seen_ + 2);
-    zero_ += ((target - zero_) * share) >> 15;
+    zero_ += ((target - zero_) * share + (target & 0x7FFF)) >> 15;
     seen_ = std::min(seen_ + 1, 255);
   }
 

@@ -505,10 +505,11 @@ tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const t
                     tks_ranges* out);
 
 /* The stream that is open, with its packets in the order that helps these cameras most: as tks_plan
- * chooses, with what they see together, by their weights, and the stream's own triangle budget. No
- * packet changes, so that the whole decodes to the same; every prefix is a stream. What a prefix
- * lacks stays behind what it has. Bytes beyond a gap are left out. TKS_USAGE: there is no front
- * index, or no camera; else as tks_plan. Not part of the library that only decodes. */
+ * chooses, with what they see together, by their weights, and the stream's own triangle budget. Of
+ * the packets only the stated errors change: the whole decodes to the same; every prefix is a
+ * stream. What a prefix lacks stays behind what it has. Bytes beyond a gap are left out. TKS_USAGE:
+ * there is no front index, or no camera; else as tks_plan. Not part of the library that only
+ * decodes. */
 tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
                        uint32_t camera_count, tks_buffer* out);
 

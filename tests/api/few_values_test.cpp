@@ -40,6 +40,31 @@ TEST(FewValues, TakeLittleMoreThanWholeNumbers) {
   }
 }
 
+/// Both are 0, but other bits.
+TEST(FewValues, MayBeZeroAndMinusZero) {
+  Raster heights = make({Pattern::kFlat, 64, 64, 1, TKS_F32});
+  for (size_t i = 0; i < 64 * 64; ++i) {
+    const float value = samples::hash(static_cast<uint32_t>(i), 3, 1) % 2 == 0 ? 0.0f : -0.0f;
+    std::memcpy(heights.data.data() + 4 * i, &value, 4);
+  }
+  EXPECT_TRUE(Stream(encode(&heights, nullptr, lossless())).heights() == heights.data);
+}
+
+/// Lossy heights know no table, but lossless ones may serve their targets.
+TEST(FewValues, NoTargetTakesMoreBytesThanTheLastBit) {
+  const Raster whole = make({Pattern::kRidges, 150, 140, 1, TKS_U8, 3});
+  for (const FewValues kind : samples::kFewValues) {
+    SCOPED_TRACE(nameOf(kind));
+    const Raster heights = samples::withFewValues(whole, kind);
+    const size_t most = encode(&heights, nullptr, lossless()).size() + 16;
+    tks_encode_options psnr = budget(0), bound = budget(0);
+    psnr.psnr = 200;
+    bound.max_error = 1e-3;
+    EXPECT_LE(encode(&heights, nullptr, psnr).size(), most);
+    EXPECT_LE(encode(&heights, nullptr, bound).size(), most);
+  }
+}
+
 /// Squared error of a prefix.
 double squaresOf(const Raster& truth, Prefix prefix) {
   const std::vector<std::byte> shown = Stream(prefix).heights();

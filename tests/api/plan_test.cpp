@@ -347,6 +347,35 @@ TEST(Reorder, HoldsTheSamePacketsAndServesTheCamera) {
     EXPECT_EQ(Stream(Prefix(order).first(n)).status(), TKS_OK);
 }
 
+/// The stated error is that of the packets which are there now.
+TEST(Reorder, StatesNoSmallerErrorThanThereIs) {
+  const Both terrain;
+  Stream stream(terrain.bytes);
+  const Bytes order = reordered(stream, alongRows(45, -20, 900));
+  for (size_t part = 9; part < 40; part += 5) {
+    Stream prefix(Prefix(order).first(order.size() * part / 40));
+    const double rmse = std::sqrt(squaredError(terrain.heights, prefix.heights()) / (90 * 70));
+    EXPECT_LE(rmse, 1.2 * prefix.info().heights_rmse) << part;
+  }
+  EXPECT_EQ(Stream(order).info().heights_rmse, 0);
+  EXPECT_EQ(Stream(order).info().texture_psnr, HUGE_VAL);
+}
+
+/// Ground of one height needs no packets, and so an index of none.
+TEST(Reorder, TakesStreamsWithNothingToSend) {
+  const Raster heights = make({Pattern::kFlat, 40, 31, 1, TKS_I16});
+  tks_encode_options options = lossless();
+  options.index = 1;
+  const Bytes bytes = encode(&heights, nullptr, options);
+  Stream stream(bytes);
+  ASSERT_EQ(stream.info().header_bytes, bytes.size());
+  EXPECT_EQ(reordered(stream, mapOf(0, 0, 10, 10)), bytes);
+  tks_ranges ranges = {};
+  EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, nullptr, &ranges), TKS_OK);
+  EXPECT_EQ(ranges.count, 0u);
+  tks_free_ranges(&ranges);
+}
+
 TEST(Reorder, PrefixesAndBudgetsKeepWhatTheyHave) {
   const Both terrain;
   const tks_screen_camera view = alongRows(45, -20, 900);

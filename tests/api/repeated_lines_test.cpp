@@ -81,6 +81,15 @@ TEST(RepeatedLines, TakeTheBytesOfTheSmallGrid) {
   }
 }
 
+/// Regions, which large heights are cut into, would take some bytes each.
+TEST(RepeatedLines, AreAllButTwoOfOneHeight) {
+  Raster flat = make({Pattern::kFlat, 1100, 1000, 1, TKS_F32});
+  const Bytes stream = encode(&flat, nullptr, lossless());
+  EXPECT_TRUE(repeats(stream));
+  EXPECT_LE(stream.size(), 60u);
+  EXPECT_TRUE(Stream(stream).heights() == flat.data);
+}
+
 TEST(RepeatedLines, AreNoneWhereOnlyAFewAre) {
   Raster sea = small();
   std::fill_n(sea.data.begin(), size_t{2} * 40 * 12, std::byte{0});

@@ -214,5 +214,25 @@ TEST(StreamPrefix, StatedErrorsAreTrue) {
   EXPECT_EQ(Stream(bytes).info().texture_psnr, HUGE_VAL);
 }
 
+/// Of planes that are too large to measure every prefix: what rounding loses counts, too.
+TEST(StreamPrefix, StatedErrorsOfLargePlanesAreNotTooSmall) {
+  const Raster heights = make({Pattern::kRidges, 150, 140, 1, TKS_I16});
+  const Raster image = make({Pattern::kRidges, 90, 80, 3, TKS_U8});
+  for (const uint32_t side : {1u, 64u}) {
+    const double most = side == 1 ? 1.2 : 1.7;  // fewer points of tracks together are measured
+    tks_encode_options options = lossless();
+    options.regions = side;
+    const Bytes bytes = encode(&heights, &image, options);
+    for (size_t part = 4; part < 40; part += 3) {
+      Stream stream(Prefix(bytes).first(bytes.size() * part / 40));
+      const double h = std::sqrt(squaredError(heights, stream.heights()) / (150 * 140));
+      const double t = std::sqrt(squaredError(image, stream.texture()) / (90 * 80 * 3));
+      const double psnr = stream.info().texture_psnr;
+      EXPECT_LE(h, most * stream.info().heights_rmse) << part << ", regions of " << side;
+      EXPECT_LE(t, most * 255 / std::pow(10, psnr / 20)) << part << ", regions of " << side;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -118,6 +118,22 @@ TEST(VoidStream, BoundsHoldForValidSamples) {
   }
 }
 
+/// Where all valid heights are one, nothing but the mask is left to send.
+TEST(VoidStream, PsnrIsReachedByOneHeightAndByNone) {
+  Holed h{make({Pattern::kFlat, 64, 64, 1, TKS_I32}), std::vector<uint8_t>(64 * 64, 1), -5};
+  tks_encode_options psnr = budget(0);
+  psnr.psnr = 99;
+  for (const size_t voids : {64 * 32, 64 * 64}) {
+    for (size_t i = 0; i < voids; ++i) {
+      put(h.raster, i, int32_t{-5});
+      h.valid[i] = 0;
+    }
+    const Bytes bytes = encode(h, psnr);
+    Stream stream(bytes);
+    EXPECT_EQ(checkedError(h, stream), 0) << voids;
+  }
+}
+
 /// Nothing of the nodata value is left in the heights beside it, at a rate where much is lost.
 TEST(VoidStream, NodataDoesNotBleed) {
   Holed h = holed(VoidShape::kCoast, TKS_F32, 65, 65);

@@ -146,7 +146,7 @@ TEST(ComponentCurve, PacketsCoverTheTracksAndTheOpeningComesFirst) {
   for (const size_t count : {size_t{1}, size_t{3}}) {
     const std::vector<EncodedTrack> tracks = tracksWithOpening(count, 50);
     const CodedTracks coded{Component::kTexture, tracks, 50};
-    const auto measure = [](uint64_t) { return 1.0; };
+    const auto measure = [](const std::vector<Packet>&, uint64_t) { return 1.0; };
     const Pricing pricing{100};
     const ComponentCurve curve = curveOf(coded, {1 << 20, 9000}, measure, pricing);
     ASSERT_GE(curve.packets.size(), 2u);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -72,13 +73,18 @@ class Decoding {
     const tks_info& info = decoder_.info();
     if (arguments_.threads < 2 || !wantsTexture() || !wants_heights || !info.has_texture) return;
     if (!fitsBesideHeights()) return;
-    beside_ = std::async(std::launch::async, [this]() -> Result<ImageFile> {
+    const auto decode = [this]() -> Result<ImageFile> {
       Result<Decoder> decoder = openDecoder(octets(stream_.bytes));
       if (!decoder) return decoder.status();
       decoder->setThreads(arguments_.threads);
       if (const Status set = decoder->setLevels(0, arguments_.level); !set.ok()) return set;
       return decodeImage(*decoder, textureWindow(), textureCopies());
-    });
+    };
+    try {
+      beside_ = std::async(std::launch::async, decode);
+    } catch (const std::system_error&) {
+      beside_ = std::async(std::launch::deferred, decode);  // the system has no thread to give
+    }
   }
 
   /// What stands in the way of writing, before there is anything to write.
