@@ -206,14 +206,11 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inpu
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
-/// Corrections pay from about this RMSE on, in steps: where more of the coefficients are sent, the
-/// two together take as many bytes or more, and where fewer are, prefixes lose quality.
-CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy) {
-  constexpr double kExactCut = 0.3;
+CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {
   assert(lossy.tracks.size() == 1 && lossy.of->steps.exact && lossy.of->table.empty());
   const WaveletHeader& wavelet = lossy.header.wavelet;
   const Bound bound{lossy.of, Purpose::kLossy, wavelet, heightOptions(inputs), 0};
-  return correct(bound, 0, {lossy.flat, wavelet}, kExactCut * kExactCut);
+  return correct(bound, 0, {lossy.flat, wavelet}, cut * cut);
 }
 
 }  // namespace tetrakis::inline encoder

@@ -310,6 +310,32 @@ std::vector<double> renderedErrors(const EncodeInputs& inputs, Decoded& decoded,
   return errors;
 }
 
+double metresOfStep(const CodedHeights& coded) {
+  return coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
+}
+
+/// A component's part of some prefixes of a stream, as points of a curve: one for each.
+template <class Coded>
+ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& packets,
+                               std::span<const uint64_t> lengths, uint32_t threads) {
+  const Component component = coded.rated().component;
+  ComponentCurve curve;
+  curve.packets = packets;
+  for (const uint64_t length : lengths) {
+    uint64_t left = length, bytes = 0;
+    for (const Packet& packet : packets) {
+      const uint64_t head = overheadOf(packet);
+      if (left <= head) break;
+      const uint64_t taken = std::min(left - head, packet.end - packet.begin);
+      left -= head + taken;
+      if (packet.component == component) bytes += taken;
+    }
+    const double squares = squaresOf(coded, prefixAfter(coded.rated(), packets, bytes), threads);
+    curve.points.push_back({bytes, squares / coded.counted()});
+  }
+  return curve;
+}
+
 /// As if both errors were seen as large as they are at first, and added.
 PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
   const auto first = [](const ComponentCurve& curve) {
@@ -364,9 +390,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   Decoded decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
-  const CodedHeights& coded = heights.coded;
-  const double metres =
-      coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
+  const double metres = metresOfStep(heights.coded);
   Nodes nodes = {nodesOf(heights.curve, ratio, budget), nodesOf(texture.curve, ratio, budget), {}};
   PairNodes squares = {squaresAt(heights.curve, nodes.heights),
                        squaresAt(texture.curve, nodes.textures)};
@@ -383,6 +407,31 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
     errors = modelledErrors(cameras, ground, decoded, nodes, texture.coded.of->texels);
   if (errors.empty() || !(errors.front() > 0)) return unseen(heights.curve, texture.curve);
   return {std::move(squares), std::move(errors)};
+}
+
+std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection& selection,
+                                     std::span<const uint64_t> lengths) {
+  const CodedHeights& heights = *selection.heights;
+  const CodedTexture& texture = *selection.texture;
+  const uint32_t threads = inputs.options.threads;
+  const ComponentCurve of_heights = curveOfPrefixes(heights, selection.packets, lengths, threads);
+  const ComponentCurve of_texture = curveOfPrefixes(texture, selection.packets, lengths, threads);
+  Decoded decoded(inputs, {heights, of_heights}, {texture, of_texture});
+  const GroundRays ground(decoded.original());
+  const std::vector<Camera> cameras = camerasOf(inputs, ground);
+  if (cameras.empty()) return {};
+  Nodes nodes;
+  const double metres = metresOfStep(heights);
+  for (size_t i = 0; i < lengths.size(); ++i) {
+    nodes.heights.push_back(i);
+    nodes.textures.push_back(i);
+    nodes.square_metres.push_back(of_heights.points[i].distortion * metres * metres);
+  }
+  const std::vector<double> pairs =
+      modelledErrors(cameras, ground, decoded, nodes, texture.of->texels);
+  std::vector<double> errors;
+  for (size_t i = 0; i < lengths.size(); ++i) errors.push_back(pairs[i * (lengths.size() + 2)]);
+  return errors;
 }
 
 }  // namespace tetrakis::inline encoder
