@@ -27,6 +27,9 @@ constexpr size_t kPoints = 6144;
 /// Of those that show meshes: their outlines are no finer than those of coarser prefixes, which
 /// could otherwise stand for them (errorsOfOutlines()).
 constexpr size_t kMeshPoints = 8 * kPoints;
+/// Of prefixes of streams with other maps of priorities: the error of all heights does not say how
+/// far their outlines are off, so that they stand for themselves as well.
+constexpr size_t kPrefixPoints = 8 * kPoints;
 /// Points at outlines, over all cameras: they make the error of these right to an eighth.
 constexpr size_t kEnoughAtOutlines = 64;
 /// Of one picture: at first, and about each pixel of 768 x 512.
@@ -314,23 +317,38 @@ double metresOfStep(const CodedHeights& coded) {
   return coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
 }
 
-/// A component's part of some prefixes of a stream, as points of a curve: one for each.
+/// What the account of a track says of its first bytes; linear between its points.
+double accountAfter(const std::vector<RatePoint>& points, uint64_t bytes) {
+  const auto after = std::find_if(points.begin(), points.end(),
+                                  [&](const RatePoint& point) { return point.bytes > bytes; });
+  if (after == points.begin() || after == points.end()) return points.back().distortion;
+  const RatePoint &a = *(after - 1), &b = *after;
+  const double t = static_cast<double>(bytes - a.bytes) / static_cast<double>(b.bytes - a.bytes);
+  return a.distortion + t * (b.distortion - a.distortion);
+}
+
+/// A component's part of some prefixes of a stream, as points of a curve: one for each. With
+/// priorities errors count by what viewers see of them.
 template <class Coded>
 ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& packets,
-                               std::span<const uint64_t> lengths, uint32_t threads) {
-  const Component component = coded.rated().component;
+                               std::span<const uint64_t> lengths) {
+  const CodedTracks rated = coded.rated();
   ComponentCurve curve;
   curve.packets = packets;
   for (const uint64_t length : lengths) {
     uint64_t left = length, bytes = 0;
     for (const Packet& packet : packets) {
-      const uint64_t head = overheadOf(packet);
+      const uint64_t head = overheadOf(packet), payload = packet.end - packet.begin;
       if (left <= head) break;
-      const uint64_t taken = std::min(left - head, packet.end - packet.begin);
+      const uint64_t taken = std::min(left - head, payload);
       left -= head + taken;
-      if (packet.component == component) bytes += taken;
+      if (packet.component == rated.component && (!packet.whole || taken == payload))
+        bytes += taken;
     }
-    const double squares = squaresOf(coded, prefixAfter(coded.rated(), packets, bytes), threads);
+    double squares = 0;
+    const Codewords prefix = prefixAfter(rated, packets, bytes);
+    for (size_t i = 0; i < prefix.size(); ++i)
+      squares += accountAfter(rated.tracks[i].points, prefix[i].size());
     curve.points.push_back({bytes, squares / coded.counted()});
   }
   return curve;
@@ -413,24 +431,29 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
                                      std::span<const uint64_t> lengths) {
   const CodedHeights& heights = *selection.heights;
   const CodedTexture& texture = *selection.texture;
-  const uint32_t threads = inputs.options.threads;
-  const ComponentCurve of_heights = curveOfPrefixes(heights, selection.packets, lengths, threads);
-  const ComponentCurve of_texture = curveOfPrefixes(texture, selection.packets, lengths, threads);
+  const ComponentCurve of_heights = curveOfPrefixes(heights, selection.packets, lengths);
+  const ComponentCurve of_texture = curveOfPrefixes(texture, selection.packets, lengths);
   Decoded decoded(inputs, {heights, of_heights}, {texture, of_texture});
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
   if (cameras.empty()) return {};
-  Nodes nodes;
-  const double metres = metresOfStep(heights);
-  for (size_t i = 0; i < lengths.size(); ++i) {
-    nodes.heights.push_back(i);
-    nodes.textures.push_back(i);
-    nodes.square_metres.push_back(of_heights.points[i].distortion * metres * metres);
-  }
-  const std::vector<double> pairs =
-      modelledErrors(cameras, ground, decoded, nodes, texture.of->texels);
+  const Texels& texels = texture.of->texels;
+  const ScreenPoints points(cameras, kPrefixPoints);
+  const std::vector<SeenPoint> in_truth = points.seenOf(ground, texels.extent());
+  const std::vector<Colour> true_colours =
+      points.coloursOf(in_truth, ScreenTexture(texels, texels.extent()));
+  const ScreenPoints::Pictures truth{in_truth, true_colours};
   std::vector<double> errors;
-  for (size_t i = 0; i < lengths.size(); ++i) errors.push_back(pairs[i * (lengths.size() + 2)]);
+  for (size_t i = 0; i < lengths.size(); ++i) {
+    const std::vector<SeenPoint> seen =
+        points.seenOf(GroundRays(decoded.shownAt(i)), texels.extent());
+    const std::vector<Colour> colours = points.coloursOf(seen, decoded.textureAt(i));
+    const ScreenPoints::Pictures shown{seen, colours};
+    const double square_metres =
+        of_heights.points[i].distortion * std::pow(metresOfStep(heights), 2);
+    errors.push_back(points.errorInside(truth, shown) +
+                     points.errorsOfOutlines(truth, {shown}, {square_metres}, 0).front());
+  }
   return errors;
 }
 
