@@ -31,16 +31,6 @@ struct Bound {
   double error;  ///< the largest one wanted, in sample units, less what floats lose by rounding
 };
 
-/// Squared error that the account states for that many bytes; linear between its points.
-double distortionAt(const std::vector<RatePoint>& points, uint64_t bytes) {
-  const auto after = std::find_if(points.begin(), points.end(),
-                                  [&](const RatePoint& point) { return point.bytes > bytes; });
-  if (after == points.begin() || after == points.end()) return points.back().distortion;
-  const RatePoint &a = *(after - 1), &b = *after;
-  const double t = static_cast<double>(bytes - a.bytes) / static_cast<double>(b.bytes - a.bytes);
-  return a.distortion + t * (b.distortion - a.distortion);
-}
-
 /// Between the largest floats; integers are exact.
 double floatSpacing(const QuantisedHeights& heights) {
   if (heights.samples->sample != TKS_F32) return 0;

@@ -98,14 +98,13 @@ uint64_t bytesOfMaps(const Selection& selection) {
 }
 
 /// Whether the cameras see fewer errors in prefixes of a stream that has maps of priorities than
-/// in those of one without, in the mean over lengths that are halved.
+/// in those of one without, in the mean of half of the budget and all of it.
 bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection& without) {
-  constexpr int kHalvings = 3;
   const uint64_t header = headerBytesOf(inputs, without), map = bytesOfMaps(with);
   const uint64_t room = inputs.options.bytes - std::min(inputs.options.bytes, header);
   std::vector<uint64_t> lengths, behind_map;
-  for (int i = kHalvings; i >= 0; --i) {
-    lengths.push_back(room >> i);
+  for (const uint64_t length : {room / 2, room}) {
+    lengths.push_back(length);
     behind_map.push_back(lengths.back() - std::min(lengths.back(), map));
   }
   const std::vector<double> mapped = errorsOfPrefixes(inputs, with, behind_map);
@@ -119,8 +118,8 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
 
 /// With maps of priorities where these pay. Of larger budgets they take too little to be in doubt
 /// (docs/MEASUREMENTS.md), and coding twice takes twice the time.
-Result<Selection> selectPackets(const EncodeInputs& given, const ViewPriorities& priorities) {
-  constexpr uint64_t kCertain = 64;
+Result<Selection> selectWithMaps(const EncodeInputs& given, const ViewPriorities& priorities) {
+  constexpr uint64_t kCertain = 16;
   EncodeInputs inputs = given;
   inputs.priorities = &priorities;
   Result<Selection> with = codeAndSelect(inputs);
@@ -136,7 +135,7 @@ Result<Selection> selectPackets(const EncodeInputs& given, const ViewPriorities&
 
 Result<std::vector<uint8_t>> encodeLines(const EncodeInputs& inputs) {
   const ViewPriorities priorities = prioritiesOf(inputs);
-  const Result<Selection> selection = selectPackets(inputs, priorities);
+  const Result<Selection> selection = selectWithMaps(inputs, priorities);
   if (!selection.ok()) return selection.status();
   if (Status status = reportProgress(inputs.options, 0.9); !status.ok()) return status;
   Result<std::vector<uint8_t>> stream = writeStream(inputs, *selection);

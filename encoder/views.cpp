@@ -317,16 +317,6 @@ double metresOfStep(const CodedHeights& coded) {
   return coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
 }
 
-/// What the account of a track says of its first bytes; linear between its points.
-double accountAfter(const std::vector<RatePoint>& points, uint64_t bytes) {
-  const auto after = std::find_if(points.begin(), points.end(),
-                                  [&](const RatePoint& point) { return point.bytes > bytes; });
-  if (after == points.begin() || after == points.end()) return points.back().distortion;
-  const RatePoint &a = *(after - 1), &b = *after;
-  const double t = static_cast<double>(bytes - a.bytes) / static_cast<double>(b.bytes - a.bytes);
-  return a.distortion + t * (b.distortion - a.distortion);
-}
-
 /// A component's part of some prefixes of a stream, as points of a curve: one for each. With
 /// priorities errors count by what viewers see of them.
 template <class Coded>
@@ -348,7 +338,7 @@ ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& pa
     double squares = 0;
     const Codewords prefix = prefixAfter(rated, packets, bytes);
     for (size_t i = 0; i < prefix.size(); ++i)
-      squares += accountAfter(rated.tracks[i].points, prefix[i].size());
+      squares += distortionAt(rated.tracks[i].points, prefix[i].size());
     curve.points.push_back({bytes, squares / coded.counted()});
   }
   return curve;
