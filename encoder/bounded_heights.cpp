@@ -31,16 +31,6 @@ struct Bound {
   double error;  ///< the largest one wanted, in sample units, less what floats lose by rounding
 };
 
-/// Squared error that the account states for that many bytes; linear between its points.
-double distortionAt(const std::vector<RatePoint>& points, uint64_t bytes) {
-  const auto after = std::find_if(points.begin(), points.end(),
-                                  [&](const RatePoint& point) { return point.bytes > bytes; });
-  if (after == points.begin() || after == points.end()) return points.back().distortion;
-  const RatePoint &a = *(after - 1), &b = *after;
-  const double t = static_cast<double>(bytes - a.bytes) / static_cast<double>(b.bytes - a.bytes);
-  return a.distortion + t * (b.distortion - a.distortion);
-}
-
 /// Between the largest floats; integers are exact.
 double floatSpacing(const QuantisedHeights& heights) {
   if (heights.samples->sample != TKS_F32) return 0;
@@ -216,14 +206,11 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inpu
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
-/// Corrections pay from about this RMSE on, in steps: where more of the coefficients are sent, the
-/// two together take as many bytes or more, and where fewer are, prefixes lose quality.
-CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy) {
-  constexpr double kExactCut = 0.3;
+CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {
   assert(lossy.tracks.size() == 1 && lossy.of->steps.exact && lossy.of->table.empty());
   const WaveletHeader& wavelet = lossy.header.wavelet;
   const Bound bound{lossy.of, Purpose::kLossy, wavelet, heightOptions(inputs), 0};
-  return correct(bound, 0, {lossy.flat, wavelet}, kExactCut * kExactCut);
+  return correct(bound, 0, {lossy.flat, wavelet}, cut * cut);
 }
 
 }  // namespace tetrakis::inline encoder

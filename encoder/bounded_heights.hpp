@@ -28,9 +28,9 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(
 std::shared_ptr<const CodedHeights> codeLosslessHeights(
     const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
 
-/// Lossy heights cut where little of a step is left of most of them, and corrections of all that
-/// are still off. Prefixes up to the cut are those of the lossy heights, and the end is exact.
-/// lossy: of one track, of exact steps without a table.
-CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy);
+/// Lossy heights cut at an RMSE, in steps, and corrections of all that are still off. Prefixes up
+/// to the cut are those of the lossy heights, and the end is exact. lossy: of one track, of exact
+/// steps without a table.
+CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut);
 
 }  // namespace tetrakis::inline encoder

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/encode_stream.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -18,6 +19,7 @@
 #include "encoder/view_priorities.hpp"
 #include "encoder/views.hpp"
 #include "encoder/write_stream.hpp"
+#include "ratecontrol/target.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -96,14 +98,58 @@ Result<Components> quantiseAndCode(const EncodeInputs& inputs) {
   return codeComponents(inputs, *heights, texture);
 }
 
-Result<std::vector<uint8_t>> encodeLines(const EncodeInputs& given) {
-  const ViewPriorities priorities = prioritiesOf(given);
-  EncodeInputs inputs = given;
-  inputs.priorities = &priorities;
+Result<Selection> codeAndSelect(const EncodeInputs& inputs) {
   Result<Components> coded = quantiseAndCode(inputs);
   if (!coded.ok()) return coded.status();
-  const Result<Selection> selection =
-      meetTarget(inputs, std::move(coded->heights), std::move(coded->texture));
+  return meetTarget(inputs, std::move(coded->heights), std::move(coded->texture));
+}
+
+uint64_t bytesOfMaps(const Selection& selection) {
+  const auto bytes = [](const PriorityHeader& map) {
+    return map.none() ? size_t{0} : map.code.size() + 2;  // the size of tiles, and the length
+  };
+  return bytes(selection.heights->header.priorities) + bytes(selection.texture->header.priorities);
+}
+
+/// Whether the cameras see fewer errors in prefixes of a stream that has maps of priorities than
+/// in those of one without, in the mean of half of the budget and all of it.
+bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection& without) {
+  const uint64_t header = headerBytesOf(inputs, without), map = bytesOfMaps(with);
+  const uint64_t room = inputs.options.bytes - std::min(inputs.options.bytes, header);
+  std::vector<uint64_t> lengths, behind_map;
+  for (const uint64_t length : {room / 2, room}) {
+    lengths.push_back(length);
+    behind_map.push_back(lengths.back() - std::min(lengths.back(), map));
+  }
+  const std::vector<double> mapped = errorsOfPrefixes(inputs, with, behind_map);
+  const std::vector<double> plain = errorsOfPrefixes(inputs, without, lengths);
+  constexpr double kNone = 1e-6;  // squared parts of 255
+  double logarithms = 0;
+  for (size_t i = 0; i < mapped.size(); ++i)
+    logarithms += std::log(std::max(mapped[i], kNone) / std::max(plain[i], kNone));
+  return logarithms < 0;
+}
+
+/// With maps of priorities where these pay. Of larger budgets they take too little to be in doubt
+/// (docs/MEASUREMENTS.md), and coding twice takes twice the time.
+Result<Selection> selectWithMaps(const EncodeInputs& given, const ViewPriorities& priorities) {
+  constexpr uint64_t kCertain = 16;
+  EncodeInputs inputs = given;
+  inputs.priorities = &priorities;
+  Result<Selection> with = codeAndSelect(inputs);
+  if (!given.budgeted() || !with.ok() || !with->heights || !with->texture) return with;
+  if (bytesOfMaps(*with) * kCertain <= given.options.bytes) return with;
+  tks_encode_options options = given.options;
+  options.progress = nullptr;  // it has been told of all this
+  Result<Selection> without = codeAndSelect(
+      {given.heights, given.image, options, nullptr, given.whole, given.repeats, given.heaviest});
+  if (without.ok() && !mapsPay(given, *with, *without)) return without;
+  return with;
+}
+
+Result<std::vector<uint8_t>> encodeLines(const EncodeInputs& inputs) {
+  const ViewPriorities priorities = prioritiesOf(inputs);
+  const Result<Selection> selection = selectWithMaps(inputs, priorities);
   if (!selection.ok()) return selection.status();
   if (Status status = reportProgress(inputs.options, 0.9); !status.ok()) return status;
   Result<std::vector<uint8_t>> stream = writeStream(inputs, *selection);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "codec/geometry/voids.hpp"
-#include "encoder/bounded_heights.hpp"
 #include "encoder/candidates.hpp"
+#include "encoder/exact_budget.hpp"
 #include "encoder/exact_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "encoder/order_packets.hpp"
@@ -34,92 +34,11 @@ Selection selectNeeded(const EncodeInputs& inputs, const Candidates& candidates)
   return selection;
 }
 
-/// The budget buys so much of every component that losslessness is in reach.
-bool nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
-  const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
-  return (!selection.heights || rmse[0] <= kNearlyExact) &&
-         (!selection.texture || rmse[1] <= kNearlyExact);
-}
-
-/// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
-constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
-
-/// Whether prefixes of the first candidate are as good, in the mean, as prefixes of the second that
-/// have 3 % fewer bytes: those up to a part of it. Both have curves.
-template <class Coded>
-bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
-                   const Candidate<Coded>& lossy, double most) {
-  const auto squares_after = [&](const Candidate<Coded>& candidate, double bytes) {
-    const Codewords prefix = prefixAfter(candidate.coded->rated(), candidate.curve->packets,
-                                         static_cast<uint64_t>(bytes));
-    return squaresOf(*candidate.coded, prefix, inputs.options.threads);
-  };
-  double logarithms = 0;
-  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.}) {
-    const double bytes = part * most * static_cast<double>(tried.bytes());
-    logarithms += std::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
-  }
-  return logarithms <= 0;
-}
-
-/// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
-/// of the lossy heights. Corrections come behind all coefficients: windows of heights in regions
-/// would need all of these.
-std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
-                                             const HeightsCandidate& lossy, uint64_t room) {
-  if (!hasLosslessWay(*lossy.coded)) return {};
-  if (lossy.coded->tracks.size() == 1 && lossy.coded->of->table.empty()) {
-    HeightsCandidate corrected = candidateOf(codeCorrected(inputs, *lossy.coded));
-    if (corrected.bytes() < room) return corrected;
-  }
-  HeightsCandidate whole = codeLossless(inputs, *lossy.coded);
-  if (whole.bytes() >= room) return {};
-  whole.curve = curveOfHeights(inputs, *whole.coded);
-  if (!keepsPrefixes(inputs, whole, lossy, kMostOfHeights)) return {};
-  return whole;
-}
-
-/// The texture likewise. Drawn and stored ones are lossless as they stand.
-std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
-                                             const TextureCandidate& lossy, uint64_t room) {
-  if (!hasLosslessWay(*lossy.coded)) return lossy;
-  TextureCandidate whole = candidateOf(codeReversibly(inputs, *lossy.coded));
-  if (whole.bytes() >= room) return {};
-  whole.curve = curveOfTexture(inputs, *whole.coded);
-  if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
-  return whole;
-}
-
-/// Everything to the last bit, if that fits the budget and takes nothing from prefixes.
-std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy) {
-  const auto& [heights, texture, errors] = lossy;
-  if (!heights.coded && !hasLosslessWay(*texture.coded)) return {};
-  Candidates exact = lossy;
-  uint64_t room = inputs.options.bytes;
-  if (texture.coded) {
-    std::optional<TextureCandidate> whole = exactTexture(inputs, texture, room);
-    if (!whole || whole->bytes() >= room) return {};
-    exact.texture = *std::move(whole);
-    room -= exact.texture.bytes();
-  }
-  if (heights.coded) {
-    std::optional<HeightsCandidate> whole = exactHeights(inputs, heights, room);
-    if (!whole) return {};
-    exact.heights = *std::move(whole);
-  }
-  Selection selection = orderPackets(withCurves(inputs, std::move(exact)));
-  Selection joined = selection;
-  joined.packets = joinNeighbours(selection.packets);
-  if (!isLossless(inputs, joined)) return {};
-  return selection;
-}
-
 /// As much as there is room for.
 Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
   lossy = withCurves(inputs, std::move(lossy));
   Selection selection = orderPackets(lossy);
-  if (!nearlyExact(inputs, selection)) return selection;
-  std::optional<Selection> exact = losslessIfItFits(inputs, lossy);
+  std::optional<Selection> exact = exactWithinBudget(inputs, lossy, selection);
   return exact ? *std::move(exact) : selection;
 }
 

@@ -27,6 +27,9 @@ constexpr size_t kPoints = 6144;
 /// Of those that show meshes: their outlines are no finer than those of coarser prefixes, which
 /// could otherwise stand for them (errorsOfOutlines()).
 constexpr size_t kMeshPoints = 8 * kPoints;
+/// Of prefixes of streams with other maps of priorities: the error of all heights does not say how
+/// far their outlines are off, so that they stand for themselves as well.
+constexpr size_t kPrefixPoints = 8 * kPoints;
 /// Points at outlines, over all cameras: they make the error of these right to an eighth.
 constexpr size_t kEnoughAtOutlines = 64;
 /// Of one picture: at first, and about each pixel of 768 x 512.
@@ -310,6 +313,37 @@ std::vector<double> renderedErrors(const EncodeInputs& inputs, Decoded& decoded,
   return errors;
 }
 
+double metresOfStep(const CodedHeights& coded) {
+  return coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
+}
+
+/// A component's part of some prefixes of a stream, as points of a curve: one for each. With
+/// priorities errors count by what viewers see of them.
+template <class Coded>
+ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& packets,
+                               std::span<const uint64_t> lengths) {
+  const CodedTracks rated = coded.rated();
+  ComponentCurve curve;
+  curve.packets = packets;
+  for (const uint64_t length : lengths) {
+    uint64_t left = length, bytes = 0;
+    for (const Packet& packet : packets) {
+      const uint64_t head = overheadOf(packet), payload = packet.end - packet.begin;
+      if (left <= head) break;
+      const uint64_t taken = std::min(left - head, payload);
+      left -= head + taken;
+      if (packet.component == rated.component && (!packet.whole || taken == payload))
+        bytes += taken;
+    }
+    double squares = 0;
+    const Codewords prefix = prefixAfter(rated, packets, bytes);
+    for (size_t i = 0; i < prefix.size(); ++i)
+      squares += distortionAt(rated.tracks[i].points, prefix[i].size());
+    curve.points.push_back({bytes, squares / coded.counted()});
+  }
+  return curve;
+}
+
 /// As if both errors were seen as large as they are at first, and added.
 PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
   const auto first = [](const ComponentCurve& curve) {
@@ -364,9 +398,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   Decoded decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
-  const CodedHeights& coded = heights.coded;
-  const double metres =
-      coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
+  const double metres = metresOfStep(heights.coded);
   Nodes nodes = {nodesOf(heights.curve, ratio, budget), nodesOf(texture.curve, ratio, budget), {}};
   PairNodes squares = {squaresAt(heights.curve, nodes.heights),
                        squaresAt(texture.curve, nodes.textures)};
@@ -383,6 +415,36 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
     errors = modelledErrors(cameras, ground, decoded, nodes, texture.coded.of->texels);
   if (errors.empty() || !(errors.front() > 0)) return unseen(heights.curve, texture.curve);
   return {std::move(squares), std::move(errors)};
+}
+
+std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection& selection,
+                                     std::span<const uint64_t> lengths) {
+  const CodedHeights& heights = *selection.heights;
+  const CodedTexture& texture = *selection.texture;
+  const ComponentCurve of_heights = curveOfPrefixes(heights, selection.packets, lengths);
+  const ComponentCurve of_texture = curveOfPrefixes(texture, selection.packets, lengths);
+  Decoded decoded(inputs, {heights, of_heights}, {texture, of_texture});
+  const GroundRays ground(decoded.original());
+  const std::vector<Camera> cameras = camerasOf(inputs, ground);
+  if (cameras.empty()) return {};
+  const Texels& texels = texture.of->texels;
+  const ScreenPoints points(cameras, kPrefixPoints);
+  const std::vector<SeenPoint> in_truth = points.seenOf(ground, texels.extent());
+  const std::vector<Colour> true_colours =
+      points.coloursOf(in_truth, ScreenTexture(texels, texels.extent()));
+  const ScreenPoints::Pictures truth{in_truth, true_colours};
+  std::vector<double> errors;
+  for (size_t i = 0; i < lengths.size(); ++i) {
+    const std::vector<SeenPoint> seen =
+        points.seenOf(GroundRays(decoded.shownAt(i)), texels.extent());
+    const std::vector<Colour> colours = points.coloursOf(seen, decoded.textureAt(i));
+    const ScreenPoints::Pictures shown{seen, colours};
+    const double square_metres =
+        of_heights.points[i].distortion * std::pow(metresOfStep(heights), 2);
+    errors.push_back(points.errorInside(truth, shown) +
+                     points.errorsOfOutlines(truth, {shown}, {square_metres}, 0).front());
+  }
+  return errors;
 }
 
 }  // namespace tetrakis::inline encoder

@@ -3,12 +3,14 @@
 // is known, and the error of their pictures for prefixes of both components.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/status.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
 #include "encoder/inputs.hpp"
+#include "encoder/selection.hpp"
 #include "ground/camera.hpp"
 #include "ratecontrol/component_curve.hpp"
 #include "ratecontrol/pair_errors.hpp"
@@ -29,5 +31,10 @@ struct Rated {
 /// Decodes some prefixes of either component and looks at their pairs. inputs: of both.
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture);
+
+/// Squared errors of the picture after so many bytes of the packets, their heads counted.
+/// selection, inputs: of both components. lengths: rising. Empty: nobody can look at the terrain.
+std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection& selection,
+                                     std::span<const uint64_t> lengths);
 
 }  // namespace tetrakis::inline encoder

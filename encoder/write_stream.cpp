@@ -73,6 +73,11 @@ bool restoresEverything(const Selection& selection) {
 
 }  // namespace
 
+uint64_t headerBytesOf(const EncodeInputs& inputs, const Selection& selection) {
+  const uint64_t payload = bytesOfPackets(selection.packets);
+  return writeHeader(makeHeader(inputs, selection, payload, false)).size();
+}
+
 bool isLossless(const EncodeInputs& inputs, const Selection& selection) {
   if (!restoresEverything(selection)) return false;
   if (!inputs.budgeted()) return true;

@@ -11,6 +11,9 @@
 
 namespace tetrakis::inline encoder {
 
+/// Of a stream of these packets that is not lossless.
+uint64_t headerBytesOf(const EncodeInputs& inputs, const Selection& selection);
+
 /// All samples come back, header and all within the budget.
 bool isLossless(const EncodeInputs& inputs, const Selection& selection);
 

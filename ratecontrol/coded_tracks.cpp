@@ -12,6 +12,15 @@ Codewords codewordsOf(std::span<const EncodedTrack> tracks) {
   return codewords;
 }
 
+double distortionAt(std::span<const RatePoint> points, uint64_t bytes) {
+  const auto after = std::find_if(points.begin(), points.end(),
+                                  [&](const RatePoint& point) { return point.bytes > bytes; });
+  if (after == points.begin() || after == points.end()) return points.back().distortion;
+  const RatePoint &a = *(after - 1), &b = *after;
+  const double t = static_cast<double>(bytes - a.bytes) / static_cast<double>(b.bytes - a.bytes);
+  return a.distortion + t * (b.distortion - a.distortion);
+}
+
 Codewords prefixAfter(const CodedTracks& coded, std::span<const Packet> packets, uint64_t bytes) {
   const Codewords all = codewordsOf(coded.tracks);
   const uint64_t most = bytesOf(coded.tracks);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras that the encoder is told of: those that can look at the ground share the bytes of every
 // terrain, however odd it is, and each of the others is refused by its name.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -216,6 +217,32 @@ TEST(ToldStreams, ComeFirstWhereTheCameraLooks) {
   EXPECT_LT(texture[0], squaresOfQuarters(picture, alike.texture())[0] / 2);
   EXPECT_LT(heights[0], heights[1]);
   EXPECT_LT(texture[0], texture[1]);
+}
+
+/// A map of priorities is left out where its bytes buy more as samples, and no work that tells
+/// whether it pays is reported twice.
+TEST(ToldStreams, HaveMapsWhereTheyPay) {
+  const Raster surface = make({Pattern::kRidges, 100, 90, 1, TKS_U8});
+  const Raster picture = make({Pattern::kRidges, 80, 90, 3, TKS_U8});
+  const tks_camera corner = {nullptr, {-750, 4000, -675}, {-750, 0, -675}, {0, 0, -1}, 25, 256, 256,
+                             1};
+  std::vector<double> reports;
+  const auto headerOf = [&](uint64_t bytes, uint32_t cameras) {
+    tks_encode_options options = budget(bytes);
+    options.cameras = &corner;
+    options.camera_count = cameras;
+    options.progress = [](void* user, double done) {
+      static_cast<std::vector<double>*>(user)->push_back(done);
+      return 0;
+    };
+    options.user = &reports;
+    reports.clear();
+    const Bytes stream = encode(&surface, &picture, options);
+    EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+    return Stream(stream).info().header_bytes;
+  };
+  EXPECT_GT(headerOf(3000, 1), headerOf(3000, 0) + 2);
+  EXPECT_LE(headerOf(100, 1), headerOf(100, 0) + 2);
 }
 
 /// Tiny, flat, void and enormous ground becomes a stream, or the camera is named that sees none.

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/exact_budget.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "encoder/bounded_heights.hpp"
+#include "encoder/height_errors.hpp"
+#include "encoder/order_packets.hpp"
+#include "encoder/views.hpp"
+#include "encoder/write_stream.hpp"
+#include "ratecontrol/allocation.hpp"
+#include "ratecontrol/target.hpp"
+
+namespace tetrakis::inline encoder {
+
+namespace {
+
+/// The budget buys so much of a component, if there is one, that losslessness is in reach.
+struct Nearly {
+  bool heights, texture;
+};
+
+Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
+  const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
+  return {!selection.heights || rmse[0] <= kNearlyExact,
+          !selection.texture || rmse[1] <= kNearlyExact};
+}
+
+/// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
+constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
+
+/// Whether prefixes of the first candidate are as good, in the mean, as prefixes of the second that
+/// have 3 % fewer bytes: those up to a part of it. Both have curves.
+template <class Coded>
+bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
+                   const Candidate<Coded>& lossy, double most) {
+  const auto squares_after = [&](const Candidate<Coded>& candidate, double bytes) {
+    const Codewords prefix = prefixAfter(candidate.coded->rated(), candidate.curve->packets,
+                                         static_cast<uint64_t>(bytes));
+    return squaresOf(*candidate.coded, prefix, inputs.options.threads);
+  };
+  double logarithms = 0;
+  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.}) {
+    const double bytes = part * most * static_cast<double>(tried.bytes());
+    logarithms += std::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
+  }
+  return logarithms <= 0;
+}
+
+bool canBeCorrected(const CodedHeights& heights) {
+  return hasLosslessWay(heights) && heights.tracks.size() == 1 && heights.of->table.empty();
+}
+
+/// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
+/// all, and behind coarser ones prefixes lose quality.
+constexpr double kExactCut = 0.3;
+/// Beside a texture that is not exact: it makes more of the 3 % of bytes than prefixes lose.
+constexpr double kSharedExactCut = 0.5;
+
+/// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
+/// of the lossy heights. Corrections come behind all coefficients: windows of heights in regions
+/// would need all of these.
+std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
+                                             const HeightsCandidate& lossy, uint64_t room) {
+  if (!hasLosslessWay(*lossy.coded)) return {};
+  if (canBeCorrected(*lossy.coded)) {
+    HeightsCandidate corrected = candidateOf(codeCorrected(inputs, *lossy.coded, kExactCut));
+    if (corrected.bytes() < room) return corrected;
+  }
+  HeightsCandidate whole = codeLossless(inputs, *lossy.coded);
+  if (whole.bytes() >= room) return {};
+  whole.curve = curveOfHeights(inputs, *whole.coded);
+  if (!keepsPrefixes(inputs, whole, lossy, kMostOfHeights)) return {};
+  return whole;
+}
+
+/// The texture likewise. Drawn and stored ones are lossless as they stand.
+std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
+                                             const TextureCandidate& lossy, uint64_t room) {
+  if (!hasLosslessWay(*lossy.coded)) return lossy;
+  TextureCandidate whole = candidateOf(codeReversibly(inputs, *lossy.coded));
+  if (whole.bytes() >= room) return {};
+  whole.curve = curveOfTexture(inputs, *whole.coded);
+  if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
+  return whole;
+}
+
+/// Everything to the last bit, if that fits the budget and takes nothing from prefixes.
+std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy) {
+  const auto& [heights, texture, errors] = lossy;
+  if (!heights.coded && !hasLosslessWay(*texture.coded)) return {};
+  Candidates exact = lossy;
+  uint64_t room = inputs.options.bytes;
+  if (texture.coded) {
+    std::optional<TextureCandidate> whole = exactTexture(inputs, texture, room);
+    if (!whole || whole->bytes() >= room) return {};
+    exact.texture = *std::move(whole);
+    room -= exact.texture.bytes();
+  }
+  if (heights.coded) {
+    std::optional<HeightsCandidate> whole = exactHeights(inputs, heights, room);
+    if (!whole) return {};
+    exact.heights = *std::move(whole);
+  }
+  Selection selection = orderPackets(withCurves(inputs, std::move(exact)));
+  Selection joined = selection;
+  joined.packets = joinNeighbours(selection.packets);
+  if (!isLossless(inputs, joined)) return {};
+  return selection;
+}
+
+/// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
+/// the lossy heights, which have a curve. Coefficients of a cut are those of the lossy heights.
+std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
+  if (!hasLosslessWay(*lossy.coded)) return {};
+  std::vector<HeightsCandidate> ways;
+  const auto add = [&](HeightsCandidate way) {
+    if (way.bytes() >= inputs.options.bytes) return;
+    way.curve = curveOfHeights(inputs, *way.coded);
+    if (way.coded->closing == 0 && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
+    ways.push_back(std::move(way));
+  };
+  if (canBeCorrected(*lossy.coded))
+    add(candidateOf(codeCorrected(inputs, *lossy.coded, kSharedExactCut)));
+  add(codeLossless(inputs, *lossy.coded));
+  return ways;
+}
+
+/// What the picture lacks with rising parts of the budget, the last of which is all of it; nothing
+/// if nobody can look at the terrain.
+std::vector<double> errorsWithin(const EncodeInputs& inputs, const Candidates& candidates) {
+  Selection selection = orderPackets(candidates);
+  selection.packets = joinNeighbours(selection.packets);
+  std::vector<uint64_t> lengths;
+  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 3. / 4, 1.})
+    lengths.push_back(static_cast<uint64_t>(part * static_cast<double>(inputs.options.bytes)));
+  return errorsOfPrefixes(inputs, selection, lengths);
+}
+
+/// Better with all bytes, and hardly worse in the mean with fewer.
+bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
+  constexpr double kHardly = 0.1;  // dB
+  double decibels = 0;
+  for (size_t i = 0; i + 1 < lossy.size(); ++i) decibels += 10 * std::log10(tried[i] / lossy[i]);
+  return tried.back() < lossy.back() && decibels <= kHardly * static_cast<double>(lossy.size() - 1);
+}
+
+/// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones.
+std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs,
+                                               const Candidates& lossy) {
+  std::vector<HeightsCandidate> ways = exactWays(inputs, lossy.heights);
+  if (ways.empty()) return {};
+  const std::vector<double> of_lossy = errorsWithin(inputs, lossy);
+  if (of_lossy.empty()) return {};
+  double least = of_lossy.back();
+  std::optional<Selection> best;
+  for (HeightsCandidate& way : ways) {
+    Candidates exact = lossy;
+    exact.heights = std::move(way);
+    const std::vector<double> errors = errorsWithin(inputs, exact);
+    if (!pays(errors, of_lossy) || errors.back() >= least) continue;
+    least = errors.back();
+    best = orderPackets(exact);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
+                                           const Selection& selection) {
+  assert(inputs.budgeted());
+  const Nearly nearly = nearlyExact(inputs, selection);
+  if (nearly.heights && nearly.texture) {
+    std::optional<Selection> exact = losslessIfItFits(inputs, lossy);
+    if (exact) return exact;
+  }
+  if (!nearly.heights || !lossy.errors) return {};
+  return exactHeightsIfTheyPay(inputs, lossy);
+}
+
+}  // namespace tetrakis::inline encoder
