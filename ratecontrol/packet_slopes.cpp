@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace tetrakis::inline ratecontrol {
@@ -35,7 +37,7 @@ class Falling {
   uint64_t bytes_ = 0;
 };
 
-/// Packets of one component that share a slope.
+/// Packets of one track that share a slope.
 struct Pool {
   size_t first = 0, count = 0;
   double removed = 0, bytes = 0;
@@ -43,8 +45,14 @@ struct Pool {
   double slope() const { return removed / bytes; }
 };
 
+struct TrackOfPackets {
+  std::vector<Packet*> packets;
+  std::vector<double> removed;  ///< by each
+};
+
 /// The steepest slopes that fall: the concave hull of what is removed (pool adjacent violators).
-void settleSlopes(std::span<Packet* const> packets, const std::vector<double>& removed) {
+void settleSlopes(const TrackOfPackets& track) {
+  const auto& [packets, removed] = track;
   std::vector<Pool> pools;
   for (size_t i = 0; i < packets.size(); ++i) {
     Pool pool = {i, 1, removed[i], static_cast<double>(packets[i]->end - packets[i]->begin)};
@@ -57,8 +65,7 @@ void settleSlopes(std::span<Packet* const> packets, const std::vector<double>& r
     pools.push_back(pool);
   }
   for (const Pool& pool : pools)
-    for (Packet* const packet : packets.subspan(pool.first, pool.count))
-      packet->slope = pool.slope();
+    for (size_t i = pool.first; i < pool.first + pool.count; ++i) packets[i]->slope = pool.slope();
 }
 
 }  // namespace
@@ -72,18 +79,17 @@ void stateSlopes(std::span<Packet> packets,
     if (errors == nullptr) return heights + texture;
     return errors->at(errors->heightsAt(heights), errors->textureAt(texture));
   };
-  std::array<std::vector<Packet*>, kComponents> of;
-  std::array<std::vector<double>, kComponents> removed;
+  std::map<std::pair<Component, uint32_t>, TrackOfPackets> tracks;
   double before = error();
   for (Packet& packet : packets) {
-    const auto component = static_cast<size_t>(packet.component);
-    falling[component].take(packet);
+    falling[static_cast<size_t>(packet.component)].take(packet);
     const double after = error();
-    of[component].push_back(&packet);
-    removed[component].push_back(std::max(0.0, before - after));
+    TrackOfPackets& track = tracks[{packet.component, packet.track.value_or(0)}];
+    track.packets.push_back(&packet);
+    track.removed.push_back(std::max(0.0, before - after));
     before = after;
   }
-  for (size_t i = 0; i < kComponents; ++i) settleSlopes(of[i], removed[i]);
+  for (const auto& [number, track] : tracks) settleSlopes(track);
 }
 
 }  // namespace tetrakis::inline ratecontrol
