@@ -130,6 +130,9 @@ TEST(NeededRanges, LieTogetherWhereTheIndexIsForWindows) {
   EXPECT_LT(100 * together.size(), 101 * strewn.size());
   Stream stream(together);
   EXPECT_EQ(stream.info().lossless, 1);
+  EXPECT_EQ(stream.info().index, TKS_INDEX_WINDOWS);
+  EXPECT_EQ(Stream(strewn).info().index, TKS_INDEX_PACKETS);
+  EXPECT_EQ(Stream(encode(&heights, nullptr, lossless())).info().index, TKS_INDEX_NONE);
   tks_encode_options cut = budget(9000);
   cut.index = TKS_INDEX_WINDOWS;
   tks_buffer none = {};
