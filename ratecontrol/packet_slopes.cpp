@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 namespace tetrakis::inline ratecontrol {
@@ -37,7 +35,7 @@ class Falling {
   uint64_t bytes_ = 0;
 };
 
-/// Packets of one track that share a slope.
+/// Packets of one component that share a slope.
 struct Pool {
   size_t first = 0, count = 0;
   double removed = 0, bytes = 0;
@@ -45,14 +43,8 @@ struct Pool {
   double slope() const { return removed / bytes; }
 };
 
-struct TrackOfPackets {
-  std::vector<Packet*> packets;
-  std::vector<double> removed;  ///< by each
-};
-
 /// The steepest slopes that fall: the concave hull of what is removed (pool adjacent violators).
-void settleSlopes(const TrackOfPackets& track) {
-  const auto& [packets, removed] = track;
+void settleSlopes(std::span<Packet* const> packets, const std::vector<double>& removed) {
   std::vector<Pool> pools;
   for (size_t i = 0; i < packets.size(); ++i) {
     Pool pool = {i, 1, removed[i], static_cast<double>(packets[i]->end - packets[i]->begin)};
@@ -65,7 +57,8 @@ void settleSlopes(const TrackOfPackets& track) {
     pools.push_back(pool);
   }
   for (const Pool& pool : pools)
-    for (size_t i = pool.first; i < pool.first + pool.count; ++i) packets[i]->slope = pool.slope();
+    for (Packet* const packet : packets.subspan(pool.first, pool.count))
+      packet->slope = pool.slope();
 }
 
 }  // namespace
@@ -79,17 +72,18 @@ void stateSlopes(std::span<Packet> packets,
     if (errors == nullptr) return heights + texture;
     return errors->at(errors->heightsAt(heights), errors->textureAt(texture));
   };
-  std::map<std::pair<Component, uint32_t>, TrackOfPackets> tracks;
+  std::array<std::vector<Packet*>, kComponents> of;
+  std::array<std::vector<double>, kComponents> removed;
   double before = error();
   for (Packet& packet : packets) {
-    falling[static_cast<size_t>(packet.component)].take(packet);
+    const auto component = static_cast<size_t>(packet.component);
+    falling[component].take(packet);
     const double after = error();
-    TrackOfPackets& track = tracks[{packet.component, packet.track.value_or(0)}];
-    track.packets.push_back(&packet);
-    track.removed.push_back(std::max(0.0, before - after));
+    of[component].push_back(&packet);
+    removed[component].push_back(std::max(0.0, before - after));
     before = after;
   }
-  for (const auto& [number, track] : tracks) settleSlopes(track);
+  for (size_t i = 0; i < kComponents; ++i) settleSlopes(of[i], removed[i]);
 }
 
 }  // namespace tetrakis::inline ratecontrol

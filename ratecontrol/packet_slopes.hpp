@@ -13,8 +13,8 @@
 namespace tetrakis::inline ratecontrol {
 
 /// Sets the slopes of packets, which are in their joint order: what each takes off the error of the
-/// picture per byte, where it stands. Within a track slopes do not rise, because what looks cheap
-/// behind something dear needs that first. A null curve: there is no such component; null
+/// picture per byte, where it stands. Within a component slopes do not rise, because what looks
+/// cheap behind something dear needs that first. A null curve: there is no such component; null
 /// errors: there is but one, and its own squared error counts.
 void stateSlopes(std::span<Packet> packets,
                  const std::array<const ComponentCurve*, kComponents>& curves,
