@@ -20,6 +20,7 @@ struct tks_decoder {
   std::span<const uint8_t> data;  ///< the stream up to its first missing byte: the caller's, ...
   tetrakis::Pieces pieces;        ///< ... or, once there came more, of these
   tetrakis::ParsedHeader parsed;
+  tks_index index = TKS_INDEX_NONE;
   tetrakis::Demultiplexed payload;
   int heights_level = 0, texture_level = 0;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use

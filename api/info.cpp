@@ -146,6 +146,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.unit = m.unit.c_str();
   info.vertical_datum = m.vertical_datum.c_str();
   info.crs = m.crs.c_str();
+  info.index = decoder.index;
   fillGeoreference(decoder, info);
   fillQuality(decoder, info);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens any bytes as a stream: header, limits, packets. Nothing is decoded yet.
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "api/decoder.hpp"
@@ -39,6 +40,20 @@ Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
   return {};
 }
 
+/// Made for windows if all packets of a region come before those of the next. (The base, which all
+/// regions need, may have some at the end as well.)
+tks_index indexOf(const StreamHeader& header) {
+  if (header.index.empty()) return TKS_INDEX_NONE;
+  std::array<uint32_t, kComponents> last{};
+  for (const IndexEntry& entry : header.index) {
+    const uint32_t track = entry.packet.track;
+    uint32_t& before = last[static_cast<size_t>(entry.packet.component())];
+    if (track > 0 && track < before) return TKS_INDEX_PACKETS;
+    before = std::max(before, track);
+  }
+  return last[0] > 0 || last[1] > 0 ? TKS_INDEX_WINDOWS : TKS_INDEX_PACKETS;
+}
+
 Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder& decoder) {
   decoder.data = data;
   tks_limits known{};
@@ -51,6 +66,7 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;
   if (Status status = checkSizes(header, known); !status.ok()) return status;
+  decoder.index = indexOf(header);
   decoder.max_memory = orDefault(known.max_memory, kDefaultMemory);
   return takePackets(decoder);
 }

@@ -150,6 +150,7 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
   FlatChoice choice = chooseFlatAreas(
       {steps.steps, extentOf(*of->samples), steps.valid},
       {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads});
+  if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(of->layers, of->corrections, std::move(choice));
   std::vector<EncodedTrack> coefficients =
       codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));

@@ -26,6 +26,10 @@ int regionLog2(uint32_t width, uint32_t height, const tks_encode_options& option
   return regionCount(width, height, log2) > 1 ? log2 : 0;
 }
 
+bool readByWindows(const tks_encode_options& options, int region_log2) {
+  return options.index == TKS_INDEX_WINDOWS && region_log2 > 0;
+}
+
 /// Bytes worth coding: beyond the budget, because the slopes of the last packets within it depend
 /// on the points that follow, and the order must not depend on the budget.
 uint64_t limitOf(const EncodeInputs& inputs) {
@@ -52,6 +56,7 @@ CoefficientOptions heightOptions(const EncodeInputs& inputs) {
       limitOf(inputs),
       regionLog2(heights->width, heights->height, options, large && options.max_error == 0),
       options.threads};
+  coefficients.windows = readByWindows(options, coefficients.region_log2);
   if (priorities != nullptr && !priorities->heights.empty())
     coefficients.priorities = &priorities->heights;
   return coefficients;
@@ -64,6 +69,7 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
   texture.limit = limitOf(inputs);
   texture.region_log2 = regionLog2(texels.width, texels.height, options, large);
   texture.threads = options.threads;
+  texture.windows = readByWindows(options, texture.region_log2);
   texture.visual = options.weights == TKS_WEIGHTS_VISUAL;
   if (inputs.budgeted()) texture.room = options.bytes;
   if (inputs.priorities != nullptr && !inputs.priorities->texture.empty())

@@ -198,7 +198,8 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   if (hidden && !photograph.all()) common = intersection(seen, photograph);
   const Mask coded = !common.empty() ? Mask(common) : hidden ? Mask(seen) : photograph;
   hideColours(coded, planes);
-  const auto [colour, wavelet] = fitAndTransform(texels, purpose, coded, like, planes);
+  auto [colour, wavelet] = fitAndTransform(texels, purpose, coded, like, planes);
+  if (options.windows) wavelet = withShortReach(wavelet);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
   TextureHeader& header = encoded.header;
   header.hidden = hidden;

@@ -30,6 +30,7 @@ struct TextureOptions {
   uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
   int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
   uint32_t threads = 1;         ///< nothing depends on them
+  bool windows = false;         ///< withShortReach()
   bool visual = false;          ///< what is seen comes first, not what is off most
   uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
   double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target

@@ -193,6 +193,11 @@ WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, in
   return chooseAmong(samplesOf(planes), bits, purpose).header;
 }
 
+WaveletHeader withShortReach(WaveletHeader chosen) {
+  chosen.filters.back() = kS;
+  return chosen;
+}
+
 WaveletHeader withoutFraction(WaveletHeader lossy) {
   lossy.bits = static_cast<uint8_t>(lossy.bits - lossy.fraction_bits);
   lossy.fraction_bits = 0;

@@ -31,6 +31,11 @@ WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSam
 WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,
                             Purpose purpose);
 
+/// A choice for streams of which windows will be read: the filter of the coarse levels is the
+/// shortest. Each level doubles what its filter reaches, so that they pull in most of the regions
+/// around a window, and hold few of the bytes.
+WaveletHeader withShortReach(WaveletHeader chosen);
+
 /// The filters of a lossy choice, for the last bit.
 WaveletHeader withoutFraction(WaveletHeader lossy);
 

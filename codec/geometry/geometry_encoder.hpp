@@ -17,6 +17,7 @@ struct CoefficientOptions {
   uint64_t limit = UINT64_MAX;      ///< bytes worth coding, of all tracks together
   int region_log2 = 0;              ///< bitstream/track/regions.hpp; 0: one track
   uint32_t threads = 1;             ///< nothing depends on them
+  bool windows = false;             ///< withShortReach()
   const FlatAreas* flat = nullptr;  ///< areas that are known, and not coded; null: there are none
   /// What comes earlier; null: nothing.
   const PriorityMap* priorities = nullptr;

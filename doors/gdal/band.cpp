@@ -11,7 +11,8 @@
 namespace tetrakis::gdal {
 namespace {
 
-constexpr int kBlock = 256;  ///< side of blocks where there are no regions
+constexpr int kBlock = 256;       ///< side of blocks where there are no regions
+constexpr int kWindowBlock = 64;  ///< where there are
 
 /// GDAL's type of samples. Before GDAL 3.7 signed bytes are Byte, and the metadata item PIXELTYPE
 /// says that they have a sign.
@@ -47,9 +48,8 @@ class Band final : public GDALPamRasterBand {
     nRasterXSize = static_cast<int>(source.width(dataset.level()));
     nRasterYSize = static_cast<int>(source.height(dataset.level()));
     // A window is decoded from the first block that it meets to the last one: small blocks decode
-    // little around it. Smaller ones than regions save nothing more, nor do those below 128.
-    const uint32_t regions = source.regionSide();
-    const int side = regions == 0 ? kBlock : static_cast<int>(std::clamp(regions, 64u, 128u));
+    // little around it.
+    const int side = source.regionSide() == 0 ? kBlock : kWindowBlock;
     nBlockXSize = std::min(side, nRasterXSize);
     nBlockYSize = std::min(side, nRasterYSize);
     if (source.sample() == TKS_I8 && eDataType == GDT_Byte)

@@ -127,16 +127,6 @@ bool Source::reopen(uint64_t bytes) {
   return failed(status);
 }
 
-bool Source::hasIndex() {
-  if (!has_index_) {
-    tks_ranges ranges{};
-    const tks_status status = tks_needed_ranges(decoder_.get(), part_, nullptr, &ranges);
-    tks_free_ranges(&ranges);
-    has_index_ = status != TKS_USAGE;  // a level or window may be too large for it, another not
-  }
-  return *has_index_;
-}
-
 std::optional<std::vector<tks_range>> Source::neededRanges(uint32_t level,
                                                            const tks_window* window) {
   const bool heights = part_ == TKS_PART_HEIGHTS;
@@ -177,10 +167,12 @@ bool Source::load(uint32_t level, const tks_window* window) {
     verified_ = true;
   }
   const uint64_t pixels = uint64_t{width(level)} * height(level) * pixelBytes();
-  const uint64_t first = level == 0 ? end_ : std::min(end_, info_.header_bytes + pixels);
+  // A prefix of a stream for windows lacks most regions.
+  const bool cuts = level > 0 && info_.index != TKS_INDEX_WINDOWS;
+  const uint64_t first = cuts ? std::min(end_, info_.header_bytes + pixels) : end_;
   if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
   // Of a shorter file the first bytes are asked for, not what a window would need of all.
-  if (opened_ == first || !complete() || !hasIndex()) return reopen(first);
+  if (opened_ == first || !complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
   const auto ranges = neededRanges(level, window);
   if (!ranges) return false;
   const uint64_t cost = FileBytes::costOf(*ranges);

@@ -54,7 +54,7 @@ class Source {
   /// All pixels of a level, channels interleaved; of level 0 and the last other level they are
   /// kept. Null after an error was reported. A level above 0 takes no more bytes of the stream than
   /// its pixels have (what it shows comes first, and a small map takes a small download), or those
-  /// that it needs, where these are fewer.
+  /// that it needs, where these are fewer or no prefix shows all ground.
   const std::byte* level(uint32_t level);
   /// A part of level 0.
   bool window(const tks_window& window, std::vector<std::byte>& out);
@@ -72,8 +72,6 @@ class Source {
   bool read(std::span<const tks_range> ranges);
   /// Opens what a level takes, or, at level 0, a window of it (null: all).
   bool load(uint32_t level, const tks_window* window);
-  /// Whether the stream has a front index, all of which is there.
-  bool hasIndex();
   /// What a level or a window takes, by the index. Nothing after a reported error.
   std::optional<std::vector<tks_range>> neededRanges(uint32_t level, const tks_window* window);
   bool loadRanges(const std::vector<tks_range>& ranges);
@@ -86,7 +84,6 @@ class Source {
   uint64_t end_ = 0;  ///< of what may be used
   FileBytes bytes_;
   uint64_t opened_ = 0;  ///< how many of the first bytes the decoder has; 0: ranges
-  std::optional<bool> has_index_;
   bool verified_ = false;
   std::string message_;  ///< why openPrefix failed
   DecoderPointer decoder_{nullptr, tks_close};

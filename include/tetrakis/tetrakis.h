@@ -310,6 +310,7 @@ typedef struct tks_info {
   const char* texture_crs;      /* that of the heights where the texture's place is known and no
                                    other CRS is stated */
   const char* texture_geo_keys;
+  tks_index index;         /* TKS_INDEX_WINDOWS: by how its packets lie */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

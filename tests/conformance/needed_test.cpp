@@ -109,20 +109,30 @@ TEST(NeededRanges, OfWindowsAreEnoughHoweverTheStreamIsCoded) {
 TEST(NeededRanges, LieTogetherWhereTheIndexIsForWindows) {
   const samples::Raster heights = ridges(401, 370, TKS_I16);
   const tks_window window{170, 160, 60, 50};
-  const auto pieces = [&](const Bytes& bytes) {
+  struct Needed {
+    size_t pieces = 0;
+    uint64_t bytes = 0;
+  };
+  const auto needed = [&](const Bytes& bytes) {
     Stream stream(bytes);
     tks_ranges ranges = {};
     EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, &window, &ranges), TKS_OK);
-    const size_t count = ranges.count;
+    Needed sum{ranges.count};
+    for (size_t i = 0; i < ranges.count; ++i) sum.bytes += ranges.ranges[i].size;
     tks_free_ranges(&ranges);
-    return count;
+    return sum;
   };
   const Bytes together = encodeRegions(&heights, nullptr, forWindows());
   const Bytes strewn = encodeRegions(&heights, nullptr, lossless());
-  EXPECT_LT(4 * pieces(together), pieces(strewn));
-  EXPECT_LT(together.size(), strewn.size());
+  const Needed few = needed(together), many = needed(strewn);
+  EXPECT_LT(4 * few.pieces, many.pieces);
+  EXPECT_LT(4 * few.bytes, 3 * many.bytes) << "filters of coarse levels reach less";
+  EXPECT_LT(100 * together.size(), 101 * strewn.size());
   Stream stream(together);
   EXPECT_EQ(stream.info().lossless, 1);
+  EXPECT_EQ(stream.info().index, TKS_INDEX_WINDOWS);
+  EXPECT_EQ(Stream(strewn).info().index, TKS_INDEX_PACKETS);
+  EXPECT_EQ(Stream(encode(&heights, nullptr, lossless())).info().index, TKS_INDEX_NONE);
   tks_encode_options cut = budget(9000);
   cut.index = TKS_INDEX_WINDOWS;
   tks_buffer none = {};

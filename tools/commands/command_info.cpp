@@ -89,6 +89,9 @@ Json textureJson(const tks_info& info) {
           {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};
 }
 
+/// What tks_info.index stands for.
+constexpr std::array<const char*, 3> kIndexes = {"none", "packets", "windows"};
+
 Json infoJson(const tks_info& info) {
   return {{"format_version", info.format_version},
           {"profile", info.profile},
@@ -100,6 +103,7 @@ Json infoJson(const tks_info& info) {
           {"geometry_bytes", info.geometry_bytes},
           {"texture_bytes", info.texture_bytes},
           {"packets", info.packets},
+          {"index", kIndexes.at(static_cast<size_t>(info.index))},
           {"lossless", info.lossless != 0},
           {"triangles", info.triangles > 0 ? Json(info.triangles) : Json()},
           {"heights", heightsJson(info)},

@@ -128,12 +128,7 @@ tks_status web_put(tks_decoder* decoder, double place, const uint8_t* data, size
 int web_has_index(tks_decoder* decoder) {
   tks_info i{};
   i.size = sizeof i;
-  if (tks_get_info(decoder, &i) != TKS_OK) return 0;
-  tks_ranges ranges{};
-  const tks_part part = i.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
-  const tks_status status = tks_needed_ranges(decoder, part, nullptr, &ranges);
-  tks_free_ranges(&ranges);
-  return status == TKS_OK || status == TKS_LIMIT;
+  return tks_get_info(decoder, &i) == TKS_OK && i.index != TKS_INDEX_NONE;
 }
 
 /// Begin, end and gain of each range, one after the other.

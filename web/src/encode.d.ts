@@ -56,8 +56,9 @@ export interface EncodeInput {
   triangles?: number;
   /** Side of the spatial regions, a power of two from 16; 1: none. Default: chosen. */
   regions?: number;
-  /** Write the index by which viewers fetch what they look at. Default false. */
-  index?: boolean;
+  /** Write the index by which viewers fetch what they look at. Default false. 'windows' (lossless
+   * only): also lay each region out in one piece, for who reads windows. */
+  index?: boolean | 'windows';
   /** Default 'psnr'. */
   weights?: 'psnr' | 'visual';
 }

@@ -5,6 +5,7 @@ import {Instance, MESSAGE_BYTES, SAMPLES} from './module.js';
 
 const REGISTRATIONS = ['unknown', 'area', 'point'];
 const WEIGHTS = ['psnr', 'visual'];
+const INDEXES = [false, true, 'windows'];
 
 function oneOf(names, name, what) {
   const number = names.indexOf(name ?? names[0]);
@@ -73,7 +74,7 @@ function fieldsOf({heights, texture, ...options}) {
   return {
     ...(heights ? heightsFields(heights) : {}), ...(texture ? textureFields(texture) : {}),
     bytes, psnr, maxError, lossless: Number(lossless), triangles, regions,
-    index: Number(options.index ?? false), weights: oneOf(WEIGHTS, options.weights, 'weights'),
+    index: oneOf(INDEXES, options.index, 'index'), weights: oneOf(WEIGHTS, options.weights, 'weights'),
   };
 }
 

@@ -70,6 +70,8 @@ test('what makes no sense is refused by code and sentence', async () => {
   await refused({heights: {...heights, geotransform: [1, 2]}}, /six numbers/);
   await refused({heights: {...heights, registration: 'pixel'}}, /one of unknown, area, point/);
   await refused({texture: {...texture, channels: 5}}, /./);
+  await refused({heights, index: 'regions'}, /one of false, true, windows/);
+  await refused({heights, index: 'windows', bytes: 900}, /lossless/);
   await assert.rejects(encode({heights}, {signal: AbortSignal.abort(new Error('gone'))}), /gone/);
 });
 
@@ -79,7 +81,8 @@ test('the bytes are those of the native encoder', {skip: !existsSync(CLI)}, asyn
   const name = join(folder, 'height.tif'), out = join(folder, 'out.tks');
   await writeFile(name, tiffOf({data, width, height}));
   const targets = [[{}, ['--lossless']], [{bytes: 2000}, ['--bytes', '2000']],
-    [{maxError: 3}, ['--max-error', '3']]];
+    [{maxError: 3}, ['--max-error', '3']],
+    [{index: 'windows', regions: 16}, ['--lossless', '--windows', '--regions', '16']]];
   for (const [target, options] of targets) {
     const {status, stderr} = spawnSync(CLI, ['encode', name, ...options, '-f', '-o', out]);
     assert.equal(status, 0, String(stderr));

@@ -218,6 +218,18 @@ def test_vsicurl_windows_of_a_stream_made_for_them(server):
     np.testing.assert_array_equal(dataset.ReadAsArray(), heights)
 
 
+def test_overviews_of_a_stream_for_windows(tmp_path):
+    """Its first bytes show some regions and not others, so that they are no overview."""
+    random = np.random.default_rng(1)
+    means = random.integers(0, 1000, (150, 160))
+    heights = (np.kron(means, np.ones((4, 4))) + random.integers(-32, 33, (600, 640))).astype("i2")
+    for index in ("YES", "WINDOWS"):
+        copy(heights, tmp_path / "a.tks", "BLOCKSIZE=32", "INDEX=" + index)
+        dataset = opened(tmp_path / "a.tks")
+        overview = dataset.GetRasterBand(1).GetOverview(1).ReadAsArray()
+        assert np.sqrt(np.mean((overview - means) ** 2)) < 60
+
+
 def test_windows_of_an_indexed_file(tmp_path):
     """Heights and texture, by windows and as a whole: ranges give what the whole file gives."""
     heights = terrain(700, 600, "i2")

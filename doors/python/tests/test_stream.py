@@ -72,6 +72,12 @@ def test_windows_equal_slices(regions):
             np.testing.assert_array_equal(masked.mask, ~valid[part])
 
 
+@pytest.mark.parametrize("index", [False, True, "windows"])
+def test_index_comes_back(index):
+    stream = tetrakis.encode(terrain(50, 60), index=index, regions=16)
+    assert tetrakis.open(stream).info.index == index
+
+
 def test_slices_mean_what_they_mean_to_numpy(stream):
     opened = tetrakis.open(stream)
     whole = opened.heights()

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional, Tuple
+from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Info:
     packets: int
     geometry_bytes: int
     texture_bytes: int
+    index: Union[bool, str]
+    """As for `encode`: False, True, or "windows"."""
     lossless: bool
     """The complete stream restores every sample."""
 
@@ -124,6 +126,7 @@ def from_struct(raw: c.StreamInfo) -> Info:
         spacing=(raw.spacing_x, raw.spacing_y) if spaced else None,
         geotransform=tuple(raw.geotransform) if placed else None,
         registration=c.REGISTRATIONS[raw.registration],
+        index=c.INDEXES[raw.index],
         nodata=raw.nodata if raw.has_nodata else None,
         texture_shape=_texture_shape(raw) if texture else None,
         texture_dtype=values.SAMPLES[raw.texture_sample] if texture else None,

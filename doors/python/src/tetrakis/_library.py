@@ -194,6 +194,7 @@ class StreamInfo(ctypes.Structure):
         ("texture_registration", c_int),
         ("texture_crs", c_char_p),
         ("texture_geo_keys", c_char_p),
+        ("index", c_int),
     ]
 
 
