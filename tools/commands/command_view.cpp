@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tetrakis view: shows a stream in the browser. A server on this machine's loopback address alone
+// tetrakis view: shows a stream in the browser. A server only on this machine's loopback address
 // hands out the stream, by byte ranges, and the files of the viewer, and nothing else.
 #include <httplib.h>
 #include <array>
