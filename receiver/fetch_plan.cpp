@@ -12,6 +12,7 @@
 
 #include "base/length_unit.hpp"
 #include "bitstream/track/regions.hpp"
+#include "ground/frame.hpp"
 
 namespace tetrakis::inline receiver {
 
@@ -43,10 +44,10 @@ SeenPoint usualPoint(const StreamHeader& header) {
   constexpr double kPixels = 768 * 512 / 2.0, kSine = 0.574, kCosine = 0.819;
   const double pixels = kPixels / static_cast<double>(gridOf(header).samples());
   const Metadata& m = header.metadata;
-  const double x = m.spacing_x > 0 ? m.spacing_x : m.spacing_y > 0 ? m.spacing_y : kUnknownSpacing;
-  const double y = m.spacing_y > 0 ? m.spacing_y : x;
+  const GroundFrame frame = knownFrame({.spacing_x = m.spacing_x, .spacing_y = m.spacing_y});
   const double metres = metresPerUnit(m.unit).value_or(1);
-  return {pixels, pixels / kSine * kCosine * kCosine / (x * y) * metres * metres};
+  const double area = frame.spacing_x * frame.spacing_y;
+  return {pixels, pixels / kSine * kCosine * kCosine / area * metres * metres};
 }
 
 /// The share of a region's levels that a picture with so many pixels a sample shows: a level's

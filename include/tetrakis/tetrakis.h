@@ -6,9 +6,8 @@
  * that stream is legal input to the decoder and yields the best surface and image its bytes buy.
  *
  * Trust contract: every decoding function is safe on untrusted input. It returns TKS_OK and fully
- * written outputs, or an error and untouched outputs; it never prints, exits or throws. A stream
- * that ends early, anywhere behind its header, is no error. All functions are reentrant; one handle
- * serves one thread at a time.
+ * written outputs, or an error and untouched outputs; it never prints, exits or throws. Truncation
+ * behind the header is no error. All functions are reentrant; one handle serves one thread at once.
  *
  * Structs that begin with their `size` may grow at their end; programs compiled before keep
  * working. Set it to sizeof: fields that a shorter struct lacks count as 0, which is every default.
@@ -42,8 +41,7 @@ typedef enum tks_status {
   TKS_USAGE = 1,       /* an argument makes no sense: fix the call */
   TKS_IO = 2,          /* a file cannot be read or written (command line only) */
   TKS_CORRUPT = 3,     /* the bytes are not a Tetrakis stream, or break its syntax */
-  TKS_TRUNCATED = 4,   /* too few bytes: for the header (tks_open, tks_header_bytes), or for a
-                          whole stream (tks_verify, --strict of the command line) */
+  TKS_TRUNCATED = 4,   /* bytes are missing: of the header, or of what has to be whole */
   TKS_UNSUPPORTED = 5, /* version, profile or feature unknown to this library */
   TKS_LIMIT = 6,       /* a limit of tks_limits would be exceeded */
   TKS_MISMATCH = 7,    /* comparison or verification failed; from tks_encode: a fault of the
@@ -181,10 +179,9 @@ typedef struct tks_encode_options {
                         tks_heights) */
   uint32_t triangles;/* meshes will be drawn with at most this many triangles; 0: no bound */
   uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
-  uint32_t regions;  /* side of the spatial regions by which windows can be decoded, in samples (of
-                        either component): a power of two from 16 to 2^20; 1: none (tks_info then
-                        says 0); 0: chosen, none up to 1025 x 1025 heights, 2048 x 2048 texels, or
-                        heights with max_error */
+  uint32_t regions;  /* side of the regions by which windows can be decoded, in samples of either
+                        component: a power of two from 16 to 2^20; 1: none, which tks_info calls 0;
+                        0: chosen, none with max_error or up to 1025 x 1025 heights, 2048² texels */
   int index;         /* tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
@@ -286,8 +283,7 @@ typedef struct tks_info {
   double nodata;           /* NaN where NaN was declared */
   double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
   uint32_t triangles;      /* the encoder's triangle budget; 0: none */
-  uint32_t regions, texture_regions; /* side of the spatial regions; 0: none, for which
-                                        tks_encode_options takes 1 */
+  uint32_t regions, texture_regions; /* side of the regions; 0: none (of options: 1) */
   uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
   uint32_t texture_coarsest_level;
   int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are
