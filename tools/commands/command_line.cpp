@@ -107,14 +107,13 @@ int runCommandLine(int argc, const char* const* argv) {
   CommandLine line;
   addVerbs(app, line);
   const std::vector<std::string> words = wordsOf(argc, argv);
+  if (!words.empty() && !words[0].starts_with('-') && !isVerb(app, words[0]))
+    return report(Status(TKS_USAGE, "there is no command '" + words[0] + "'; --help lists them"));
   try {
-    app.parse({words.rbegin(), words.rend()});
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::Success& asked_for_help) {
     return app.exit(asked_for_help);
   } catch (const CLI::ParseError& error) {
-    const std::string first = words.empty() ? "-" : words[0];
-    if (first.rfind('-', 0) != 0 && !isVerb(app, first))
-      return report(Status(TKS_USAGE, "there is no command '" + first + "'; --help lists them"));
     return report(Status(TKS_USAGE, std::string(error.what()) + "; --help shows the usage"));
   }
   setMemoryLimit(line.max_memory);
