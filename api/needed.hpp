@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which tracks of a component a view needs, and where their packets lie in a stream with a front
-// index.
+// The header of a component as it counts for a view: only the tracks that the view needs have to be
+// there.
 #pragma once
 
 #include <cstdint>

@@ -57,23 +57,17 @@ Status takeTexture(const tks_image& given, tks_image& out) {
   return {};
 }
 
-/// (R + 2 G + B) / 4 in 8 bits; grey as it is.
+/// In 8 bits.
 GroundImage brightnessOf(const tks_image& image) {
-  const size_t texels = size_t{image.width} * image.height;
-  std::vector<uint8_t> brightness(texels);
+  GroundImage brightness;
   withSampleType(image.sample, [&](auto type) {
     using Sample = decltype(type);
-    const auto* sample = static_cast<const Sample*>(image.data);
+    const auto* samples = static_cast<const Sample*>(image.data);
     const int shift = sizeof(Sample) == 1 ? 0 : 8;
-    for (size_t i = 0; i < texels; ++i, sample += image.channels) {
-      const auto value = [&](size_t channel) {
-        return static_cast<uint32_t>(sample[channel]) >> shift;
-      };
-      brightness[i] = static_cast<uint8_t>(
-          image.channels < 3 ? value(0) : (value(0) + 2 * value(1) + value(2) + 2) / 4);
-    }
+    const auto sample = [&](size_t i) { return static_cast<uint32_t>(samples[i]) >> shift; };
+    brightness = GroundImage::of(image.width, image.height, image.channels, sample);
   });
-  return GroundImage(image.width, image.height, std::move(brightness));
+  return brightness;
 }
 
 class ScreenMeshCall {

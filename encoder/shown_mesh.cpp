@@ -18,20 +18,6 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// (R + 2 G + B) / 4 in 8 bits; grey as it is: as decoders weigh the texture (api/screen_mesh.cpp).
-GroundImage brightnessOf(const Texels& texels) {
-  const size_t count = texels.extent().samples(), channels = texels.channels;
-  const int shift = texels.bits - 8;
-  std::vector<uint8_t> brightness(count);
-  for (size_t i = 0; i < count; ++i) {
-    const uint16_t* texel = &texels.samples[i * channels];
-    const auto value = [&](size_t c) { return static_cast<uint32_t>(texel[c] >> shift); };
-    brightness[i] = static_cast<uint8_t>(
-        channels < 3 ? value(0) : (value(0) + 2 * value(1) + value(2) + 2) / 4);
-  }
-  return GroundImage(texels.width, texels.height, std::move(brightness));
-}
-
 /// Takes columns, rows and heights to the camera's picture. metres of a height: at + by * height.
 ScreenView screenViewOf(const Camera& camera, const GroundFrame& frame, double at, double by) {
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
@@ -70,7 +56,9 @@ ShownMesh::ShownMesh(const EncodeInputs& inputs, const QuantisedHeights& heights
   if (inputs.options.camera_count == 0) {
     level_ = budgetMeshLevel(*lattice, inputs.options.triangles);
   } else {
-    image_ = brightnessOf(texels);
+    const int shift = texels.bits - 8;
+    image_ = GroundImage::of(texels.width, texels.height, texels.channels,
+                             [&](size_t i) { return uint32_t{texels.samples[i]} >> shift; });
   }
   lattice_.emplace(std::move(*lattice));
 }

@@ -95,8 +95,8 @@ Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selec
     const size_t header_bytes = writeHeader(makeHeader(inputs, selection, budget, false)).size();
     if (budget < header_bytes) {
       return Status(TKS_USAGE, "A budget of " + std::to_string(budget) +
-                                   " bytes is too small: the header alone takes " +
-                                   std::to_string(header_bytes) + ", the least that works.");
+                                   " bytes is too small: the header of this stream takes " +
+                                   std::to_string(header_bytes) + ". Give at least that many.");
     }
     room = budget - header_bytes;
   }

@@ -12,38 +12,14 @@
 
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/pieces.hpp"
-#include "receiver/ground_sight.hpp"
+#include "receiver/piece_choice.hpp"
+#include "receiver/piece_ranges.hpp"
+#include "receiver/sighting.hpp"
 
 namespace tetrakis::inline receiver {
 
-/// What a receiver looks at. Without points all ground counts alike.
-struct Sighting {
-  uint32_t columns = 0, rows = 0;  ///< of the points, which lie over all of the ground
-  std::vector<SeenPoint> points;
-  uint32_t triangles = 0;  ///< that meshes will have; 0: any number
-};
-
 /// What is not there of the bytes from a place on, up to another one, in their order.
 using Missing = std::function<std::vector<ByteRange>(uint64_t begin, uint64_t end)>;
-
-/// What some viewer sees, and how much that counts.
-struct WeightedSighting {
-  Sighting sighting;
-  double weight = 1;
-};
-
-/// Bytes to fetch, and what one of the first of them takes off the error of the picture beside
-/// other ranges; 0: nothing in this view.
-struct FetchRange {
-  uint64_t begin = 0, end = 0;
-  double gain = 0;
-};
-
-/// What a plan may take.
-struct FetchLimits {
-  uint64_t bytes = 0;          ///< of all ranges
-  uint64_t request_bytes = 0;  ///< that come in the time that a request costs beside its own
-};
 
 /// What is missing of so many bytes that help most, those that help most first. The first sighting
 /// is the present picture, of which gains are; the others are what the viewer may look at later.

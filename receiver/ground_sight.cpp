@@ -51,13 +51,13 @@ class Sight {
     highest_ = *std::max_element(ground.heights.begin(), ground.heights.end());
   }
 
-  SeenPoint at(uint32_t x, uint32_t y) const {
-    const SeenPoint seen = shown(placeOf(x, y));
-    return seen.pixels > 0 && !isHidden(x, y) ? seen : SeenPoint{};
+  GroundPoint at(uint32_t x, uint32_t y) const {
+    const GroundPoint seen = shown(placeOf(x, y));
+    return seen.pixels > 0 && !isHidden(x, y) ? seen : GroundPoint{};
   }
 
   /// After a turn about the vertical through the eye that brings the point to the middle column.
-  SeenPoint faced(uint32_t x, uint32_t y, double aspect) const {
+  GroundPoint faced(uint32_t x, uint32_t y, double aspect) const {
     if (!eye_) return {};
     Place place = placeOf(x, y);
     const double* ahead = &view_.clip[12];  // w rises along it
@@ -67,8 +67,8 @@ class Sight {
     const double away = std::hypot((place[0] - (*eye_)[0]) * aspect, place[1] - (*eye_)[1]);
     place[0] = (*eye_)[0] + away * across / most / aspect;
     place[1] = (*eye_)[1] + away * down / most;
-    const SeenPoint seen = shown(place);
-    return seen.pixels > 0 && !isHidden(x, y) ? seen : SeenPoint{};
+    const GroundPoint seen = shown(place);
+    return seen.pixels > 0 && !isHidden(x, y) ? seen : GroundPoint{};
   }
 
  private:
@@ -77,7 +77,7 @@ class Sight {
   }
 
   /// Of a point that nothing hides.
-  SeenPoint shown(const Place& point) const {
+  GroundPoint shown(const Place& point) const {
     const double w = rowAt(view_.clip, 3, point);
     const double cx = rowAt(view_.clip, 0, point), cy = rowAt(view_.clip, 1, point);
     // Ground that ends a step beyond the picture's border still reaches into it.
@@ -130,9 +130,9 @@ class Sight {
 };
 
 template <class See>
-std::vector<SeenPoint> seenOf(const CoarseGround& ground, See&& see) {
+std::vector<GroundPoint> seenOf(const CoarseGround& ground, See&& see) {
   assert(ground.heights.size() == size_t{ground.columns} * ground.rows);
-  std::vector<SeenPoint> seen;
+  std::vector<GroundPoint> seen;
   seen.reserve(ground.heights.size());
   for (uint32_t y = 0; y < ground.rows; ++y)
     for (uint32_t x = 0; x < ground.columns; ++x) seen.push_back(see(x, y));
@@ -141,12 +141,12 @@ std::vector<SeenPoint> seenOf(const CoarseGround& ground, See&& see) {
 
 }  // namespace
 
-std::vector<SeenPoint> sightOf(const CoarseGround& ground, const Eye& eye) {
+std::vector<GroundPoint> sightOf(const CoarseGround& ground, const Eye& eye) {
   const Sight sight(ground, eye);
   return seenOf(ground, [&](uint32_t x, uint32_t y) { return sight.at(x, y); });
 }
 
-std::vector<SeenPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect) {
+std::vector<GroundPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect) {
   const Sight sight(ground, eye);
   return seenOf(ground, [&](uint32_t x, uint32_t y) { return sight.faced(x, y, aspect); });
 }

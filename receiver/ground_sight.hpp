@@ -24,18 +24,18 @@ struct Eye {
 };
 
 /// What a point of the ground is to a picture.
-struct SeenPoint {
+struct GroundPoint {
   double pixels = 0;    ///< that one sample of the grid covers; 0: hidden, or outside
   double parallax = 0;  ///< squared pixels that a height error of 1 moves the point by
 };
 
 /// One a point of the ground, row by row. A point is hidden where a straight walk to the eye goes
 /// below coarse ground. Without such an eye (a map) nothing is hidden.
-std::vector<SeenPoint> sightOf(const CoarseGround& ground, const Eye& eye);
+std::vector<GroundPoint> sightOf(const CoarseGround& ground, const Eye& eye);
 
 /// The same for a viewer who turns on the spot to face each point: what a picture would show whose
 /// middle column looked that way. aspect: the spacing of columns over that of rows. Nothing
 /// is seen without an eye.
-std::vector<SeenPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect);
+std::vector<GroundPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect);
 
 }  // namespace tetrakis::inline receiver

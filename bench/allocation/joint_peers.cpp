@@ -82,8 +82,7 @@ Result<JointPeers> JointPeers::create(const Terrain& terrain, Screen& screen, ui
     return Status(TKS_UNSUPPORTED, "The peers' textures are RGB of 8 bits.");
   JointPeers peers(terrain, screen, std::move(*raster));
   const tools::Surface surface = tools::heightsOf(heights);
-  peers.lowest_ = *std::min_element(surface.values.begin(), surface.values.end(),
-                                    [](double a, double b) { return a < b; });
+  peers.lowest_ = *std::min_element(surface.values.begin(), surface.values.end());
   peers.steps_ = tools::frameOf(heights);
   peers.steps_.metres_per_unit *= peers.raster_.unit;
   if (Status status = peers.codeTextures(most, speed); !status.ok()) return status;

@@ -193,7 +193,7 @@ class TileReceiver : public Receiver {
     const tks_screen_camera view = tools::meshCamera(camera, g.frame);
     Eye eye{{}, view.width, view.height};
     std::copy_n(view.clip, 16, eye.clip.begin());
-    const std::vector<SeenPoint> seen = sightOf(coarse, eye);
+    const std::vector<GroundPoint> seen = sightOf(coarse, eye);
     std::vector<double> worth(tiles_.size());
     for (size_t t = 0; t < tiles_.size(); ++t) {
       const uint32_t side = (kTile << tiles_[t].level) / coarse.step;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "codec/mesh/weighted_surface.hpp"
@@ -52,6 +53,18 @@ class GroundImage {
   GroundImage() = default;
   /// texels: width * height, row by row.
   GroundImage(uint32_t width, uint32_t height, std::vector<uint8_t> texels);
+
+  /// (R + 2 G + B) / 4; grey as it is. sample: the i-th of an image of 1 to 4 channels, in 8 bits.
+  template <class Sample>
+  static GroundImage of(uint32_t width, uint32_t height, uint32_t channels, Sample&& sample) {
+    std::vector<uint8_t> brightness(size_t{width} * height);
+    for (size_t i = 0, at = 0; i < brightness.size(); ++i, at += channels) {
+      const uint32_t weighed =
+          channels < 3 ? 4 * sample(at) : sample(at) + 2 * sample(at + 1) + sample(at + 2) + 2;
+      brightness[i] = static_cast<uint8_t>(weighed / 4);
+    }
+    return GroundImage(width, height, std::move(brightness));
+  }
 
   bool empty() const { return levels_.empty(); }
   double texels() const { return static_cast<double>(levels_[0].texels.size()); }

@@ -7,7 +7,7 @@
  *
  * Trust contract: every decoding function is safe on untrusted input. It returns TKS_OK and fully
  * written outputs, or an error and untouched outputs; it never prints, exits or throws. Truncation
- * is not an error. All functions are reentrant; one handle serves one thread at a time.
+ * behind the header is no error. All functions are reentrant; one handle serves one thread at once.
  *
  * Structs that begin with their `size` may grow at their end; programs compiled before keep
  * working. Set it to sizeof: fields that a shorter struct lacks count as 0, which is every default.
@@ -41,7 +41,7 @@ typedef enum tks_status {
   TKS_USAGE = 1,       /* an argument makes no sense: fix the call */
   TKS_IO = 2,          /* a file cannot be read or written (command line only) */
   TKS_CORRUPT = 3,     /* the bytes are not a Tetrakis stream, or break its syntax */
-  TKS_TRUNCATED = 4,   /* strict mode only: the stream ends early */
+  TKS_TRUNCATED = 4,   /* bytes are missing: of the header, or of what has to be whole */
   TKS_UNSUPPORTED = 5, /* version, profile or feature unknown to this library */
   TKS_LIMIT = 6,       /* a limit of tks_limits would be exceeded */
   TKS_MISMATCH = 7,    /* comparison or verification failed; from tks_encode: a fault of the
@@ -163,8 +163,8 @@ typedef enum tks_index {
   TKS_INDEX_PACKETS = 1, /* an index; packets lie by half octaves of what a byte is worth, and
                             region by region within one */
   TKS_INDEX_WINDOWS = 2  /* an index; each region lies in one piece, so that windows take few
-                            requests, but a prefix has some regions and lacks others. Lossless
-                            streams alone */
+                            requests, but a prefix has some regions and lacks others. Only of
+                            lossless streams */
 } tks_index;
 
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
@@ -179,17 +179,17 @@ typedef struct tks_encode_options {
                         tks_heights) */
   uint32_t triangles;/* meshes will be drawn with at most this many triangles; 0: no bound */
   uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
-  uint32_t regions;  /* side of the spatial regions by which windows can be decoded, in samples (of
-                        either component): a power of two from 16 to 2^20; 1: none; 0: chosen, none
-                        up to 1025 x 1025 heights, 2048 x 2048 texels, or heights with max_error */
+  uint32_t regions;  /* side of the regions by which windows can be decoded, in samples of either
+                        component: a power of two from 16 to 2^20; 1: none, which tks_info calls 0;
+                        0: chosen, none with max_error or up to 1025 x 1025 heights, 2048² texels */
   int index;         /* tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;
   const tks_camera* cameras; /* what viewers will see: bytes go where these pictures need them, and
-                                ground that they look at comes first. With heights and texture
-                                alone; NULL: a mix of views from all sides, for
-                                a viewer of whom nothing is known. One that is below the ground,
+                                ground that they look at comes first. Only where there are both
+                                heights and texture; NULL: a mix of views from all sides, for a
+                                viewer of whom nothing is known. One that is below the ground,
                                 sees none of it or breaks the rules above: TKS_USAGE, with its
                                 name */
   uint32_t camera_count;
@@ -283,7 +283,7 @@ typedef struct tks_info {
   double nodata;           /* NaN where NaN was declared */
   double max_error;        /* guaranteed for the complete stream, in unit; < 0: not stated */
   uint32_t triangles;      /* the encoder's triangle budget; 0: none */
-  uint32_t regions, texture_regions; /* side of the spatial regions; 0: none */
+  uint32_t regions, texture_regions; /* side of the regions; 0: none (of options: 1) */
   uint32_t texture_width, texture_height, texture_channels; /* of the level that is set */
   uint32_t texture_coarsest_level;
   int texture_cutout;      /* alpha is 0 or the largest value; 2: and colours where it is 0 are
@@ -320,7 +320,7 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
  * filtered; 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A level
  * takes no inverse transform of the finer ones, and of the bytes what comes before the last that
  * concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed above
- * level 0, and meshes are made of level 0 alone. TKS_USAGE beyond the coarsest levels (those of a
+ * level 0, and meshes are made of level 0 only. TKS_USAGE beyond the coarsest levels (those of a
  * missing part: 0); the levels are then as before. */
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 

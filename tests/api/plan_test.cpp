@@ -319,7 +319,7 @@ TEST(Plan, ATurnBringsWhatLiesBehindIntoThePicture) {
   EXPECT_NEAR(around[behind].pixels, around[ahead].pixels, 0.4 * around[ahead].pixels);
   Eye map{{}, 320, 200};
   std::copy_n(mapOf(0, 0, 80, 80).clip, 16, map.clip.begin());
-  for (const SeenPoint& point : sightAround(ground, map, 1)) EXPECT_EQ(point.pixels, 0);
+  for (const GroundPoint& point : sightAround(ground, map, 1)) EXPECT_EQ(point.pixels, 0);
 }
 
 Bytes reordered(Stream& stream, const tks_screen_camera& view) {

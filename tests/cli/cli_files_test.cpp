@@ -82,6 +82,7 @@ TEST_F(CliFiles, DoublesAreRoundedOnlyWhereNobodyAskedForAll) {
   const Outcome exact = cli("encode d.tif --lossless -o a.tks");
   EXPECT_EQ(exact.code, 1);
   EXPECT_NE(exact.err.find("gdal_translate -ot Float32"), std::string::npos) << exact.err;
+  EXPECT_EQ(exact.err.find("rounded to"), std::string::npos) << exact.err;
   EXPECT_EQ(cli("encode d.tif --max-error 0.00001 -o a.tks").code, 1);
   const Outcome bounded = cli("encode d.tif --max-error 0.01 -o a.tks");
   ASSERT_EQ(bounded.code, 0) << bounded.err;

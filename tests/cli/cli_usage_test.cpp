@@ -98,6 +98,45 @@ TEST_F(CliUsage, NumbersAreFinite) {
   }
 }
 
+TEST_F(CliUsage, OptionsAreJudgedBeforeAnyFileIsRead) {
+  for (const char* option : {"--max-error 0", "--max-error -1", "--max-error 2parsec",
+                             "--lossless --view low,top", "--lossless --triangles 5k"})
+    expectFailure(std::string("encode missing.tif -o b.tks ") + option, 1);
+  expectFailure("decode missing.tks --mesh m.glb --view inside", 1);
+  EXPECT_NE(cli("decode a.tks --mesh m.glb --triangles 5k").err.find("number of triangles"),
+            std::string::npos);
+}
+
+TEST_F(CliUsage, CamerasThatCannotBeReadSayWhy) {
+  makeInputs();
+  const Outcome run = cli("encode height.tif -o b.tks --lossless --cameras missing.json");
+  EXPECT_NE(run.err.find("No such file"), std::string::npos) << run.err;
+}
+
+TEST_F(CliUsage, PartsOfTheSummaryAddUp) {
+  makeInputs();
+  const Outcome run = cli("encode height.tif --texture texture.png --bytes 2k -o b.tks");
+  std::vector<uint64_t> numbers;
+  for (size_t at = run.err.find(':'); at < run.err.size();) {
+    at = std::min(run.err.find_first_of("0123456789", at), run.err.size());
+    size_t digits = 0;
+    if (at < run.err.size()) numbers.push_back(std::stoull(run.err.substr(at), &digits));
+    at += digits;
+  }
+  ASSERT_EQ(numbers.size(), 5u) << run.err;
+  EXPECT_EQ(numbers[0], numbers[1] + numbers[2] + numbers[3] + numbers[4]) << run.err;
+}
+
+TEST_F(CliUsage, RawHeightsAreReadAgainByTheNameThatTheNoteTells) {
+  makeStream();
+  const Outcome run = cli("decode a.tks --height h.raw");
+  const size_t name = run.err.find("h.raw:");
+  ASSERT_NE(name, std::string::npos) << run.err;
+  const std::string raw = run.err.substr(name, run.err.find('\n') - name);
+  EXPECT_EQ(cli("encode " + raw + " --lossless -o r.tks").code, 0) << raw;
+  EXPECT_EQ(cli("decode a.tks --height g.raw -q").err, "");
+}
+
 TEST_F(CliUsage, MeshesThatCannotBeSoSmallSayTheirSize) {
   makeStream();
   const Outcome run = cli("decode a.tks --mesh m.glb --triangles 1");
@@ -184,12 +223,36 @@ TEST_F(CliUsage, StatedPsnrHasNoMoreDigitsThanItsSteps) {
 }
 
 TEST_F(CliUsage, HelpAndVersionGoToStandardOutput) {
-  for (const char* arguments : {"--help", "encode --help", "verify --help", "--version"}) {
+  for (const char* arguments : {"--help", "encode --help", "verify --help", "--version", "help"}) {
     const Outcome run = cli(arguments);
     EXPECT_EQ(run.code, 0) << arguments;
     EXPECT_NE(run.out, "") << arguments;
     EXPECT_EQ(run.err, "") << arguments;
   }
+  EXPECT_EQ(cli("help fly").code, 1);
+}
+
+TEST_F(CliUsage, HelpOfAVerbHasItsOptionsAsTheyAreTyped) {
+  for (const std::string verb : {"encode", "decode", "truncate", "info", "compare", "verify",
+                                 "plan", "reorder", "profile", "synth", "view", "tiles"}) {
+    const std::string help = cli("help " + verb).out;
+    EXPECT_EQ(help, cli(verb + " --help").out);
+    EXPECT_NE(help.find("--max-memory SIZE"), std::string::npos) << help;
+    for (const char* leak : {"{", " x 4", "S=", "N=", "NAME="})
+      EXPECT_EQ(help.find(leak), std::string::npos) << help;
+  }
+}
+
+TEST_F(CliUsage, TablesHaveNoMoreDigitsThanPeopleRead) {
+  makeInputs();
+  ASSERT_EQ(cli("encode height.tif --texture texture.png --bytes 2k -q -o a.tks").code, 0);
+  const std::string compare = "compare a.tks --height height.tif --texture texture.png ";
+  std::istringstream table(cli(compare + "-q").out);
+  size_t longest = 0;
+  for (std::string key, value; table >> key >> value;)
+    if (value.find('.') != value.npos) longest = std::max(longest, value.size());
+  EXPECT_GT(longest, 2u);
+  EXPECT_LE(longest, 9u);
 }
 
 TEST_F(CliUsage, QuietSaysNothingAndNoBarIsDrawnWithoutATerminal) {

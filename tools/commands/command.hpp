@@ -90,11 +90,17 @@ CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
   return addSize(app, "--bytes", bytes, help);
 }
 
+/// The name of preset cameras (ground/preset_cameras.cpp), judged before any file is read.
+inline CLI::Validator presetView() {
+  return silent(CLI::IsMember({"oblique", "low", "top", "orbit", "all"}));
+}
+
 /// --cameras FILE.json or --view NAME.
 inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
   CLI::Option* const file =
       app.add_option("--cameras", choice.file, "Cameras to look with")->type_name("FILE.json");
   app.add_option("--view", choice.view, "Preset cameras: oblique, low, top, orbit, all")
+      ->check(presetView())
       ->type_name("NAME")
       ->excludes(file);
 }
@@ -102,7 +108,14 @@ inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
 /// --triangles N.
 inline CLI::Option* addTriangles(CLI::App& app, uint32_t& triangles, const std::string& help) {
   return app.add_option("--triangles", triangles, help)
-      ->check(silent(CLI::Range(uint32_t{1}, std::numeric_limits<uint32_t>::max())))
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            uint32_t count = 0;
+            return CLI::detail::lexical_cast(text, count) && count > 0
+                       ? std::string()
+                       : "'" + text + "' is not a number of triangles; write for example 5000";
+          },
+          ""))
       ->type_name("N");
 }
 
@@ -127,7 +140,7 @@ inline void addSource(CLI::App& app, StreamSource& source) {
   app.add_option("IN", source.path, "Stream (.tks) or any prefix of one; - is standard input")
       ->required()
       ->type_name("");
-  addBytes(app, source.bytes, "Use only the first bytes");
+  addBytes(app, source.bytes, "Use no more than the first SIZE bytes: 65536, 64k, 1M");
   app.add_flag("--strict", source.strict, "Refuse a stream that ends early");
 }
 

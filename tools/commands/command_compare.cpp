@@ -120,7 +120,8 @@ Status compare(const CompareArguments& arguments, bool quiet) {
   if (!measurement.ok()) return measurement.status();
   tellNote(coarsestNote(measurement->triangles.value_or(0), arguments.triangles), quiet);
   const Json json = measurementJson(*measurement, comparer->cameras());
-  if (Status status = print(arguments.json ? dump(json) : table(json)); !status.ok()) return status;
+  if (Status status = print(arguments.json ? dump(json) : table(legible(json))); !status.ok())
+    return status;
   return arguments.triangles == 0 ? checkPromise(info, *measurement) : Status();
 }
 

@@ -48,6 +48,14 @@ std::string hgtNote(const std::string& name, const HeightFile& heights) {
   return name == tile ? "" : "an .hgt file says by its name where it lies: call this one " + tile;
 }
 
+/// A .raw has no header: what must stand behind its name to read it again.
+std::string rawNote(const std::string& name, const HeightFile& heights) {
+  if (formatOf(name, "") != "raw") return "";
+  return "a .raw file has no header: read this one as " + name + ":" +
+         std::to_string(heights.width) + "x" + std::to_string(heights.height) + ":" +
+         sampleName(heights.sample);
+}
+
 /// Decodes into staged outputs; the caller commits them when all have succeeded.
 class Decoding {
  public:
@@ -106,6 +114,7 @@ class Decoding {
         decodeHeights(decoder_, window(), heightCopies() + beside_bytes_);
     if (!heights.ok()) return heights.status();
     tellNote(hgtNote(height_->name(), *heights), quiet_);
+    tellNote(rawNote(arguments_.height, *heights), quiet_);
     return height_->stage([&](const std::string& path) { return writeHeights(path, *heights); });
   }
 

@@ -62,6 +62,11 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
     Notes notes;
     Result<HeightFile> heights = readHeights(arguments.height, arguments.nodata, &notes);
     if (!heights.ok()) return heights.status();
+    if (arguments.lossless && heights->rounding > 0)
+      return Status(TKS_USAGE, quoted(arguments.height) +
+                                   " holds 64-bit floats that 32 bits do not hold, so nothing "
+                                   "keeps them all; round them first: gdal_translate -ot Float32 "
+                                   "IN.tif OUT.tif");
     tellNotes(notes, arguments, quiet);
     if (Status status = describe(arguments, *heights); !status.ok()) return status;
     tellNote(voidNote(*heights), quiet);
@@ -112,8 +117,6 @@ Result<uint32_t> parseRegions(const std::string& text) {
 Result<double> boundOf(const EncodeArguments& arguments, const HeightFile& heights) {
   const Result<double> asked = parseLength(arguments.max_error, heights.unit);
   if (!asked.ok()) return asked.status();
-  if (*asked == 0)
-    return Status(TKS_USAGE, "--max-error must be positive; --lossless keeps everything");
   const double bound = *asked - heights.rounding * std::abs(heights.scale);
   if (bound > 0) return bound;
   return Status(TKS_USAGE, quoted(arguments.height) +
@@ -141,11 +144,6 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
     if (!bound.ok()) return bound.status();
     options.max_error = *bound;
   }
-  if (arguments.lossless && inputs.heights && inputs.heights->rounding > 0)
-    return Status(TKS_USAGE, quoted(arguments.height) +
-                                 " holds 64-bit floats that 32 bits do not hold, so nothing keeps "
-                                 "them all; round them first: gdal_translate -ot Float32 IN.tif "
-                                 "OUT.tif");
   return options;
 }
 
@@ -193,9 +191,12 @@ Result<std::string> summary(const std::string& name, std::span<const uint8_t> st
   const Result<Decoder> decoder = openDecoder(stream);
   if (!decoder) return decoder.status();
   const tks_info& info = decoder->info();
+  const uint64_t heads =
+      info.stream_bytes - info.header_bytes - info.geometry_bytes - info.texture_bytes;
   return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
-         std::to_string(info.header_bytes) + ", geometry " + std::to_string(info.geometry_bytes) +
-         ", texture " + std::to_string(info.texture_bytes) + ")";
+         std::to_string(info.header_bytes) + ", heights " + std::to_string(info.geometry_bytes) +
+         ", texture " + std::to_string(info.texture_bytes) + ", heads of packets " +
+         std::to_string(heads) + ")";
 }
 
 Status stageReport(const EncodeArguments& arguments, const Reference& inputs,

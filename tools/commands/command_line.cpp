@@ -14,6 +14,13 @@
 namespace tetrakis::tools {
 namespace {
 
+constexpr const char* kEveryVerb =
+    "Every verb:\n"
+    "  -q,--quiet                      No progress bar, no notes, no summary\n"
+    "  --max-memory SIZE               Most memory to take (default: 3/4 of what there is)\n\n";
+
+constexpr const char* kHelpOfVerbs = "tetrakis help VERB shows the options of a verb.\n\n";
+
 constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0  done\n"
@@ -35,7 +42,7 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.set_version_flag("--version", versionText());
   app.get_formatter()->column_width(34);
-  app.footer(kExitCodes);
+  app.footer(std::string(kEveryVerb) + kExitCodes);  // that of the verbs, which inherit it
   app.fallthrough();
   app.add_flag("-q,--quiet", line.quiet, "No progress bar, no notes (any verb)");
   addSize(app, "--max-memory", line.max_memory,
@@ -52,6 +59,16 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addSynth(app, line);
   addView(app, line);
   addTiles(app, line);
+  app.footer(std::string(kHelpOfVerbs) + kExitCodes);
+}
+
+/// `help VERB` is VERB --help, and `help` is --help.
+std::vector<std::string> wordsOf(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words[0] != "help") return words;
+  words.erase(words.begin());
+  words.push_back("--help");
+  return words;
 }
 
 bool isVerb(const CLI::App& app, const std::string& name) {
@@ -89,14 +106,14 @@ int runCommandLine(int argc, const char* const* argv) {
   CLI::App app("Progressive codec for textured terrain: one stream, cut anywhere.");
   CommandLine line;
   addVerbs(app, line);
+  const std::vector<std::string> words = wordsOf(argc, argv);
+  if (!words.empty() && !words[0].starts_with('-') && !isVerb(app, words[0]))
+    return report(Status(TKS_USAGE, "there is no command '" + words[0] + "'; --help lists them"));
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::Success& asked_for_help) {
     return app.exit(asked_for_help);
   } catch (const CLI::ParseError& error) {
-    const std::string first = argc > 1 ? argv[1] : "-";
-    if (first.rfind('-', 0) != 0 && !isVerb(app, first))
-      return report(Status(TKS_USAGE, "there is no command '" + first + "'; --help lists them"));
     return report(Status(TKS_USAGE, std::string(error.what()) + "; --help shows the usage"));
   }
   setMemoryLimit(line.max_memory);

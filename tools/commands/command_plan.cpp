@@ -89,7 +89,7 @@ Status plan(const PlanArguments& arguments, bool quiet) {
   const auto psnr = expectedPsnr(*stream, *plan, arguments.cameras, quiet);
   if (!psnr.ok()) return psnr.status();
   const Json json = planJson(*plan, *psnr);
-  return print(arguments.json ? dump(json) : table(json));
+  return print(arguments.json ? dump(json) : table(legible(json)));
 }
 
 }  // namespace

@@ -64,16 +64,14 @@ void addSynth(CLI::App& app, CommandLine& line) {
                   "Folder for height.tif, texture.png and map.png")
       ->required()
       ->type_name("DIR");
-  verb.add_option("--size", arguments->options.size, "Samples along a side")
-      ->capture_default_str()
+  verb.add_option("--size", arguments->options.size, "Samples along a side (513)")
       ->check(silent(CLI::Range(2u, 8193u)))
       ->type_name("N");
-  verb.add_option("--seed", arguments->options.seed, "Another seed, another terrain")
-      ->capture_default_str()
+  verb.add_option("--seed", arguments->options.seed, "Another seed, another terrain (1)")
       ->type_name("S");
-  verb.add_option("--kind", arguments->kind,
-                  "Of terrain: mountains, coast, lakes, steps, voids, plain, city, rescaled")
-      ->capture_default_str()
+  verb.add_option(
+          "--kind", arguments->kind,
+          "Of terrain: mountains (default), coast, lakes, steps, voids, plain, city, rescaled")
       ->check(
           silent(CLI::IsMember(std::vector<std::string>(kSynthKinds.begin(), kSynthKinds.end()))))
       ->type_name("NAME");

@@ -101,9 +101,9 @@ void addTiles(CLI::App& app, CommandLine& line) {
   verb.add_option("-o,--output", arguments->folder, "Folder for the tiles")
       ->required()
       ->type_name("DIR");
-  verb.add_option("--format", arguments->format, "Of the tiles: quantized-mesh or 3dtiles")
+  verb.add_option("--format", arguments->format,
+                  "Of the tiles: quantized-mesh (default) or 3dtiles")
       ->check(silent(CLI::IsMember({"quantized-mesh", "3dtiles"})))
-      ->capture_default_str()
       ->type_name("NAME");
   addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);

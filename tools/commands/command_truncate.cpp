@@ -29,7 +29,7 @@ void addTruncate(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<TruncateArguments>();
   CLI::App& verb = *app.add_subcommand("truncate", "Cut a stream to a number of bytes");
   addSource(verb, arguments->source);
-  verb.get_option("--bytes")->required();
+  verb.get_option("--bytes")->required()->description("Keep so many bytes: 65536, 64k, 1M");
   verb.add_option("-o,--output", arguments->output, "Where to write; - is standard output")
       ->required()
       ->type_name("OUT.tks");

@@ -19,7 +19,7 @@ Status verifyStream(const std::string& path, bool quiet) {
   if (quiet) return Status();
   const tks_info& info = stream->decoder.info();
   return print(quoted(path) + ": valid, " + std::to_string(info.stream_bytes) + " bytes, " +
-               std::to_string(info.packets) + " packets\n");
+               counted(info.packets, "packet", "packets") + "\n");
 }
 
 Status verifyVectors(const std::string& folder, bool quiet) {

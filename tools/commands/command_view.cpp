@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tetrakis view: shows a stream in the browser. A server on this machine's loopback address alone
+// tetrakis view: shows a stream in the browser. A server only on this machine's loopback address
 // hands out the stream, by byte ranges, and the files of the viewer, and nothing else.
 #include <httplib.h>
 #include <array>
@@ -173,7 +173,8 @@ void addView(CLI::App& app, CommandLine& line) {
   verb.add_option("--port", arguments->port, "Port of the loopback address (default: any free one)")
       ->check(silent(CLI::Range(1, 65535)))
       ->type_name("N");
-  verb.add_flag("!--no-browser", arguments->open_browser, "Print the address alone");
+  verb.add_flag_callback(
+      "--no-browser", [arguments] { arguments->open_browser = false; }, "Only print the address");
   verb.callback([arguments, &line] { line.action = [arguments] { return view(*arguments); }; });
 }
 

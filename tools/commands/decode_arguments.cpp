@@ -76,6 +76,7 @@ CLI::Option* addMesh(CLI::App& verb, DecodeArguments& arguments) {
   verb.add_option(
           "--view", arguments.camera.view,
           "The same for a preset: low, oblique, top; with --triangles orbit and all as well")
+      ->check(presetView())
       ->type_name("NAME")
       ->needs(mesh)
       ->excludes(cameras);
@@ -97,7 +98,7 @@ void addArguments(CLI::App& verb, DecodeArguments& arguments) {
   verb.add_option("--window", arguments.window, "Only these samples, and the texels over them")
       ->delimiter(',')
       ->expected(4)
-      ->type_name("X,Y,W,H")
+      ->option_text("X,Y,W,H")  // the type's name would stand before "x 4"
       ->excludes(mesh)
       ->excludes(size)
       ->excludes("--normal-map")

@@ -93,6 +93,15 @@ Status checkHeightOptions(const EncodeArguments& arguments) {
   return Status();
 }
 
+/// Its unit is judged when that of the heights is known.
+Status checkMaxError(const std::string& max_error) {
+  if (max_error.empty()) return Status();
+  const Result<double> length = parseLength(max_error, "m");
+  if (!length.ok()) return length.status();
+  if (*length > 0) return Status();
+  return Status(TKS_USAGE, "--max-error must be above 0; --lossless keeps everything");
+}
+
 }  // namespace
 
 void addArguments(CLI::App& verb, EncodeArguments& arguments) {
@@ -107,6 +116,7 @@ Status checkArguments(const EncodeArguments& arguments) {
     return Status(TKS_USAGE, "nothing to encode: give HEIGHT, --texture or both");
   if (arguments.height == "-" && arguments.texture == "-")
     return Status(TKS_USAGE, "heights and texture cannot both come from standard input");
+  if (Status status = checkMaxError(arguments.max_error); !status.ok()) return status;
   return arguments.height.empty() ? checkHeightOptions(arguments) : Status();
 }
 

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -65,6 +66,17 @@ Json textOrNull(const std::string& text) {
 
 Json finiteOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json legible(Json json) {
+  if (json.is_structured())
+    for (Json& value : json) value = legible(value);
+  if (!json.is_number_float()) return json;
+  const double value = json.get<double>();
+  const int before = value == 0 ? 1 : 1 + static_cast<int>(std::log10(std::abs(value)));
+  char text[400];
+  std::snprintf(text, sizeof text, "%.*g", std::max(6, before), value);
+  return std::strtod(text, nullptr);
 }
 
 std::string dump(const Json& json) {

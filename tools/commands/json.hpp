@@ -22,6 +22,9 @@ Json textOrNull(const std::string& text);
 /// A number, or null where JSON has none (infinity, not a number).
 Json finiteOrNull(double value);
 
+/// The same with numbers of six digits, and all digits before the point: for people.
+Json legible(Json json);
+
 /// Indented JSON with a final newline. Bytes that are no UTF-8 are replaced.
 std::string dump(const Json& json);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras from JSON.
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -99,15 +101,19 @@ Result<Camera> readCamera(const Json& object, size_t index) {
   return camera;
 }
 
+Status unreadable(const std::string& path) {
+  return Status(TKS_IO, "cannot read the cameras '" + path + "': " + std::strerror(errno));
+}
+
 Result<Json> readJson(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return Status(TKS_IO, "cannot read the cameras '" + path + "'");
+  if (!file) return unreadable(path);
   try {
     return Json::parse(file);
   } catch (const Json::exception& error) {
     return Status(TKS_USAGE, "'" + path + "' is not JSON: " + error.what());
   } catch (const std::ios_base::failure&) {
-    return Status(TKS_IO, "cannot read the cameras '" + path + "'");
+    return unreadable(path);
   }
 }
 

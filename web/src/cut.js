@@ -2,6 +2,7 @@
 // Cuts tiles out of a stream: heights or texels at a grid of longitudes and latitudes, by the mip
 // level that suits their distance, for renderers that ask for tiles.
 import {groundScale} from './index.js';
+import {GROWTH} from './pace.js';
 import {placeOf} from './place.js';
 
 /** The four samples around sample (x, y), with their weights. Beyond the outer ones these count. */
@@ -112,11 +113,11 @@ export class Cutter {
     return rgba;
   }
 
-  /** Fetches on, fourfold each time; after each step tiles are those of the longer prefix. */
+  /** Fetches on, GROWTH-fold each time; after each step tiles are those of the longer prefix. */
   async *refine({bytes = Infinity, signal} = {}) {
     const limit = Math.min(bytes, this.#terrain.info.streamBytes);
     while (this.#bytes < limit) {
-      const wanted = Math.min(4 * this.#bytes, limit);
+      const wanted = Math.min(GROWTH * this.#bytes, limit);
       const have = await this.#terrain.load(wanted, {signal});
       this.#bytes = have;
       this.#rasters.clear();

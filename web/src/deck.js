@@ -2,11 +2,10 @@
 // deck.gl: a loader of loaders.gl for meshes, for TerrainLayer and SimpleMeshLayer, which read them
 // as longitude, latitude and metres, with `_instanced: false`.
 import {TksError, groundScale, open} from './index.js';
+import {FIRST_BYTES, GROWTH} from './pace.js';
 import {isPlaced, placeOf} from './place.js';
 
 const TRIANGLES = 4;  // glTF's mode
-const FIRST_BYTES = 4096;
-const GROWTH = 4;
 
 /** Places of (column, row): longitude and latitude less the origin, and those on the texture. */
 function placedBy(info, bounds, [longitude, latitude]) {

@@ -4,15 +4,12 @@ import {assets} from '#assets';
 import {compile} from './compile.js';
 import {TksError} from './error.js';
 import {Decoder, groundScale} from './module.js';
+import {FIRST_BYTES, GROWTH} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {abortable, sourceOf} from './source.js';
 
 export {TksError, groundScale};
 
-/** The first request: a picture of most terrains. */
-const FIRST_BYTES = 4096;
-/** Each frame takes an inverse transform and a mesh anew: with this growth they are few. */
-const GROWTH = 4;
 const MEMORY = 2 ** 30;
 /** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen that go out at a time. */
 const REQUEST_BYTES = 4096;

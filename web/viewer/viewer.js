@@ -3,14 +3,13 @@
 // chosen.
 import {encode} from '../src/encode.js';
 import {open} from '../src/index.js';
+import {FIRST_BYTES, GROWTH} from '../src/pace.js';
 import {TksTerrain, textureOf} from '../src/three.js';
 import {FetchMap} from './fetch_map.js';
 import {Picture} from './scene.js';
 import {tint} from './tint.js';
 
 const $ = (id) => document.getElementById(id);
-const FIRST_BYTES = 4096;
-const GROWTH = 4;
 /** What is fetched without being asked for. */
 const FREE_BYTES = 8 << 20;
 const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "receiver/track_costs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/length_unit.hpp"
+#include "bitstream/track/regions.hpp"
+#include "ground/frame.hpp"
+
+namespace tetrakis::inline receiver {
+
+namespace {
+
+/// The grid that the columns and rows of views count.
+Extent gridOf(const StreamHeader& header) {
+  return header.geometry ? header.geometry->shown() : header.texture->extent();
+}
+
+/// Pixels of a texel for a point with so many of a sample.
+double texelsPixels(const StreamHeader& header, double pixels) {
+  if (!header.texture) return pixels;
+  return pixels * static_cast<double>(gridOf(header).samples()) /
+         static_cast<double>(header.texture->extent().samples());
+}
+
+/// What a height error of 1 costs at a point beside a texel's error of 1. It moves the texture by
+/// its parallax, and the texture's slope is the smaller the larger a texel appears.
+double heightsCost(const StreamHeader& header, const GroundPoint& point) {
+  return point.pixels * point.parallax / std::max(1.0, texelsPixels(header, point.pixels));
+}
+
+/// The mean point of the encoder's viewer of whom nothing is known: all of the ground, from 35
+/// degrees above the horizon, in half of a picture of 768 x 512.
+GroundPoint usualPoint(const StreamHeader& header) {
+  constexpr double kPixels = 768 * 512 / 2.0, kSine = 0.574, kCosine = 0.819;
+  const double pixels = kPixels / static_cast<double>(gridOf(header).samples());
+  const Metadata& m = header.metadata;
+  const GroundFrame frame = knownFrame({.spacing_x = m.spacing_x, .spacing_y = m.spacing_y});
+  const double metres = metresPerUnit(m.unit).value_or(1);
+  const double area = frame.spacing_x * frame.spacing_y;
+  return {pixels, pixels / kSine * kCosine * kCosine / area * metres * metres};
+}
+
+/// The share of a region's levels that a picture with so many pixels a sample shows: a level's
+/// finest waves are 2^level samples long, and take two pixels. coarsest_unseen: finer levels than
+/// the next are not decoded.
+double shownShare(const Region& region, double pixels, int coarsest_unseen) {
+  const int last = region.isBase() ? region.first_level + kRegionLevels - 1 : region.last_level;
+  const double finest = std::max<double>(1 - std::log2(pixels) / 2, coarsest_unseen + 1);
+  return std::clamp((last + 1 - finest) / (last + 1 - region.first_level), 0.0, 1.0);
+}
+
+/// Heights finer than a mip level with 20 samples a triangle are not decoded for a budget mesh.
+int levelBelowMesh(const StreamHeader& header, uint32_t triangles) {
+  if (triangles == 0) return 0;
+  constexpr double kSamples = 20;
+  const double most = static_cast<double>(gridOf(header).samples()) / (kSamples * triangles);
+  return most < 4 ? 0 : static_cast<int>(std::floor(std::log2(most) / 2));
+}
+
+/// Ground of absurd spacing costs nothing.
+double finite(double cost) {
+  return std::isfinite(cost) ? cost : 0;
+}
+
+std::vector<Region> regionsIn(const auto& component) {
+  return regionsOf(component.width, component.height, component.regions.side_log2);
+}
+
+/// A stream as one sighting shows it.
+class SightedStream {
+ public:
+  SightedStream(const StreamHeader& header, const Sighting& sighting)
+      : header_(header),
+        sighting_(sighting),
+        usual_(usualPoint(header)),
+        unseen_(levelBelowMesh(header, sighting.triangles)) {}
+
+  double costOfHeights(const Region& region) const {
+    if (sighting_.points.empty()) return shownShare(region, 1, unseen_);
+    return meanOver(region, header_.geometry->extent(),
+                    [&](const GroundPoint& point) {
+                      return heightsCost(header_, point) *
+                             shownShare(region, point.pixels, unseen_);
+                    }) /
+           heightsCost(header_, usual_);
+  }
+
+  double costOfTexture(const Region& region) const {
+    if (sighting_.points.empty()) return 1;
+    return meanOver(region, header_.texture->extent(),
+                    [&](const GroundPoint& point) {
+                      return point.pixels *
+                             shownShare(region, texelsPixels(header_, point.pixels), 0);
+                    }) /
+           usual_.pixels;
+  }
+
+ private:
+  /// Of the points that a region of a plane reaches, because its waves end beyond it; hidden ones
+  /// count as 0.
+  template <class Cost>
+  double meanOver(const Region& region, Extent plane, Cost&& cost) const {
+    const auto first = [](uint32_t begin, uint32_t side, uint32_t points) {
+      return static_cast<uint32_t>(uint64_t{begin} * points / side);
+    };
+    const auto behind = [](uint32_t end, uint32_t side, uint32_t points) {
+      return static_cast<uint32_t>((uint64_t{end} * points + side - 1) / side);
+    };
+    const auto& [columns, rows, points, triangles] = sighting_;
+    double sum = 0;
+    size_t count = 0;
+    const uint32_t reach = region.isBase() ? 0 : uint32_t{1} << std::min(region.last_level, 24);
+    const uint32_t x0 = first(region.x0 - std::min(reach, region.x0), plane.width, columns);
+    const uint32_t y0 = first(region.y0 - std::min(reach, region.y0), plane.height, rows);
+    const uint32_t x1 = behind(std::min(region.x1 + reach, plane.width), plane.width, columns);
+    const uint32_t y1 = behind(std::min(region.y1 + reach, plane.height), plane.height, rows);
+    for (uint32_t y = y0; y < y1; ++y) {
+      for (uint32_t x = x0; x < x1; ++x, ++count) {
+        const GroundPoint& point = points[size_t{y} * columns + x];
+        if (point.pixels > 0) sum += cost(point);
+      }
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0;
+  }
+
+  const StreamHeader& header_;
+  const Sighting& sighting_;
+  GroundPoint usual_;
+  int unseen_;
+};
+
+}  // namespace
+
+TrackCosts::TrackCosts(const StreamHeader& header, const Sighting& sighting) {
+  const SightedStream sighted(header, sighting);
+  if (header.geometry) {
+    for (const Region& region : regionsIn(*header.geometry))
+      costs_[0].push_back(finite(sighted.costOfHeights(region)));
+  }
+  if (header.texture) {
+    for (const Region& region : regionsIn(*header.texture))
+      costs_[1].push_back(finite(sighted.costOfTexture(region)));
+  }
+}
+
+}  // namespace tetrakis::inline receiver
