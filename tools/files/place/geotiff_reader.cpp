@@ -100,7 +100,7 @@ void setUnit(HeightFile& heights, const GeoKeys& keys, Notes& notes) {
                    "--unit"});
 }
 
-constexpr std::string_view kBlanks(" \t\r\n\0", 5);
+constexpr std::string_view kPadding(" \t\r\n\0", 5);
 
 /// What a text that begins as 1 or -1 goes on with for a number that is none or infinite, as C
 /// libraries of Windows wrote it: 1.#INF, -1.#IND, 1.#QNAN, with digits behind or without.
@@ -119,14 +119,14 @@ std::optional<double> number(std::string_view text) {
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end.ec != std::errc()) return {};
   text.remove_prefix(static_cast<size_t>(end.ptr - text.data()));
-  if (text.find_first_not_of(kBlanks) == std::string_view::npos) return value;
+  if (text.find_first_not_of(kPadding) == std::string_view::npos) return value;
   return windowsNumber(value, text);
 }
 
 /// Nothing if the file declares none that is a number.
 std::optional<double> nodataIn(const std::string& text, Notes& notes) {
   const std::optional<double> nodata = number(text);
-  if (!nodata && text.find_first_not_of(kBlanks) != std::string::npos)
+  if (!nodata && text.find_first_not_of(kPadding) != std::string::npos)
     notes.push_back({"its nodata value " + quoted(text) +
                          " is no number and is not used: give "
                          "--nodata",
