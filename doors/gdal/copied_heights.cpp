@@ -68,35 +68,65 @@ auto visit(CopiedHeights& copy, const Visitor& visitor) {
 }
 
 /// As GDAL compares samples with a nodata value.
-bool nearlyEqual(float sample, float nodata) {
-  constexpr float kRelative = 2 * std::numeric_limits<float>::epsilon();
+template <class T>
+bool nearlyEqual(T sample, T nodata) {
+  constexpr T kRelative = 2 * std::numeric_limits<float>::epsilon();
   return sample == nodata || std::abs(sample - nodata) < kRelative * std::abs(sample + nodata);
 }
 
-/// Doubles by rows, so that the copy is the only large array.
+/// Nothing if the band declares none.
+std::optional<double> nodataOf(GDALRasterBand& band) {
+  int has_nodata = FALSE;
+  const double nodata = band.GetNoDataValue(&has_nodata);
+  return has_nodata ? std::optional(nodata) : std::nullopt;
+}
+
+/// A nodata value as floats hold it.
+float floatNodata(double nodata) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::isfinite(nodata) ? std::clamp(nodata, -kLargest, kLargest)
+                                                  : nodata);
+}
+
+/// A mask that is more than the nodata value.
+bool hasMask(GDALRasterBand& band) {
+  return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) == 0;
+}
+
+/// Doubles by rows, so that the copy is the only large array. Voids are told as doubles: -DBL_MAX,
+/// a common one, is beyond the floats.
 class DoubleRows {
  public:
-  DoubleRows(GDALRasterBand& band, float* out) : band_(band), out_(out) {}
+  DoubleRows(GDALRasterBand& band, float* out) : band_(band), out_(out), nodata_(nodataOf(band)) {}
 
   bool read(const ProgressPart& progress) {
     const int width = band_.GetXSize(), height = band_.GetYSize();
     std::vector<double> row(static_cast<size_t>(width));
+    std::vector<GByte> mask(row.size(), 255);
+    const bool masked = hasMask(band_);
     for (int y = 0; y < height; ++y) {
       if (band_.RasterIO(GF_Read, 0, y, width, 1, row.data(), width, 1, GDT_Float64, 0, 0,
                          nullptr) != CE_None ||
+          (masked && band_.GetMaskBand()->RasterIO(GF_Read, 0, y, width, 1, mask.data(), width, 1,
+                                                   GDT_Byte, 0, 0, nullptr) != CE_None) ||
           !progress.report(double(y + 1) / height))
         return false;
-      for (const double value : row) {
-        const float rounded = toFloat(value);
-        exact_ = exact_ && (static_cast<double>(rounded) == value || std::isnan(value));
-        *out_++ = rounded;
-      }
+      for (size_t x = 0; x < row.size(); ++x) *out_++ = narrowed(row[x], mask[x] != 0);
     }
     return true;
   }
-  bool exact() const { return exact_; }
+  /// The largest of any sample that is not void.
+  double rounding() const { return rounding_; }
 
  private:
+  float narrowed(double value, bool valid) {
+    if (nodata_ && nearlyEqual(value, *nodata_)) return floatNodata(*nodata_);
+    const float rounded = toFloat(value);
+    if (valid && std::isfinite(rounded))
+      rounding_ = std::max(rounding_, std::abs(value - static_cast<double>(rounded)));
+    return rounded;
+  }
+
   /// Beyond the floats: infinity, which tks_encode refuses with its place.
   static float toFloat(double value) {
     constexpr double kLargest = std::numeric_limits<float>::max();
@@ -107,7 +137,8 @@ class DoubleRows {
 
   GDALRasterBand& band_;
   float* out_;
-  bool exact_ = true;
+  std::optional<double> nodata_;
+  double rounding_ = 0;
 };
 
 /// A failure that GDAL has not reported is the user's who stops.
@@ -133,34 +164,33 @@ bool readSamples(const std::string& name, GDALRasterBand& band, bool strict, Cop
   }
   DoubleRows rows(band, reinterpret_cast<float*>(copy.samples.data()));
   if (!rows.read(progress)) return reportStop(name);
-  if (rows.exact()) return true;
+  copy.rounding = rows.rounding();
+  if (copy.rounding == 0) return true;
   if (strict) {
     reportFailure(TKS_USAGE, name,
                   "The samples are Float64 and no Float32 holds all of them; "
                   "convert them first.");
     return false;
   }
-  CPLError(CE_Warning, CPLE_AppDefined, "%s: Float64 samples are rounded to Float32.",
-           name.c_str());
+  CPLError(CE_Warning, CPLE_AppDefined,
+           "%s: Float64 samples are rounded to Float32, by up to %.2g.", name.c_str(),
+           copy.rounding);
   return true;
 }
 
 /// Declares the nodata value; floats that GDAL takes for it become it.
 void takeNodata(GDALRasterBand& band, CopiedHeights& copy) {
-  int has_nodata = FALSE;
-  double nodata = band.GetNoDataValue(&has_nodata);
-  if (!has_nodata) return;
+  const std::optional<double> nodata = nodataOf(band);
+  if (!nodata) return;
+  copy.heights.has_nodata = 1;
+  copy.heights.nodata = *nodata;
   if (copy.heights.sample == TKS_F32) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    if (std::isfinite(nodata)) nodata = std::clamp(nodata, -kLargest, kLargest);
-    const auto value = static_cast<float>(nodata);
-    nodata = value;
+    const float value = floatNodata(*nodata);
+    copy.heights.nodata = value;
     auto* const samples = reinterpret_cast<float*>(copy.samples.data());
     for (size_t i = 0; i < copy.samples.size() / sizeof(float); ++i)
       if (nearlyEqual(samples[i], value)) samples[i] = value;
   }
-  copy.heights.has_nodata = 1;
-  copy.heights.nodata = nodata;
 }
 
 /// The outermost value that no valid sample has, of the 65536 at the end of the type's range where
@@ -191,7 +221,7 @@ bool holds(double value) {
 
 /// Samples that a mask band leaves out become the nodata value; one is chosen if there is none.
 bool applyMask(const std::string& name, GDALRasterBand& band, CopiedHeights& copy) {
-  if ((band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) != 0) return true;
+  if (!hasMask(band)) return true;
   const int width = band.GetXSize(), height = band.GetYSize();
   std::vector<GByte> mask(size_t(width) * size_t(height));
   if (band.GetMaskBand()->RasterIO(GF_Read, 0, 0, width, height, mask.data(), width, height,

@@ -43,6 +43,7 @@ struct CopiedHeights {
   CrsTexts crs;
   std::string unit, description;
   tks_heights heights{};
+  double rounding = 0;  ///< of doubles to floats, at most, in samples
 };
 
 struct CopiedTexture {

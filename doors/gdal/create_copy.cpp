@@ -47,7 +47,26 @@ struct Parts {
 
   const tks_heights* heightsOrNull() const { return heights ? &heights->heights : nullptr; }
   const tks_image* textureOrNull() const { return texture ? &texture->image : nullptr; }
+  /// Of the heights before they came here, in samples.
+  double rounding() const { return heights ? heights->rounding : 0; }
+  /// Of the unit of the heights, which the library counts errors in; GDAL counts in samples.
+  double scale() const { return heights ? std::abs(heights->heights.scale) : 1; }
 };
+
+/// What rounding leaves of a largest error, in samples, to the stream, in the unit of the heights.
+/// Nothing after a reported error.
+std::optional<double> boundOf(const std::string& name, const Parts& parts, double max_z_error) {
+  if (max_z_error == 0) return 0;
+  const double left = max_z_error - parts.rounding();
+  if (!(left > 0)) {
+    reportFailure(TKS_USAGE, name,
+                  CPLSPrintf("The samples are Float64, and Float32 holds them within %.2g only, "
+                             "which MAX_Z_ERROR=%.12g does not allow.",
+                             parts.rounding(), max_z_error));
+    return std::nullopt;
+  }
+  return left * parts.scale();
+}
 
 /// Nothing after a reported error.
 std::optional<Parts> readParts(const std::string& name, GDALDataset& source, bool strict,
@@ -67,14 +86,14 @@ std::optional<Parts> readParts(const std::string& name, GDALDataset& source, boo
 bool encode(const std::string& name, const Parts& parts, CopySettings settings, Watch watch,
             Stream& out) {
   tks_encode_options& options = settings.encode;
-  const tks_heights* const heights = parts.heightsOrNull();
-  // The library counts errors in the unit of the heights, GDAL in samples.
-  options.max_error = settings.max_z_error * (heights != nullptr ? std::abs(heights->scale) : 1);
+  const std::optional<double> bound = boundOf(name, parts, settings.max_z_error);
+  if (!bound) return false;
+  options.max_error = *bound;
   options.progress = Watch::call;
   options.user = &watch;
   char sentence[512] = "";
-  const tks_status status =
-      tks_encode(heights, parts.textureOrNull(), &options, &out.buffer, sentence, sizeof sentence);
+  const tks_status status = tks_encode(parts.heightsOrNull(), parts.textureOrNull(), &options,
+                                       &out.buffer, sentence, sizeof sentence);
   if (status == TKS_OK) return true;
   if (watch.stopped) {
     CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
@@ -104,31 +123,45 @@ bool write(const std::string& name, const tks_buffer& stream) {
   return false;
 }
 
+/// The stream knows the heights as they came to it: what rounding them took before is added here.
+void tellRounding(GDALPamDataset& copy, double rounding) {
+  copy.SetMetadataItem("COMPRESSION_REVERSIBILITY", "LOSSY", "IMAGE_STRUCTURE");
+  if (const char* const promised = copy.GetMetadataItem("MAX_ERROR", "TKS"))
+    copy.SetMetadataItem("MAX_ERROR", CPLSPrintf("%.17g", CPLAtof(promised) + rounding), "TKS");
+}
+
 /// What the stream has no room for goes into name.aux.xml; so does a reference system that comes
-/// back as another (one with an epoch).
-GDALDataset* openCopy(const std::string& name, GDALDataset& source) {
+/// back as another (one with an epoch). `rounding`: of the heights, in their unit.
+GDALDataset* openCopy(const std::string& name, GDALDataset& source, double rounding) {
   GDALOpenInfo info(name.c_str(), GA_ReadOnly);
   auto* const copy = static_cast<GDALPamDataset*>(Dataset::Open(&info));
   if (copy == nullptr) return nullptr;
-  // Masks are nodata values by now.
-  copy->CloneInfo(&source, GCIF_PAM_DEFAULT & ~(GCIF_GEOTRANSFORM | GCIF_PROJECTION | GCIF_MASK));
+  // Masks are nodata values by now, and what the stream declares is what its samples hold.
+  int flags = GCIF_PAM_DEFAULT & ~(GCIF_GEOTRANSFORM | GCIF_PROJECTION | GCIF_MASK);
+  int has_nodata = FALSE;
+  copy->GetRasterBand(1)->GetNoDataValue(&has_nodata);
+  if (has_nodata) flags &= ~GCIF_NODATA;
+  copy->CloneInfo(&source, flags);
   const OGRSpatialReference* const wanted = source.GetSpatialRef();
   const OGRSpatialReference* const got = copy->GetSpatialRef();
   const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT",
                                  nullptr};
   if (wanted != nullptr && (got == nullptr || !got->IsSame(wanted, options)))
     copy->GDALPamDataset::SetSpatialRef(wanted);
+  if (rounding > 0) tellRounding(*copy, rounding);
   return copy;
 }
 
 GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
                     const CopySettings& settings, const Progress& progress) {
   Stream stream;
+  double rounding = 0;
   {
     const std::optional<Parts> parts =
         readParts(name, source, strict, settings, {progress, 0, kReadShare});
     if (!parts || !encode(name, *parts, settings, {{progress, kReadShare, 1}}, stream))
       return nullptr;
+    rounding = parts->rounding() * parts->scale();
   }
   if (!write(name, stream.buffer)) return nullptr;
   if (!ProgressPart(progress, 0, 1).report(1)) {
@@ -136,7 +169,7 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
     CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
     return nullptr;
   }
-  return openCopy(name, source);
+  return openCopy(name, source, rounding);
 }
 
 }  // namespace

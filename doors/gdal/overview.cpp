@@ -58,6 +58,7 @@ class Averager {
       out[channel] =
           rounded<T>(colour && opaque > 0 ? sums[channel] / opaque : plain[channel] / weight);
     }
+    *out = asGround(*out);
   }
 
  private:
@@ -75,6 +76,22 @@ class Averager {
     if (!finer_.nodata) return false;
     const auto value = static_cast<double>(sample);
     return value == *finer_.nodata || std::isnan(value);
+  }
+
+  /// A mean as ground, which the nodata value is not: of integers its neighbour, of floats the next
+  /// towards 0 that GDAL does not take for it (ARE_REAL_EQUAL() in gdal_priv.h).
+  T asGround(T mean) const {
+    if (!finer_.nodata) return mean;
+    if constexpr (std::is_integral_v<T>) {
+      if (!isVoid(mean)) return mean;
+      return static_cast<T>(mean == std::numeric_limits<T>::max() ? mean - 1 : mean + 1);
+    } else {
+      constexpr double kEpsilon = std::numeric_limits<T>::epsilon();
+      const double nodata = *finer_.nodata, off = std::abs(mean - nodata);
+      if (nodata == 0) return mean == 0 ? std::numeric_limits<T>::min() : mean;
+      const bool taken = off < 2 * kEpsilon * std::abs(mean + nodata);
+      return taken ? static_cast<T>(nodata * (1 - 8 * kEpsilon)) : mean;
+    }
   }
 
   /// Only reached where samples were void.

@@ -13,7 +13,7 @@ namespace tetrakis::gdal {
 const char* const kOpenOptions =
     "<OpenOptionList>"
     "<Option name='BYTES' type='string' description='Read no more than so many bytes from the "
-    "front of the stream: a rougher terrain, sooner'/>"
+    "front of the stream (k, M and G are powers of 1024): a rougher terrain, sooner'/>"
     "<Option name='STRICT' type='boolean' default='NO' description='Refuse streams that end early, "
     "and check the whole syntax'/>"
     "<Option name='NUM_THREADS' type='string' description='Threads of decoding: a number, or "
@@ -24,7 +24,9 @@ const char* const kCreationOptions =
     "<CreationOptionList>"
     "<Option name='MAX_Z_ERROR' type='float' default='0' description='Largest error of any pixel, "
     "in pixel values, guaranteed; 0 is lossless'/>"
-    "<Option name='BYTES' type='string' description='Size of the file: the best that fits'/>"
+    "<Option name='BYTES' type='string' description='Size of the file: the best that fits (k, M "
+    "and "
+    "G are powers of 1024)'/>"
     "<Option name='PSNR' type='float' description='Quality of heights and texture, in dB'/>"
     "<Option name='TEXTURE' type='string' description='Dataset with an image over the same ground, "
     "of 1 to 4 bands of Byte or UInt16'/>"
@@ -56,6 +58,25 @@ class Options {
     const auto [stop, error] = std::from_chars(given, end, value);
     if (error == std::errc() && stop == end && value > 0) return value;
     refuse(std::string(key) + "=" + given + " is no " + meaning + ".");
+    return 0;
+  }
+
+  /// As the command line takes sizes (tools/files/units.cpp): digits, then nothing or k, M or G for
+  /// powers of 1024, as such or with B or iB.
+  uint64_t bytes(const char* key) {
+    const char* const given = text(key);
+    if (given == nullptr) return 0;
+    uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(given, given + std::strlen(given), value);
+    constexpr const char* kSuffixes[3][3] = {
+        {"k", "kB", "kiB"}, {"M", "MB", "MiB"}, {"G", "GB", "GiB"}};
+    int bits = *stop == '\0' || EQUAL(stop, "B") ? 0 : -1;
+    for (int power = 0; power < 3; ++power)
+      for (const char* const suffix : kSuffixes[power])
+        if (EQUAL(stop, suffix)) bits = 10 * (power + 1);
+    if (error == std::errc() && value > 0 && bits >= 0 && value << bits >> bits == value)
+      return value << bits;
+    refuse(std::string(key) + "=" + given + " is no number of bytes.");
     return 0;
   }
 
@@ -118,7 +139,7 @@ int indexKind(const Options& options) {
 std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList options) {
   Options given(name, options);
   OpenSettings settings;
-  if (given.text("BYTES") != nullptr) settings.bytes = given.count("BYTES", "number of bytes");
+  if (given.text("BYTES") != nullptr) settings.bytes = given.bytes("BYTES");
   settings.strict = given.flag("STRICT");
   settings.threads = given.threads();
   if (settings.strict && settings.bytes)
@@ -132,7 +153,7 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   tks_encode_options& encode = settings.encode;
   encode.size = sizeof encode;
   settings.max_z_error = given.number("MAX_Z_ERROR", "error of at least 0");
-  encode.bytes = given.count("BYTES", "number of bytes");
+  encode.bytes = given.bytes("BYTES");
   encode.psnr = given.number("PSNR", "number of decibels");
   const bool targets[] = {given.text("MAX_Z_ERROR") != nullptr, given.text("BYTES") != nullptr,
                           given.text("PSNR") != nullptr};

@@ -120,7 +120,18 @@ TEST_F(CliMeasure, OtherReferencesFail) {
   changed.data[40] ^= std::byte{1};
   ASSERT_TRUE(tools::writeHeights(path("changed.tif"), changed).ok());
   EXPECT_EQ(cli("compare a.tks --height larger.tif").code, 7);
-  EXPECT_EQ(cli("compare a.tks --height changed.tif").code, 7);
+  const auto outcome = cli("compare a.tks --height changed.tif");
+  EXPECT_EQ(outcome.code, 7);
+  EXPECT_NE(outcome.err.find("it is not of this file, or broke its promise"), std::string::npos);
+  tools::HeightFile floats = hills(17);
+  floats.sample = TKS_F32;
+  floats.data.resize(sizeof(float) * 17 * 17);
+  ASSERT_TRUE(tools::writeHeights(path("floats.tif"), floats).ok());
+  const auto other = cli("compare a.tks --height floats.tif");
+  EXPECT_EQ(other.code, 7);
+  EXPECT_NE(other.err.find("17 x 17 heights of u16, the reference 17 x 17 heights of f32"),
+            std::string::npos)
+      << other.err;
   ASSERT_TRUE(tools::writeImage(path("other.png"), photo(33)).ok());
   EXPECT_EQ(cli("compare a.tks --texture other.png").code, 7);
 }

@@ -179,5 +179,27 @@ TEST_F(CliPlace, BrokenWorldFilesAreRefusedWithOneSentence) {
   }
 }
 
+TEST_F(CliPlace, NotesAskForWhatIsGuessed) {
+  tools::HeightFile bare = hills(17);
+  bare.spacing_x = bare.spacing_y = 0;
+  bare.unit = "";
+  ASSERT_TRUE(tools::writeHeights(path("bare.tif"), bare).ok());
+  const auto asks = [this](const std::string& options, const char* option) {
+    const auto outcome = cli("encode bare.tif -f -o a.tks " + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err.find(std::string("give ") + option) != std::string::npos;
+  };
+  for (const char* blind : {"--lossless", "--bytes 1k", "--max-error 1"}) {
+    EXPECT_FALSE(asks(blind, "--unit")) << blind;
+    EXPECT_FALSE(asks(blind, "--spacing")) << blind;
+  }
+  EXPECT_TRUE(asks("--max-error 1ft", "--unit"));
+  EXPECT_FALSE(asks("--max-error 1ft --unit m", "--unit"));
+  EXPECT_FALSE(asks("--max-error 1ft", "--spacing"));
+  EXPECT_TRUE(asks("--bytes 1k --triangles 50", "--spacing"));
+  EXPECT_TRUE(asks("--bytes 1k --triangles 50", "--unit"));
+  EXPECT_FALSE(asks("--bytes 1k --triangles 50 --spacing 10", "--spacing"));
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -3,6 +3,7 @@
 #include "tools/commands/output.hpp"
 
 #include "tests/cli/cli_fixture.hpp"
+#include "tools/files/temporary.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -24,6 +25,22 @@ TEST_F(OutputTest, AppearsOnlyAtCommit) {
   EXPECT_FALSE(names().contains("a"));
   ASSERT_TRUE(output->commit().ok());
   EXPECT_EQ(content("a"), "text");
+}
+
+TEST_F(OutputTest, FoldersAreReplacedOrKept) {
+  std::filesystem::create_directory(path("tiles"));
+  write("tiles/old", "old");
+  const auto replace = [this] {
+    return tools::replaceFolder(path("made"), path("tiles"), path("aside"));
+  };
+  EXPECT_EQ(replace().code(), TKS_IO);  // there is nothing to put there
+  EXPECT_EQ(content("tiles/old"), "old");
+  EXPECT_FALSE(names().contains("aside"));
+  std::filesystem::create_directory(path("made"));
+  write("made/new", "new");
+  EXPECT_TRUE(replace().ok());
+  EXPECT_EQ(content("tiles/new"), "new");
+  EXPECT_EQ(content("aside/old"), "old");
 }
 
 TEST_F(OutputTest, LeavesNothingWithoutCommit) {

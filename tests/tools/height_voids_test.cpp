@@ -95,6 +95,30 @@ TEST_F(HeightVoids, FloatsThatGdalTakesForNodataBecomeIt) {
   EXPECT_FALSE(read(tiff)->nodata);
 }
 
+TEST_F(HeightVoids, NodataInWordsOfOldLibrariesIsNoNumber) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  TinyTiff tiff = tiffOf<float>({1, -1, nan, 5});
+  for (const char* text :
+       {"nan", "-nan", "-1.#IND", "1.#QNAN", "1.#QNAN00", "-1.#IND00", "1.#SNAN"}) {
+    tiff.ascii(kGdalNodata, text);
+    const auto heights = read(tiff);
+    ASSERT_TRUE(heights.ok());
+    ASSERT_TRUE(heights->nodata) << text;
+    EXPECT_TRUE(std::isnan(*heights->nodata)) << text;
+    EXPECT_TRUE(notes.empty()) << text;
+  }
+  tiff.ascii(kGdalNodata, "-1.#INF");
+  EXPECT_EQ(read(tiff)->nodata, -HUGE_VAL);
+  tiff.ascii(kGdalNodata, " -1 \n");
+  EXPECT_EQ(read(tiff)->nodata, -1);
+  for (const char* text : {"-1 m", "1.#", "1,5", "none"}) {
+    tiff.ascii(kGdalNodata, text);
+    EXPECT_FALSE(read(tiff)->nodata) << text;
+    ASSERT_FALSE(notes.empty()) << text;
+    EXPECT_NE(notes[0].text.find("--nodata"), std::string::npos) << text;
+  }
+}
+
 TEST_F(HeightVoids, SamplesFarFromNodataKeepTheirBits) {
   std::mt19937 random(3);
   std::vector<float> row(3000);
@@ -208,8 +232,14 @@ TEST_F(HeightVoids, IsolatedValuesAreNotedUnlessDeclared) {
   expectNote(tiffOf<int16_t>({-400, 8848, -32768, 3}), "-32768");
   expectNote(tiffOf<uint16_t>({0, 9000, 65535, 3}), "65535");
   expectNote(tiffOf<int32_t>({0, 100000, std::numeric_limits<int32_t>::min()}), "-2147483648");
+  expectNote(tiffOf<float>({1, 2, -9999, 1500}), "-9999");
+  expectNote(tiffOf<float>({1, 2, 1e9F}), "1e+09");
+  expectNote(tiffOf<int16_t>({-400, 8848, -9999, std::numeric_limits<int16_t>::max()}), "32767");
+  expectNote(tiffOf<int16_t>({-400, 8848, -9999, 3}), "-9999");
+  expectNote(tiffOf<uint16_t>({0, 900, 9999, 3}), "9999");
   for (const TinyTiff& usual :
-       {tiffOf<float>({1, 2, 1e9F}), tiffOf<int16_t>({-32768, -10000, 20000}),
+       {tiffOf<float>({1, 2, 1e9F, 1.1e9F}), tiffOf<float>({0, 400, 500}), tiffOf<float>({7, 90}),
+        tiffOf<int16_t>({-5000, 0, 5000}), tiffOf<int16_t>({-32768, -10000, 5000, 20000}),
         tiffOf<uint16_t>({65535, 65535}), tiffOf<uint16_t>({65535, 65534, 60000, 0}),
         tiffOf<uint16_t>({0, 40000, 40010}), tiffOf<uint8_t>({0, 1, 255})}) {
     ASSERT_TRUE(read(usual).ok());

@@ -52,7 +52,7 @@ TEST(Synth, HasTheStatedShape) {
     EXPECT_EQ(heights.spacing_x, 30);
     EXPECT_EQ(heights.spacing_y, 30);
     EXPECT_EQ(heights.unit, "m");
-    EXPECT_EQ(heights.vertical_datum, "unknown");
+    EXPECT_EQ(heights.vertical_datum, "");
     EXPECT_EQ(terrain.texture.width, 2 * (size - 1));
     EXPECT_EQ(terrain.texture.height, 2 * (size - 1));
     EXPECT_EQ(terrain.texture.channels, 3u);

@@ -7,6 +7,7 @@
 
 #include "tools/commands/command.hpp"
 #include "tools/commands/json.hpp"
+#include "tools/files/text.hpp"
 #include "tools/report/comparison.hpp"
 
 namespace tetrakis::tools {
@@ -89,20 +90,24 @@ Status look(Comparer& comparer, const CameraChoice& cameras, bool quiet) {
   return Status();
 }
 
+/// Of a promise: what the stream says, and what is found.
+Status broken(const std::string& promise, const std::string& finding) {
+  return {TKS_MISMATCH, "the stream says " + promise + ", but " + finding +
+                            ": it is not of this file, or broke its promise"};
+}
+
 /// A complete stream states what it guarantees; the surface itself is held to it.
 Status checkPromise(const tks_info& info, const Measurement& measurement) {
   if (info.available_bytes < info.stream_bytes) return Status();
   if (info.lossless && measurement.texture_psnr && !isExact(*measurement.texture_psnr))
-    return Status(TKS_MISMATCH, "the stream says lossless, but the texture differs");
+    return broken("lossless", "the texture differs");
   if (!measurement.heights) return Status();
   const double error = measurement.heights->max_error;
   if (info.lossless && error != 0)
-    return Status(TKS_MISMATCH,
-                  "the stream says lossless, but heights differ by up to " + std::to_string(error));
+    return broken("lossless", "heights differ by up to " + shortest(error));
   if (info.max_error >= 0 && !(error <= info.max_error + measurement.heights->rounding))
-    return Status(TKS_MISMATCH, "the stream promises heights within " +
-                                    std::to_string(info.max_error) + ", but they differ by up to " +
-                                    std::to_string(error));
+    return broken("heights within " + shortest(info.max_error),
+                  "they differ by up to " + shortest(error));
   return Status();
 }
 

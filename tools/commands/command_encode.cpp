@@ -2,6 +2,7 @@
 // tetrakis encode: heights, a texture or both into one embedded stream.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -56,6 +57,31 @@ void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet)
   }
 }
 
+/// Whether meshes or pictures of the ground count.
+bool isSeen(const EncodeArguments& arguments) {
+  return !arguments.texture.empty() || !arguments.report.empty() || arguments.triangles > 0 ||
+         arguments.engine == "rendered" || !arguments.cameras.isDefault();
+}
+
+/// What is guessed of heights because something relies on it, unless a note has asked for it.
+Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const Notes& told) {
+  const auto asked = [&told](const char* option) {
+    return std::any_of(told.begin(), told.end(),
+                       [option](const Note& note) { return note.option == option; });
+  };
+  const bool converted = !arguments.max_error.empty() &&
+                         std::isalpha(static_cast<unsigned char>(arguments.max_error.back()));
+  const bool seen = isSeen(arguments);
+  Notes notes;
+  if (heights.unit.empty() && (seen || converted) && !asked("--unit"))
+    notes.push_back({"the unit of the heights is not known and counts as metres: give --unit", ""});
+  if (heights.spacing_x <= 0 && heights.spacing_y <= 0 && seen && !asked("--spacing"))
+    notes.push_back({"the spacing of the samples is not known and counts as " +
+                         shortest(kUnknownSpacing) + " m: give --spacing",
+                     ""});
+  return notes;
+}
+
 Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   Reference inputs;
   if (!arguments.height.empty()) {
@@ -69,6 +95,7 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
                                    "IN.tif OUT.tif");
     tellNotes(notes, arguments, quiet);
     if (Status status = describe(arguments, *heights); !status.ok()) return status;
+    tellNotes(guesses(arguments, *heights, notes), arguments, quiet);
     tellNote(voidNote(*heights), quiet);
     inputs.heights = std::move(*heights);
   }

@@ -11,6 +11,7 @@
 
 #include "tools/commands/command.hpp"
 #include "tools/commands/json.hpp"
+#include "tools/files/plain_heights.hpp"
 
 namespace tetrakis::tools {
 namespace {

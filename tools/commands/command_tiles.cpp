@@ -53,11 +53,16 @@ class TileFolder {
   std::string staging() const { return (staging_.path() / "new").string(); }
 
   Status commit() {
+    Status status;
     std::error_code error;
-    if (replaces_) fs::rename(path_, staging_.path() / "old", error);
-    if (!error) fs::rename(staging(), path_, error);
-    if (!error) return {};
-    return {TKS_IO, "cannot write " + quoted(path_.string()) + ": " + error.message()};
+    if (replaces_) {
+      status = replaceFolder(staging(), path_, staging_.path() / "old");
+    } else {
+      fs::rename(staging(), path_, error);
+      if (error) status = {TKS_IO, error.message()};
+    }
+    if (status.ok()) return status;
+    return {TKS_IO, "cannot write " + quoted(path_.string()) + ": " + status.message()};
   }
 
  private:

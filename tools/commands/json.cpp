@@ -40,26 +40,6 @@ void flatten(const std::string& key, const Json& value, Rows& rows) {
 
 }  // namespace
 
-std::string sampleName(tks_sample sample) {
-  switch (sample) {
-    case TKS_U8:
-      return "u8";
-    case TKS_I8:
-      return "i8";
-    case TKS_U16:
-      return "u16";
-    case TKS_I16:
-      return "i16";
-    case TKS_U32:
-      return "u32";
-    case TKS_I32:
-      return "i32";
-    case TKS_F32:
-      return "f32";
-  }
-  return "unknown";
-}
-
 Json textOrNull(const std::string& text) {
   return text.empty() ? Json() : Json(text);
 }

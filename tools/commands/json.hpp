@@ -13,9 +13,6 @@ namespace tetrakis::tools {
 /// Keeps the order of insertion.
 using Json = nlohmann::ordered_json;
 
-/// "u8" … "f32".
-std::string sampleName(tks_sample sample);
-
 /// JSON null for "": the texts of a stream use it for unknown.
 Json textOrNull(const std::string& text);
 

@@ -59,6 +59,12 @@ GeoTransform tileAt(const Corner& corner, uint32_t side) {
 
 }  // namespace
 
+std::string sampleName(tks_sample sample) {
+  for (const NamedSample& known : kSampleNames)
+    if (known.sample == sample) return known.name;
+  return "unknown";
+}
+
 std::optional<RawName> parseRawName(const std::string& text) {
   // Seven digits: products of sizes stay far below 2^64.
   static const std::regex pattern("(.+):([0-9]{1,7})x([0-9]{1,7}):([a-z0-9]+)");

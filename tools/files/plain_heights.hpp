@@ -10,6 +10,9 @@
 
 namespace tetrakis::tools {
 
+/// "u8" … "f32".
+std::string sampleName(tks_sample sample);
+
 /// "file.raw:WIDTHxHEIGHT:type", taken apart.
 struct RawName {
   std::string path;

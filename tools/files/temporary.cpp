@@ -118,6 +118,18 @@ Temporary::~Temporary() {
   entries.erase(entry);
 }
 
+Status replaceFolder(const fs::path& made, const fs::path& target, const fs::path& aside) {
+  const std::lock_guard no_signal(registry().mutex);  // which would remove `aside`
+  std::error_code error;
+  fs::rename(target, aside, error);
+  if (error) return {TKS_IO, error.message()};
+  fs::rename(made, target, error);
+  if (!error) return {};
+  std::error_code ignored;
+  fs::rename(aside, target, ignored);
+  return {TKS_IO, error.message()};
+}
+
 void cleanUpOnSignals() {
   sigset_t signals;
   sigemptyset(&signals);

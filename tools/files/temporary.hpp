@@ -30,6 +30,11 @@ class Temporary {
   std::filesystem::path path_;
 };
 
+/// Puts the folder `made` in the place of the folder `target`, which goes to `aside`; signals wait
+/// till both are there. Where that fails, `target` is what it was.
+Status replaceFolder(const std::filesystem::path& made, const std::filesystem::path& target,
+                     const std::filesystem::path& aside);
+
 /// For the start of main, before there are other threads: from here on SIGHUP, SIGINT and SIGTERM
 /// (unless they are ignored) remove all that Temporaries own, then end the process as they do by
 /// themselves. A pipe without a reader becomes an error of the write instead of a signal.

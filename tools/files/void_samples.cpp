@@ -59,6 +59,7 @@ std::string textOf(double value, tks_sample sample) {
 struct Outliers {
   uint64_t count = 0, others = 0;
   double value = 0;  ///< the outermost
+  double range = 0;  ///< of the others
 };
 
 /// Finite floats that no height in any unit can be.
@@ -77,37 +78,58 @@ Outliers hugeFloats(std::span<const float> samples) {
   return found;
 }
 
-/// The end of an integer type, where the gap to all other samples is wider than their range.
+/// The samples of value `end`, which has no others on one side, where the gap to those on the other
+/// is wider than their range.
 template <class T>
 Outliers isolatedEnd(std::span<const T> samples, T end) {
   using Limits = std::numeric_limits<T>;
   Outliers found{0, 0, static_cast<double>(end)};
-  T low = Limits::max(), high = Limits::min();
+  T low = Limits::max(), high = Limits::lowest();
   for (const T sample : samples) {
     if (sample == end) {
       ++found.count;
       continue;
     }
+    if (!std::isfinite(static_cast<double>(sample))) continue;
     ++found.others;
     low = std::min(low, sample);
     high = std::max(high, sample);
   }
-  const double range = double(high) - double(low);
-  const double gap = end == Limits::min() ? double(low) - double(end) : double(end) - double(high);
-  return found.others > 0 && gap > range ? found : Outliers{};
+  found.range = double(high) - double(low);
+  const double gap = std::max(double(low) - double(end), double(end) - double(high));
+  return found.others > 0 && gap > found.range ? found : Outliers{};
+}
+
+/// The least or the greatest value, where it repeats, as -9999 does, and the others vary: two
+/// values make no terrain with voids. 0 is a height of its own.
+template <class T>
+Outliers isolatedExtreme(std::span<const T> samples) {
+  T least = std::numeric_limits<T>::max(), greatest = std::numeric_limits<T>::lowest();
+  for (const T sample : samples) {
+    if (!std::isfinite(static_cast<double>(sample))) continue;
+    least = std::min(least, sample);
+    greatest = std::max(greatest, sample);
+  }
+  for (const T extreme : {least, greatest}) {
+    const Outliers found = isolatedEnd(samples, extreme);
+    if (found.count > 1 && found.range > 0 && extreme != 0) return found;
+  }
+  return {};
 }
 
 template <class T>
 Outliers outliersOf(std::span<const T> samples) {
   if constexpr (std::is_floating_point_v<T>) {
-    return hugeFloats(samples);
+    const Outliers huge = hugeFloats(samples);
+    return huge.count > 0 ? huge : isolatedExtreme(samples);
   } else if constexpr (sizeof(T) == 1) {
     return {};  // classes and masks hold the ends of so small a type
   } else {
     const Outliers low = isolatedEnd(samples, std::numeric_limits<T>::min());
     // 0 is a height of its own.
     if (std::is_signed_v<T> && low.count > 0) return low;
-    return isolatedEnd(samples, std::numeric_limits<T>::max());
+    const Outliers high = isolatedEnd(samples, std::numeric_limits<T>::max());
+    return high.count > 0 ? high : isolatedExtreme(samples);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "tools/files/plain_heights.hpp"
 #include "tools/files/stream.hpp"
 
 namespace tetrakis::tools {
@@ -63,10 +64,15 @@ std::string shape(uint32_t width, uint32_t height) {
 
 Status checkHeights(const HeightFile& heights, const tks_info& header) {
   if (!header.has_heights) return Status(TKS_USAGE, "the stream has no heights to compare");
-  if (heights.width == header.width && heights.height == header.height) return Status();
-  return Status(TKS_MISMATCH, "the stream has " + shape(header.width, header.height) +
-                                  " heights, the reference " +
-                                  shape(heights.width, heights.height));
+  if (heights.width == header.width && heights.height == header.height &&
+      heights.sample == header.sample)
+    return Status();
+  const auto describe = [](uint32_t width, uint32_t height, tks_sample sample) {
+    return shape(width, height) + " heights of " + sampleName(sample);
+  };
+  return Status(TKS_MISMATCH,
+                "the stream has " + describe(header.width, header.height, header.sample) +
+                    ", the reference " + describe(heights.width, heights.height, heights.sample));
 }
 
 Status checkImage(const ImageFile& image, const tks_info& header) {

@@ -28,7 +28,6 @@ HeightFile heightsOf(const synth::Relief& relief, const synth::Storage& storage,
   file.scale = storage.step;
   file.spacing_x = file.spacing_y = relief.spacing;
   file.unit = std::string("m");
-  file.vertical_datum = std::string("unknown");
   if (holes) file.nodata = kNoData;
   file.data.resize((whole ? sizeof(uint16_t) : sizeof(float)) * size * size);
   std::byte* out = file.data.data();

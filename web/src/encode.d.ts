@@ -66,7 +66,7 @@ export interface EncodeInput {
 export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
   /** false: on this thread. A URL: where bundlers do not find `tetrakis/encode_worker`. */
   worker?: boolean | string | URL;
-  /** Told how much is done, from 0 to 1. */
+  /** Told how much is done, from 0 to 1. What it throws ends the encoding, which rejects with it. */
   progress?: (done: number) => void;
 }
 

@@ -20,10 +20,17 @@ function workerOf(worker) {
 
 function encodeIn(worker, module, input, progress) {
   return new Promise((resolve, reject) => {
+    const tell = (done) => {
+      try {
+        progress(done);
+      } catch (error) {
+        reject(error);
+      }
+    };
     worker.onmessage = ({data: {done, stream, error}}) => {
       if (error) reject(new TksError(error.code, error.message));
       else if (stream) resolve(stream);
-      else progress(done);
+      else tell(done);
     };
     worker.onerror = (event) => {
       event.preventDefault?.();

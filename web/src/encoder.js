@@ -107,11 +107,20 @@ class Allocation {
   }
 }
 
-/** tks_encode. `progress` is told how much is done, from 0 to 1. */
+/** tks_encode. `progress` is told how much is done, from 0 to 1; what it throws comes back. */
 export function encodeWith(module, input, progress) {
   const fields = fieldsOf(input), texts = textsOf(input);
+  let thrown = null;
+  const watched = (done) => {
+    try {
+      progress(done);
+    } catch (error) {
+      thrown = {error};
+      throw error;
+    }
+  };
   try {
-    const instance = new Instance(module, {web_progress: progress}), {calls} = instance;
+    const instance = new Instance(module, {web_progress: watched}), {calls} = instance;
     const memory = new Allocation(instance);
     const names = (call) => instance.text(calls[call]()).split(' ');
     const numbers = memory.array(
@@ -126,6 +135,7 @@ export function encodeWith(module, input, progress) {
     const [address, size] = instance.view(Uint32Array, out, 2);
     return instance.copy(Uint8Array, address, size);
   } catch (error) {
+    if (thrown) throw thrown.error;
     if (error instanceof TksError) throw error;
     throw new TksError('memory', 'The encoder ran out of memory: a page has 4 GB at most.',
       {cause: error});

@@ -23,6 +23,7 @@ class RemoteDecoder {
   constructor(worker, module, memory) {
     this.#worker = worker;
     worker.onmessage = ({data: {id, result, error}}) => {
+      if (!this.#waiting.has(id)) return;  // all were told of a failure or the end
       const {resolve, reject} = this.#waiting.get(id);
       this.#waiting.delete(id);
       if (!error) return resolve(result);
@@ -155,6 +156,7 @@ class Terrain {
   }
 
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
+    signal?.throwIfAborted();
     const seen = plannedView(view);
     // One after another: each asks for what the ones before did not.
     const step = async () => {

@@ -9,11 +9,12 @@ const MAGIC = [0x54, 0x4b, 0x53, 0x1a];
 /** The promise, or the signal's reason once it aborts. */
 export function abortable(promise, signal) {
   if (!signal) return promise;
-  signal.throwIfAborted();
   return new Promise((resolve, reject) => {
     const stop = () => reject(signal.reason);
-    signal.addEventListener('abort', stop, {once: true});
+    // First of all the promise has a handler: one that fails without ends a Node process.
     promise.then(resolve, reject).finally(() => signal.removeEventListener('abort', stop));
+    if (signal.aborted) stop();
+    else signal.addEventListener('abort', stop, {once: true});
   });
 }
 
@@ -74,10 +75,15 @@ class UrlSource {
   async scattered(begin, end) {
     return (!this.#reader && (await this.#request(begin, end))) || new Uint8Array(0);
   }
-  close() {
-    this.#stop.abort();
+  close(reason = new TksError('usage', 'This terrain is disposed.')) {
+    this.#stop.abort(reason);
   }
 
+  /** Of a request: why it was stopped, or else this sentence. */
+  #failure(sentence, cause) {
+    const {aborted, reason} = this.#stop.signal;
+    return aborted ? reason : new TksError('io', `${this.#url}${sentence}`, {cause});
+  }
   get #what() {
     return `${this.#url}${this.type ? ` (${this.type})` : ''}`;
   }
@@ -89,9 +95,8 @@ class UrlSource {
         signal: this.#stop.signal,
       });
     } catch (error) {
-      throw new TksError('io', `${this.#url} cannot be fetched: there is no connection, or that ` +
-        'server does not allow this page to read it (CORS: Access-Control-Allow-Origin).',
-        {cause: error});
+      throw this.#failure(' cannot be fetched: there is no connection, or that server does not ' +
+        'allow this page to read it (CORS: Access-Control-Allow-Origin).', error);
     }
   }
 
@@ -118,9 +123,9 @@ class UrlSource {
     const version = answer.headers.get('etag') ?? answer.headers.get('last-modified');
     this.#version ??= version;
     if (version === null || version === this.#version) return;
-    this.close();
-    throw new TksError('changed', `${this.#url} has changed on the server since its first bytes ` +
-      'were read. Open it again.');
+    this.close(new TksError('changed', `${this.#url} has changed on the server since its first ` +
+      'bytes were read. Open it again.'));
+    throw this.#stop.signal.reason;
   }
 
   async #part(answer, begin, end) {
@@ -134,7 +139,7 @@ class UrlSource {
     try {
       bytes = new Uint8Array(await answer.arrayBuffer());
     } catch (error) {
-      throw new TksError('io', `${this.#url}: the connection broke.`, {cause: error});
+      throw this.#failure(': the connection broke.', error);
     }
     const sent = range ? Number(range[2]) + 1 - begin : bytes.length;
     if (bytes.length > end - begin || bytes.length !== sent) {
@@ -142,8 +147,10 @@ class UrlSource {
         `${Math.min(sent, end - begin)} were announced. Does it compress streams ` +
         '(Content-Encoding)? It should send them as they are.');
     }
-    if (bytes.length < end - begin) this.size = begin + bytes.length;
-    else if (range && range[3] !== '*') this.size = Number(range[3]);
+    // Servers may send less than was asked for (RFC 9110, section 15.3.7): only where no size is
+    // stated does a short answer tell the end.
+    if (range && range[3] !== '*') this.size = Number(range[3]);
+    else if (bytes.length < end - begin) this.size = begin + bytes.length;
     return bytes;
   }
 
@@ -153,7 +160,7 @@ class UrlSource {
     let length = parts.reduce((sum, part) => sum + part.length, 0);
     while (this.#place + length < end) {
       const {done, value} = await this.#reader.read().catch((error) => {
-        throw new TksError('io', `${this.#url}: the connection broke.`, {cause: error});
+        throw this.#failure(': the connection broke.', error);
       });
       if (done) {
         this.size = this.#place + length;

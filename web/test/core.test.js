@@ -141,6 +141,34 @@ test('a file that is cut short is a prefix, and says so', async () => {
   await rejects(open(bytes.subarray(0, 30)), 'truncated', /ends after 30 bytes, inside the header/);
 });
 
+test('a server that sends less than was asked for is asked again', async () => {
+  await withServer({most: 1000}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    const frame = await terrain.decode();
+    assert.ok(frame.complete && !terrain.truncated);
+    assert.equal(terrain.loaded.bytes, bytes.length);
+    terrain.dispose();
+  });
+});
+
+test('a disposed terrain says so', async () => {
+  await withServer({}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    terrain.dispose();
+    await rejects(terrain.decode(), 'usage', /is disposed/);
+    await rejects(terrain.decode({bytes: 2000}), 'usage', /is disposed/);
+  });
+});
+
+test('a worker that answers after it failed is not heard', async () => {
+  const worker = {postMessage() {}, terminate() {}};
+  const opening = open(bytes, {worker});
+  await new Promise((resolve) => setTimeout(resolve, 20));
+  worker.onerror({message: 'gone'});
+  worker.onmessage({data: {id: 0, result: null}});
+  await rejects(opening, 'io', /gone/);
+});
+
 test('what cannot be opened says why', async () => {
   await withServer({}, async ({url}) => {
     await rejects(open(url + 'page.tks'), 'corrupt',
@@ -175,6 +203,21 @@ test('aborting: the reason comes back, and the terrain goes on', async () => {
   stop.abort(reason);
   await assert.rejects(frame, reason);
   assert.ok((await terrain.decode()).complete);
+  // A load that is aborted before it begins asks for nothing, and leaves no rejection behind.
+  await withServer({}, async (server) => {
+    const remote = await open(server.url + 'whole.tks');
+    server.faults.missing = true;
+    const asked = server.requests.length;
+    await assert.rejects(remote.load(bytes.length, {signal: AbortSignal.abort(reason)}), reason);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+    assert.equal(server.requests.length, asked);
+    const late = new AbortController();
+    const failing = remote.load(bytes.length, {signal: late.signal});
+    late.abort(reason);
+    await assert.rejects(failing, reason);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+    remote.dispose();
+  });
 });
 
 test('a limit of memory is kept; an instance that aborted is replaced', async () => {

@@ -75,6 +75,12 @@ test('what makes no sense is refused by code and sentence', async () => {
   await assert.rejects(encode({heights}, {signal: AbortSignal.abort(new Error('gone'))}), /gone/);
 });
 
+test('what progress throws comes back', async () => {
+  const {heights} = terrainOf(48);
+  const own = new RangeError('the page is wrong');
+  await assert.rejects(encode({heights}, {progress: () => { throw own; }}), (error) => error === own);
+});
+
 test('the bytes are those of the native encoder', {skip: !existsSync(CLI)}, async () => {
   const folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
   const {data, width, height} = terrainOf(65).heights;

@@ -12,7 +12,8 @@ const TYPES = {
 
 /**
  * Serves `folder`. Of `faults`: noRanges (200 and the whole file), etag (called for each answer),
- * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always).
+ * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always),
+ * most (the bytes of an answer to a range, at most).
  */
 export async function serve(folder, faults = {}) {
   const requests = [];
@@ -34,7 +35,8 @@ export async function serve(folder, faults = {}) {
       response.writeHead(200, {...headers, 'content-length': size});
       return createReadStream(file).pipe(response);
     }
-    const start = Number(range[1]), end = Math.min(Number(range[2]), size - 1);
+    const start = Number(range[1]);
+    const end = Math.min(Number(range[2]), size - 1, start + (faults.most ?? Infinity) - 1);
     if (start >= size) {
       response.writeHead(416, {...headers, 'content-range': `bytes */${size}`});
       return response.end();

@@ -179,6 +179,23 @@ def test_overviews_of_voids(tmp_path):
     np.testing.assert_array_equal(mask == 0, all_void)
 
 
+@pytest.mark.parametrize("dtype", ["i2", "u2", "f4"])
+@pytest.mark.parametrize("nodata", [0, 9, 32767])
+def test_ground_whose_mean_is_nodata_is_no_void(tmp_path, dtype, nodata):
+    y, x = np.mgrid[0:300, 0:300]
+    heights = (nodata + np.where((x + y) % 2, 3, -3) + (3 if dtype == "u2" else 0)).astype(dtype)
+    if dtype == "i2" and nodata == 32767:
+        heights = np.where((x + y) % 2, 32766, 32767).astype(dtype)
+    declared = nodata + 3 if dtype == "u2" else nodata
+    heights[:50, :50] = declared
+    band = first_band(copy(memory(heights, nodata=declared), tmp_path / "a.tks"))
+    overview = band.GetOverview(0)
+    assert (overview.GetMaskBand().ReadAsArray()[30:] == 255).all()
+    assert (overview.GetMaskBand().ReadAsArray()[:20, :20] == 0).all()
+    off = np.abs(overview.ReadAsArray()[30:].astype(float) - declared)
+    assert 0 < off.max() <= 1
+
+
 def test_overviews_of_cutouts(placed):
     image = gdal.Open(f'TKS:"{placed}":texture')
     small = np.stack([image.GetRasterBand(i).GetOverview(0).ReadAsArray() for i in range(1, 5)])

@@ -337,6 +337,63 @@ def test_doubles(tmp_path):
     np.testing.assert_array_equal(rounded.ReadAsArray(), (exact + 1e-9).astype(np.float32))
 
 
+def written_quietly(source, name, *options):
+    """Without GDAL's warning that doubles are rounded."""
+    gdal.PushErrorHandler("CPLQuietErrorHandler")
+    try:
+        return copy(source, name, *options, strict=False)
+    finally:
+        gdal.PopErrorHandler()
+
+
+def test_the_largest_error_counts_what_rounding_doubles_took(tmp_path):
+    y, x = np.mgrid[0:40, 0:50]
+    heights = 2e7 + 0.7 * x + 0.3 * y  # floats are 2 apart here
+    name = tmp_path / "a.tks"
+    refused(lambda: written_quietly(heights, name, "MAX_Z_ERROR=0.01"), "Float64", "MAX_Z_ERROR")
+    assert not name.exists()
+    for options, promised in (("MAX_Z_ERROR=3", 3), ("MAX_Z_ERROR=0", 1), ("BYTES=64k", 1)):
+        for scale in (1, 0.5):
+            source = memory(heights, scale=scale, offset=0)
+            written = written_quietly(source, name, options)
+            off = np.abs(written.ReadAsArray().astype(float) - heights).max()
+            del written
+            back = gdal.Open(str(name))
+            assert 0.5 < off <= promised
+            assert back.GetMetadataItem("COMPRESSION_REVERSIBILITY", "IMAGE_STRUCTURE") == "LOSSY"
+            error = float(back.GetMetadataItem("MAX_ERROR", "TKS"))
+            assert off * scale <= error <= promised * scale + 1e-6
+
+
+@pytest.mark.parametrize("hole", [-np.finfo(np.float64).max, np.finfo(np.float64).max, 1e300])
+def test_doubles_with_nodata_beyond_floats(tmp_path, hole):
+    """Voids count for no rounding, whether a nodata value or a mask tells them."""
+    heights = terrain(30, 40).astype(np.float64)
+    void = np.zeros((30, 40), bool)
+    void[3:9, 5:20] = True
+    heights[void] = hole
+    masked = memory(heights)
+    masked.CreateMaskBand(gdal.GMF_PER_DATASET)
+    masked.GetRasterBand(1).GetMaskBand().WriteArray(np.where(void, 0, 255).astype(np.uint8))
+    for source in (memory(heights, nodata=hole), masked):
+        for options in ((), ("MAX_Z_ERROR=1",)):
+            band = first_band(copy(source, tmp_path / "a.tks", *options))
+            np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray() == 0, void)
+            off = np.abs(band.ReadAsArray() - heights)[~void].max()
+            assert off <= (1 if options else 0)
+
+
+def test_sizes_as_the_command_line_has_them(tmp_path):
+    name = tmp_path / "a.tks"
+    copy(terrain(), name, "BYTES=4k")
+    written = name.read_bytes()
+    for same in ("4096", "4K", "4kB", "4KiB"):
+        copy(terrain(), name, "BYTES=" + same)
+        assert name.read_bytes() == written
+    for wrong in ("4x", "k", "0k", "4kk", "17179869184G"):
+        refused(lambda wrong=wrong: copy(terrain(), name, "BYTES=" + wrong), "no number of bytes")
+
+
 def test_sources_that_are_no_heights(tmp_path):
     name = tmp_path / "a.tks"
     three = np.zeros((3, 8, 9), np.int16)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/length_unit.hpp"
+#include "tools/files/file_bytes.hpp"
 #include "tools/files/pictures/tiff.hpp"
 #include "tools/files/place/crs_keys.hpp"
 #include "tools/files/place/geo_tags.hpp"
@@ -99,12 +100,38 @@ void setUnit(HeightFile& heights, const GeoKeys& keys, Notes& notes) {
                    "--unit"});
 }
 
+constexpr std::string_view kPadding(" \t\r\n\0", 5);
+
+/// What a text that begins as 1 or -1 goes on with for a number that is none or infinite, as C
+/// libraries of Windows wrote it: 1.#INF, -1.#IND, 1.#QNAN, with digits behind or without.
+std::optional<double> windowsNumber(double value, std::string_view rest) {
+  if (rest.starts_with("#INF")) return std::copysign(HUGE_VAL, value);
+  for (const std::string_view none : {"#IND", "#QNAN", "#SNAN"})
+    if (rest.starts_with(none)) return std::numeric_limits<double>::quiet_NaN();
+  return {};
+}
+
 std::optional<double> number(std::string_view text) {
   const size_t start = text.find_first_not_of(" +");
   if (start == std::string_view::npos) return {};
+  text.remove_prefix(start);
   double value = 0;
-  const auto end = std::from_chars(text.data() + start, text.data() + text.size(), value);
-  return end.ec == std::errc() ? std::optional(value) : std::nullopt;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc()) return {};
+  text.remove_prefix(static_cast<size_t>(end.ptr - text.data()));
+  if (text.find_first_not_of(kPadding) == std::string_view::npos) return value;
+  return windowsNumber(value, text);
+}
+
+/// Nothing if the file declares none that is a number.
+std::optional<double> nodataIn(const std::string& text, Notes& notes) {
+  const std::optional<double> nodata = number(text);
+  if (!nodata && text.find_first_not_of(kPadding) != std::string::npos)
+    notes.push_back({"its nodata value " + quoted(text) +
+                         " is no number and is not used: give "
+                         "--nodata",
+                     "--nodata"});
+  return nodata;
 }
 
 /// <GDALMetadata><Item sample="0" role="ROLE">value</Item></GDALMetadata>
@@ -137,7 +164,7 @@ Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
   setGdalMetadata(heights, tagText(tiff, kGdalMetadataTag));
   setUnit(heights, keys, notes);
   keepKeys(heights, keys);
-  heights.nodata = number(tagText(tiff, kGdalNodataTag));
+  heights.nodata = nodataIn(tagText(tiff, kGdalNodataTag), notes);
   return {};
 }
 
