@@ -300,6 +300,37 @@ std::vector<VectorCase> tableCases() {
   };
 }
 
+/// Few values in large shapes, which take fewer bytes drawn than by wavelet.
+std::vector<VectorCase> drawnHeightsCases() {
+  const auto classes = [](const std::string& name, const std::string& purpose, uint32_t width,
+                          uint32_t height) {
+    VectorCase vector_case =
+        heightsCase(name, purpose, {Pattern::kRidges, width, height, 1, TKS_U8, 3}, lossless());
+    vector_case.classes = 5;
+    return vector_case;
+  };
+  VectorCase rescaled =
+      classes("drawn_table_f32_60x47", "drawn heights that count the values of a table", 60, 47);
+  rescaled.values = samples::FewValues::kRescaled;
+  VectorCase rare =
+      classes("drawn_rare_f32_52x44", "drawn heights beside corrections of samples", 52, 44);
+  rare.values = samples::FewValues::kRare;
+  VectorCase joint =
+      classes("drawn_joint_index_50x41_30x20", "drawn heights beside a texture, index", 50, 41);
+  joint.texture = Recipe{Pattern::kRidges, 30, 20, 3, TKS_U8, 7};
+  joint.options = indexed(lossless());
+  VectorCase copied = classes("drawn_copies_u8_75x62", "drawn heights whose lines repeat", 38, 31);
+  copied.copies[0] = copied.copies[1] = 2;
+  return {classes("drawn_u8_70x53", "drawn heights", 70, 53),
+          classes("drawn_long_u8_2x300", "drawn heights, two columns", 2, 300),
+          withVoids(classes("drawn_coast_u8_64x51", "drawn heights beside voids", 64, 51),
+                    samples::VoidShape::kCoast, 255),
+          rescaled,
+          rare,
+          joint,
+          copied};
+}
+
 /// Noise, which takes fewer bytes stored than coded.
 std::vector<VectorCase> storedCases() {
   VectorCase thirds = heightsCase("stored_f32_20x21", "floats that are stored, beside voids",
@@ -483,6 +514,11 @@ samples::Raster enlarged(const samples::Raster& of, const uint32_t (&copies)[2])
 
 samples::Raster surfaceOf(const VectorCase& vector_case) {
   samples::Raster surface = samples::make(*vector_case.heights);
+  for (std::byte& sample : surface.data) {
+    if (vector_case.classes == 0) break;
+    const uint32_t place = std::to_integer<uint32_t>(sample) * vector_case.classes / 256;
+    sample = std::byte(place * (255 / vector_case.classes));
+  }
   if (vector_case.values) surface = samples::withFewValues(surface, *vector_case.values);
   const uint32_t width = surface.width, height = surface.height;
   const std::vector<uint8_t> valid = vector_case.voids
@@ -555,6 +591,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : layerCases()) all.push_back(std::move(next));
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
   for (VectorCase& next : tableCases()) all.push_back(std::move(next));
+  for (VectorCase& next : drawnHeightsCases()) all.push_back(std::move(next));
   for (VectorCase& next : storedCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));

@@ -293,7 +293,7 @@ TEST(DecodeMemory, RepeatedLinesStayBelowTheBound) {
 TEST(DecodeMemory, StoredSamplesStayBelowTheBound) {
   const Raster noise = make({Pattern::kExtreme, 161, 124, 1, TKS_I16});
   const Bytes heights = encode(&noise, nullptr, lossless());
-  EXPECT_EQ(Stream(heights).info().heights_stored, 1);
+  EXPECT_EQ(Stream(heights).info().heights_drawn, 3);
   expectWithinBounds(heights, "stored");
   expectWithinBounds(withVoids(noise, lossless()), "stored beside voids", true);
   const Raster image = make({Pattern::kExtreme, 150, 140, 3, TKS_U16});

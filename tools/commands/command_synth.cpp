@@ -72,7 +72,7 @@ void addSynth(CLI::App& app, CommandLine& line) {
       ->capture_default_str()
       ->type_name("S");
   verb.add_option("--kind", arguments->kind,
-                  "Of terrain: mountains, coast, lakes, steps, voids, plain, city, rescaled")
+                  "Of terrain: mountains, coast, lakes, steps, voids, plain, city, rescaled, bands")
       ->capture_default_str()
       ->check(
           silent(CLI::IsMember(std::vector<std::string>(kSynthKinds.begin(), kSynthKinds.end()))))
