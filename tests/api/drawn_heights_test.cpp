@@ -146,8 +146,11 @@ TEST(DrawnHeights, WindowsAreThoseOfTheWholeInAllPrefixes) {
 
 /// Levels hold every 2^k-th sample, and nothing that was filtered.
 TEST(DrawnHeights, LevelsHoldSamples) {
-  const Raster heights = classesOf(97, 65);
+  Raster heights = classesOf(97, 65);
+  for (size_t x = 0; x < 97; ++x) heights.data[64 * 97 + x] = std::byte(x % 3);  // no line repeats
+  for (size_t y = 0; y < 65; ++y) heights.data[97 * y + 96] = std::byte(y % 3);
   Stream stream(encode(&heights, nullptr, lossless()));
+  ASSERT_EQ(stream.info().heights_drawn, 1);
   ASSERT_EQ(tks_set_levels(stream.get(), 3, 0), TKS_OK);
   std::vector<uint8_t> shown(size_t{13} * 9);
   ASSERT_EQ(tks_decode_heights(stream.get(), shown.data(), shown.size()), TKS_OK);
