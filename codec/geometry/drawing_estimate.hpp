@@ -8,7 +8,7 @@
 
 namespace tetrakis::inline geometry {
 
-/// About how many bytes the steps take as a drawing. Most drawings take 0.8 to 1.05 times as many;
+/// About how many bytes the steps take as a drawing. Drawings take 0.7 to 1.05 times as many;
 /// terrain, 1.7 times.
 double estimateDrawing(const PlaneView<const int32_t>& heights);
 
