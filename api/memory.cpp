@@ -288,7 +288,8 @@ uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
     return meshBytes(decoder, request);
-  if (decoder.payload.nothingOf(Component::kGeometry)) return kOnce;
+  if (decoder.payload.nothingOf(Component::kGeometry))
+    return decoder.parsed.header.geometry->drawn ? kDrawnOnce : kOnce;
   if (decoder.heights && !request.view.window) return 0;
   const HeightsBytes heights(decoder, request.view);
   return request.part == TKS_PART_VALIDITY ? heights.validity() : heights.decoding();
