@@ -122,7 +122,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.step = g.step;
     info.exact_steps = g.exact;
     info.max_error = g.max_error;
-    info.heights_stored = g.stored();
+    info.heights_drawn = g.drawn ? 1 : g.stored() ? 3 : 0;
     info.has_voids = header.layers.validity_bytes > 0;
     info.has_nodata = header.layers.has_nodata;
     info.nodata = header.layers.nodata;

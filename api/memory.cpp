@@ -18,7 +18,7 @@ namespace tetrakis::inline api {
 namespace {
 
 constexpr uint64_t kOnce = 256 << 10;         // models, plans, lists of levels
-constexpr uint64_t kDrawnOnce = 3 << 20;      // models of drawn textures and overlays
+constexpr uint64_t kDrawnOnce = 3 << 20;      // models of drawings and overlays
 constexpr uint64_t kBytesPerTrack = 64;       // its region, and views of its bytes
 constexpr uint64_t kValue = sizeof(int32_t);  // of a plane
 constexpr uint64_t kRow = 8;                  // of corrections, a sample of the row before
@@ -80,7 +80,7 @@ class HeightsBytes {
         voids_(layers_.validity_bytes > 0),
         flat_(layers_.flat_bytes > 0),
         table_(layers_.table_bytes > 0),
-        corrected_(header_.stored() ||
+        corrected_(header_.direct() ||
                    (view_.level == 0 && layers_.corrections != CorrectionKind::kNone)) {}
 
   /// What is left when a level is decoded: heights, marks, masks, corrections.
@@ -97,8 +97,9 @@ class HeightsBytes {
 
  private:
   uint64_t decodingLines() const {
-    // Corrections and stored samples of a window are cut out of the whole plane.
+    // Corrections and direct samples of a window are cut out of the whole plane.
     if (view_.window && corrected_) return wholeLines() + shown_ * (2 * kValue + 1);
+    if (header_.drawn) return drawing();
     const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
     const uint64_t marks = view_.window ? 0 : low();
     const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
@@ -107,6 +108,16 @@ class HeightsBytes {
     const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +
                              std::max({state, planes.work, corrections + tableBytes()});
     return kOnce + trackBytes(header_) + std::max(surface, flatOpeningBytes());
+  }
+
+  /// Models, indices, heights, marks and mask; then a table or corrections.
+  uint64_t drawing() const {
+    constexpr uint64_t kSample = sizeof(DrawnIndex) + kValue + 1;
+    const bool corrections = layers_.corrections != CorrectionKind::kNone && view_.level == 0;
+    const uint64_t behind =
+        tableBytes() + (corrections ? low() * (2 * kValue + 1) + kRow * header_.width : 0);
+    const uint64_t masks = voids_ ? area(header_) + shown_ : 0;
+    return kDrawnOnce + shown_ * kSample + masks + joinedBytes() + behind;
   }
 
   /// Of all coded lines.
@@ -152,7 +163,7 @@ class HeightsBytes {
   bool voids_;
   bool flat_;
   bool table_;
-  bool corrected_;  ///< corrections, of steps or of samples, are decoded
+  bool corrected_;  ///< corrections, or all samples directly, are decoded
 };
 
 /// Samples, or vertices of the lattice, whichever are more.
@@ -217,11 +228,11 @@ class TextureBytes {
  private:
   uint64_t direct(uint64_t count) const {
     return count *
-           ((header_.drawn() ? sizeof(ColourIndex) : 0) + header_.channels * sizeof(uint16_t));
+           ((header_.drawn() ? sizeof(DrawnIndex) : 0) + header_.channels * sizeof(uint16_t));
   }
   /// Of whole planes: what can be seen, the overlay, what is coded.
   uint64_t opening() const {
-    const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(ColourIndex) : 0;
+    const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(DrawnIndex) : 0;
     return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0));
   }
 
@@ -277,7 +288,8 @@ uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
     return meshBytes(decoder, request);
-  if (decoder.payload.nothingOf(Component::kGeometry)) return kOnce;
+  if (decoder.payload.nothingOf(Component::kGeometry))
+    return decoder.parsed.header.geometry->drawn ? kDrawnOnce : kOnce;
   if (decoder.heights && !request.view.window) return 0;
   const HeightsBytes heights(decoder, request.view);
   return request.part == TKS_PART_VALIDITY ? heights.validity() : heights.decoding();

@@ -30,9 +30,9 @@ std::vector<bool> neededTracks(const auto& header, const View& view, bool all) {
   return needed;
 }
 
-/// Corrections are decoded with all of level 0.
+/// Corrections are decoded with all of level 0, drawings and stored samples at all levels.
 bool takesAll(const StreamHeader& header, const View& view) {
-  return header.geometry->stored() ||
+  return header.geometry->direct() ||
          (view.level == 0 && header.layers.corrections != CorrectionKind::kNone);
 }
 

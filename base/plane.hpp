@@ -55,6 +55,8 @@ struct PlaneView {
   Mask valid;
 
   PlaneView() = default;
+  PlaneView(const PlaneView&) = default;
+  PlaneView& operator=(const PlaneView&) = default;
   /// There are width * height values, and as many bytes in the mask if it has any.
   PlaneView(std::span<T> values, Extent extent, Mask mask = {})
       : data(values.data()), width(extent.width), height(extent.height), valid(mask) {

@@ -61,8 +61,8 @@ std::vector<VectorCase> refusedHeaders() {
   refuse("scale", "a scale of NaN", [](StreamHeader& h) { h.metadata.scale = kNaN; });
   refuse("max_error", "a largest error of NaN",
          [](StreamHeader& h) { h.geometry->max_error = kNaN; });
-  refuse("planes", "stored heights with a map of priorities",
-         [](StreamHeader& h) { h.geometry->planes = 63; });
+  refuse("planes", "more bit-planes of heights than there may be",
+         [](StreamHeader& h) { h.geometry->planes = 64; });
   refuse("sample", "heights of a type that there is not",
          [](StreamHeader& h) { h.geometry->sample = 7; });
   refuse("lines", "heights whose rows all repeat the first", [](StreamHeader& h) {
@@ -78,16 +78,34 @@ std::vector<VectorCase> refusedHeaders() {
     h.texture->priorities = {4, "map"};
   });
   refuse("stored_flat", "stored heights with flat areas", [](StreamHeader& h) {
-    h.geometry->planes = GeometryHeader::kStoredPlanes;
+    h.geometry->planes = GeometryHeader::kDirectPlanes;
     h.layers.flat_bytes = 5;
     h.layers.flat_areas = 1;
+  });
+  const auto draw = [](StreamHeader& h) {
+    h.geometry->planes = GeometryHeader::kDirectPlanes;
+    h.geometry->drawn = true;
+  };
+  refuse("drawn_heights_flat", "drawn heights with flat areas", [&](StreamHeader& h) {
+    draw(h);
+    h.layers.flat_bytes = 5;
+    h.layers.flat_areas = 1;
+  });
+  refuse("drawn_heights_steps", "drawn heights with corrections of steps", [&](StreamHeader& h) {
+    draw(h);
+    h.layers.corrections = CorrectionKind::kSteps;
+    h.layers.correction_step = 1;
+  });
+  refuse("drawn_heights_regions", "drawn heights in regions", [&](StreamHeader& h) {
+    draw(h);
+    h.geometry->regions.side_log2 = 4;
   });
   refuse("flat_areas", "more flat areas than there may be", [](StreamHeader& h) {
     h.layers.flat_bytes = 5;
     h.layers.flat_areas = 65536;
   });
   refuse("stored_regions", "stored heights in regions", [](StreamHeader& h) {
-    h.geometry->planes = GeometryHeader::kStoredPlanes;
+    h.geometry->planes = GeometryHeader::kDirectPlanes;
     h.geometry->regions.side_log2 = 4;
   });
   refuse("filter", "a filter that there is not",
@@ -124,7 +142,7 @@ std::vector<VectorCase> refusedHeaders() {
     h.layers.coefficient_bytes = 6;
   });
   refuse("table_stored", "stored heights with a table of values", [](StreamHeader& h) {
-    h.geometry->planes = GeometryHeader::kStoredPlanes;
+    h.geometry->planes = GeometryHeader::kDirectPlanes;
     h.layers.table_bytes = 9;
     h.layers.table_values = 2;
   });

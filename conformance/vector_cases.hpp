@@ -23,7 +23,8 @@ struct VectorCase {
   tks_encode_options options = {};
   double scale = 1, offset = 0;
   std::optional<samples::FewValues> values;  ///< u8 heights are made into samples of these
-  bool thirds = false;  ///< heights are divided by 3, which leaves them without a common step
+  uint32_t classes = 0;  ///< > 0: u8 heights are gathered in so many classes, before `values`
+  bool thirds = false;   ///< heights are divided by 3, which leaves them without a common step
   std::optional<samples::VoidShape> voids;
   std::optional<samples::VoidShape> water;  ///< at one of two levels there, left and right
   uint32_t copies[2] = {1, 1};              ///< heights are enlarged so many times, across and down

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "codec/geometry/drawn_heights_encoder.hpp"
 #include "codec/geometry/stored_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/hull.hpp"
@@ -140,7 +141,7 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
   codeword.insert(codeword.begin(), heights.validity.begin(), heights.validity.end());
   codeword.insert(codeword.end(), corrections.begin(), corrections.end());
   joinAccount(heights, layers, track);
-  assert(track.points.back().bytes == codeword.size() && !coded.header.stored());
+  assert(track.points.back().bytes == codeword.size());
   return coded;
 }
 
@@ -165,13 +166,28 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
   return coded;
 }
 
+std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of) {
+  const HeightSteps& steps = of->steps;
+  std::optional<EncodedTrack> track =
+      encodeDrawnHeights({steps.steps, extentOf(*of->samples), steps.valid});
+  if (!track) return {};
+  const HeightLayers layers = layersAround(of->layers, of->corrections, {});
+  std::vector<EncodedTrack> tracks;
+  tracks.push_back(*std::move(track));
+  CodedHeights drawn = joinLayers(std::move(of), layers, std::move(tracks), 0);
+  assert(drawn.header.direct());
+  drawn.header.drawn = true;
+  return drawn;
+}
+
 CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
   CodedHeights stored{
       replaced.of, replaced.header, replaced.layers, {}, 0, QuantisedHeights::kSomething};
   stored.header.wavelet = {};
   stored.header.regions = {};
   stored.header.priorities = {};
-  stored.header.planes = GeometryHeader::kStoredPlanes;
+  stored.header.planes = GeometryHeader::kDirectPlanes;
+  stored.header.drawn = false;
   stored.layers.corrections = CorrectionKind::kNone;
   stored.layers.coefficient_bytes = 0;
   stored.layers.table_bytes = stored.layers.table_values = 0;
@@ -183,7 +199,7 @@ CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
   track.codeword = heights.validity;
   const std::vector<uint8_t> samples = storeSamples(*heights.samples, heights.steps.valid);
   track.codeword.insert(track.codeword.end(), samples.begin(), samples.end());
-  track.planes = GeometryHeader::kStoredPlanes;
+  track.planes = GeometryHeader::kDirectPlanes;
   track.points = accountOfStored(stored, threads);
   return stored;
 }

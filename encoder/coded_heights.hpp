@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -76,6 +77,10 @@ struct HeightTarget {
 /// All of this, with the corrections that the heights come with, and flat areas that pay.
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options);
+
+/// The same heights as a drawing, in the place of coefficients; nothing if they have too many
+/// values for one.
+std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of);
 
 /// The same heights with their samples written as they are, in the place of coefficients and
 /// corrections. The header keeps its base and step. threads: nothing depends on them.

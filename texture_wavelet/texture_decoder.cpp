@@ -128,7 +128,7 @@ uint64_t TextureMemory::bytes() const {
   uint64_t bytes = tracks.bytes();
   if (opening) {
     bytes += opening->seen.size() + opening->coded.size();
-    bytes += opening->overlay.indices.size() * sizeof(ColourIndex);
+    bytes += opening->overlay.indices.size() * sizeof(DrawnIndex);
   }
   return bytes;
 }

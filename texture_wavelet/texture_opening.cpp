@@ -26,7 +26,7 @@ TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_
   if (header.hidden) opening.coded = opening.seen;
   if (header.overlay_bytes == 0) return opening;
   opening.overlay = decodeOverlay(header, drawn);
-  const std::vector<ColourIndex>& indices = opening.overlay.indices;
+  const std::vector<DrawnIndex>& indices = opening.overlay.indices;
   if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
   for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
   return opening;
@@ -39,10 +39,10 @@ void TextureOpening::paint(Extent whole, const View& view, Texels& texels) const
   assert(texels.extent() == view.extentIn(whole));
   uint16_t* out = texels.samples.data();
   for (uint32_t y = 0; y < texels.height; ++y) {
-    const ColourIndex* row = overlay.indices.data() + view.firstColumn() +
-                             (view.firstRow() + size_t{y} * view.step()) * whole.width;
+    const DrawnIndex* row = overlay.indices.data() + view.firstColumn() +
+                            (view.firstRow() + size_t{y} * view.step()) * whole.width;
     for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
-      const ColourIndex index = row[size_t{x} * view.step()];
+      const DrawnIndex index = row[size_t{x} * view.step()];
       if (index != kSeeThrough) std::copy_n(overlay.colours[index].begin(), texels.channels, out);
     }
   }

@@ -165,14 +165,19 @@ Status checkRegions(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its regions are smaller than 16 samples."};
 }
 
-Status checkStored(const StreamHeader& header) {
-  if (!header.geometry || !header.geometry->stored()) return {};
-  const bool one_track = header.geometry->regions.side_log2 == 0;
-  const bool plain = header.layers.corrections == CorrectionKind::kNone &&
-                     header.layers.table_bytes == 0 && header.layers.flat_bytes == 0;
-  if (one_track && plain) return {};
-  return {TKS_CORRUPT,
-          "Corrupt stream: stored heights have regions, corrections, a table or flat areas."};
+/// Heights that are drawn or stored are one track, whose samples nothing else holds.
+Status checkDirect(const StreamHeader& header) {
+  if (!header.geometry || !header.geometry->direct()) return {};
+  const GeometryLayers& layers = header.layers;
+  if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 ||
+      layers.corrections == CorrectionKind::kSteps) {
+    return {TKS_CORRUPT,
+            "Corrupt stream: drawn or stored heights have regions, flat areas or corrections of "
+            "steps."};
+  }
+  const bool plain = layers.corrections == CorrectionKind::kNone && layers.table_bytes == 0;
+  if (header.geometry->drawn || plain) return {};
+  return {TKS_CORRUPT, "Corrupt stream: stored heights have corrections or a table."};
 }
 
 Status checkNumbers(const StreamHeader& header) {
@@ -243,7 +248,7 @@ Status checkMeaning(const StreamHeader& header) {
   if (Status place = checkGeoreference(header); !place.ok()) return place;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (Status regions = checkRegions(header); !regions.ok()) return regions;
-  if (Status stored = checkStored(header); !stored.ok()) return stored;
+  if (Status direct = checkDirect(header); !direct.ok()) return direct;
   if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
   return checkTexture(header);
 }

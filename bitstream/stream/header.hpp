@@ -99,7 +99,8 @@ struct GeometryHeader {
   LineRepeats repeats;             ///< which of those that are shown they are
   uint8_t sample = 0;              ///< tks_sample of the input and of the decoded output
   uint8_t planes = 0;
-  uint8_t exact = 0;  ///< the steps restore every input sample
+  bool drawn = false;  ///< with kDirectPlanes alone
+  uint8_t exact = 0;   ///< the steps restore every input sample
   double base = 0, step = 1;
   double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
   WaveletHeader wavelet;
@@ -116,23 +117,27 @@ struct GeometryHeader {
     sample = kind % kWithRepeats;
     if (kind >= kWithRepeats) v.text("repeated_lines", repeats.code);
     if (v.ok()) setLines(whole, kind >= kWithRepeats);
-    auto coding = static_cast<uint8_t>(planes + (priorities.none() ? 0 : kWithPriorities));
-    v.u8("geometry_planes", coding, 0, kWithPriorities + kStoredPlanes - 1);
+    auto coding =
+        static_cast<uint8_t>(planes + (drawn || !priorities.none() ? kWithPriorities : 0));
+    v.u8("geometry_planes", coding, 0, kWithPriorities + kDirectPlanes);
     planes = coding % kWithPriorities;
-    if (coding >= kWithPriorities) priorities.visit(v);
+    drawn = coding == kWithPriorities + kDirectPlanes;
+    if (coding >= kWithPriorities && !drawn) priorities.visit(v);
     v.u8("exact", exact, 0, 1);
     v.f64("base", base);
     v.f64("step", step);
     v.f64("max_error", max_error);
-    if (!stored()) wavelet.visit(v);
+    if (!direct()) wavelet.visit(v);
   }
   Extent extent() const { return {width, height}; }
   Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
-  bool stored() const { return planes == kStoredPlanes; }
+  /// Without a transform: drawn or stored.
+  bool direct() const { return planes == kDirectPlanes; }
+  bool stored() const { return direct() && !drawn; }
 
-  /// In the place of a number of bit-planes: the samples are stored
-  /// (bitstream/coder/byte_planes.hpp).
-  static constexpr uint8_t kStoredPlanes = 31;
+  /// In the place of a number of bit-planes: steps are drawn (codec/geometry/drawn_heights.hpp), or
+  /// the samples are stored (bitstream/coder/byte_planes.hpp).
+  static constexpr uint8_t kDirectPlanes = 31;
   static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes
   static constexpr uint8_t kWithRepeats = 8;      ///< bit beside the type of the samples
 
@@ -232,7 +237,7 @@ struct GeometryLayers {
 };
 
 /// In the place of a number of bit-planes: the texture is drawn
-/// (texture_wavelet/drawn/drawn_pass.hpp), or its samples are stored
+/// (codec/drawing/drawing_pass.hpp), or its samples are stored
 /// (bitstream/coder/byte_planes.hpp).
 inline constexpr uint8_t kDrawnPlanes = 31, kStoredTexture = 63;
 

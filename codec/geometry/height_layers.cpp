@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/geometry/corrections_decoder.hpp"
+#include "codec/geometry/drawn_heights.hpp"
 #include "codec/geometry/flat_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 #include "codec/geometry/shown_lines.hpp"
@@ -172,9 +173,9 @@ DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& l
                            const Codewords& codewords, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
   TakenLayers taken(codewords, layers);
-  // A stored sample's place depends on the voids before it, and contexts of corrections come from
-  // the corrections and heights of the whole plane.
-  if (view.window && (header.stored() || !taken.corrections.empty()))
+  // A stored sample's place depends on the voids before it. Contexts of drawings and of corrections
+  // come from the whole plane.
+  if (view.window && (header.direct() || !taken.corrections.empty()))
     return cutWindow(decodeLines(header, layers, codewords, {}, {context.threads}), view);
   HeightsMemory* const memory = context.memory;
   std::vector<uint8_t> valid = validityOf(taken, header, layers, memory);
@@ -183,11 +184,15 @@ DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& l
   DecodedGeometry& geometry = decoded.geometry;
   std::vector<uint8_t> joined;
   taken.join(joined);
-  FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
-  const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
-                       taken.flat.size() == layers.flat_bytes;
-  geometry = decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
-                            {context.threads, growing ? &memory->tracks : nullptr});
+  if (header.drawn) {
+    geometry = decodeDrawnHeights(header, taken.coefficients.front(), valid, view.level);
+  } else {
+    FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
+    const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
+                         taken.flat.size() == layers.flat_bytes;
+    geometry = decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
+                              {context.threads, growing ? &memory->tracks : nullptr});
+  }
   applyTable(taken, header, layers, decoded);
   if (taken.corrections.empty() || view.level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes heights from the layers of their tracks: validity, flat areas, coefficients with a table
-// of values, corrections (bitstream/stream/header.hpp), or stored samples.
+// Decodes heights from the layers of their tracks: validity, flat areas, coefficients or a
+// drawing with a table of values, corrections (bitstream/stream/header.hpp), or stored samples.
 #pragma once
 
 #include <cstdint>

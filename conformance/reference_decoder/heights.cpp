@@ -91,12 +91,31 @@ void putFlat(const Plane& whole, int level, Plane& image) {
   }
 }
 
+/// FORMAT 7.1: the samples at the places of a level.
+Plane placesOf(const Plane& whole, int level) {
+  Plane image{((whole.width - 1) >> level) + 1, ((whole.height - 1) >> level) + 1, {}, {}};
+  for (int y = 0; y < whole.height; y += 1 << level) {
+    for (int x = 0; x < whole.width; x += 1 << level) {
+      const size_t i = static_cast<size_t>(y) * whole.width + x;
+      image.values.push_back(whole.values[i]);
+      if (!whole.valid.empty()) image.valid.push_back(whole.valid[i]);
+    }
+  }
+  return image;
+}
+
 Surface decodeSurface(const GeometryHeader& header,
                       const std::vector<std::span<const uint8_t>>& coefficients, Plane known,
                       int level) {
   Surface surface;
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   surface.plane = std::move(known);
+  if (header.drawn) {
+    surface.plane.values = decodeDrawnHeights(header, coefficients[0], surface.plane.valid);
+    surface.plane = placesOf(surface.plane, level);
+    surface.f = 4;
+    return surface;
+  }
   surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
   const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
@@ -321,7 +340,8 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   if (layers.validityBytes > 0) {
     valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
   }
-  if (header.planes == kStoredPlanes) return decodeStored(header, layers, codeword, valid, level);
+  const bool stored = header.planes == kStoredPlanes && !header.drawn;
+  if (stored) return decodeStored(header, layers, codeword, valid, level);
   Flat flat;
   if (layers.flatBytes > 0) {
     flat = decodeFlat(take(codeword, layers.flatBytes), {header.width, header.height, {}, valid},

@@ -66,9 +66,10 @@ GeometryHeader readGeometry(Reader& in) {
   g.sample = kind % 8;
   if (g.sample > kF32) in.fail(Outcome::kCorrupt);
   if (kind >= 8) readLines(in, g);
-  const int coding = in.u8(0, 62);
+  const int coding = in.u8(0, 63);
   g.planes = coding % 32;
-  if (coding >= 32) g.priorities = readPriorities(in, g.width, g.height);
+  g.drawn = coding == 63;
+  if (coding >= 32 && !g.drawn) g.priorities = readPriorities(in, g.width, g.height);
   in.u8(0, 1);  // exact
   g.base = in.f64();
   g.step = in.f64();
@@ -129,8 +130,9 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   }
   const bool meant = layers.validityBytes > 0 || layers.hasNodata || kinds > 0;
   if (meant && !geometry) in.fail(Outcome::kCorrupt);
-  const bool stored = geometry && geometry->planes == kStoredPlanes;
-  if (stored && kinds > 0) in.fail(Outcome::kCorrupt);
+  const bool direct = geometry && geometry->planes == kStoredPlanes;
+  if (direct && !geometry->drawn && kinds > 0) in.fail(Outcome::kCorrupt);
+  if (direct && (kinds >= 8 || layers.corrections == 1)) in.fail(Outcome::kCorrupt);
   const bool integer = geometry && geometry->sample != kF32;
   if (integer && layers.validityBytes > 0) {
     const bool held = layers.hasNodata && holds(geometry->sample, layers.nodata);

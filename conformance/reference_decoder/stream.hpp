@@ -43,6 +43,7 @@ struct LineMap {
 
 struct GeometryHeader {
   int width = 0, height = 0, sample = 0, planes = 0;  ///< width and height: of the coded lines
+  bool drawn = false;
   LineMap lines;
   double base = 0, step = 1;
   WaveletHeader wavelet;
@@ -120,6 +121,11 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
 /// The same for kDrawnPlanes (FORMAT 9.1).
 std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,
                                  int level);
+
+/// FORMAT 8.4: v of all samples, with f = 4.
+std::vector<int32_t> decodeDrawnHeights(const GeometryHeader& header,
+                                        std::span<const uint8_t> codeword,
+                                        const std::vector<uint8_t>& valid);
 
 /// FORMAT 9.2: at every texel nothing if it is seen through, or its colour.
 std::vector<std::optional<std::array<int, 4>>> decodeOverlay(const TextureHeader& header,

@@ -296,7 +296,8 @@ typedef struct tks_info {
   const char* unit;            /* "" when unknown; owned by the decoder */
   const char* vertical_datum;
   const char* crs;
-  int heights_stored;      /* samples stored, because nothing codes them in fewer bytes */
+  int heights_drawn;       /* 1: values coded as they are, without a wavelet; 3: samples stored,
+                              because nothing codes them in fewer bytes */
   int has_geotransform;    /* of the heights; 0: their place is unknown */
   double geotransform[6];  /* of the level that is set (tks_heights says what it is); 0 when
                               unknown. Of a window that begins at column c and row r: [0] and

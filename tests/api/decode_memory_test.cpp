@@ -290,10 +290,26 @@ TEST(DecodeMemory, RepeatedLinesStayBelowTheBound) {
   expectCopies(withVoids(large, lossless()), "copies beside voids");
 }
 
+/// Few values in large shapes, whole, beside voids, counted by a table, beside corrections.
+TEST(DecodeMemory, DrawnHeightsStayBelowTheBound) {
+  Raster classes = make({Pattern::kRidges, 161, 130, 1, TKS_U8, 3});
+  for (std::byte& sample : classes.data) sample = std::byte(std::to_integer<int>(sample) / 52 * 50);
+  const auto expectDrawn = [](const Bytes& bytes, const std::string& what) {
+    EXPECT_EQ(Stream(bytes).info().heights_drawn, 1) << what;
+    expectWithinBounds(bytes, what, readHeader(bytes)->header.layers.validity_bytes > 0);
+  };
+  expectDrawn(encode(&classes, nullptr, lossless()), "drawn");
+  expectDrawn(withVoids(classes, lossless()), "drawn beside voids");
+  for (const samples::FewValues kind : {samples::FewValues::kRescaled, samples::FewValues::kRare}) {
+    const Raster floats = samples::withFewValues(classes, kind);
+    expectDrawn(encode(&floats, nullptr, lossless()), "drawn floats");
+  }
+}
+
 TEST(DecodeMemory, StoredSamplesStayBelowTheBound) {
   const Raster noise = make({Pattern::kExtreme, 161, 124, 1, TKS_I16});
   const Bytes heights = encode(&noise, nullptr, lossless());
-  EXPECT_EQ(Stream(heights).info().heights_stored, 1);
+  EXPECT_EQ(Stream(heights).info().heights_drawn, 3);
   expectWithinBounds(heights, "stored");
   expectWithinBounds(withVoids(noise, lossless()), "stored beside voids", true);
   const Raster image = make({Pattern::kExtreme, 150, 140, 3, TKS_U16});

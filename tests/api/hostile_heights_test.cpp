@@ -164,7 +164,7 @@ TEST(HostileHeights, NoiseIsStored) {
       EXPECT_EQ(stream.heights().size(), raster.data.size());
     }
     Stream stream(bytes);
-    EXPECT_EQ(stream.info().heights_stored, 1);
+    EXPECT_EQ(stream.info().heights_drawn, 3);
     EXPECT_TRUE(sameBytes(stream.heights(), raster.data));
   }
 }

@@ -1,40 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drawn texture has a list of colours, in the order in which they first appear. Encoder and
-// decoder both build it.
+// The list of colours of a drawn texture, and how a new one is coded.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "base/texels.hpp"
+#include "codec/drawing/drawing_index.hpp"
+#include "codec/drawing/drawing_neighbours.hpp"
+#include "codec/drawing/drawing_residual.hpp"
+
 namespace tetrakis::inline drawn {
 
 using DrawnColour = std::array<uint16_t, 4>;  ///< one value for each channel, the others 0
 
-/// Index of a colour; the vertices that nothing is known of have kNoColour.
-using ColourIndex = uint16_t;
-
-inline constexpr int kColourIndexBits = 12;
-inline constexpr size_t kMostColours = size_t{1} << kColourIndexBits;
-inline constexpr ColourIndex kNoColour = 0xffff;
-
 /// Of an overlay: the first colour of its list, grey, which is not shown.
-inline constexpr ColourIndex kSeeThrough = 0;
+inline constexpr DrawnIndex kSeeThrough = 0;
 
 class DrawnColours {
  public:
-  size_t size() const { return colours_.size(); }
-  bool full() const { return colours_.size() == kMostColours; }
-  const DrawnColour& operator[](ColourIndex i) const { return colours_[i]; }
+  DrawnColours() = default;
+  /// format: channels, bits.
+  explicit DrawnColours(const Texels& format) : channels_(format.channels), bits_(format.bits) {}
 
-  ColourIndex add(const DrawnColour& colour) {
+  size_t size() const { return colours_.size(); }
+  const DrawnColour& operator[](DrawnIndex i) const { return colours_[i]; }
+  void add(const DrawnColour& colour) { colours_.push_back(colour); }
+
+  /// Codes the colour of a texel that the list lacks. Each channel as the difference to the mean of
+  /// the first two candidates, plus the difference that the channel before had.
+  template <class Io>
+  void code(const Candidates& around, size_t texel, Io& io) {
+    const int half = 1 << (bits_ - 1), most = 2 * half - 1;
+    const DrawnColour& ours = io.value(texel);
+    DrawnColour colour{};
+    int carried = 0;
+    for (uint32_t c = 0; c < channels_; ++c) {
+      int mean = half;
+      if (around.count() > 0) {
+        const VotedIndex &a = around[0], &b = around[std::min(around.count() - 1, 1)];
+        mean = (colours_[a.index][c] + colours_[b.index][c]) / 2;
+      }
+      const int expected = std::clamp(mean + carried, 0, most);
+      const int residual = codeResidual(residuals_[c], ours[c] - expected, io);
+      const int value = std::clamp(expected + residual, 0, most);
+      if (io.stopped()) return;
+      colour[c] = static_cast<uint16_t>(value);
+      carried = value - mean;
+    }
     colours_.push_back(colour);
-    return static_cast<ColourIndex>(colours_.size() - 1);
   }
 
  private:
+  static constexpr size_t kClasses = 17;  ///< of a residual: bits of its magnitude
+
+  uint32_t channels_ = 1;
+  int bits_ = 8;
   std::vector<DrawnColour> colours_;
+  std::array<ResidualModels<kClasses>, 4> residuals_;
 };
 
 }  // namespace tetrakis::inline drawn

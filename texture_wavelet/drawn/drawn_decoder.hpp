@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/texels.hpp"
+#include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
@@ -18,7 +19,7 @@ Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codewor
 
 /// What lies over a photograph.
 struct DrawnOverlay {
-  std::vector<ColourIndex> indices;  ///< of every texel; kSeeThrough where nothing is known
+  std::vector<DrawnIndex> indices;  ///< of every texel; kSeeThrough where nothing is known
   DrawnColours colours;
 };
 

@@ -12,12 +12,12 @@
 
 namespace tetrakis::inline drawn {
 
-/// Lossless, whole. Nothing if there are more than kMostColours colours, or if fewer than half of
-/// the texels are like the one before or above them: that is no drawing.
+/// Lossless, whole. Nothing if there are more than kMostDrawnValues colours, or if fewer than half
+/// of the texels are like the one before or above them: that is no drawing.
 std::optional<EncodedTexture> encodeDrawn(const Texels& texels);
 
 /// Returns the codeword of an overlay: which texels the photograph does not mark, and the colours
-/// of those. There are fewer than kMostColours colours.
+/// of those. There are fewer than kMostDrawnValues colours.
 std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph);
 
 }  // namespace tetrakis::inline drawn

@@ -16,7 +16,7 @@ namespace {
 template <size_t kChannels>
 class Filling {
  public:
-  Filling(std::span<const ColourIndex> indices, const DrawnColours& colours, Texels& texels)
+  Filling(std::span<const DrawnIndex> indices, const DrawnColours& colours, Texels& texels)
       : indices_(indices.data()),
         colours_(colours),
         samples_(texels.samples.data()),
@@ -32,7 +32,7 @@ class Filling {
       uint32_t x = level.firstX(row);
       for (uint32_t i = 0; i < level.columns[row % 2]; ++i, x += level.pitch()) {
         const size_t texel = size_t{y} * width_ + x;
-        if (const ColourIndex index = indices_[texel]; index != kNoColour) {
+        if (const DrawnIndex index = indices_[texel]; index != kNoIndex) {
           std::copy_n(colours_[index].begin(), kChannels, samples_ + texel * kChannels);
         } else if (level.kind == LevelKind::kRoots) {
           std::copy_n(grey_.begin(), kChannels, samples_ + texel * kChannels);
@@ -62,7 +62,7 @@ class Filling {
                                                    : (sums[c] + count / 2) / count);
   }
 
-  const ColourIndex* indices_;
+  const DrawnIndex* indices_;
   const DrawnColours& colours_;
   uint16_t* samples_;
   uint32_t width_, height_;
@@ -70,7 +70,7 @@ class Filling {
 };
 
 template <size_t kChannels>
-void fillLevels(std::span<const Level> levels, std::span<const ColourIndex> indices,
+void fillLevels(std::span<const Level> levels, std::span<const DrawnIndex> indices,
                 const DrawnColours& colours, Texels& texels) {
   Filling<kChannels> filling(indices, colours, texels);
   for (const Level& level : levels) filling.fill(level);
@@ -83,7 +83,7 @@ DrawnColour greyOf(const Texels& format) {
   return {half, half, half, half};
 }
 
-void fillDrawn(std::span<const Level> levels, std::span<const ColourIndex> indices,
+void fillDrawn(std::span<const Level> levels, std::span<const DrawnIndex> indices,
                const DrawnColours& colours, Texels& texels) {
   switch (texels.channels) {
     case 1:

@@ -16,7 +16,7 @@ DrawnColour greyOf(const Texels& format);
 /// Writes the samples of all texels; the format of texels and the size of its samples are set.
 /// levels: those of the grid, coarse to fine. indices: width * height, row by row. A texel without
 /// one is the mean of the coarser vertices next to it; a root, grey.
-void fillDrawn(std::span<const Level> levels, std::span<const ColourIndex> indices,
+void fillDrawn(std::span<const Level> levels, std::span<const DrawnIndex> indices,
                const DrawnColours& colours, Texels& texels);
 
 }  // namespace tetrakis::inline drawn

@@ -42,6 +42,9 @@ Json registrationJson(tks_registration registration) {
   return registration == TKS_REGISTRATION_POINT ? Json("point") : Json();
 }
 
+/// What heights_drawn and texture_drawn stand for.
+constexpr std::array<const char*, 4> kCodings = {"wavelet", "drawn", "overlay", "stored"};
+
 Json heightsJson(const tks_info& info) {
   if (!info.has_heights) return {};
   return {{"width", info.width},
@@ -61,16 +64,13 @@ Json heightsJson(const tks_info& info) {
           {"step", info.step},
           {"base", info.base},
           {"exact_steps", info.exact_steps != 0},
-          {"coding", info.heights_stored != 0 ? "stored" : "wavelet"},
+          {"coding", kCodings.at(static_cast<size_t>(info.heights_drawn))},
           {"voids", info.has_voids != 0},
           {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
           {"regions", info.regions > 0 ? Json(info.regions) : Json()},
           {"max_error", stated(info.max_error)},
           {"rmse", rounded(info.heights_rmse, "%.3g")}};
 }
-
-/// What texture_drawn stands for.
-constexpr std::array<const char*, 4> kCodings = {"wavelet", "drawn", "overlay", "stored"};
 
 Json textureJson(const tks_info& info) {
   if (!info.has_texture) return {};

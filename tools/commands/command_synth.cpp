@@ -71,7 +71,8 @@ void addSynth(CLI::App& app, CommandLine& line) {
       ->type_name("S");
   verb.add_option(
           "--kind", arguments->kind,
-          "Of terrain: mountains (default), coast, lakes, steps, voids, plain, city, rescaled")
+          "Of terrain: mountains (default), coast, lakes, steps, voids, plain, city, rescaled, "
+          "bands")
       ->check(
           silent(CLI::IsMember(std::vector<std::string>(kSynthKinds.begin(), kSynthKinds.end()))))
       ->type_name("NAME");

@@ -11,11 +11,21 @@
 namespace tetrakis::tools {
 
 /// What terrain models are like that give codecs something to do (docs/CLI.md).
-enum class SynthKind { kMountains, kCoast, kLakes, kSteps, kVoids, kPlain, kCity, kRescaled };
+enum class SynthKind {
+  kMountains,
+  kCoast,
+  kLakes,
+  kSteps,
+  kVoids,
+  kPlain,
+  kCity,
+  kRescaled,
+  kBands
+};
 
 /// Their names, in order.
-inline constexpr std::array<const char*, 8> kSynthKinds = {
-    "mountains", "coast", "lakes", "steps", "voids", "plain", "city", "rescaled"};
+inline constexpr std::array<const char*, 9> kSynthKinds = {
+    "mountains", "coast", "lakes", "steps", "voids", "plain", "city", "rescaled", "bands"};
 
 struct SynthOptions {
   uint32_t size = 513;  ///< samples along a side, at least 2

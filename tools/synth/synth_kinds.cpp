@@ -81,6 +81,16 @@ Storage quantise(const Task& task) {
   return {.sample = TKS_F32, .step = 1, .voids = {}};
 }
 
+/// Layers of equal height, as maps tint them.
+Storage layer(const Task& task) {
+  constexpr double kLayer = 100;
+  Grid& height = task.relief.height;
+  height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
+    return kLayer * std::floor(height.at(x, y) / kLayer);
+  });
+  return {};
+}
+
 /// What is left of a map of 8 bits, stretched to its range and then to metres with three decimals;
 /// the samples that an editor has interpolated lie between its values.
 Storage rescale(const Task& task) {
@@ -195,6 +205,8 @@ Storage reshape(Relief& relief, SynthKind kind, uint32_t size, uint64_t seed) {
       return build(task);
     case SynthKind::kRescaled:
       return rescale(task);
+    case SynthKind::kBands:
+      return layer(task);
   }
   return {};
 }

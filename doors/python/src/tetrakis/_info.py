@@ -66,7 +66,7 @@ class Info:
     """Guaranteed for the complete stream, in `unit`."""
     heights_rmse: Optional[float]
     """Of these bytes, as the encoder measured it, in `unit`."""
-    heights_stored: bool
+    heights_drawn: int
     triangles: Optional[int]
     regions: Optional[int]
     """Side of the regions in samples."""
@@ -88,9 +88,9 @@ class Info:
 
 _PLAIN = (
     "format_version header_bytes stream_bytes available_bytes packets geometry_bytes texture_bytes "
-    "coarsest_level scale offset step base texture_coarsest_level texture_cutout texture_drawn"
+    "coarsest_level heights_drawn scale offset step base texture_coarsest_level texture_cutout texture_drawn"
 ).split()
-_BOOLEAN = "lossless exact_steps has_voids heights_stored".split()
+_BOOLEAN = "lossless exact_steps has_voids".split()
 _TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys".split()
 _FROM_ZERO = "max_error heights_rmse texture_psnr".split()
 _ABOVE_ZERO = "triangles regions texture_regions".split()

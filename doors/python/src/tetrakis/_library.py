@@ -183,7 +183,7 @@ class StreamInfo(ctypes.Structure):
         ("unit", c_char_p),
         ("vertical_datum", c_char_p),
         ("crs", c_char_p),
-        ("heights_stored", c_int),
+        ("heights_drawn", c_int),
         ("has_geotransform", c_int),
         ("geotransform", GEOTRANSFORM),
         ("registration", c_int),

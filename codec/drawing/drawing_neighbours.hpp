@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The known neighbours of a vertex vote for its colour.
+// The known neighbours of a vertex vote for its value.
 //
 //   near     the 4 coarser vertices next to it: diagonal ones for a centre, along the axes for a
 //            midpoint; 6 votes each
@@ -15,15 +15,16 @@
 #include <cstdint>
 #include <span>
 
+#include "base/plane.hpp"
+#include "codec/drawing/drawing_index.hpp"
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
-#include "texture_wavelet/drawn/drawn_colours.hpp"
 
-namespace tetrakis::inline drawn {
+namespace tetrakis::inline drawing {
 
-/// A colour among the neighbours.
-struct ColourCandidate {
-  ColourIndex colour;
+/// A value among the neighbours.
+struct VotedIndex {
+  DrawnIndex index;
   uint16_t pattern;            ///< of the neighbours that have it, in the order above, bit 0 first
   uint8_t near, causal, ring;  ///< how many of them
   uint8_t votes;
@@ -35,35 +36,35 @@ class Candidates {
   static constexpr int kRanked = 3;
   static constexpr int kNear = Stencil::kRingSize[0], kCausal = 2, kRing = Stencil::kRingSize[1];
   static constexpr int kNeighbours = kNear + kCausal + kRing;
-  using Colours = std::array<ColourIndex, kNeighbours>;
+  using Indices = std::array<DrawnIndex, kNeighbours>;
 
   /// known: the bits of the neighbours that there are.
-  Candidates(const Colours& colours, uint32_t known) {
+  Candidates(const Indices& indices, uint32_t known) {
     while (known != 0) {
-      const ColourIndex colour = colours[static_cast<size_t>(std::countr_zero(known))];
+      const DrawnIndex index = indices[static_cast<size_t>(std::countr_zero(known))];
       uint32_t pattern = 0;
       for (int i = 0; i < kNeighbours; ++i)
-        pattern |= uint32_t{colours[static_cast<size_t>(i)] == colour} << i;
-      add(colour, pattern & known);
+        pattern |= uint32_t{indices[static_cast<size_t>(i)] == index} << i;
+      add(index, pattern & known);
       known &= ~pattern;
     }
     rank();
   }
 
-  /// All neighbours have one colour, whichever.
-  static Candidates unanimous() { return Candidates(Colours{}, (1u << kNeighbours) - 1); }
+  /// All neighbours have one value, whichever.
+  static Candidates unanimous() { return Candidates(Indices{}, (1u << kNeighbours) - 1); }
 
   int count() const { return count_; }
-  const ColourCandidate& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
+  const VotedIndex& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
 
  private:
-  void add(ColourIndex colour, uint32_t pattern) {
+  void add(DrawnIndex index, uint32_t pattern) {
     const uint8_t near = bitsOf(pattern & 0xf), causal = bitsOf(pattern >> 4 & 3),
                   ring = static_cast<uint8_t>(bitsOf(pattern >> 6 & 0xf) + bitsOf(pattern >> 10));
     all_[static_cast<size_t>(count_++)] = {
-        colour, static_cast<uint16_t>(pattern),
-        near,   causal,
-        ring,   static_cast<uint8_t>(6 * near + 4 * causal + ring)};
+        index, static_cast<uint16_t>(pattern),
+        near,  causal,
+        ring,  static_cast<uint8_t>(6 * near + 4 * causal + ring)};
   }
 
   /// Ones among four bits, where processors may lack an instruction for that.
@@ -77,23 +78,23 @@ class Candidates {
       const auto first = all_.begin() + place;
       const auto best = std::max_element(
           first, all_.begin() + count_,
-          [](const ColourCandidate& a, const ColourCandidate& b) { return a.votes < b.votes; });
+          [](const VotedIndex& a, const VotedIndex& b) { return a.votes < b.votes; });
       std::rotate(first, best, best + 1);
     }
   }
 
-  std::array<ColourCandidate, kNeighbours> all_;  // only the first count_ are written
+  std::array<VotedIndex, kNeighbours> all_;  // only the first count_ are written
   int count_ = 0;
 };
 
-/// Looks around the vertices of one level. indices: width * height, row by row.
+/// Looks around the vertices of one level. indices: width * height, row by row. Vertices without
+/// one, as voids, are no neighbours.
 class Neighbourhood {
  public:
-  Neighbourhood(const Level& level, std::span<const ColourIndex> indices, uint32_t width,
-                uint32_t height)
-      : indices_(indices.data()), width_(width), height_(height) {
+  Neighbourhood(const Level& level, std::span<const DrawnIndex> indices, Extent extent)
+      : indices_(indices.data()), width_(extent.width), height_(extent.height) {
     if (level.kind == LevelKind::kRoots) return;
-    const Stencil stencil = stencilOf(level.kind, level.step, width);
+    const Stencil stencil = stencilOf(level.kind, level.step, width_);
     const int s = static_cast<int>(level.step);
     const bool centre = level.kind == LevelKind::kCentres;
     for (int tap = 0; tap < Candidates::kNear; ++tap) add(stencil.dx[tap], stencil.dy[tap]);
@@ -104,29 +105,29 @@ class Neighbourhood {
     reach_ = static_cast<uint32_t>(stencil.reach);
   }
 
-  /// The colour that all neighbours have; kNoColour if they differ or some lie outside.
-  ColourIndex common(uint32_t x, uint32_t y) const {
-    if (count_ == 0 || !inside(x, y)) return kNoColour;
-    const ColourIndex* const at = indices_ + size_t{y} * width_ + x;
-    const ColourIndex first = at[neighbours_[0].linear];
+  /// The index that all neighbours have; kNoIndex if they differ or some lie outside.
+  DrawnIndex common(uint32_t x, uint32_t y) const {
+    if (count_ == 0 || !inside(x, y)) return kNoIndex;
+    const DrawnIndex* const at = indices_ + size_t{y} * width_ + x;
+    const DrawnIndex first = at[neighbours_[0].linear];
     uint32_t differences = 0;
     for (const Neighbour& n : neighbours_)
       differences |= static_cast<uint32_t>(at[n.linear] ^ first);
-    return differences == 0 ? first : kNoColour;
+    return differences == 0 ? first : kNoIndex;
   }
 
   Candidates around(uint32_t x, uint32_t y) const {
-    const ColourIndex* const at = indices_ + size_t{y} * width_ + x;
+    const DrawnIndex* const at = indices_ + size_t{y} * width_ + x;
     const bool all = inside(x, y);
-    Candidates::Colours colours{};
+    Candidates::Indices indices{};
     uint32_t known = 0;
     for (int i = 0; i < count_; ++i) {
       const Neighbour& n = neighbours_[static_cast<size_t>(i)];
       if (!all && !(reaches(x, n.dx, width_) && reaches(y, n.dy, height_))) continue;
-      colours[static_cast<size_t>(i)] = at[n.linear];
-      known |= 1u << i;
+      indices[static_cast<size_t>(i)] = at[n.linear];
+      known |= uint32_t{at[n.linear] != kNoIndex} << i;
     }
-    return Candidates(colours, known);
+    return Candidates(indices, known);
   }
 
  private:
@@ -148,10 +149,10 @@ class Neighbourhood {
     neighbours_[static_cast<size_t>(count_++)] = {dx, dy, dy * static_cast<ptrdiff_t>(width_) + dx};
   }
 
-  const ColourIndex* indices_;
+  const DrawnIndex* indices_;
   uint32_t width_, height_, reach_ = 0;
   std::array<Neighbour, Candidates::kNeighbours> neighbours_{};
   int count_ = 0;  ///< roots have no neighbours
 };
 
-}  // namespace tetrakis::inline drawn
+}  // namespace tetrakis::inline drawing

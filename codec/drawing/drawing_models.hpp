@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The models here hold the probabilities of the decisions of a drawn texture.
+// The models here hold the probabilities of the decisions of a drawing.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "bitstream/coder/adaptive_bit.hpp"
-#include "texture_wavelet/drawn/drawn_neighbours.hpp"
+#include "codec/drawing/drawing_neighbours.hpp"
 
-namespace tetrakis::inline drawn {
+namespace tetrakis::inline drawing {
 
 /// Models of one decision, from the most special to the most general. The first that has experience
 /// is asked, or the last; all learn.
@@ -25,22 +25,15 @@ struct ModelChain {
   }
 };
 
-class DrawnModels {
+class DrawingModels {
  public:
-  static constexpr size_t kClasses = 17;  ///< of a channel's residual: bits of its magnitude
+  DrawingModels();
 
-  DrawnModels()
-      : pairs_(size_t{1} << kPairBits),
-        singles_(size_t{1} << kSingleBits),
-        indices_(size_t{1} << kColourIndexBits),
-        rivals_(size_t{1} << kRivalBits),
-        patterns_(size_t{2 * Candidates::kRanked} << kPatternBits) {}
-
-  /// Whether the vertex has the colour of the candidate at `place`. Special: which of the
+  /// Whether the vertex has the value of the candidate at `place`. Special: which of the
   /// neighbours have it, and which of near and causal have the next one's (of the first, for other
   /// places). General: how many.
   ModelChain candidate(const Candidates& around, int place, LevelKind kind) {
-    const ColourCandidate& c = around[place];
+    const VotedIndex& c = around[place];
     const bool centre = kind == LevelKind::kCentres;
     const uint32_t pattern =
         (static_cast<uint32_t>(2 * place + centre) << kPatternBits) + c.pattern;
@@ -56,17 +49,16 @@ class DrawnModels {
 
   /// A bit of an index. node: 1 followed by its bits so far, the highest first.
   ModelChain index(const Candidates& around, uint32_t node) {
-    const uint32_t first = around.count() > 0 ? around[0].colour : kMostColours;
-    const uint32_t second = around.count() > 1 ? around[1].colour : kMostColours;
+    const uint32_t first = around.count() > 0 ? around[0].index : kMostDrawnValues;
+    const uint32_t second = around.count() > 1 ? around[1].index : kMostDrawnValues;
     return {{&pairs_[hash((first * kFactor + second) * kFactor + node, kPairBits)],
              &singles_[hash(first * kFactor + node, kSingleBits)], &indices_[node]}};
   }
 
-  AdaptiveBit fresh;  ///< the colour has not appeared before
-  std::array<std::array<AdaptiveBit, kClasses>, 4> residual;  ///< [channel]: its class exceeds ...
+  AdaptiveBit fresh;  ///< the value has not appeared before
 
  private:
-  static constexpr uint32_t kFactor = kMostColours + 3;
+  static constexpr uint32_t kFactor = kMostDrawnValues + 3;
   static constexpr int kPairBits = 18, kSingleBits = 16, kRivalBits = 18, kPatternBits = 14;
 
   static uint32_t hash(uint32_t context, int bits) {
@@ -78,4 +70,4 @@ class DrawnModels {
   std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> counts_;
 };
 
-}  // namespace tetrakis::inline drawn
+}  // namespace tetrakis::inline drawing

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The decoder's side of drawing_pass.hpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "bitstream/coder/range_decoder.hpp"
+#include "codec/drawing/drawing_index.hpp"
+
+namespace tetrakis::inline drawing {
+
+template <class Value>
+class DrawingDecoding {
+ public:
+  explicit DrawingDecoding(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  DrawnIndex target(size_t) const { return kNoIndex; }
+  const Value& value(size_t) const { return unknown_; }
+  bool bit(AdaptiveBit& model, bool) { return decoder_.decode(model); }
+  bool evenBit(bool) { return decoder_.decodeEven(); }
+  bool stopped() const { return decoder_.exhausted(); }
+
+ private:
+  RangeDecoder decoder_;
+  Value unknown_{};
+};
+
+}  // namespace tetrakis::inline drawing

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The encoder's side of drawing_pass.hpp, and the account of what prefixes show.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "bitstream/coder/range_encoder.hpp"
+#include "bitstream/track/track_encoder.hpp"
+#include "codec/drawing/drawing_index.hpp"
+
+namespace tetrakis::inline drawing {
+
+/// Samples with a number for each of their values, in any order.
+template <class Value>
+struct Numbered {
+  std::vector<DrawnIndex> numbers;  ///< of each sample
+  std::vector<Value> values;
+};
+
+/// Values have an index from the moment on when they are first coded.
+template <class Value>
+class DrawingEncoding {
+ public:
+  /// Squared error of what a decoder shows that knows the indices so far.
+  using Measure = std::function<double()>;
+
+  /// listed: how many of the values, the first ones, are in the list from the start. measure:
+  /// empty: what prefixes show does not matter.
+  DrawingEncoding(const Numbered<Value>& samples, size_t listed, Measure measure)
+      : samples_(samples),
+        measure_(std::move(measure)),
+        listed_(listed),
+        index_(samples.values.size(), kNoIndex) {
+    for (size_t i = 0; i < listed; ++i) index_[i] = static_cast<DrawnIndex>(i);
+    if (measure_) note(0);
+  }
+
+  /// Gives a value that has not appeared yet its index.
+  DrawnIndex target(size_t sample) {
+    if (measure_ && encoder_.decidedBytes() >= next_) note(encoder_.decidedBytes());
+    DrawnIndex& index = index_[samples_.numbers[sample]];
+    const DrawnIndex known = index;
+    if (known == kNoIndex) index = static_cast<DrawnIndex>(listed_++);
+    return known;
+  }
+  const Value& value(size_t sample) const { return samples_.values[samples_.numbers[sample]]; }
+  bool bit(AdaptiveBit& model, bool ours) {
+    encoder_.encode(model, ours);
+    return ours;
+  }
+  bool evenBit(bool ours) {
+    encoder_.encodeEven(ours);
+    return ours;
+  }
+  bool stopped() const { return false; }
+
+  std::vector<uint8_t> finish() {
+    std::vector<uint8_t> codeword = encoder_.finish();
+    if (codeword.empty()) codeword.push_back(0);  // a track has at least one packet
+    return codeword;
+  }
+
+  EncodedTrack finishTrack(int planes) {
+    EncodedTrack track;
+    track.codeword = finish();
+    track.points = std::move(points_);
+    const uint64_t bytes = track.codeword.size();
+    std::erase_if(track.points,
+                  [&](const RatePoint& p) { return p.bytes >= bytes && p.bytes > 0; });
+    track.points.push_back({bytes, 0, bytes <= kDippingBytes});
+    track.planes = planes;
+    return track;
+  }
+
+ private:
+  static constexpr size_t kLargeDrawing = size_t{1} << 20;
+  static constexpr uint64_t kLeastStep = 32;
+  /// In so many bytes a vertex stands for so many samples that a wrong one makes them worse.
+  static constexpr uint64_t kDippingBytes = 512;
+
+  /// The error is measured as often as the codeword has grown by so much; of large drawings less
+  /// often, because each time takes a good part of that of coding them.
+  double growth() const { return samples_.numbers.size() > kLargeDrawing ? 2.0 : 1.4; }
+
+  void note(uint64_t bytes) {
+    const double squares = measure_();
+    next_ = std::max(kLeastStep, static_cast<uint64_t>(growth() * static_cast<double>(bytes)));
+    if (squares == 0) next_ = UINT64_MAX;  // nothing is left to be found
+    const bool better = points_.empty() || (squares > 0 && squares < points_.back().distortion);
+    if (better) points_.push_back({bytes, squares, bytes > 0 && bytes <= kDippingBytes});
+  }
+
+  const Numbered<Value>& samples_;
+  Measure measure_;
+  size_t listed_;
+  std::vector<DrawnIndex> index_;  ///< of each number
+  uint64_t next_ = 0;              ///< bytes at which the error is measured again
+  RangeEncoder encoder_;
+  std::vector<RatePoint> points_;
+};
+
+}  // namespace tetrakis::inline drawing

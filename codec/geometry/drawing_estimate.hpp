@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Foretells what drawn heights take, at a small part of the price of drawing them.
+#pragma once
+
+#include <cstdint>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline geometry {
+
+/// About how many bytes the steps take as a drawing. Drawings take 0.7 to 1.05 times as many;
+/// terrain, 1.7 times.
+double estimateDrawing(const PlaneView<const int32_t>& heights);
+
+}  // namespace tetrakis::inline geometry

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: the indices of drawings (docs/FORMAT.md, section 9.1).
+#include "conformance/reference_decoder/drawing.hpp"
+
+#include <algorithm>
+
+namespace tetrakis::reference {
+namespace {
+
+/// Thrown away with the vertex: the decision that was asked for does not count.
+struct TrackEnd {};
+
+int counted(std::optional<int> bit) {
+  if (!bit) throw TrackEnd{};
+  return *bit;
+}
+
+uint32_t hash(uint32_t context, int bits) {
+  return (context * 2654435761u) >> (32 - bits);
+}
+
+}  // namespace
+
+Offset Drawing::coarser(bool centre, int s, int i) {
+  constexpr Offset kFirst[] = {{1, 0}, {2, 1}, {1, 2}};
+  Offset o = kFirst[i / 4];
+  for (int turn = 0; turn < i % 4; ++turn) o = {-o.y, o.x};
+  if (centre) o = {o.x - o.y, o.x + o.y};
+  return {s * o.x, s * o.y};
+}
+
+void Drawing::decodeIndices() {
+  try {
+    forEachVertex([&](bool centre, int s, int x, int y) {
+      if (isValid(at(x, y))) indices_[at(x, y)] = next(candidatesOf(centre, s, x, y), centre);
+    });
+  } catch (TrackEnd) {
+  }
+}
+
+std::vector<Candidate> Drawing::candidatesOf(bool centre, int s, int x, int y) const {
+  std::vector<Candidate> found;
+  uint32_t bit = 1;
+  const auto meet = [&](Offset o) {
+    const bool there = inside(x + o.x, y + o.y) && isValid(at(x + o.x, y + o.y));
+    if (there) {
+      const int index = indices_[at(x + o.x, y + o.y)];
+      auto same = std::find_if(found.begin(), found.end(),
+                               [&](const Candidate& c) { return c.index == index; });
+      if (same == found.end()) same = found.insert(found.end(), Candidate{index});
+      same->pattern |= bit;
+    }
+    bit *= 2;
+  };
+  if (s == 0) return found;
+  for (int i = 0; i < 4; ++i) meet(coarser(centre, s, i));
+  meet(centre ? Offset{-2 * s, 0} : Offset{-s, -s});
+  meet(centre ? Offset{0, -2 * s} : Offset{s, -s});
+  for (int i = 4; i < 12; ++i) meet(coarser(centre, s, i));
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.votes() > b.votes(); });
+  return found;
+}
+
+int Drawing::next(const std::vector<Candidate>& candidates, bool centre) {
+  const int n = static_cast<int>(candidates.size());
+  for (int i = 0; i < std::min(n, 3); ++i) {
+    const Candidate& c = candidates[static_cast<size_t>(i)];
+    int more = 0;
+    if (i == 0 && n > 1) more = std::min(candidates[1].near(), 3);
+    if (i == 1) more = std::min(n, 4) - 1;
+    const int count =
+        ((((i * 4 + more) * 5 + c.near()) * 3 + c.causal()) * 9 + c.ring()) * 2 + centre;
+    const uint32_t pattern = static_cast<uint32_t>(2 * i + centre) * 16384 + c.pattern;
+    const uint32_t rival = n > 1 ? candidates[i == 0 ? 1 : 0].pattern % 64 : 0;
+    if (decide({&rival_[hash(64 * pattern + rival, 18)], &pattern_[pattern],
+                &count_.at(static_cast<size_t>(count))})) {
+      return c.index;
+    }
+  }
+  if (listed() == 0 || (listed() < 4096 && decide(fresh_))) {
+    append(candidates);
+    return static_cast<int>(listed()) - 1;
+  }
+  return known(candidates);
+}
+
+int Drawing::known(const std::vector<Candidate>& candidates) {
+  const uint32_t k1 = candidates.empty() ? 4096 : candidates[0].index;
+  const uint32_t k2 = candidates.size() < 2 ? 4096 : candidates[1].index;
+  uint32_t node = 1;
+  while (node < 4096) {
+    const int bit = decide({&pair_[hash((k1 * 4099 + k2) * 4099 + node, 18)],
+                            &single_[hash(k1 * 4099 + node, 16)], &plain_[node]});
+    node = 2 * node + bit;
+  }
+  return std::min(static_cast<int>(node) - 4096, static_cast<int>(listed()) - 1);
+}
+
+int32_t Drawing::residual(std::span<Model> models) {
+  size_t size = 0;
+  while (size < models.size() && decide(models[size])) ++size;
+  if (size == 0) return 0;
+  uint32_t magnitude = 1;
+  for (size_t i = 1; i < size; ++i) magnitude = 2 * magnitude + static_cast<uint32_t>(even());
+  return static_cast<int32_t>(even() ? 0 - magnitude : magnitude);
+}
+
+/// FORMAT 9.1: "The first of three models".
+int Drawing::decide(const std::array<Model*, 3>& models) {
+  Model* asked = models[2];
+  if (models[1]->seen() >= 2) asked = models[1];
+  if (models[0]->seen() >= 2) asked = models[0];
+  const int bit = decide(*asked);
+  for (Model* model : models) {
+    if (model != asked) model->learn(bit);
+  }
+  return bit;
+}
+
+int Drawing::decide(Model& model) {
+  return counted(model.decode(decoder_));
+}
+
+int Drawing::even() {
+  return counted(decoder_.decode(0x8000));
+}
+
+}  // namespace tetrakis::reference

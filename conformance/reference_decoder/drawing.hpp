@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: what drawn textures (docs/FORMAT.md, section 9.1) and drawn heights (8.4) have
+// in common.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "conformance/reference_decoder/range_decoder.hpp"
+
+namespace tetrakis::reference {
+
+struct Offset {
+  int x, y;
+};
+
+struct Candidate {
+  int index;
+  uint32_t pattern = 0;
+
+  int near() const { return std::popcount(pattern & 15); }
+  int causal() const { return std::popcount(pattern >> 4 & 3); }
+  int ring() const { return std::popcount(pattern >> 6); }
+  int votes() const { return 6 * near() + 4 * causal() + ring(); }
+};
+
+class Drawing {
+ public:
+  /// valid: empty: all vertices are.
+  Drawing(int width, int height, std::vector<uint8_t> valid, std::span<const uint8_t> codeword)
+      : width_(width),
+        height_(height),
+        valid_(std::move(valid)),
+        indices_(static_cast<size_t>(width) * height, -1),
+        decoder_(codeword),
+        pair_(1 << 18),
+        single_(1 << 16),
+        plain_(1 << 12),
+        rival_(1 << 18),
+        pattern_(6 << 14) {}
+
+ protected:
+  /// Appends a new value to the list.
+  virtual void append(const std::vector<Candidate>& candidates) = 0;
+  virtual size_t listed() const = 0;
+  ~Drawing() = default;
+
+  void decodeIndices();
+  /// `residual` of FORMAT 9.1, from the models of one channel, modulo 2^32.
+  int32_t residual(std::span<Model> models);
+
+  bool inside(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
+  size_t at(int x, int y) const { return static_cast<size_t>(y) * width_ + x; }
+  bool isValid(size_t vertex) const { return valid_.empty() || valid_[vertex] != 0; }
+
+  /// FORMAT 8.1, the order of the vertices; s = 0 for roots.
+  template <class Visit>
+  void forEachVertex(Visit visit) const {
+    int root = 1;
+    while (root < std::max(width_, height_) - 1) root *= 2;
+    for (int y = 0; y < height_; y += root) {
+      for (int x = 0; x < width_; x += root) visit(false, 0, x, y);
+    }
+    for (int s = root / 2; s >= 1; s /= 2) {
+      for (int y = s; y < height_; y += 2 * s) {
+        for (int x = s; x < width_; x += 2 * s) visit(true, s, x, y);
+      }
+      for (int y = 0; y < height_; y += s) {
+        for (int x = y / s % 2 == 0 ? s : 0; x < width_; x += 2 * s) visit(false, s, x, y);
+      }
+    }
+  }
+
+  /// The i-th of the twelve offsets of FORMAT 8.1.
+  static Offset coarser(bool centre, int s, int i);
+
+  int width_, height_;
+  std::vector<uint8_t> valid_;
+  std::vector<int> indices_;  ///< -1: none
+
+ private:
+  std::vector<Candidate> candidatesOf(bool centre, int s, int x, int y) const;
+  int next(const std::vector<Candidate>& candidates, bool centre);
+  int known(const std::vector<Candidate>& candidates);
+  int decide(const std::array<Model*, 3>& models);
+  int decide(Model& model);
+  int even();
+
+  RangeDecoder decoder_;
+  std::array<Model, 3 * 4 * 5 * 3 * 9 * 2> count_;
+  Model fresh_;
+  std::vector<Model> pair_, single_, plain_, rival_, pattern_;
+};
+
+}  // namespace tetrakis::reference

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: drawn heights (docs/FORMAT.md, section 8.4).
+#include <array>
+
+#include "conformance/reference_decoder/drawing.hpp"
+#include "conformance/reference_decoder/layers.hpp"
+#include "conformance/reference_decoder/stream.hpp"
+
+namespace tetrakis::reference {
+namespace {
+
+class DrawnHeights : Drawing {
+ public:
+  using Drawing::Drawing;
+
+  /// v of all samples, with f = 4.
+  std::vector<int32_t> decode() {
+    decodeIndices();
+    std::vector<int32_t> values(indices_.size());
+    forEachVertex([&](bool centre, int s, int x, int y) {
+      const int index = indices_[at(x, y)];
+      values[at(x, y)] = index >= 0 ? wrap(int64_t{steps_[static_cast<size_t>(index)]} * 16)
+                                    : fill(values, centre, s, x, y);
+    });
+    for (size_t i = 0; i < values.size(); ++i) {
+      if (!isValid(i)) values[i] = 0;
+    }
+    return values;
+  }
+
+ private:
+  size_t listed() const override { return steps_.size(); }
+
+  void append(const std::vector<Candidate>& candidates) override {
+    int64_t expected = 0;
+    if (!candidates.empty()) {
+      const int64_t a = steps_[static_cast<size_t>(candidates[0].index)];
+      const int64_t b = steps_[static_cast<size_t>(candidates[candidates.size() > 1].index)];
+      expected = (a + b) >> 1;
+    }
+    const int32_t difference = residual(residual_);
+    steps_.push_back(wrap(expected + difference));
+  }
+
+  /// FORMAT 8.4, "Fill".
+  int32_t fill(const std::vector<int32_t>& values, bool centre, int s, int x, int y) const {
+    if (s == 0) return 0;
+    std::vector<int64_t> all, valid;
+    for (int i = 0; i < 4; ++i) {
+      const Offset o = coarser(centre, s, i);
+      if (!inside(x + o.x, y + o.y)) continue;
+      const size_t near = at(x + o.x, y + o.y);
+      all.push_back(values[near]);
+      if (isValid(near)) valid.push_back(values[near]);
+    }
+    const std::vector<int64_t>& counted = valid.empty() ? all : valid;
+    const auto k = static_cast<int64_t>(counted.size());
+    int64_t sum = k / 2;
+    for (const int64_t value : counted) sum += value;
+    int64_t mean = sum / k;
+    if (mean * k > sum) --mean;
+    return static_cast<int32_t>(mean);
+  }
+
+  std::vector<int32_t> steps_;
+  std::array<Model, 32> residual_;
+};
+
+}  // namespace
+
+std::vector<int32_t> decodeDrawnHeights(const GeometryHeader& header,
+                                        std::span<const uint8_t> codeword,
+                                        const std::vector<uint8_t>& valid) {
+  return DrawnHeights(header.width, header.height, valid, codeword).decode();
+}
+
+}  // namespace tetrakis::reference

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole streams of heights of few values in large shapes, which are drawn.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "bitstream/stream/header.hpp"
+#include "conformance/reference_decoder.hpp"
+#include "conformance/samples/few_values.hpp"
+#include "conformance/samples/void_masks.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+/// Terrain in `classes` bands.
+Raster classesOf(uint32_t width, uint32_t height, uint32_t classes = 5) {
+  Raster heights = make({Pattern::kRidges, width, height, 1, TKS_U8, 3});
+  for (std::byte& sample : heights.data) {
+    const uint32_t place = std::to_integer<uint32_t>(sample) * classes / 256;
+    sample = std::byte(place * (250 / classes));
+  }
+  return heights;
+}
+
+Bytes encodeWithVoids(Raster& heights, samples::VoidShape shape) {
+  const std::vector<uint8_t> valid = samples::validity(shape, heights.width, heights.height);
+  for (size_t i = 0; i < valid.size(); ++i) {
+    if (!valid[i]) heights.data[i] = std::byte{255};
+  }
+  tks_heights given = heights.heights();
+  given.has_nodata = 1;
+  given.nodata = 255;
+  const tks_encode_options options = lossless();
+  tks_buffer buffer = {};
+  char message[256] = "";
+  EXPECT_EQ(tks_encode(&given, nullptr, &options, &buffer, message, sizeof message), TKS_OK)
+      << message;
+  const Bytes bytes(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  return bytes;
+}
+
+/// Heights that the encoder draws: plain, beside voids, with a table, with corrections of samples.
+struct DrawnKind {
+  std::string name;
+  Raster heights;
+  Bytes stream;
+};
+
+std::vector<DrawnKind> drawnKinds(uint32_t width, uint32_t height) {
+  const Raster plain = classesOf(width, height);
+  std::vector<DrawnKind> kinds = {{"plain", plain, encode(&plain, nullptr, lossless())}};
+  Raster holed = plain;
+  const Bytes beside = encodeWithVoids(holed, samples::VoidShape::kCoast);
+  kinds.push_back({"voids", holed, beside});
+  for (const samples::FewValues kind : {samples::FewValues::kRescaled, samples::FewValues::kRare}) {
+    const Raster floats = samples::withFewValues(plain, kind);
+    kinds.push_back({"floats", floats, encode(&floats, nullptr, lossless())});
+  }
+  return kinds;
+}
+
+TEST(DrawnHeights, ComeBackExactly) {
+  for (const auto& [width, height] : {std::pair{70u, 53u}, {2u, 300u}, {301u, 2u}, {128u, 129u}}) {
+    const Raster heights = classesOf(width, height);
+    const Bytes stream = encode(&heights, nullptr, lossless());
+    EXPECT_EQ(Stream(stream).info().heights_drawn, 1) << width;
+    EXPECT_EQ(Stream(stream).info().lossless, 1);
+    EXPECT_TRUE(Stream(stream).heights() == heights.data) << width;
+  }
+  for (const DrawnKind& kind : drawnKinds(90, 81)) {
+    EXPECT_EQ(Stream(kind.stream).info().heights_drawn, 1) << kind.name;
+    EXPECT_TRUE(Stream(kind.stream).heights() == kind.heights.data) << kind.name;
+  }
+}
+
+TEST(DrawnHeights, TerrainIsNot) {
+  for (const tks_sample sample : {TKS_U8, TKS_I16, TKS_F32}) {
+    const Raster ridges = make({Pattern::kRidges, 90, 81, 1, sample, 3});
+    EXPECT_EQ(Stream(encode(&ridges, nullptr, lossless())).info().heights_drawn, 0);
+  }
+  const Raster ramp = make({Pattern::kRamp, 90, 81, 1, TKS_I16, 3});
+  EXPECT_EQ(Stream(encode(&ramp, nullptr, lossless())).info().heights_drawn, 0);
+}
+
+TEST(DrawnHeights, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
+  for (const DrawnKind& kind : drawnKinds(61, 50)) {
+    SCOPED_TRACE(kind.name);
+    for (size_t n = readHeader(kind.stream)->bytes; n <= kind.stream.size(); n += n % 17 + 1) {
+      const Prefix prefix = Prefix(kind.stream).first(n);
+      for (const uint32_t level : {0u, 2u}) {
+        Stream decoded(prefix);
+        ASSERT_EQ(tks_set_levels(decoded.get(), level, 0), TKS_OK);
+        const size_t samples = size_t{(60u >> level) + 1} * ((49u >> level) + 1);
+        std::vector<uint8_t> shown(samples * tks_sample_bytes(kind.heights.sample));
+        ASSERT_EQ(tks_decode_heights(decoded.get(), shown.data(), shown.size()), TKS_OK);
+        ASSERT_EQ(shown, reference::decode(prefix, 1 << 20, {static_cast<int>(level), 0}).heights)
+            << n << ", level " << level;
+      }
+    }
+  }
+}
+
+/// With every sixteenth of the stream; all prefixes of small ones are those of stream_prefix_test.
+TEST(DrawnHeights, PrefixesImprove) {
+  const Raster heights = classesOf(150, 140);
+  const Bytes stream = encode(&heights, nullptr, lossless());
+  double before = INFINITY;
+  for (size_t part = 2; part <= 16; ++part) {
+    const double error =
+        squaredError(heights, Stream(Prefix(stream).first(stream.size() * part / 16)).heights());
+    EXPECT_LE(error, before * 1.007) << part;
+    before = error;
+  }
+  EXPECT_EQ(before, 0);
+}
+
+TEST(DrawnHeights, WindowsAreThoseOfTheWholeInAllPrefixes) {
+  for (const DrawnKind& kind : drawnKinds(90, 70)) {
+    const size_t bytes = tks_sample_bytes(kind.heights.sample);
+    for (size_t n = readHeader(kind.stream)->bytes; n <= kind.stream.size(); n += 197) {
+      const std::vector<std::byte> whole = Stream(Prefix(kind.stream).first(n)).heights();
+      const tks_window window{13, 9, 31, 20};
+      std::vector<std::byte> part(bytes * window.width * window.height);
+      Stream decoded(Prefix(kind.stream).first(n));
+      ASSERT_EQ(tks_decode_heights_window(decoded.get(), &window, part.data(), part.size()),
+                TKS_OK);
+      for (size_t y = 0; y < window.height; ++y) {
+        const auto row =
+            whole.begin() + static_cast<ptrdiff_t>(bytes * ((window.y + y) * 90 + window.x));
+        const size_t length = bytes * window.width;
+        ASSERT_TRUE(std::equal(row, row + static_cast<ptrdiff_t>(length),
+                               part.begin() + static_cast<ptrdiff_t>(y * length)));
+      }
+    }
+  }
+}
+
+/// Levels hold every 2^k-th sample, and nothing that was filtered.
+TEST(DrawnHeights, LevelsHoldSamples) {
+  Raster heights = classesOf(97, 65);
+  for (size_t x = 0; x < 97; ++x) heights.data[64 * 97 + x] = std::byte(x % 3);  // no line repeats
+  for (size_t y = 0; y < 65; ++y) heights.data[97 * y + 96] = std::byte(y % 3);
+  Stream stream(encode(&heights, nullptr, lossless()));
+  ASSERT_EQ(stream.info().heights_drawn, 1);
+  ASSERT_EQ(tks_set_levels(stream.get(), 3, 0), TKS_OK);
+  std::vector<uint8_t> shown(size_t{13} * 9);
+  ASSERT_EQ(tks_decode_heights(stream.get(), shown.data(), shown.size()), TKS_OK);
+  for (size_t i = 0; i < shown.size(); ++i)
+    EXPECT_EQ(std::byte{shown[i]}, heights.data[8 * (i / 13) * 97 + 8 * (i % 13)]);
+}
+
+/// Vertices of the coded mesh lie where heights are not those between their neighbours.
+TEST(DrawnHeights, CodedMeshHasFewVerticesAndTheirHeights) {
+  const Raster heights = classesOf(129, 129, 3);
+  Stream stream(encode(&heights, nullptr, lossless()));
+  tks_mesh mesh = {};
+  ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_CODED, 0, &mesh), TKS_OK);
+  EXPECT_GT(mesh.vertex_count, 4u);
+  EXPECT_LT(mesh.vertex_count, 129u * 129 * 3 / 4);
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v)
+    ASSERT_EQ(mesh.height[v], sampleAt(heights.data, TKS_U8, mesh.grid_index[v]));
+  tks_free_mesh(&mesh);
+  ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, 500, &mesh), TKS_OK);
+  EXPECT_LE(mesh.triangle_count, 500u);
+  tks_free_mesh(&mesh);
+}
+
+TEST(DrawnHeights, DamagedBytesDecode) {
+  for (const DrawnKind& kind : drawnKinds(40, 31)) {
+    const size_t header = readHeader(kind.stream)->bytes;
+    for (size_t at = header + 3; at < kind.stream.size(); at += 3) {
+      Bytes damaged = kind.stream;
+      damaged[at] ^= static_cast<uint8_t>(1 + at % 255);
+      const tks_limits limits = smallLimits();
+      Stream stream(damaged, &limits);
+      if (stream.status() != TKS_OK) continue;
+      EXPECT_EQ(stream.heights().size(), kind.heights.data.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test
