@@ -77,9 +77,9 @@ class ComponentPlanes {
     for (ViewSynthesis& component : synthesis_) component.allocate();
   }
 
-  /// Returns the fraction bits of the planes.
-  int decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
-    const RegionDecoder tracks{header_.wavelet, header_.regions, header_.planes, context};
+  Precision decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
+    const RegionDecoder tracks{header_.wavelet, header_.regions, header_.planes, view_.level,
+                               context};
     return tracks.run(
         coefficients,
         [&](size_t track) {
@@ -97,13 +97,13 @@ class ComponentPlanes {
   }
 
   /// Called once, when everything is decoded.
-  std::vector<std::vector<int32_t>> restore(uint32_t threads) {
+  std::vector<std::vector<int32_t>> restore(uint32_t threads, bool rounds) {
     inverseColourLevels(colourOf(header_), pyramid(), synthesis_);
     const std::vector<uint8_t> shown = cut(pyramid().valid().bytes(), header_.extent(), view_);
     std::vector<std::vector<int32_t>> planes(synthesis_.size());
     // A window's inverse transform knows no threads, that of a whole plane does.
     parallelFor(view_.window ? threads : 1, planes.size(), [&](size_t c) {
-      planes[c] = synthesis_[c].run(threads);
+      planes[c] = synthesis_[c].run(threads, rounds);
       clearUnmarked(std::span(planes[c]), shown);
     });
     return planes;
@@ -143,11 +143,11 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, co
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   ComponentPlanes components(header, opening->coded, view);
   const bool growing = memory != nullptr && memory->opening != nullptr;
-  const int fraction_bits =
+  const Precision precision =
       components.decode(coefficients, {context.threads, growing ? &memory->tracks : nullptr});
-  std::vector<std::vector<int32_t>> planes = components.restore(context.threads);
+  std::vector<std::vector<int32_t>> planes = components.restore(context.threads, precision.rounds);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
-  finish(header, fraction_bits, planes, context.threads, texels);
+  finish(header, precision.fraction_bits, planes, context.threads, texels);
   finishAlpha(cut(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);
   opening->paint(header.extent(), view, texels);
   return texels;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -47,12 +46,13 @@ bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
   return regions.side_log2 == 0 && (bit_planes == 0 || codewords.front().empty());
 }
 
-int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const {
+Precision RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of,
+                             const Take& take) const {
   assert(!codewords.empty());
   // Windows do not decode all tracks, so that only the bytes say how much is known.
-  const int bits = outputFractionBits(wavelet, bit_planes, bytesOf(codewords));
-  const int more_bits = bits - wavelet.fraction_bits;
-  if (nothingKnown(codewords)) return bits;
+  const Precision precision = precisionOf(wavelet, bit_planes, bytesOf(codewords), level);
+  const int more_bits = precision.fraction_bits - wavelet.fraction_bits;
+  if (nothingKnown(codewords)) return precision;
   TrackMemory* const memory = context.memory;
   if (memory != nullptr) memory->tracks.resize(codewords.size());
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
@@ -66,7 +66,7 @@ int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const 
       for (BandPlan& band : plan) band.needed = true;
     take(i, memory->tracks[i].emplace(std::move(plan), bit_planes).decode(codewords[i]), more_bits);
   });
-  return bits;
+  return precision;
 }
 
 }  // namespace tetrakis::inline wavelet

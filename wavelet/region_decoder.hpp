@@ -14,6 +14,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"
+#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -47,6 +48,7 @@ struct RegionDecoder {
   const WaveletHeader& wavelet;
   const RegionHeader& regions;
   int bit_planes;
+  int level;  ///< of the view
   DecodeContext<TrackMemory> context;
 
   /// Returns the plan of a track, or an empty one if the track is not wanted.
@@ -59,8 +61,8 @@ struct RegionDecoder {
   /// True if there is only one track and nothing is known of it, so that run() takes none.
   bool nothingKnown(const Codewords& codewords) const;
 
-  /// Returns the fraction bits of the values taken (docs/FORMAT.md, section 7).
-  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
+  /// Returns the precision of the values taken (docs/FORMAT.md, section 7).
+  Precision run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
 };
 
 }  // namespace tetrakis::inline wavelet

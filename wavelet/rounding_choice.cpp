@@ -51,20 +51,21 @@ class CodedPart {
     const double bytes = std::max(static_cast<double>(track_.codeword.size()) - missing, 0.0);
     const TrackState& state =
         growing_->decode(std::span(track_.codeword).first(static_cast<size_t>(bytes)));
-    return {squaresWith(state, unroundedBits(track_.planes)), squaresWith(state, 0)};
+    return {squaresWith(state, {unroundedBits(track_.planes), false}),
+            squaresWith(state, {0, true})};
   }
 
  private:
-  double squaresWith(const TrackState& state, int fraction_bits) const {
+  double squaresWith(const TrackState& state, Precision precision) const {
     ViewSynthesis synthesis(spec_, layout_.pyramid(), {});
     synthesis.allocate();
     for (size_t i = 0; i < parts_.size(); ++i)
-      synthesis.put(state.bands[i], fraction_bits, parts_[i]);
-    std::vector<int32_t> shown = synthesis.run(1);
+      synthesis.put(state.bands[i], precision.fraction_bits, parts_[i]);
+    std::vector<int32_t> shown = synthesis.run(1, precision.rounds);
     clearUnmarked(std::span(shown), valid_);
     double squares = 0;
     for (size_t i = 0; i < shown.size(); ++i) {
-      const double error = std::ldexp(shown[i], -fraction_bits) - samples_[i];
+      const double error = std::ldexp(shown[i], -precision.fraction_bits) - samples_[i];
       squares += error * error;
     }
     return squares;

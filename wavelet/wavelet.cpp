@@ -2,6 +2,7 @@
 // The order of the levels.
 #include "wavelet/wavelet.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <functional>
 #include <optional>
@@ -46,6 +47,12 @@ struct BlockMask {
   }
 };
 
+/// What a level does with fractions (wavelet/joint_lifting.hpp).
+struct Carrying {
+  bool in = false, out = false;
+  std::span<const uint8_t> fractions = {};
+};
+
 /// One level of the transform: rows and columns jointly, or rows, then columns; backwards the other
 /// way round.
 class LevelTransform {
@@ -58,6 +65,12 @@ class LevelTransform {
         joint_(spec.joint(level)),
         jointly_wide_(spec.jointlyWide(level)),
         threads_(threads) {}
+
+  /// Before run(), of a joint level.
+  LevelTransform& carry(const Carrying& carrying) {
+    carrying_ = carrying;
+    return *this;
+  }
 
   /// existing: one byte for each value of the block; empty: all exist. held: null: all are free.
   void run(const Block& whole, Extent low, std::span<const uint8_t> existing,
@@ -82,6 +95,18 @@ class LevelTransform {
     if (doubles_ && analyses()) forEachRow(lows, doubleValues);
   }
 
+  /// The fractions of the low band, from coefficients that no level has undone.
+  std::vector<uint8_t> lowFractions(const Block& whole) const {
+    assert(carrying_.out);
+    const uint32_t lows = (whole.extent.width + 1) / 2, rows = (whole.extent.height + 1) / 2;
+    std::vector<uint8_t> low(size_t{lows} * rows);
+    const JointBlock block = jointBlock(whole);
+    inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
+      JointLifting(block, id_, direction_, jointly_wide_).findFractions(begin, end, low);
+    });
+    return low;
+  }
+
  private:
   /// Rows or columns that a thread takes at a time.
   static constexpr uint32_t kChunk = 256;
@@ -91,8 +116,12 @@ class LevelTransform {
   }
   bool analyses() const { return direction_ == Direction::kAnalysis; }
 
+  JointBlock jointBlock(const Block& whole) const {
+    return {whole.first,  whole.pitch,   whole.extent,       doubles_,
+            carrying_.in, carrying_.out, carrying_.fractions};
+  }
   void liftJointly(const Block& whole) const {
-    const JointBlock block{whole.first, whole.pitch, whole.extent, doubles_};
+    const JointBlock block = jointBlock(whole);
     for (const JointStep step : JointLifting::steps(direction_)) {
       inChunks(whole.extent.height, [&](uint32_t begin, uint32_t end) {
         JointLifting(block, id_, direction_, jointly_wide_).run(step, begin, end);
@@ -174,6 +203,7 @@ class LevelTransform {
   Direction direction_;
   bool doubles_, wide_, joint_, jointly_wide_;
   uint32_t threads_;
+  Carrying carrying_;
 };
 
 /// All that a level splits.
@@ -212,18 +242,38 @@ std::optional<HeldLadder> ladderOf(const WaveletSpec& spec, const Pyramid& pyram
 
 }  // namespace
 
+int carriedTo(const WaveletSpec& spec, const Pyramid& pyramid) {
+  if (!pyramid.valid().all() || !pyramid.held().none()) return 0;
+  const auto carries = [&](int level) {
+    return spec.joint(level) && pyramid.splitsX(level) && pyramid.splitsY(level);
+  };
+  int last = 0;
+  while (last < std::min(spec.first_doubled, pyramid.levels()) && carries(last + 1)) ++last;
+  return last > 1 ? last : 0;
+}
+
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block) {
   assert(block.values.size() == block.extent.samples());
   LevelTransform(spec, level, Direction::kSynthesis, 1)
+      .carry({block.fractions_in, block.fractions_out, block.fractions})
       .run({block.values.data(), block.extent.width, block.extent}, block.low, block.existing,
            block.held);
+}
+
+std::vector<uint8_t> lowFractions(const WaveletSpec& spec, int level, const LevelBlock& block) {
+  assert(block.values.size() == block.extent.samples());
+  return LevelTransform(spec, level, Direction::kSynthesis, 1)
+      .carry({block.fractions_in, block.fractions_out, block.fractions})
+      .lowFractions({block.values.data(), block.extent.width, block.extent});
 }
 
 void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     uint32_t threads) {
   const std::optional<HeldLadder> ladder = ladderOf(spec, pyramid);
+  const int carried = carriedTo(spec, pyramid);
   for (int level = 1; level <= pyramid.levels(); ++level) {
-    runLevel(LevelTransform(spec, level, Direction::kAnalysis, threads),
+    runLevel(LevelTransform(spec, level, Direction::kAnalysis, threads)
+                 .carry({level > 1 && level <= carried, level < carried, {}}),
              blockOf(pyramid, level - 1, 0, values), {pyramid, level, ladder});
   }
 }
@@ -233,11 +283,24 @@ void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, ui
 }
 
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
-                    std::span<int32_t> values, uint32_t threads) {
+                    std::span<int32_t> values, uint32_t threads, bool rounds) {
   const std::optional<HeldLadder> ladder = ladderOf(spec, pyramid);
+  const int carried = rounds && level == 0 ? carriedTo(spec, pyramid) : 0;
+  std::vector<std::vector<uint8_t>> fractions(static_cast<size_t>(std::max(carried, 1)));
+  const auto transformOf = [&](int split) {
+    const bool in = split > 1 && split <= carried;
+    return LevelTransform(spec, split, Direction::kSynthesis, threads)
+        .carry({in, split < carried,
+                in ? std::span<const uint8_t>(fractions[static_cast<size_t>(split - 1)])
+                   : std::span<const uint8_t>()});
+  };
+  for (int split = 1; split < carried; ++split) {
+    fractions[static_cast<size_t>(split)] =
+        transformOf(split).lowFractions(blockOf(pyramid, split - 1, 0, values));
+  }
   for (int split = pyramid.levels(); split > level; --split) {
-    runLevel(LevelTransform(spec, split, Direction::kSynthesis, threads),
-             blockOf(pyramid, split - 1, level, values), {pyramid, split, ladder});
+    runLevel(transformOf(split), blockOf(pyramid, split - 1, level, values),
+             {pyramid, split, ladder});
   }
 }
 

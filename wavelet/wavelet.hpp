@@ -4,7 +4,8 @@
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
 // with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
-// coefficient once (wavelet/joint_lifting.hpp). The low bands of two levels are doubled besides, so
+// coefficient once (wavelet/joint_lifting.hpp). The finest levels do not round their low bands at
+// all, but carry the fractions to the next one. Then the low bands of three levels are doubled, so
 // that coarser levels round half as much: prefixes get better, lossless streams a little longer.
 // docs/MEASUREMENTS.md says by how much.
 #pragma once
@@ -27,8 +28,9 @@ struct WaveletSpec {
   std::array<FilterId, kChoices> filters{};  ///< of level 1, of level 2, of all coarser ones
   bool whole = false;                        ///< samples have no fraction bits
   int bits = 0;                              ///< of a sample, fraction included
-  int first_doubled = 3;  ///< the low band is doubled after this level and the next; 0: after none
+  int first_doubled = 3;  ///< the low band is doubled after this level and the next two; 0: never
 
+  static constexpr int kDoubled = 3;  ///< levels that double their low bands
   static constexpr int kNarrowLevels = 3;
   static constexpr int kJointBits = 20;
 
@@ -42,7 +44,7 @@ struct WaveletSpec {
   }
   /// The low band is doubled after this level.
   bool doubles(int level) const {
-    return whole && first_doubled > 0 && (level == first_doubled || level == first_doubled + 1);
+    return whole && first_doubled > 0 && level >= first_doubled && level < first_doubled + kDoubled;
   }
   /// The level lifts rows and columns jointly where it splits both and every sample exists.
   bool joint(int level) const { return whole && bits <= kJointBits && liftsJointly(filter(level)); }
@@ -51,6 +53,10 @@ struct WaveletSpec {
     return level > kNarrowLevels || bits + kJointPlaces >= widestSamples(filter(level));
   }
 };
+
+/// The last of the levels that pass fractions on, from the first to this one, which rounds; 0: none
+/// do. These levels lift jointly. The first level that doubles its low band is the last at most.
+int carriedTo(const WaveletSpec& spec, const Pyramid& pyramid);
 
 /// Turns the samples of a plane into coefficients, in place, laid out as wavelet/pyramid.hpp says.
 /// inverseWavelet() with the same spec and the same mask undoes it exactly. Samples that do not
@@ -66,9 +72,11 @@ void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
 void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
 /// The same for the low band of a level, which is a plane of its own: undoes the coarser levels
-/// alone. low: the values of that low band. Where samples are held any values will do.
+/// alone. low: the values of that low band. Where samples are held any values will do. rounds: the
+/// values are whole coefficients, known to the last bit or nearly, and roundings are undone. Else
+/// fractions are not carried; nor are they where level > 0.
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
-                    std::span<int32_t> low, uint32_t threads);
+                    std::span<int32_t> low, uint32_t threads, bool rounds = true);
 
 class HeldBlock;
 
@@ -78,6 +86,8 @@ struct LevelBlock {
   Extent extent, low;               ///< of the block and of its low part
   std::vector<uint8_t> existing;    ///< Pyramid::splitMask() of the block; empty: all exist
   const HeldBlock* held = nullptr;  ///< null: all samples are free
+  bool fractions_in = false, fractions_out = false;  ///< as in JointBlock
+  std::span<const uint8_t> fractions = {};           ///< likewise
 };
 
 /// The bytes that lifting takes for each value of a row or a column, on each thread: both halves of
@@ -86,5 +96,8 @@ inline constexpr uint64_t kLiftingBytes = 8;
 
 /// Undoes one level of the transform of a block, in place.
 void inverseLevel(const WaveletSpec& spec, int level, const LevelBlock& block);
+
+/// The fractions of the low part of a block, row by row: of its coefficients alone.
+std::vector<uint8_t> lowFractions(const WaveletSpec& spec, int level, const LevelBlock& block);
 
 }  // namespace tetrakis::inline wavelet

@@ -113,9 +113,9 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   synthesis.allocate();
   std::optional<Significance> significance;
   if (!view.window) significance.emplace(layout.pyramid(), view.level, regions.size());
-  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, context};
+  const RegionDecoder tracks{header.wavelet, header.regions, header.planes, view.level, context};
   DecodedGeometry out;
-  out.fraction_bits = tracks.run(
+  const Precision precision = tracks.run(
       codewords, [&](size_t i) { return planOf(layout, layout.parts(regions[i]), synthesis); },
       [&](size_t i, const TrackState& state, int more_bits) {
         const std::vector<BandPart> parts = layout.parts(regions[i]);
@@ -123,9 +123,10 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
           synthesis.put(state.bands[k], more_bits, parts[k]);
         if (significance) significance->take(i, state, parts);
       });
+  out.fraction_bits = precision.fraction_bits;
   for (int32_t& level : flat.levels)  // of what the layout holds, as it is needed from here on
     level = static_cast<int32_t>(static_cast<uint32_t>(level) << out.fraction_bits);
-  out.heights = synthesis.run(context.threads);
+  out.heights = synthesis.run(context.threads, precision.rounds);
   if (significance) significance->giveTo(out);
   const Extent extent = view.extentIn(header.extent());
   out.width = extent.width;

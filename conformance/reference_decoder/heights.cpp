@@ -128,13 +128,14 @@ Surface decodeSurface(const GeometryHeader& header,
     dropFiner(surface.parts.back(), level, bands);
     decodeTrack(coefficients[track], header.planes, bands);
   }
-  surface.f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients));
+  const Fraction fraction = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
+  surface.f = fraction.f;
   for (size_t i = 0; i < surface.parts.size(); ++i) {
     place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
           surface.plane);
   }
   for (int32_t& height : surface.plane.flat.levels) height = wrap(int64_t{height} << surface.f);
-  synthesise(header.wavelet, subbands, level, surface.plane);
+  synthesise(header.wavelet, subbands, level, fraction.rounds, surface.plane);
   const Plane whole = surface.plane;
   if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);
   putFlat(whole, level, surface.plane);

@@ -148,7 +148,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     bands.push_back(bandsBefore(header, parts.back(), coded, priorities, level));
     decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
   }
-  const int f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients));
+  const auto [f, rounds] = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
   std::vector<Plane> planes;
   for (int c = 0; c < header.components; ++c) {
     Plane plane{header.width, header.height, {}};
@@ -162,7 +162,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   }
   unshearLevels(header, subbands, planes);
   for (Plane& plane : planes) {
-    synthesise(header.wavelet, subbands, level, plane);
+    synthesise(header.wavelet, subbands, level, rounds, plane);
     plane = levelOf(header.wavelet, subbands, level, plane);
   }
   const int columns = planes[0].width, rows = planes[0].height;

@@ -110,7 +110,7 @@ TEST(Wavelet, LowBandsKeepTheMean) {
       const Plane plane = forward(uniform(id, doubled), Plane(size.count(), 1234), size);
       const Subband low = subbandsOf(size).front();
       forEachCoefficient(low, size.width,
-                         [&](size_t i, size_t) { ASSERT_EQ(plane[i], doubled ? 4 * 1234 : 1234); });
+                         [&](size_t i, size_t) { ASSERT_EQ(plane[i], doubled ? 8 * 1234 : 1234); });
     }
   }
 }
@@ -276,11 +276,17 @@ TEST(Subbands, TheLargestSidesHaveLevelsEnough) {
 
 TEST(WaveletHeader, GivesFractionBitsOnlyWhereTheyHelp) {
   for (int planes = 0; planes <= 30; ++planes) {
-    EXPECT_EQ(outputFractionBits({{}, 0, 8, 3, 100}, planes, 100), 0) << "rounded";
-    const int unrounded = outputFractionBits({{}, 0, 8, 3, 100}, planes, 99);
-    EXPECT_TRUE(unrounded >= 0 && unrounded <= 4 && (unrounded == 0 || planes + unrounded < 20));
+    const Precision rounded = precisionOf({{}, 0, 8, 3, 100}, planes, 100, 0);
+    EXPECT_TRUE(rounded.rounds && rounded.fraction_bits == 0);
+    for (const Precision& unrounded : {precisionOf({{}, 0, 8, 3, 100}, planes, 99, 0),
+                                       precisionOf({{}, 0, 8, 3, 100}, planes, 100, 1)}) {
+      const int bits = unrounded.fraction_bits;
+      EXPECT_FALSE(unrounded.rounds);
+      EXPECT_TRUE(bits >= 0 && bits <= 4 && (bits == 0 || planes + bits < 20));
+    }
     for (const uint64_t bytes : {99, 100}) {
-      EXPECT_EQ(outputFractionBits({{}, 3, 11, 0, 0}, planes, bytes), 3) << "as coded";
+      const Precision coded = precisionOf({{}, 3, 11, 0, 0}, planes, bytes, 0);
+      EXPECT_TRUE(!coded.rounds && coded.fraction_bits == 3);
     }
   }
   EXPECT_TRUE(specOf({{}, 0, 8, 0, 0}).whole);
@@ -308,7 +314,7 @@ TEST(ViewSynthesis, ConstantsKeepTheirValueAtEveryLevel) {
       for (int level = 0; level <= pyramid.levels(); ++level) {
         for (const int32_t constant : {-3000, 1, 77, 20000}) {
           const Plane plane = forward(spec, Plane(size.count(), constant), size);
-          const Plane low = lowBandOf(spec, pyramid, level, plane).run(1);
+          const Plane low = lowBandOf(spec, pyramid, level, plane).run(1, true);
           ASSERT_EQ(low.size(), (View{level, {}}.extentIn(size.extent()).samples()));
           for (const int32_t value : low)
             ASSERT_NEAR(value, constant, std::abs(constant) / 2000 + 2) << spec << level;
