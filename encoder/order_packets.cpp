@@ -11,8 +11,11 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-AuditScope auditScope(const EncodeInputs& inputs, size_t samples) {
-  return {samples, inputs.budgeted() ? inputs.options.bytes : UINT64_MAX};
+/// Of lossless coefficients the budget is no bound: they are sent whole or not at all. Lossy ones
+/// of 20 bits have no fraction bits either.
+AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletHeader& wavelet) {
+  const bool lossless = wavelet.fraction_bits == 0 && wavelet.bits > 0 && wavelet.bits < 20;
+  return {samples, inputs.budgeted() && !lossless ? inputs.options.bytes : UINT64_MAX};
 }
 
 /// A stream with a front index is fetched by ranges.
@@ -48,7 +51,9 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
     return squaresOf(heights, prefixAfter(heights.rated(), packets, bytes), inputs.options.threads,
                      &memory);
   };
-  return curveOf(heights.rated(), auditScope(inputs, source.steps.steps.size()), measure, pricing);
+  return curveOf(heights.rated(),
+                 auditScope(inputs, source.steps.steps.size(), heights.header.wavelet), measure,
+                 pricing);
 }
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
@@ -57,7 +62,9 @@ ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& te
     return squaresOf(texture, prefixAfter(texture.rated(), packets, bytes), inputs.options.threads,
                      &memory);
   };
-  return curveOf(texture.rated(), auditScope(inputs, texture.of->texels.samples.size()), measure,
+  return curveOf(texture.rated(),
+                 auditScope(inputs, texture.of->texels.samples.size(), texture.header.wavelet),
+                 measure,
                  {texture.counted(), 0, inputs.heights != nullptr, trackOrderOf(inputs.options)});
 }
 

@@ -171,7 +171,7 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                                  [](const RatePoint& point) { return point.beyond == 0; });
   if (alike && scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);
   const std::span<const RatePoint> points = track.points;
-  if (scope.budget < UINT64_MAX && points.back().squares() > 0) return falling(points);
+  if (scope.budget < UINT64_MAX) return falling(points);
   return falling(scaled(points, {points, pointsToMeasure(points), measure}));
 }
 

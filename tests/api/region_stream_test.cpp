@@ -326,8 +326,8 @@ TEST(RegionStream, RefusesSidesThatAreNone) {
 
 /// Large planes get regions, others and those with a largest error none.
 TEST(RegionStream, AreChosenForLargePlanes) {
-  const Raster small = make({Pattern::kFlat, 1025, 1025, 1, TKS_U8}),
-               large = make({Pattern::kFlat, 1100, 1025, 1, TKS_U8});
+  const Raster small = make({Pattern::kRamp, 1025, 1025, 1, TKS_U8}),
+               large = make({Pattern::kRamp, 1100, 1025, 1, TKS_U8});
   EXPECT_EQ(Stream(encode(&small, nullptr, lossless())).info().regions, 0u);
   EXPECT_EQ(Stream(encode(&large, nullptr, lossless())).info().regions, 512u);
   tks_encode_options bound = budget(0);

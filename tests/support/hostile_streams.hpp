@@ -82,13 +82,13 @@ inline std::vector<HostileStream> hostileStreams(uint32_t width = 1 << 20,
   streams.push_back(sealed("drawn", textureHeader(side, kDrawnPlanes)));
   StreamHeader drawing = heightsHeader(width, height, GeometryHeader::kDirectPlanes);
   drawing.geometry->drawn = true;
-  streams.push_back(sealed("drawn heights, sent", drawing, true));
+  streams.push_back(sealed("heights drawn, sent", drawing, true));
   drawing.layers.validity_bytes = 40;
   drawing.layers.corrections = CorrectionKind::kSamples;
   drawing.layers.coefficient_bytes = 7;
   drawing.layers.table_bytes = 9;
   drawing.layers.table_values = 1 << 20;
-  streams.push_back(sealed("drawn heights with all layers, sent", drawing, true));
+  streams.push_back(sealed("heights drawn with all layers, sent", drawing, true));
   streams.push_back(sealed("heights, sent", heightsHeader(width, height, 20), true));
   streams.push_back(sealed("texture, sent", textureHeader(side, 20), true));
   streams.push_back(sealed("drawn, sent", textureHeader(side, kDrawnPlanes), true));
