@@ -176,8 +176,9 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
 }
 
 std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure) {
-  if (points.back().squares() > 0) return {points.begin(), points.end()};
-  return scaled(points, {points, pointsToMeasure(points), measure});
+  if (points.size() < 2 || points.back().squares() > 0) return {points.begin(), points.end()};
+  const std::vector<size_t> measured = {points.size() * 3 / 5, points.size() - 2};
+  return scaled(points, {points, measured, measure});
 }
 
 }  // namespace tetrakis::inline ratecontrol

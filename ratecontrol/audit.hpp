@@ -34,8 +34,8 @@ struct AuditScope {
 std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                              const Measure& measure);
 
-/// The account of several tracks in their order, whose last point is exact, corrected likewise; any
-/// other as it is.
+/// The account of several tracks in their order, whose last point is exact, corrected likewise by
+/// two points; any other as it is.
 std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure);
 
 inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
