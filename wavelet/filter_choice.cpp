@@ -33,7 +33,7 @@ constexpr std::array<Filters, 3> kLosslessChoices = {{{kM, kM, kM}, {kL, kL, kL}
 constexpr double kSignificant =
     0.1;  // share of the other details that the step T leaves above itself
 constexpr int kMostFractionBits = 4;
-constexpr uint32_t kPartSide = 96;
+constexpr uint32_t kTrialSide = 96;
 constexpr int kOrthogonalBits = 20;  // with more, the growing low bands of kOrthogonal pass 2^30
 
 /// Doubling low bands after level 2 in the place of level 4 halves the roundings of levels 3 and 4,
@@ -146,7 +146,7 @@ std::vector<Sample> samplesOf(std::span<const PlaneView<const int32_t>> planes,
   if (!valid.all() || !held.numbers.empty()) {
     is_coded = [&](size_t i) { return valid[i] && (held.numbers.empty() || held.numbers[i] == 0); };
   }
-  for (const Window& part : typicalParts(planes.front().extent(), kPartSide, is_coded)) {
+  for (const Window& part : typicalParts(planes.front().extent(), kTrialSide, is_coded)) {
     for (const PlaneView<const int32_t>& plane : planes)
       samples.push_back(sampleOf(plane, held, part));
   }
