@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/exact_budget.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "encoder/bounded_heights.hpp"
+#include "encoder/exact_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "encoder/order_packets.hpp"
 #include "encoder/views.hpp"
@@ -88,6 +91,15 @@ std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
   return whole;
 }
 
+/// All packets of the candidates, if they restore everything.
+std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates exact) {
+  Selection selection = orderPackets(withCurves(inputs, std::move(exact)));
+  Selection joined = selection;
+  joined.packets = joinNeighbours(selection.packets);
+  if (!isLossless(inputs, joined)) return {};
+  return selection;
+}
+
 /// Everything to the last bit, if that fits the budget and takes nothing from prefixes.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy) {
   const auto& [heights, texture, errors] = lossy;
@@ -105,11 +117,23 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
     if (!whole) return {};
     exact.heights = *std::move(whole);
   }
-  Selection selection = orderPackets(withCurves(inputs, std::move(exact)));
-  Selection joined = selection;
-  joined.packets = joinNeighbours(selection.packets);
-  if (!isLossless(inputs, joined)) return {};
-  return selection;
+  return selectIfLossless(inputs, std::move(exact));
+}
+
+/// Only heights, of few values: with their table, of which lossy heights know nothing, they may end
+/// exact within half of the budget and half of the bytes that lossy heights have. Then prefixes may
+/// be somewhat worse.
+std::optional<Selection> fewValuesIfMuchShorter(const EncodeInputs& inputs,
+                                                const Candidates& lossy) {
+  constexpr double kGenerous = 2. / 8;  // bytes a sample
+  constexpr double kAnyError = std::numeric_limits<double>::infinity();
+  const uint64_t budget = inputs.options.bytes;
+  if (lossy.texture.coded ||
+      static_cast<double>(budget) < kGenerous * lossy.heights.coded->counted())
+    return {};
+  const HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError)};
+  if (!exact.coded || 2 * exact.bytes() > std::min(budget, lossy.heights.bytes())) return {};
+  return selectIfLossless(inputs, {exact, {}});
 }
 
 /// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
@@ -173,6 +197,7 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs,
 std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
                                            const Selection& selection) {
   assert(inputs.budgeted());
+  if (std::optional<Selection> exact = fewValuesIfMuchShorter(inputs, lossy)) return exact;
   const Nearly nearly = nearlyExact(inputs, selection);
   if (nearly.heights && nearly.texture) {
     std::optional<Selection> exact = losslessIfItFits(inputs, lossy);

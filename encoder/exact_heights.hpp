@@ -12,7 +12,8 @@
 namespace tetrakis::inline encoder {
 
 /// The heights as the target `lossless` has them. error: what the target of inputs allows, in
-/// sample units, as the largest or the mean one. Null where that is so much that it cannot pay.
+/// sample units, as the largest or the mean one. Null where that is so much that it cannot pay,
+/// unless the heights have a table of values.
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error);
 
 }  // namespace tetrakis::inline encoder
