@@ -87,7 +87,7 @@ test('where requests cost more there are fewer, and the picture is as good', asy
     });
   }
   const [free, near, far] = results;
-  assert.ok(far.length < near.length && near.length < free.length);
+  assert.ok(2 * near.length < free.length && 2 * far.length < free.length);
   assert.ok(far.error <= 1.1 * free.error);
 });
 
