@@ -84,14 +84,10 @@ void appendDetails(const Sample& sample, const WaveletHeader& header, bool plain
   }
 }
 
-double validIn(size_t samples, const Mask& valid) {
-  if (valid.all()) return static_cast<double>(samples);
-  return static_cast<double>(std::count(valid.bytes().begin(), valid.bytes().end(), 1));
-}
-
 double samplesIn(const std::vector<Sample>& samples) {
   double count = 0;
-  for (const Sample& sample : samples) count += validIn(sample.extent.samples(), sample.valid);
+  for (const Sample& sample : samples)
+    count += static_cast<double>(markedIn(sample.extent, sample.valid));
   return std::max(count, 1.0);
 }
 
@@ -222,13 +218,15 @@ PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double st
     sum.bits += cost.bits;
     sum.squares += cost.squares / (unit * unit);
   }
-  const double whole = validIn(plane.extent().samples(), plane.valid) / samplesIn(samples);
+  const double whole =
+      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(samples);
   return {sum.bits * whole, sum.squares * whole};
 }
 
 double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
   const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
-  const double whole = validIn(plane.extent().samples(), plane.valid) / samplesIn(samples);
+  const double whole =
+      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(samples);
   return chooseAmong(samples, bits, Purpose::kLossless).bits * whole;
 }
 

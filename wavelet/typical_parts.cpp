@@ -73,6 +73,11 @@ FieldPart partOf(uint32_t column, uint32_t row, Extent plane, uint32_t side,
 
 }  // namespace
 
+size_t markedIn(Extent plane, const Mask& mask) {
+  if (mask.all()) return plane.samples();
+  return static_cast<size_t>(std::count(mask.bytes().begin(), mask.bytes().end(), 1));
+}
+
 std::vector<Window> typicalParts(Extent plane, uint32_t side, const IsCoded& is_coded) {
   const auto [width, height] = plane;
   if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};

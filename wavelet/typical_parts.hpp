@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "base/view.hpp"
 
 namespace tetrakis::inline wavelet {
@@ -20,5 +21,8 @@ using IsCoded = std::function<bool(size_t)>;
 /// lies in the middle, or where more than twice as many samples are coded: parts of voids say
 /// nothing. There is at least one part.
 std::vector<Window> typicalParts(Extent plane, uint32_t side = 96, const IsCoded& is_coded = {});
+
+/// How many of a plane's samples the mask marks.
+size_t markedIn(Extent plane, const Mask& mask);
 
 }  // namespace tetrakis::inline wavelet

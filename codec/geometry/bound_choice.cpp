@@ -89,12 +89,6 @@ BestCut bestCut(const std::vector<PartTrial>& trials, int32_t largest) {
   return best;
 }
 
-ptrdiff_t validCount(const PlaneView<const int32_t>& heights) {
-  const std::span<const uint8_t> valid = heights.valid.bytes();
-  if (heights.valid.all()) return static_cast<ptrdiff_t>(heights.extent().samples());
-  return std::count(valid.begin(), valid.end(), 1);
-}
-
 /// Entropy of a normal error that is rounded, where few exceed 1.
 double correctionBits(double mean_square) {
   const double off = std::erfc(0.5 / std::sqrt(2 * mean_square));
@@ -124,7 +118,7 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
 
 bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes) {
   constexpr double kLeastBits = 0.5, kMostBits = 1.8, kTries = 1.05;
-  const auto samples = static_cast<double>(validCount(heights));
+  const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
   const double bits = 8 * static_cast<double>(bytes) / samples;
   if (bits < kLeastBits || bits > kMostBits) return false;
   double least = std::numeric_limits<double>::infinity();
