@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // More bytes of a stream that is open: in their order, or from anywhere.
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "api/decoder.hpp"
 #include "api/message.hpp"
@@ -18,15 +22,39 @@ void forget(tks_decoder& decoder) {
 
 namespace {
 
-/// Of each track of the heights. Tracks only grow, so that equal sizes are equal bytes.
-std::map<uint32_t, size_t> heightsKnown(const tks_decoder& decoder) {
-  std::map<uint32_t, size_t> known;
-  for (const auto& [track, codeword] : decoder.payload.codewords[0]) known[track] = codeword.size();
-  return known;
+using Tracks = std::map<uint32_t, std::vector<uint8_t>>;
+
+/// Whether each track begins with the bytes that it had. An index that names other tracks than the
+/// packets do gives tracks bytes that are not theirs, until the packets' own heads are there.
+bool haveGrown(const Tracks& before, const Tracks& now) {
+  return std::all_of(before.begin(), before.end(), [&](const auto& track) {
+    const auto& [number, had] = track;
+    const auto has = now.find(number);
+    return has != now.end() && had.size() <= has->second.size() &&
+           std::equal(had.begin(), had.end(), has->second.begin());
+  });
+}
+
+/// What was decoded stays only where it is still what the tracks say. With a gap prefixes are not
+/// rounded.
+void replacePackets(tks_decoder& decoder, TakenPackets taken) {
+  const auto& before = decoder.packets.payload.codewords;
+  const auto& now = taken.payload.codewords;
+  if (before[0] != now[0] || taken.has_gap != decoder.packets.has_gap) decoder.heights.reset();
+  if (!haveGrown(before[0], now[0])) decoder.heights_memory.clear();
+  if (!haveGrown(before[1], now[1])) decoder.texture_memory.clear();
+  decoder.packets = std::move(taken);
+}
+
+/// The stream ends for the decoder where it was.
+Status refuse(tks_decoder& decoder, const Status& status) {
+  decoder.refused = status;
+  return status;
 }
 
 Status put(tks_decoder& decoder, uint64_t place, std::span<const uint8_t> bytes) {
   if (bytes.empty()) return {};
+  if (!decoder.refused.ok()) return decoder.refused;
   if (bytes.size() > std::numeric_limits<uint64_t>::max() - place)
     return {TKS_USAGE, "No stream has so many bytes."};
   if (place > decoder.data.size() && decoder.parsed.header.index.empty()) {
@@ -36,17 +64,22 @@ Status put(tks_decoder& decoder, uint64_t place, std::span<const uint8_t> bytes)
   }
   const uint64_t held = decoder.pieces.empty() ? decoder.data.size() : decoder.pieces.bytes();
   if (held + bytes.size() > decoder.max_memory) {
-    return {TKS_LIMIT, "The bytes of the stream take more memory than the limit (max_memory) of " +
-                           describeBytes(decoder.max_memory) + "."};
+    const std::string limit = describeBytes(decoder.max_memory);
+    return refuse(decoder, {TKS_LIMIT,
+                            "The bytes of the stream take more memory than the limit "
+                            "(max_memory) of " +
+                                limit + "."});
   }
-  const bool gap_before = held > decoder.data.size();
+  const size_t front = decoder.data.size();
   if (decoder.pieces.empty()) decoder.pieces.put(0, decoder.data);
   decoder.pieces.put(place, bytes);
   decoder.data = decoder.pieces.from(0);
-  const std::map<uint32_t, size_t> before = heightsKnown(decoder);
-  if (Status status = takePackets(decoder); !status.ok()) return status;
-  const bool gap = decoder.pieces.bytes() > decoder.data.size();  // then prefixes are not rounded
-  if (heightsKnown(decoder) != before || gap != gap_before) decoder.heights.reset();
+  Result<TakenPackets> taken = takePackets(decoder);
+  if (!taken.ok()) {
+    decoder.data = decoder.data.first(front);
+    return refuse(decoder, taken.status());
+  }
+  replacePackets(decoder, *std::move(taken));
   decoder.remembers = true;
   return {};
 }

@@ -12,6 +12,10 @@
 
 namespace tetrakis::inline api {
 
+Status wrongIndex() {
+  return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
+}
+
 Status wrongSize(uint64_t wanted, uint64_t given) {
   return {TKS_USAGE, "The output takes " + std::to_string(wanted) + " bytes, the buffer has " +
                          std::to_string(given) + "."};
@@ -54,7 +58,7 @@ Memory* memoryOf(const tks_decoder& decoder, std::map<int, Memory>& levels, cons
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
   return decodeHeights(headerFor(decoder, *header.geometry, view), header.layers,
-                       decoder.payload.codewordsOf(Component::kGeometry), view,
+                       decoder.packets.payload.codewordsOf(Component::kGeometry), view,
                        {decoder.threads, memoryOf(decoder, decoder.heights_memory, view)});
 }
 
@@ -102,7 +106,7 @@ Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, 
   if (!view.ok()) return view.status();
   const size_t count = view->extentIn(decoder.parsed.header.geometry->shown()).samples();
   if (Status s = call.check(decoder, *view, count, sample_bytes); !s.ok()) return s;
-  if (decoder.payload.nothingOf(Component::kGeometry)) {
+  if (decoder.packets.payload.nothingOf(Component::kGeometry)) {
     unsent(count);
   } else if (view->window) {
     all(decodeHeights(decoder, *view));
@@ -141,9 +145,9 @@ Status giveValidity(tks_decoder& decoder, const Call& call) {
   std::vector<uint8_t> valid;
   if (decoder.heights) {
     valid = decoder.heights->geometry.valid;
-  } else if (!decoder.payload.nothingOf(Component::kGeometry)) {
+  } else if (!decoder.packets.payload.nothingOf(Component::kGeometry)) {
     valid = decodeValidityLayer(*header.geometry, header.layers,
-                                decoder.payload.codewordsOf(Component::kGeometry), *view);
+                                decoder.packets.payload.codewordsOf(Component::kGeometry), *view);
   }
   auto* const out = static_cast<uint8_t*>(call.out);
   if (valid.empty()) {
@@ -162,12 +166,12 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
   const size_t count = view->extentIn(header.extent()).samples();
   const size_t texel_bytes = tks_sample_bytes(sample) * header.channels;
   if (Status s = call.check(decoder, *view, count, texel_bytes); !s.ok()) return s;
-  if (decoder.payload.nothingOf(Component::kTexture)) {
+  if (decoder.packets.payload.nothingOf(Component::kTexture)) {
     writeUnsentTexels(header, call.out, count);
     return {};
   }
   writeTexels(decodeTexture(headerFor(decoder, header, *view),
-                            decoder.payload.codewordsOf(Component::kTexture), *view,
+                            decoder.packets.payload.codewordsOf(Component::kTexture), *view,
                             {decoder.threads, memoryOf(decoder, decoder.texture_memory, *view)}),
               sample, call.out);
   return {};

@@ -16,20 +16,31 @@
 #include "texture_wavelet/texture_decoder.hpp"
 #include "wavelet/pyramid.hpp"
 
+namespace tetrakis::inline api {
+
+/// What there is of the packets of a stream.
+struct TakenPackets {
+  Demultiplexed payload;
+  uint64_t bytes = 0;    ///< that `payload` takes, at most
+  bool has_gap = false;  ///< a byte is missing before others
+};
+
+}  // namespace tetrakis::inline api
+
 struct tks_decoder {
   std::span<const uint8_t> data;  ///< the stream up to its first missing byte: the caller's, ...
   tetrakis::Pieces pieces;        ///< ... or, once there came more, of these
   tetrakis::ParsedHeader parsed;
   tks_index index = TKS_INDEX_NONE;
-  tetrakis::Demultiplexed payload;
+  tetrakis::TakenPackets packets;
   int heights_level = 0, texture_level = 0;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
   std::map<int, tetrakis::HeightsMemory> heights_memory;  ///< by level
   std::map<int, tetrakis::TextureMemory> texture_memory;
   uint32_t threads = 1;
-  uint64_t max_memory = 0;     ///< of the decoder and any call
-  uint64_t payload_bytes = 0;  ///< that `payload` takes, at most
+  uint64_t max_memory = 0;   ///< of the decoder and any call
+  tetrakis::Status refused;  ///< once bytes were: it takes no more
   std::string message;
 };
 
@@ -46,13 +57,14 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 /// remembers, and no heights.
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& view);
 
-/// Takes the packets apart that are there. After a failure the decoder has those that it had.
-Status takePackets(tks_decoder& decoder);
+/// Takes the packets apart that are there. TKS_CORRUPT; TKS_LIMIT: they take too much memory.
+Result<TakenPackets> takePackets(const tks_decoder& decoder);
 
 /// Forgets what was decoded of tracks, and remembers no more of it.
 void forget(tks_decoder& decoder);
 
-/// TKS_USAGE, with their sentences.
+/// TKS_CORRUPT or TKS_USAGE, with their sentences.
+Status wrongIndex();
 Status wrongSize(uint64_t wanted, uint64_t given);
 Status noHeights();
 Status noTexture();

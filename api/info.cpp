@@ -24,23 +24,15 @@ Status verify(const tks_decoder& decoder) {
     return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - total) +
                              " bytes follow its end at byte " + std::to_string(total) + "."};
   }
-  // The encoder may cut the payload to a budget; the index then runs ahead of the packets.
-  const auto& index = header.index;
-  const auto& heads = decoder.payload.heads;
-  if (!index.empty() && (heads.size() > index.size() ||
-                         !std::equal(heads.begin(), heads.end(), index.begin(),
-                                     [](const PacketHead& head, const IndexEntry& told) {
-                                       return head == told.packet;
-                                     }))) {
-    return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
-  }
+  if (!header.index.empty() && !describes(header.index, decoder.packets.payload.heads))
+    return wrongIndex();
   return {};
 }
 
 void fillQuality(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.heights_rmse = info.texture_psnr = -1;
-  auto qualities = decoder.payload.quality;
+  auto qualities = decoder.packets.payload.quality;
   if (header.lossless && header.payload_bytes == 0) qualities.fill(0);  // there was nothing to send
   if (const auto quality = qualities[0]; quality && header.geometry) {
     info.heights_rmse = rmseOf(*quality) * header.geometry->step * std::abs(header.metadata.scale);
@@ -102,9 +94,9 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.header_bytes = decoder.parsed.bytes;
   info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
   info.available_bytes = decoder.data.size();
-  info.packets = decoder.payload.heads.size();
-  info.geometry_bytes = bytesOf(decoder.payload.codewords[0]);
-  info.texture_bytes = bytesOf(decoder.payload.codewords[1]);
+  info.packets = decoder.packets.payload.heads.size();
+  info.geometry_bytes = bytesOf(decoder.packets.payload.codewords[0]);
+  info.texture_bytes = bytesOf(decoder.packets.payload.codewords[1]);
   info.has_heights = header.geometry.has_value();
   info.has_texture = header.texture.has_value();
   info.lossless = header.lossless;

@@ -38,8 +38,8 @@ uint64_t mapBytes(const auto& header) {
 /// The state of the tracks that are decoded at a time.
 uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t components,
                     bool masked, Component component) {
-  const bool known =
-      header.planes > 0 && header.planes < kDrawnPlanes && !decoder.payload.nothingOf(component);
+  const bool known = header.planes > 0 && header.planes < kDrawnPlanes &&
+                     !decoder.packets.payload.nothingOf(component);
   const bool ordered = !header.priorities.none();
   const TrackNeeds needs{
       header.extent(), header.regions.side_log2, components,       masked, ordered,
@@ -140,7 +140,7 @@ class HeightsBytes {
     return table_ ? layers_.table_values * kEntry + samples * kValue : 0;
   }
   /// Coefficients around the table, in one piece.
-  uint64_t joinedBytes() const { return table_ ? decoder_.payload_bytes : 0; }
+  uint64_t joinedBytes() const { return table_ ? decoder_.packets.bytes : 0; }
   /// The number of each sample, and of each area its level and what levels of the transform make of
   /// it.
   uint64_t flatBytes() const {
@@ -283,12 +283,12 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
 
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
-    if (decoder.payload.nothingOf(Component::kTexture)) return kDrawnOnce;
+    if (decoder.packets.payload.nothingOf(Component::kTexture)) return kDrawnOnce;
     return TextureBytes(decoder, request.view).decoding();
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
     return meshBytes(decoder, request);
-  if (decoder.payload.nothingOf(Component::kGeometry))
+  if (decoder.packets.payload.nothingOf(Component::kGeometry))
     return decoder.parsed.header.geometry->drawn ? kDrawnOnce : kOnce;
   if (decoder.heights && !request.view.window) return 0;
   const HeightsBytes heights(decoder, request.view);

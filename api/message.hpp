@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
 #include "base/status.hpp"
 
@@ -20,12 +21,15 @@ inline tks_status report(const Status& status, char* message, size_t message_siz
   return status.code();
 }
 
-/// Runs f; the one exception that may occur inside, exhausted memory, becomes a Status.
+/// Runs f; the exceptions that may occur inside, of exhausted memory, become a Status. Of 32 bits a
+/// vector may be asked for more than it can ever hold.
 template <class F>
 Status guarded(F&& f) {
   try {
     return f();
   } catch (const std::bad_alloc&) {
+    return {TKS_NO_MEMORY, "Not enough memory."};
+  } catch (const std::length_error&) {
     return {TKS_NO_MEMORY, "Not enough memory."};
   }
 }

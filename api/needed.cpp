@@ -67,7 +67,8 @@ uint64_t missingElsewhere(const tks_decoder& decoder, Component component, const
   forEachPacket(decoder, [&](const PacketHead& entry, uint64_t, uint64_t size, uint64_t head) {
     if (entry.component() == component && elsewhere(entry.track)) bytes += size - head;
   });
-  for (const auto& [track, codeword] : decoder.payload.codewords[static_cast<size_t>(component)])
+  for (const auto& [track, codeword] :
+       decoder.packets.payload.codewords[static_cast<size_t>(component)])
     if (elsewhere(track)) bytes -= std::min<uint64_t>(bytes, codeword.size());
   return bytes;
 }
@@ -77,8 +78,8 @@ Header counted(const tks_decoder& decoder, const Header& header, Component compo
                const View& view) {
   Header result = header;
   uint64_t& rounded = result.wavelet.rounded_bytes;
-  const bool gaps = decoder.pieces.bytes() > decoder.data.size();
-  if (gaps && rounded > 0) rounded -= std::min(rounded, missingElsewhere(decoder, component, view));
+  if (decoder.packets.has_gap && rounded > 0)
+    rounded -= std::min(rounded, missingElsewhere(decoder, component, view));
   return result;
 }
 

@@ -68,12 +68,23 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   if (Status status = checkSizes(header, known); !status.ok()) return status;
   decoder.index = indexOf(header);
   decoder.max_memory = orDefault(known.max_memory, kDefaultMemory);
-  return takePackets(decoder);
+  Result<TakenPackets> taken = takePackets(decoder);
+  if (!taken.ok()) return taken.status();
+  decoder.packets = *std::move(taken);
+  return {};
+}
+
+/// Whether a byte of the stream is there behind one that is missing.
+bool hasGap(const tks_decoder& decoder) {
+  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
+  if (decoder.pieces.bytes() <= decoder.data.size() || decoder.data.size() >= end) return false;
+  const ByteRange rest{decoder.data.size(), end};
+  return decoder.pieces.missing(rest) != std::vector{rest};
 }
 
 }  // namespace
 
-Status takePackets(tks_decoder& decoder) {
+Result<TakenPackets> takePackets(const tks_decoder& decoder) {
   const size_t start = decoder.parsed.bytes;
   const StreamHeader& header = decoder.parsed.header;
   const auto available =
@@ -89,19 +100,18 @@ Status takePackets(tks_decoder& decoder) {
   }
   const uint64_t bytes = payloadBytes(*count, tracks);
   if (bytes + decoder.pieces.bytes() > decoder.max_memory) {
-    return {TKS_LIMIT, "Opening the stream takes " + describeBytes(bytes) +
-                           " of memory; the limit (max_memory) is " +
-                           describeBytes(decoder.max_memory) + "."};
+    return Status(TKS_LIMIT, "Opening the stream takes " + describeBytes(bytes) +
+                                 " of memory; the limit (max_memory) is " +
+                                 describeBytes(decoder.max_memory) + ".");
   }
   Result<Demultiplexed> taken = demultiplex(payload, start, tracks, packets);
   if (!taken.ok()) return taken.status();
-  if (decoder.pieces.bytes() > decoder.data.size()) {
+  const bool has_gap = hasGap(decoder);
+  if (has_gap) {
     const Status status = addScattered(decoder.pieces, decoder.parsed, *taken);
     if (!status.ok()) return status;
   }
-  decoder.payload_bytes = bytes;
-  decoder.payload = std::move(*taken);
-  return {};
+  return TakenPackets{*std::move(taken), bytes, has_gap};
 }
 
 }  // namespace tetrakis::inline api

@@ -22,33 +22,27 @@ namespace tetrakis::inline api {
 namespace {
 
 Result<std::vector<WeightedSighting>> sightingsOf(tks_decoder& decoder,
-                                                  const tks_screen_camera* cameras,
-                                                  uint32_t count) {
-  if (count == 0 || cameras == nullptr) return Status(TKS_USAGE, "The cameras are missing.");
+                                                  const std::vector<tks_screen_camera>& cameras) {
   const Result<CoarseGround> ground = coarseGround(decoder);
   if (!ground.ok()) return ground.status();
   std::vector<WeightedSighting> sightings;
-  const auto* bytes = reinterpret_cast<const std::byte*>(cameras);
-  for (uint32_t i = 0; i < count; ++i) {
-    const auto& given = *reinterpret_cast<const tks_screen_camera*>(bytes + i * cameras->size);
-    const std::string name = "camera " + std::to_string(i + 1) + " of " + std::to_string(count);
-    tks_screen_camera camera{};
-    Status status = takeCamera(name, given, camera);
-    if (status.ok() && given.size != cameras->size)
-      status = {TKS_USAGE, "All cameras take structs of one size."};
-    if (!status.ok()) return status;
-    sightings.push_back({sightingOf(*ground, camera, decoder.parsed.header.triangles),
-                         camera.weight > 0 ? camera.weight : 1});
-  }
+  for (const tks_screen_camera& camera : cameras)
+    sightings.push_back(
+        {sightingOf(*ground, camera, decoder.parsed.header.triangles), weightOf(camera)});
   return sightings;
+}
+
+/// What there is of a stream behind its header.
+std::span<const uint8_t> payloadOf(std::span<const uint8_t> stream, const ParsedHeader& parsed) {
+  const std::span<const uint8_t> behind = stream.subspan(parsed.bytes);
+  return behind.first(std::min<uint64_t>(behind.size(), parsed.header.payload_bytes));
 }
 
 /// The packets of the stream one after the other, heads included; one that is cut is the last.
 std::vector<std::span<const uint8_t>> packetsOf(const tks_decoder& decoder) {
   const StreamHeader& header = decoder.parsed.header;
   const TrackCounts counts = trackCounts(header);
-  std::span<const uint8_t> left = decoder.data.subspan(decoder.parsed.bytes);
-  left = left.first(std::min<uint64_t>(left.size(), header.payload_bytes));
+  std::span<const uint8_t> left = payloadOf(decoder.data, decoder.parsed);
   std::vector<std::span<const uint8_t>> packets;
   for (const auto& [head, slope] : header.index) {
     const bool named = counts[static_cast<size_t>(head.component())].named;
@@ -143,6 +137,17 @@ void appendPacket(std::span<const uint8_t> packet, const PacketHead& head, bool 
   stream.insert(stream.end(), rest.begin(), rest.end());
 }
 
+/// Whether all tracks have the same bytes in both streams.
+bool holdTheSame(std::span<const uint8_t> a, std::span<const uint8_t> b) {
+  const auto tracks = [](std::span<const uint8_t> stream) -> Result<Demultiplexed> {
+    const Result<ParsedHeader> parsed = readHeader(stream);
+    if (!parsed.ok()) return parsed.status();
+    return demultiplex(payloadOf(stream, *parsed), parsed->bytes, trackCounts(parsed->header), 0);
+  };
+  const Result<Demultiplexed> of_a = tracks(a), of_b = tracks(b);
+  return of_a.ok() && of_b.ok() && of_a->codewords == of_b->codewords;
+}
+
 Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sightings,
                tks_buffer& out) {
   const StreamHeader& header = decoder.parsed.header;
@@ -159,6 +164,7 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
     const bool named = counts[static_cast<size_t>(head.component())].named;
     appendPacket(packets[(*order)[i]], head, named, stream);
   }
+  if (!holdTheSame(decoder.data, stream)) return wrongIndex();
   out.data = static_cast<uint8_t*>(std::malloc(stream.size()));
   if (out.data == nullptr) throw std::bad_alloc();
   std::memcpy(out.data, stream.data(), stream.size());
@@ -177,8 +183,13 @@ tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
     const tetrakis::StreamHeader& header = decoder->parsed.header;
     if (header.index.empty() && header.payload_bytes > 0)
       return {TKS_USAGE, "The stream has no front index, which says what its packets are worth."};
+    if (!tetrakis::describes(header.index, decoder->packets.payload.heads))
+      return tetrakis::wrongIndex();
+    if (camera_count == 0) return {TKS_USAGE, "The cameras are missing."};
+    const auto taken = tetrakis::takeCameras(cameras, camera_count);
+    if (!taken.ok()) return taken.status();
     if (tetrakis::Status status = tetrakis::checkPlanMemory(*decoder); !status.ok()) return status;
-    const auto sightings = tetrakis::sightingsOf(*decoder, cameras, camera_count);
+    const auto sightings = tetrakis::sightingsOf(*decoder, *taken);
     if (!sightings.ok()) return sightings.status();
     return tetrakis::reorder(*decoder, *sightings, *out);
   });

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "api/sized.hpp"
 
@@ -29,6 +31,23 @@ Status checkCamera(const std::string& name, const tks_screen_camera& camera) {
 Status takeCamera(const std::string& name, const tks_screen_camera& given, tks_screen_camera& out) {
   const Status status = takeSized(name, given, offsetof(tks_screen_camera, weight), out);
   return status.ok() ? checkCamera(name, out) : status;
+}
+
+Result<std::vector<tks_screen_camera>> takeCameras(const tks_screen_camera* given, uint32_t count) {
+  if (count > 0 && given == nullptr) return Status(TKS_USAGE, "The cameras are missing.");
+  std::vector<tks_screen_camera> cameras;
+  const auto* const bytes = reinterpret_cast<const std::byte*>(given);
+  for (uint32_t i = 0; i < count; ++i) {
+    const std::string name = "camera " + std::to_string(i + 1) + " of " + std::to_string(count);
+    const auto& one = *reinterpret_cast<const tks_screen_camera*>(bytes + i * given->size);
+    tks_screen_camera camera{};
+    Status status = takeCamera(name, one, camera);
+    if (status.ok() && one.size != given->size)
+      status = {TKS_USAGE, "All cameras take structs of one size."};
+    if (!status.ok()) return status;
+    cameras.push_back(camera);
+  }
+  return cameras;
 }
 
 }  // namespace tetrakis::inline api

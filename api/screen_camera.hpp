@@ -2,7 +2,9 @@
 // Cameras as callers hand them over.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/status.hpp"
 #include "tetrakis/tetrakis.h"
@@ -12,5 +14,13 @@ namespace tetrakis::inline api {
 /// What the caller has of a camera; fields that it lacks are 0. TKS_USAGE, TKS_UNSUPPORTED with a
 /// sentence that begins with `name` or holds it.
 Status takeCamera(const std::string& name, const tks_screen_camera& given, tks_screen_camera& out);
+
+/// All cameras of an array of structs of one size.
+Result<std::vector<tks_screen_camera>> takeCameras(const tks_screen_camera* given, uint32_t count);
+
+/// How much a camera counts beside others.
+inline double weightOf(const tks_screen_camera& camera) {
+  return camera.weight > 0 ? camera.weight : 1;
+}
 
 }  // namespace tetrakis::inline api

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "api/memory.hpp"
 #include "api/message.hpp"
@@ -20,23 +21,12 @@
 namespace tetrakis::inline api {
 namespace {
 
-/// The caller's cameras, for heights in steps.
-Result<std::vector<ScreenView>> viewsOf(const tks_screen& screen, const SurfaceScale& scale) {
-  if (screen.camera_count > 0 && screen.cameras == nullptr)
-    return Status(TKS_USAGE, "The cameras are missing.");
+/// The cameras for heights in steps.
+std::vector<ScreenView> viewsOf(const std::vector<tks_screen_camera>& cameras,
+                                const SurfaceScale& scale) {
   std::vector<ScreenView> views;
-  const auto* bytes = reinterpret_cast<const std::byte*>(screen.cameras);
-  for (uint32_t i = 0; i < screen.camera_count; ++i) {
-    const std::string name =
-        "camera " + std::to_string(i + 1) + " of " + std::to_string(screen.camera_count);
-    const auto& given =
-        *reinterpret_cast<const tks_screen_camera*>(bytes + i * screen.cameras->size);
-    tks_screen_camera camera{};
-    Status status = takeCamera(name, given, camera);
-    if (status.ok() && given.size != screen.cameras->size)
-      status = {TKS_USAGE, "All cameras take structs of one size."};
-    if (!status.ok()) return status;
-    ScreenView view{camera.width, camera.height, {}, camera.weight > 0 ? camera.weight : 1};
+  for (const tks_screen_camera& camera : cameras) {
+    ScreenView view{camera.width, camera.height, {}, weightOf(camera)};
     std::copy_n(camera.clip, 16, view.clip.begin());
     for (size_t row = 0; row < 4; ++row) {
       view.clip[4 * row + 3] += view.clip[4 * row + 2] * scale.offset;
@@ -52,6 +42,10 @@ Status takeTexture(const tks_image& given, tks_image& out) {
   if (!status.ok()) return status;
   if (out.data == nullptr || out.width == 0 || out.height == 0)
     return {TKS_USAGE, "The texture has no samples."};
+  constexpr uint32_t kMostTexels = 32768;
+  if (out.width > kMostTexels || out.height > kMostTexels)
+    return {TKS_USAGE,
+            "A texture has sides of at most " + std::to_string(kMostTexels) + " texels."};
   if (out.channels < 1 || out.channels > 4 || (out.sample != TKS_U8 && out.sample != TKS_U16))
     return {TKS_USAGE, "A texture has 1 to 4 channels of 8 or 16 bits a sample."};
   return {};
@@ -89,29 +83,30 @@ class ScreenMeshCall {
       const Status status = takeSized("screen", *given, sizeof given->size, screen);
       if (!status.ok()) return status;
     }
+    const auto cameras = takeCameras(screen.cameras, screen.camera_count);
+    if (!cameras.ok()) return cameras.status();
     tks_image texture{};
     if (screen.texture != nullptr) {
       if (Status status = takeTexture(*screen.texture, texture); !status.ok()) return status;
     }
-    return make(*lattice, screen, texture, out);
+    return make(*lattice, *cameras, texture, out);
   }
 
  private:
   /// texture: without data if there is none.
-  Status make(const Lattice& lattice, const tks_screen& screen, const tks_image& texture,
-              tks_mesh& out) {
+  Status make(const Lattice& lattice, const std::vector<tks_screen_camera>& cameras,
+              const tks_image& texture, tks_mesh& out) {
     if (Status status = checkSize(lattice, texture, max_triangles_); !status.ok()) return status;
     const Result<const DecodedGeometry*> geometry = decodedGeometry(decoder_);
     if (!geometry.ok()) return geometry.status();
     const SurfaceScale scale = surfaceScale(decoder_.parsed.header, **geometry);
-    const Result<std::vector<ScreenView>> views = viewsOf(screen, scale);
-    if (!views.ok()) return views.status();
+    const std::vector<ScreenView> views = viewsOf(cameras, scale);
     WeightedSurface surface{{lattice.width(), lattice.height(), (*geometry)->heights},
                             (*geometry)->valid};
     std::vector<float> weights;
-    if (!views->empty()) {
+    if (!views.empty()) {
       const GroundImage image = texture.data == nullptr ? GroundImage() : brightnessOf(texture);
-      weights = screenWeights(surface, *views, image);
+      weights = screenWeights(surface, views, image);
       surface.view.weights = weights;
     }
     const auto admits = [&](uint64_t triangles) { return checkSize(lattice, texture, triangles); };

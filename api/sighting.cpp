@@ -19,7 +19,7 @@ Result<CoarseGround> coarseGround(tks_decoder& decoder) {
   const Extent extent = view.extentIn(plane);
   CoarseGround ground{extent.width, extent.height, view.step(), {}};
   ground.heights.resize(extent.samples());
-  if (!header.geometry || decoder.payload.nothingOf(Component::kGeometry)) return ground;
+  if (!header.geometry || decoder.packets.payload.nothingOf(Component::kGeometry)) return ground;
   if (Status status = checkMemory(decoder, {TKS_PART_HEIGHTS, view, 0}); !status.ok())
     return status;
   writeSurface(decoder, decodeHeights(decoder, view), ground.heights.data());
@@ -61,7 +61,7 @@ std::vector<WeightedSighting> outlookOf(const tks_decoder& decoder, const Coarse
 
 Status checkPlanMemory(const tks_decoder& decoder) {
   const uint64_t bytes =
-      decoder.payload_bytes + decoder.pieces.bytes() + planBytes(decoder.parsed.header);
+      decoder.packets.bytes + decoder.pieces.bytes() + planBytes(decoder.parsed.header);
   if (bytes <= decoder.max_memory) return {};
   return {TKS_LIMIT, "Choosing packets takes " + describeBytes(bytes) +
                          " of memory; the limit (max_memory) is " +

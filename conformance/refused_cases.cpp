@@ -181,6 +181,7 @@ std::vector<VectorCase> refusedPackets() {
   };
   return {refuse("empty_packet", "a packet of no bytes", {0, 7}),
           refuse("component", "a packet of a component that there is not", {1 << 2 | 1, 7}),
+          refuse("long_head", "a packet's head of more bytes than it needs", {160, 1 | 128, 0, 7}),
           refuse("varint", "a varint of more than 64 bits",
                  {255, 255, 255, 255, 255, 255, 255, 255, 255, 2, 7})};
 }

@@ -13,6 +13,7 @@
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
 #include "encoder/exact_heights.hpp"
+#include "encoder/height_errors.hpp"
 #include "encoder/meet_target.hpp"
 #include "encoder/quantised_heights.hpp"
 #include "encoder/repeated_lines.hpp"
@@ -37,6 +38,25 @@ Heights codeWithinBound(const EncodeInputs& inputs,
   return exact && bytesOf(exact->tracks) < bytesOf(bounded->tracks) ? exact : bounded;
 }
 
+/// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
+/// samples are rounded, which counts where few steps are left. Where that is not enough it goes on.
+CodedHeights codeUntilReached(const EncodeInputs& inputs,
+                              const std::shared_ptr<const QuantisedHeights>& of,
+                              HeightTarget target) {
+  const SampleRange range = rangeOf(*inputs.heights, of->steps.valid);
+  const double wanted =
+      worstMeanSquare(range.high - range.low, inputs.options.psnr) / inputs.heaviest;
+  target.mean_square = wanted / (of->steps.step * of->steps.step);
+  CoefficientOptions options = heightOptions(inputs);
+  if (target.mean_square > 1 && !of->restored())
+    options.enough = target.mean_square / 2 * of->counted();
+  CodedHeights coded = codeHeights(of, target, options);
+  if (coded.tracks.front().complete) return coded;
+  const Codewords whole = codewordsOf(coded.tracks);
+  if (sampleErrorsOf(coded, whole, options.threads).mean_square <= wanted) return coded;
+  return codeHeights(of, target, heightOptions(inputs));
+}
+
 /// The heights as the target asks for them.
 Heights codeHeightsForTarget(const EncodeInputs& inputs,
                              const std::shared_ptr<const QuantisedHeights>& of) {
@@ -47,11 +67,8 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs,
   constexpr uint64_t kShareBesideTexture = 4;
   if (inputs.budgeted())
     target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
-  if (inputs.options.psnr > 0) {
-    const SampleRange range = rangeOf(*inputs.heights, of->steps.valid);
-    target.mean_square = worstMeanSquare(range.high - range.low, inputs.options.psnr) /
-                         (of->steps.step * of->steps.step * inputs.heaviest);
-  }
+  if (inputs.options.psnr > 0)
+    return std::make_shared<const CodedHeights>(codeUntilReached(inputs, of, target));
   return std::make_shared<const CodedHeights>(codeHeights(of, target, heightOptions(inputs)));
 }
 

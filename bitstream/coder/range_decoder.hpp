@@ -98,7 +98,7 @@ class RangeDecoder {
   }
 
   static constexpr uint32_t kRenormalise = 1u << 24;
-  /// A decision leaves at least 2^24 * kFloor / 2^16 > 2^12 of the range.
+  /// A decision leaves at least 2^24 * kFloor / 2^16 >= 2^8 of the range.
   static constexpr size_t kMostBytes = 2;
   static_assert((uint64_t{kRenormalise} * AdaptiveBit::kFloor) >> AdaptiveBit::kPrecision >=
                 kRenormalise >> (8 * kMostBytes));

@@ -88,6 +88,14 @@ class FieldReader {
                  bytes_.begin() + static_cast<ptrdiff_t>(at_ + size));
     at_ += size;
   }
+  /// A varint that fails where fewer bytes would do.
+  template <class T>
+  void shortestVarint(const char* name, T& value, uint64_t low, uint64_t high) {
+    const size_t begin = at_;
+    const uint64_t raw = take();
+    if (ok() && at_ - begin > 1 && bytes_[at_ - 1] == 0) fail(name, "has needless bytes");
+    accept(name, raw, low, high, value);
+  }
   /// LEB128; fails where it ends early or exceeds 64 bits.
   uint64_t take();
   void fail(const std::string& name, const std::string& why);

@@ -50,14 +50,14 @@ template <class V>
 void visitIndex(V& v, StreamHeader& header) {
   uint64_t count = header.index.size();
   v.varint("packets", count, 1, kMaxHeaderBytes / 2);
-  header.index.resize(v.ok() ? count : 0);
-  for (auto& [packet, slope] : header.index) {
+  for (uint64_t i = 0; v.ok() && i < count; ++i) {
+    if (i == header.index.size()) header.index.emplace_back();  // no sooner than its bytes are seen
+    auto& [packet, slope] = header.index[i];
     v.varint("index_head", packet.head, 0, UINT64_MAX);
     if (namesRegions(header, packet.component()))
       v.varint("index_region", packet.track, 0, UINT32_MAX);
     v.u8("index_quality", packet.quality, 0, 255);
     v.u8("index_slope", slope, 0, 255);
-    if (!v.ok()) break;
   }
 }
 

@@ -34,6 +34,13 @@ double rmseOf(uint8_t quality) {
   return quality == 0 ? 0.0 : std::exp2((quality - 64) / 8.0);
 }
 
+bool describes(std::span<const IndexEntry> index, std::span<const PacketHead> heads) {
+  return heads.size() <= index.size() &&
+         std::equal(
+             heads.begin(), heads.end(), index.begin(),
+             [](const PacketHead& head, const IndexEntry& told) { return head == told.packet; });
+}
+
 uint8_t slopeByte(double slope, double steepest) {
   assert(!std::isnan(slope) && slope <= steepest);
   if (!(slope > 0)) return 0;
@@ -100,10 +107,10 @@ Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const Trac
   while (at < payload.size()) {
     FieldReader reader(payload.subspan(at), origin + at);
     PacketHead head;
-    head.head = reader.take();
+    reader.shortestVarint("head", head.head, 0, UINT64_MAX);
     const TrackCount& count = counts[static_cast<size_t>(head.component())];
     const uint64_t length = head.head >> 2;
-    if (count.named) reader.varint("region", head.track, 0, UINT32_MAX);
+    if (count.named) reader.shortestVarint("region", head.track, 0, UINT32_MAX);
     reader.u8("quality", head.quality, 0, 255);
     if (reader.starved()) break;
     if (!reader.ok()) return reader.status();

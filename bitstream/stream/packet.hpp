@@ -73,6 +73,10 @@ struct IndexEntry {
   bool operator==(const IndexEntry&) const = default;
 };
 
+/// Whether the index begins with these heads. Where an encoder cut the payload to a budget, the
+/// index runs ahead of the packets. Heads are as short as can be: it then tells their places too.
+bool describes(std::span<const IndexEntry> index, std::span<const PacketHead> heads);
+
 /// What a byte of a packet takes off the error, beside the steepest packet, to its byte and back:
 /// quarters of an octave. The least is 0 and comes back as 0.
 uint8_t slopeByte(double slope, double steepest);

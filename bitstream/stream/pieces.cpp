@@ -81,6 +81,10 @@ Status addScattered(const Pieces& pieces, const ParsedHeader& parsed, Demultiple
   const uint64_t end = parsed.bytes + parsed.header.payload_bytes;
   std::set<std::pair<Component, uint32_t>> ended;  // tracks whose next byte is missing
   uint64_t place = parsed.bytes;
+  const auto before_end = [&](uint64_t from) {
+    const std::span<const uint8_t> bytes = pieces.from(from);
+    return bytes.first(std::min<uint64_t>(bytes.size(), end - std::min(from, end)));
+  };
   // The encoder may have cut the payload to a budget; the index then runs ahead of the packets.
   for (size_t i = 0; i < index.size() && place < end; ++i) {
     const PacketHead& entry = index[i].packet;
@@ -91,7 +95,7 @@ Status addScattered(const Pieces& pieces, const ParsedHeader& parsed, Demultiple
     }
     const std::vector<uint8_t> head = headBytes(entry, tracks.named);
     const uint64_t length = entry.head >> 2, begin = place + head.size();
-    const std::span<const uint8_t> known = pieces.from(place), bytes = pieces.from(begin);
+    const std::span<const uint8_t> known = before_end(place), bytes = before_end(begin);
     if (!std::equal(head.begin(), head.begin() + std::min(head.size(), known.size()),
                     known.begin())) {
       return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +

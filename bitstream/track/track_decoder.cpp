@@ -99,7 +99,7 @@ bool GrowingTrack::mayEnd() const {
 }
 
 const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
-  assert(codeword.size() >= bytes_);
+  if (codeword.size() < bytes_) *this = GrowingTrack(std::move(plan_), planes_);
   if (decoder_ && codeword.size() == bytes_) return state_;
   bytes_ = codeword.size();
   goOn(codeword);

@@ -66,7 +66,7 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
       if (!flat.empty()) clearAbsent(track.plan[k], track.bands[k].values);
     }
   });
-  return encodeTracks(tracks, {options.limit, options.threads});
+  return encodeTracks(tracks, {options.limit, options.threads, options.enough});
 }
 
 }  // namespace tetrakis::inline geometry

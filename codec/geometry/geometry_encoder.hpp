@@ -21,6 +21,8 @@ struct CoefficientOptions {
   const FlatAreas* flat = nullptr;  ///< areas that are known, and not coded; null: there are none
   /// What comes earlier; null: nothing.
   const PriorityMap* priorities = nullptr;
+  /// Squared error in steps, of all samples together, below which coding ends.
+  double enough = TrackOptions::kNever;
 };
 
 /// Codes heights in steps. Returns one track for each of regionsOf(). wavelet: from

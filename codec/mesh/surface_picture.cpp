@@ -32,6 +32,15 @@ double bilinear(const std::vector<uint8_t>& values, uint32_t width, uint32_t hei
   return above + v * (below - above);
 }
 
+/// Every stride-th of the lines of a side, and the last.
+std::vector<uint32_t> linesOf(uint32_t side, uint32_t stride) {
+  std::vector<uint32_t> lines;
+  for (uint64_t line = 0; line + 1 < side; line += stride)
+    lines.push_back(static_cast<uint32_t>(line));
+  lines.push_back(side - 1);
+  return lines;
+}
+
 /// Twice the signed area.
 double spanned(const ScreenPoint& a, const ScreenPoint& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
@@ -94,59 +103,79 @@ SurfacePicture::SurfacePicture(const WeightedSurface& surface, const ScreenView&
       last_row_(surface.view.height - 1.0),
       nearness_(size_t{width_} * height_),
       brightness_(nearness_.size(), kSky) {
-  const ScreenProjection project(view);
-  const SurfaceView& grid = surface.view;
-  std::vector<Corner> above, below;
-  for (uint32_t row = 0; row < grid.height; ++row) {
-    below.clear();
-    for (uint32_t column = 0; column < grid.width; ++column) {
-      const size_t sample = size_t{row} * grid.width + column;
-      const bool known = surface.isKnown(sample);
-      below.push_back({known ? project(column, row, grid.heights[sample]) : ScreenPoint(),
-                       static_cast<double>(column), static_cast<double>(row)});
-    }
-    if (row > 0) drawRow(surface, row - 1, above, below, image);
-    std::swap(above, below);
-  }
+  forEachTriangle(surface, view, strideOf(surface, view),
+                  [&](const Corners& corners) { draw(corners, image); });
   covered_ =
       nearness_.size() - static_cast<size_t>(std::count(nearness_.begin(), nearness_.end(), 0.0f));
 }
 
 /// The diagonals are those of the full 4-8 mesh.
-void SurfacePicture::drawRow(const WeightedSurface& surface, uint32_t row,
-                             std::span<const Corner> above, std::span<const Corner> below,
-                             const GroundImage& image) {
-  for (uint32_t x = 0; x + 1 < surface.view.width; ++x) {
-    const Corner &nw = above[x], &ne = above[x + 1], &sw = below[x], &se = below[x + 1];
-    if ((row + x) % 2 == 0) {
-      draw({nw, sw, se}, image);
-      draw({nw, se, ne}, image);
-    } else {
-      draw({nw, sw, ne}, image);
-      draw({ne, sw, se}, image);
+template <class See>
+void SurfacePicture::forEachTriangle(const WeightedSurface& surface, const ScreenView& view,
+                                     uint32_t stride, See&& see) const {
+  const ScreenProjection project(view);
+  const SurfaceView& grid = surface.view;
+  const std::vector<uint32_t> columns = linesOf(grid.width, stride);
+  const std::vector<uint32_t> rows = linesOf(grid.height, stride);
+  const auto see_known = [&](const Corners& corners) {
+    const auto known = [](const Corner& corner) { return corner.screen.nearness != 0; };
+    if (std::all_of(corners.begin(), corners.end(), known)) see(corners);
+  };
+  std::vector<Corner> above, below;
+  for (size_t y = 0; y < rows.size(); ++y) {
+    below.clear();
+    for (const uint32_t column : columns) {
+      const size_t sample = size_t{rows[y]} * grid.width + column;
+      const bool known = surface.isKnown(sample);
+      below.push_back({known ? project(column, rows[y], grid.heights[sample]) : ScreenPoint(),
+                       static_cast<double>(column), static_cast<double>(rows[y])});
     }
+    for (size_t x = 0; y > 0 && x + 1 < columns.size(); ++x) {
+      const Corner &nw = above[x], &ne = above[x + 1], &sw = below[x], &se = below[x + 1];
+      const bool falls = (y - 1 + x) % 2 == 0;
+      see_known({nw, sw, falls ? se : ne});
+      see_known({falls ? nw : ne, falls ? se : sw, falls ? ne : se});
+    }
+    std::swap(above, below);
   }
 }
 
-void SurfacePicture::draw(const Corners& corners, const GroundImage& image) {
-  for (const Corner& corner : corners)
-    if (corner.screen.nearness == 0) return;
-  const double area =
-      spanned(corners[0].screen, corners[1].screen, corners[2].screen.x, corners[2].screen.y);
-  if (area != 0) drawPixels(corners, area, image);
+uint32_t SurfacePicture::strideOf(const WeightedSurface& surface, const ScreenView& view) const {
+  constexpr double kOfPixels = 32, kOfSamples = 4;  // a mountain before others takes two or three
+  const double most = kOfPixels * static_cast<double>(nearness_.size()) +
+                      kOfSamples * static_cast<double>(surface.view.heights.size());
+  const uint32_t longest = std::max(surface.view.width, surface.view.height);
+  uint32_t stride = 1;
+  for (; stride < longest; stride *= 2) {
+    double pixels = 0;
+    forEachTriangle(surface, view, stride,
+                    [&](const Corners& corners) { pixels += boxOf(corners).pixels(); });
+    if (pixels <= most) break;
+  }
+  return stride;
 }
 
-/// Pixels whose middle lies in the triangle. Columns, rows and nearness times these are linear on
-/// the screen.
-void SurfacePicture::drawPixels(const Corners& corners, double area, const GroundImage& image) {
+double SurfacePicture::Box::pixels() const {
+  return std::max(right - left + 1, 0.0) * std::max(bottom - top + 1, 0.0);
+}
+
+SurfacePicture::Box SurfacePicture::boxOf(const Corners& corners) const {
   const ScreenPoint &a = corners[0].screen, &b = corners[1].screen, &c = corners[2].screen;
   const auto first = [](double v) { return std::max(0.0, std::ceil(v - 0.5)); };
   const auto last = [](double v, uint32_t side) {
     return std::min(side - 1.0, std::floor(v - 0.5));
   };
-  const double left = first(std::min({a.x, b.x, c.x})), top = first(std::min({a.y, b.y, c.y}));
-  const double right = last(std::max({a.x, b.x, c.x}), width_);
-  const double bottom = last(std::max({a.y, b.y, c.y}), height_);
+  return {first(std::min({a.x, b.x, c.x})), first(std::min({a.y, b.y, c.y})),
+          last(std::max({a.x, b.x, c.x}), width_), last(std::max({a.y, b.y, c.y}), height_)};
+}
+
+/// Pixels whose middle lies in the triangle. Columns, rows and nearness times these are linear on
+/// the screen.
+void SurfacePicture::draw(const Corners& corners, const GroundImage& image) {
+  const ScreenPoint &a = corners[0].screen, &b = corners[1].screen, &c = corners[2].screen;
+  const double area = spanned(a, b, c.x, c.y);
+  if (area == 0) return;
+  const auto [left, top, right, bottom] = boxOf(corners);
   const double cells = last_column_ * last_row_;
   const double texels = image.empty() ? 0 : image.texels() / cells / std::abs(area);
   const double scale = 1 / area;

@@ -81,8 +81,9 @@ class GroundImage {
 
 class SurfacePicture {
  public:
-  /// Draws the triangles of full resolution whose corners are known. Without an image all ground is
-  /// of one brightness.
+  /// Draws the triangles of full resolution whose corners are known. Where these overlap so much
+  /// that drawing takes time for the samples times the pixels, it draws those of every second,
+  /// fourth, … sample. Without an image all ground is of one brightness.
   SurfacePicture(const WeightedSurface& surface, const ScreenView& view, const GroundImage& image);
 
   /// Pixels that show ground.
@@ -99,11 +100,19 @@ class SurfacePicture {
     double column = 0, row = 0;
   };
   using Corners = std::array<Corner, 3>;
+  /// Pixels whose middles lie in the box around a triangle, borders included.
+  struct Box {
+    double left, top, right, bottom;
+    double pixels() const;
+  };
 
-  void drawRow(const WeightedSurface& surface, uint32_t row, std::span<const Corner> above,
-               std::span<const Corner> below, const GroundImage& image);
+  /// Calls see(corners) for the triangles of every stride-th sample and those of the border.
+  template <class See>
+  void forEachTriangle(const WeightedSurface& surface, const ScreenView& view, uint32_t stride,
+                       See&& see) const;
+  uint32_t strideOf(const WeightedSurface& surface, const ScreenView& view) const;
+  Box boxOf(const Corners& corners) const;
   void draw(const Corners& corners, const GroundImage& image);
-  void drawPixels(const Corners& corners, double area, const GroundImage& image);
 
   uint32_t width_, height_;
   double last_column_, last_row_;  ///< of the surface

@@ -56,6 +56,14 @@ class Reader {
     }
     return within(value, low, high);
   }
+  /// FORMAT 3: one whose last byte is 0 has needless bytes.
+  uint64_t shortestVarint(uint64_t low, uint64_t high) {
+    const std::span<const uint8_t> before = bytes_;
+    const uint64_t value = varint(low, high);
+    const size_t taken = before.size() - bytes_.size();
+    if (outcome_ == Outcome::kDone && taken > 1 && before[taken - 1] == 0) fail(Outcome::kCorrupt);
+    return value;
+  }
   int zigzag(uint64_t largest) {
     const auto coded = static_cast<int>(varint(0, 2 * largest));
     return coded % 2 == 0 ? coded / 2 : -(coded + 1) / 2;

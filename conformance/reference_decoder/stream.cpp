@@ -289,9 +289,9 @@ Outcome readPackets(std::span<const uint8_t> payload, Stream& stream) {
   makeCodewords(stream);
   Reader in(payload);
   while (!in.rest().empty()) {
-    const uint64_t head = in.varint(0, UINT64_MAX);
+    const uint64_t head = in.shortestVarint(0, UINT64_MAX);
     const uint64_t length = head >> 2, component = head & 1;
-    const uint64_t track = namesTracks(stream, component) ? in.varint(0, UINT32_MAX) : 0;
+    const uint64_t track = namesTracks(stream, component) ? in.shortestVarint(0, UINT32_MAX) : 0;
     in.byte();  // quality
     if (in.outcome() == Outcome::kTruncated) break;
     const bool whole = head & 2, announced = track < stream.codewords[component].size();

@@ -6,8 +6,10 @@
  * that stream is legal input to the decoder and yields the best surface and image its bytes buy.
  *
  * Trust contract: every decoding function is safe on untrusted input. It returns TKS_OK and fully
- * written outputs, or an error and untouched outputs; it never prints, exits or throws. Truncation
- * behind the header is no error. All functions are reentrant; one handle serves one thread at once.
+ * written outputs, or an error, arrays as they were, and structs that hand over memory empty; it
+ * never prints, exits or throws. Truncation behind the header is no error. All functions are
+ * reentrant; one handle serves one thread at once. Samples and structs that are handed over lie at
+ * addresses that are multiples of their type's alignment.
  *
  * Structs that begin with their `size` may grow at their end; programs compiled before keep
  * working. Set it to sizeof: fields that a shorter struct lacks count as 0, which is every default.
@@ -221,8 +223,8 @@ typedef struct tks_limits {
   uint64_t max_memory;  /* bytes that a decoder and one call together may allocate, the caller's
                            arrays not counted; default 8 GiB. Each call is judged by what it is
                            asked for: of a stream that is too large as a whole, levels, windows
-                           and meshes of few triangles may fit. tks_check_memory says what a call
-                           takes */
+                           and meshes of few triangles may fit. tks_check_memory says what calls
+                           for its parts take */
 } tks_limits;
 
 typedef struct tks_decoder tks_decoder;
@@ -456,7 +458,8 @@ typedef struct tks_screen {
  * shows (visibility, distance, outlines and what is drawn there included), over the pixels of that
  * picture that show ground. What no camera sees gets few triangles. A camera that sees no ground
  * counts nothing; if none sees any, it is as if there were none. Made of all samples of level 0,
- * whatever the number of triangles: this takes several times as long as a budget mesh.
+ * whatever the number of triangles: this takes several times as long as a budget mesh, and time for
+ * the pixels of the pictures.
  *
  * The vertices are those of a 4-8 mesh, but edges then turn to where the terrain's run: the mesh
  * covers the grid as tks_mesh says, but is none of the lattice. The same bits with every compiler

@@ -394,6 +394,33 @@ TEST(Reorder, PrefixesAndBudgetsKeepWhatTheyHave) {
   }
 }
 
+/// Each byte of the index, damaged: what is handed over holds what the stream holds.
+TEST(Reorder, TrustsNoIndexThatLies) {
+  const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
+  const Bytes bytes = encodeRegions(&heights, nullptr, lossless());
+  const tks_screen_camera view = mapOf(0, 0, 10, 10);
+  const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+  size_t refused = 0;
+  for (size_t at = header / 2; at < header - 4; ++at) {
+    Bytes damaged = bytes;
+    damaged[at] ^= 4;
+    sealHeader(damaged);
+    Stream stream(damaged);
+    if (stream.status() != TKS_OK) continue;
+    tks_buffer buffer = {};
+    const tks_status status = tks_reorder(stream.get(), &view, 1, &buffer);
+    if (status == TKS_OK) {
+      const Bytes order(buffer.data, buffer.data + buffer.size);
+      EXPECT_TRUE(Stream(order).heights() == stream.heights()) << at;
+    } else {
+      EXPECT_EQ(status, TKS_CORRUPT) << stream.message();
+      ++refused;
+    }
+    tks_free_buffer(&buffer);
+  }
+  EXPECT_GT(refused, 20u);
+}
+
 TEST(Reorder, IsRefusedWithoutIndexOrCameras) {
   const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
   const Bytes bytes = encode(&heights, nullptr, lossless());

@@ -111,7 +111,9 @@ class CliTiles : public CliTest {
 };
 
 TEST_F(CliTiles, CoverTheGroundAndShareTheirEdges) {
-  for (const auto& [west, south] : {std::pair(7.31, 46.2), {-0.05, -0.04}, {-179.9, 88.0}}) {
+  // The last two end at the pole, and count longitudes from 0 to 360.
+  for (const auto& [west, south] :
+       {std::pair(7.31, 46.2), {-0.05, -0.04}, {-179.9, 88.0}, {7.31, 89.93}, {350.1, 46.2}}) {
     encode(ramp(130, 70, west, south));
     const Outcome run = cli("tiles s.tks -f -o t");
     ASSERT_EQ(run.code, 0) << run.err;

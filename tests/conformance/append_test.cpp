@@ -11,6 +11,7 @@
 
 #include "bitstream/stream/header.hpp"
 #include "codec/geometry/height_layers.hpp"
+#include "conformance/samples/header_seal.hpp"
 #include "tests/support/stream_fixture.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
@@ -247,6 +248,60 @@ TEST(Put, CoefficientsWaitForTheMask) {
   EXPECT_EQ(tks_verify(stream.get()), TKS_OK);
 }
 
+/// The last packet is cut by the budget; what lies behind the stream's end is no part of it.
+TEST(Put, BytesBehindTheEndAreNone) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 70, 45, 1, TKS_I16});
+  Bytes bytes = encodeRegions(&heights, nullptr, budget(1500));
+  const Bytes whole = bytes;
+  for (int i = 0; i < 700; ++i) bytes.push_back(static_cast<uint8_t>(i * 37));
+  const size_t header = readHeader(bytes)->bytes;
+  for (size_t gap = header; gap + 1 < whole.size(); gap += 11) {
+    Stream stream(Prefix(bytes).first(gap)), other(Prefix(whole).first(gap));
+    const size_t behind = gap + 1;
+    ASSERT_EQ(tks_put(stream.get(), behind, bytes.data() + behind, bytes.size() - behind), TKS_OK);
+    ASSERT_EQ(tks_put(other.get(), behind, whole.data() + behind, whole.size() - behind), TKS_OK);
+    ASSERT_TRUE(stream.heights() == other.heights()) << gap;
+    ASSERT_EQ(tks_put(stream.get(), gap, bytes.data() + gap, 1), TKS_OK);
+    ASSERT_TRUE(stream.heights() == Stream(whole).heights()) << gap;
+  }
+}
+
+/// An index may lie. While bytes are missing, tracks are what it says of them; in the end they are
+/// what the packets say.
+TEST(Put, InTheEndAnIndexThatLiesChangesNothing) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 40, 31, 1, TKS_I16});
+  const samples::Raster image = samples::make({samples::Pattern::kSteps, 24, 19, 1, TKS_U8});
+  const Bytes bytes = encodeRegions(&heights, &image, lossless());
+  const size_t header = readHeader(bytes)->bytes;
+  std::mt19937 random(11);
+  size_t taken = 0;
+  for (size_t at = header / 3; at < header - 4; ++at) {
+    Bytes damaged = bytes;
+    damaged[at] = static_cast<uint8_t>(damaged[at] ^ (1u << random() % 8));
+    sealHeader(damaged);
+    const Stream fresh(damaged);
+    if (fresh.status() != TKS_OK || readHeader(damaged)->bytes != header) continue;
+    const size_t half = header + 1 + random() % (bytes.size() - header - 1);
+    Stream stream(Prefix(damaged).first(header));
+    if (tks_put(stream.get(), half, damaged.data() + half, damaged.size() - half) != TKS_OK)
+      continue;
+    for (size_t begin = header; begin < half; begin += half / 3) {
+      if (stream.info().has_heights) stream.heights();
+      if (stream.info().has_texture) stream.texture();
+      const size_t size = std::min(half - begin, half / 3);
+      if (tks_put(stream.get(), begin, damaged.data() + begin, size) != TKS_OK) break;
+    }
+    tks_info info = {};
+    info.size = sizeof info;
+    ASSERT_EQ(tks_get_info(stream.get(), &info), TKS_OK);
+    if (info.available_bytes < damaged.size()) continue;
+    ++taken;
+    ASSERT_TRUE(stream.heights() == Stream(damaged).heights()) << at;
+    ASSERT_TRUE(stream.texture() == Stream(damaged).texture()) << at;
+  }
+  EXPECT_GT(taken, 20u);
+}
+
 TEST(Put, WithoutAnIndexBytesComeInTheirOrder) {
   const samples::Raster heights = samples::make({samples::Pattern::kRidges, 30, 20, 1, TKS_I16});
   const Bytes bytes = encode(&heights, nullptr, lossless());
@@ -266,6 +321,24 @@ TEST(Put, ForeignBytesAreRefused) {
   Bytes foreign(bytes.size() - header - 200, 0);
   EXPECT_EQ(tks_put(stream.get(), header + 200, foreign.data(), foreign.size()), TKS_CORRUPT);
   EXPECT_TRUE(stream.heights() == before.heights());
+  EXPECT_EQ(tks_append(stream.get(), bytes.data() + header + 100, 50), TKS_CORRUPT);
+  EXPECT_TRUE(stream.heights() == before.heights());
+}
+
+/// The next bytes do not follow those that the decoder has.
+TEST(Append, TakesNothingAfterARefusal) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 70, 45, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, lossless());
+  tks_limits limits = {};
+  limits.size = sizeof limits;
+  limits.max_memory = 600000;
+  Stream stream(Prefix(bytes).first(500), &limits);
+  ASSERT_EQ(stream.status(), TKS_OK);
+  const std::vector<std::byte> before = Stream(Prefix(bytes).first(500)).heights();
+  const Bytes many(700000, 7);
+  EXPECT_EQ(tks_append(stream.get(), many.data(), many.size()), TKS_LIMIT);
+  EXPECT_EQ(tks_append(stream.get(), bytes.data() + 700, 100), TKS_LIMIT);
+  EXPECT_TRUE(stream.heights() == before);
 }
 
 TEST(Append, NonsenseIsRefused) {

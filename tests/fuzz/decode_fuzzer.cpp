@@ -44,6 +44,38 @@ void checkWindow(const tetrakis::Result<std::vector<std::byte>>& window,
   }
 }
 
+/// What the heights look like from above.
+tks_screen_camera mapOf(const tks_info& info) {
+  tks_screen_camera camera = tetrakis::makeScreenCamera();
+  camera.width = camera.height = 40;
+  camera.clip[0] = camera.clip[5] = 2.0 / info.width;
+  camera.clip[6] = 0.01;
+  camera.clip[3] = camera.clip[7] = -1;
+  camera.clip[15] = 1;
+  return camera;
+}
+
+/// What a viewer asks before it fetches.
+void planAndMeasure(tetrakis::Decoder& decoder) {
+  const tks_info& info = decoder.info();
+  const tks_screen_camera camera = mapOf(info);
+  static_cast<void>(decoder.plan(info.has_heights ? &camera : nullptr, 1000));
+  for (const tks_part part : {TKS_PART_HEIGHTS, TKS_PART_TEXTURE, TKS_PART_BUDGET_MESH}) {
+    static_cast<void>(decoder.neededRanges(part));
+    static_cast<void>(decoder.checkMemory(part));
+  }
+}
+
+void makeMeshes(tetrakis::Decoder& decoder) {
+  const tks_info& info = decoder.info();
+  checkMesh(decoder.codedMesh(), info);
+  checkMesh(decoder.budgetMesh(100), info);
+  const tks_screen_camera camera = mapOf(info);
+  checkMesh(decoder.screenMesh({&camera, 1}, 100), info);
+  const auto tree = decoder.budgetMeshTree(100);
+  if (tree) checkMesh(tree->view(std::span<const double, 16>(camera.clip)), info);
+}
+
 /// Bytes that come in three pieces, or the last before the middle one, and are decoded in between.
 void growAndDecode(std::span<const uint8_t> bytes) {
   const auto header = tetrakis::headerBytes(bytes);
@@ -58,6 +90,7 @@ void growAndDecode(std::span<const uint8_t> bytes) {
   decode();
   if (bytes.size() % 2 == 0) static_cast<void>(decoder->put(second, bytes.subspan(second)));
   decode();
+  planAndMeasure(*decoder);
   static_cast<void>(decoder->append(bytes.subspan(first, second - first)));
   decode();
   static_cast<void>(decoder->put(first, bytes.subspan(first)));
@@ -85,16 +118,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (first && *first != *second) std::abort();
     const tks_window column = {info.width / 3, info.height / 2, 1, 1 + info.height / 3};
     if (first) checkWindow(decoder->heights(column), *first, info);
-    checkMesh(decoder->codedMesh(), info);
-    checkMesh(decoder->budgetMesh(100), info);
-    tks_screen_camera camera = tetrakis::makeScreenCamera();
-    camera.width = camera.height = 40;
-    camera.clip[0] = camera.clip[5] = 2.0 / info.width;
-    camera.clip[6] = 0.01;
-    camera.clip[3] = camera.clip[7] = -1;
-    camera.clip[15] = 1;
-    checkMesh(decoder->screenMesh({&camera, 1}, 100), info);
+    makeMeshes(*decoder);
   }
+  planAndMeasure(*decoder);
   if (info.has_texture) static_cast<void>(decoder->texture());
   const auto coarser = [size](uint32_t coarsest) {
     return static_cast<uint32_t>(size) % (coarsest + 1);

@@ -257,6 +257,14 @@ TEST_P(CompressedMeshes, AreSmaller) {
   EXPECT_LT(coded, std::filesystem::file_size(path("b.glb")) / 3);
 }
 
+/// Its coder would count each of the steps between the heights.
+TEST_F(ScratchFolder, DracoTakesNoAbsurdHeights) {
+  const MeshOptions draco{MeshCompression::kDraco, {}};
+  EXPECT_TRUE(writeMesh(path("a.glb"), hillOf(9, 1e3F), "", draco).ok());
+  EXPECT_EQ(writeMesh(path("b.glb"), hillOf(9, 1e12F), "", draco).code(), TKS_LIMIT);
+  EXPECT_FALSE(std::filesystem::exists(path("b.glb")));
+}
+
 TEST_F(ScratchFolder, MeshOptionsAreForGlb) {
   const MeshOptions draco{MeshCompression::kDraco, {}};
   for (const char* name : {"a.ply", "a.obj"})

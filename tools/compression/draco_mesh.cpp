@@ -25,9 +25,9 @@ int addAttribute(GeometryAttribute::Type type, std::span<const float> values, ui
 }
 
 /// Draco has one step for the three axes: so many bits over the longest that it is the finest
-/// needed.
-int positionBits(const MeshBounds& bounds) {
-  constexpr double kFewest = 1, kMost = 30;
+/// needed. Its coder has a counter for each of these steps, and so takes no more than some.
+Result<int> positionBits(const MeshBounds& bounds) {
+  constexpr double kFewest = 1, kMost = 24;
   const PositionSteps steps = positionSteps(bounds);
   double longest = 0, step = 0;
   for (size_t axis = 0; axis < 3; ++axis)
@@ -35,7 +35,13 @@ int positionBits(const MeshBounds& bounds) {
   for (const double one : {steps.horizontal, steps.vertical})
     if (one > 0) step = step > 0 ? std::min(step, one) : one;
   if (!(step > 0)) return static_cast<int>(kFewest);
-  return static_cast<int>(std::clamp(std::ceil(std::log2(longest / step + 1)), kFewest, kMost));
+  const double bits = std::max(std::ceil(std::log2(longest / step + 1)), kFewest);
+  if (!(bits <= kMost)) {
+    return Status(TKS_LIMIT,
+                  "Draco cannot hold positions that span so many of their steps: write the mesh "
+                  "uncompressed");
+  }
+  return static_cast<int>(bits);
 }
 
 /// Decoded again: glTF wants the bounds and the counts of what decoders give.
@@ -61,6 +67,8 @@ Status describe(DracoMesh& out) {
 
 Result<DracoMesh> encodeDraco(const MeshArrays& arrays) {
   constexpr int kNormalBits = 8, kTexcoordBits = 16;
+  const Result<int> bits = positionBits(meshBounds(arrays.positions));
+  if (!bits.ok()) return bits.status();
   draco::Mesh mesh;
   mesh.set_num_points(static_cast<uint32_t>(arrays.positions.size() / 3));
   const int position = addAttribute(GeometryAttribute::POSITION, arrays.positions, 3, mesh);
@@ -73,8 +81,7 @@ Result<DracoMesh> encodeDraco(const MeshArrays& arrays) {
     mesh.AddFace({draco::PointIndex(corners[i]), draco::PointIndex(corners[i + 1]),
                   draco::PointIndex(corners[i + 2])});
   draco::Encoder encoder;
-  encoder.SetAttributeQuantization(GeometryAttribute::POSITION,
-                                   positionBits(meshBounds(arrays.positions)));
+  encoder.SetAttributeQuantization(GeometryAttribute::POSITION, *bits);
   encoder.SetAttributeQuantization(GeometryAttribute::NORMAL, kNormalBits);
   encoder.SetAttributeQuantization(GeometryAttribute::TEX_COORD, kTexcoordBits);
   encoder.SetSpeedOptions(0, 0);

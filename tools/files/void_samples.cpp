@@ -145,7 +145,12 @@ float toFloat(double value) {
 bool meetsNodata(double sample, double nodata) {
   if (std::isnan(nodata)) return std::isnan(sample);
   constexpr double kRelative = 2.0 * std::numeric_limits<float>::epsilon();
-  return sample == nodata || std::abs(sample - nodata) < kRelative * std::abs(sample + nodata);
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  // GDAL adds floats: a sum that overflows is larger than any difference.
+  const bool overflows = std::abs(sample) <= kLargest && std::abs(nodata) <= kLargest &&
+                         std::isinf(static_cast<float>(sample) + static_cast<float>(nodata));
+  return sample == nodata || overflows ||
+         std::abs(sample - nodata) < kRelative * std::abs(sample + nodata);
 }
 
 std::optional<double> asSample(double nodata, tks_sample sample) {

@@ -46,8 +46,10 @@ Result<EarthGround> EarthGround::create(const tks_info& info) {
   if (const Status status = ground.findBounds(); !status.ok()) return status;
   const GeographicBounds& b = ground.bounds_;
   constexpr double kMetresPerDegree = 111195;
-  const double metres = std::min(info.spacing_x, info.spacing_y);
-  ground.spacing_ = metres > 0 ? metres / kMetresPerDegree : (b.north - b.south) / info.height;
+  const double metres = std::min(info.spacing_x, info.spacing_y), degrees = b.north - b.south;
+  // Samples that lie at a pole are no distance apart along their parallel.
+  const double least = degrees / (double(info.width) + info.height);
+  ground.spacing_ = metres > 0 ? std::max(metres / kMetresPerDegree, least) : degrees / info.height;
   return ground;
 }
 
@@ -70,6 +72,15 @@ Status EarthGround::findBounds() {
   }
   constexpr double kSlack = 1e-6;
   const double width = bounds_.east - bounds_.west;
+  west_ = bounds_.west;
+  if (bounds_.west >= 180 - kSlack) {
+    bounds_.west -= 360;
+    bounds_.east -= 360;
+  } else if (bounds_.west >= -kSlack && bounds_.east > 180 + kSlack && width > 180 &&
+             width <= 360 + kSlack) {
+    bounds_.west = -180;
+    bounds_.east = 180;
+  }
   const bool on_earth = bounds_.west >= -180 - kSlack && bounds_.east <= 180 + kSlack &&
                         bounds_.south >= -90 - kSlack && bounds_.north <= 90 + kSlack;
   // A raster in degrees may well go round the Earth; others of that width have come apart.
@@ -91,7 +102,7 @@ void EarthGround::sampleParallel(const LevelSurface& surface, double latitude,
     if (longitudes[i] < bounds_.west || longitudes[i] > bounds_.east || latitude < bounds_.south ||
         latitude > bounds_.north)
       continue;
-    const auto [column, row] = place_.pixelAt(longitudes[i], latitude);
+    const auto [column, row] = place_.pixelAt(unwrapped(longitudes[i]), latitude);
     if (!(column >= 0 && column <= width_ && row >= 0 && row <= height_)) continue;
     // From areas to the middles of samples, of which the outer ones count up to the edge.
     const double across = std::clamp((column - 0.5) * scale, 0.0, surface.width - 1.0);

@@ -42,10 +42,16 @@ class EarthGround {
   EarthGround(RasterPlace place, uint32_t width, uint32_t height)
       : place_(std::move(place)), width_(width), height_(height) {}
   Status findBounds();
+  /// Grids in degrees may count longitudes from 0 to 360.
+  double unwrapped(double longitude) const {
+    constexpr double kSlack = 1e-6;
+    return longitude < west_ - kSlack ? longitude + 360 : longitude;
+  }
 
   RasterPlace place_;
   uint32_t width_, height_;
   double spacing_ = 0;
+  double west_ = 0;  ///< as the raster counts
   GeographicBounds bounds_;
 };
 

@@ -11,6 +11,7 @@
 
 #include "codec/mesh/fitted_triangle.hpp"
 #include "codec/mesh/screen_weights.hpp"
+#include "codec/mesh/surface_picture.hpp"
 #include "codec/mesh/turned_edges.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"
@@ -37,6 +38,23 @@ ScreenView mapOf(double x, double y, double side, uint32_t pixels = 64) {
 ScreenView slanted(ScreenView view) {
   view.clip[6] = 2.0 / view.height / 10;
   return view;
+}
+
+/// Noise seen from the side: each triangle crosses the whole picture. Drawn one by one they would
+/// take minutes.
+TEST(SurfacePicture, NoiseTakesTimeForSamplesAndPixels) {
+  constexpr uint32_t kSide = 600, kPixels = 1400;
+  std::vector<int32_t> heights(kSide * kSide);
+  uint32_t state = 1;
+  for (int32_t& h : heights) h = static_cast<int32_t>((state = state * 1664525 + 1013904223) >> 16);
+  const std::vector<uint8_t> valid;
+  const WeightedSurface surface{{kSide, kSide, heights}, valid};
+  ScreenView view = mapOf(0, 0, kSide, kPixels);
+  view.clip[2] = view.clip[6] = 2.0 / 65536;
+  view.clip[3] -= 1;
+  view.clip[7] -= 1;
+  const SurfacePicture picture(surface, view, {});
+  EXPECT_GT(picture.covered(), size_t{kPixels} * kPixels / 4);
 }
 
 /// Over the samples, each by its weight; vertices count as often as the surface says.
