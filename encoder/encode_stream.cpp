@@ -131,7 +131,7 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
 }
 
 /// With maps of priorities where these pay. Of larger budgets they take too little to be in doubt
-/// (docs/MEASUREMENTS.md), and coding twice takes twice the time.
+/// (docs/EXPERIMENTS.md), and coding twice takes twice the time.
 Result<Selection> selectWithMaps(const EncodeInputs& given, const ViewPriorities& priorities) {
   constexpr uint64_t kCertain = 16;
   EncodeInputs inputs = given;
