@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "codec/geometry/voids.hpp"
 #include "encoder/bounded_heights.hpp"
+#include "encoder/camera_checks.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
 #include "encoder/exact_heights.hpp"
