@@ -260,5 +260,5 @@ int main(int argc, char** argv) {
   arguments.runs(options.runs);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
-  return exitCode(run(options));
+  return tetrakis::bench::exitCode(run(options));
 }
