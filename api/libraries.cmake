@@ -1,5 +1,5 @@
-# What users link: all rooms below api/ in one archive each, for decoding alone and for both, and with
-# BUILD_SHARED_LIBS in one shared library each that exports the functions of tetrakis.h.
+# What users link: all rooms below api/ in one archive each, for decoding alone and for both, and
+# with BUILD_SHARED_LIBS in one shared library each that exports the functions of tetrakis.h.
 
 # Every library that `target` links, directly or not.
 function(tks_closure target out)

@@ -48,7 +48,7 @@ Sighting sightingOf(const CoarseGround& ground, const tks_screen_camera& camera,
 std::vector<WeightedSighting> outlookOf(const tks_decoder& decoder, const CoarseGround& ground,
                                         const tks_screen_camera& camera, uint32_t triangles) {
   // Chances that the next picture is another one. They let ground that is not seen now lag 12 to
-  // 15 dB behind what is (docs/MEASUREMENTS.md, Receivers).
+  // 15 dB behind what is (docs/EXPERIMENTS.md, Plans that look beyond the picture).
   constexpr double kAround = 1 / 16.0, kElsewhere = 1 / 32.0;
   const Metadata& m = decoder.parsed.header.metadata;
   const double aspect = m.spacing_x > 0 && m.spacing_y > 0 ? m.spacing_x / m.spacing_y : 1;

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include "conformance/cases/vector_cases.hpp"
 #include "conformance/runner.hpp"
-#include "conformance/vector_cases.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::conformance {

@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "codec/geometry/voids.hpp"
 #include "encoder/bounded_heights.hpp"
+#include "encoder/camera_checks.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
 #include "encoder/exact_heights.hpp"
@@ -148,7 +149,7 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
 }
 
 /// With maps of priorities where these pay. Of larger budgets they take too little to be in doubt
-/// (docs/MEASUREMENTS.md), and coding twice takes twice the time.
+/// (docs/EXPERIMENTS.md), and coding twice takes twice the time.
 Result<Selection> selectWithMaps(const EncodeInputs& given, const ViewPriorities& priorities) {
   constexpr uint64_t kCertain = 16;
   EncodeInputs inputs = given;

@@ -45,7 +45,7 @@ class TileWorths {
 
   /// A bit-plane takes three quarters off squared errors: a tile where a squared error costs four
   /// times as much would have one more, were costs those of all errors. They are those of one size
-  /// of errors, and of no level; so it has half of one more (docs/MEASUREMENTS.md).
+  /// of errors, and of no level; so it has half of one more (docs/EXPERIMENTS.md).
   PriorityMap map() && {
     const std::vector<double> densities = perSample();
     const double most = *std::max_element(densities.begin(), densities.end());

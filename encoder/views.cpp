@@ -9,55 +9,33 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/length_unit.hpp"
 #include "base/samples.hpp"
-#include "codec/geometry/voids.hpp"
 #include "encoder/height_errors.hpp"
-#include "encoder/shown_mesh.hpp"
 #include "encoder/view_inputs.hpp"
+#include "ground/camera.hpp"
 #include "ratecontrol/screen_points.hpp"
 
 namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Points of all pictures. Twice as many change the mean loss by less than 0.01 dB.
-constexpr size_t kPoints = 6144;
-/// Of those that show meshes: their outlines are no finer than those of coarser prefixes, which
-/// could otherwise stand for them (errorsOfOutlines()).
-constexpr size_t kMeshPoints = 8 * kPoints;
+/// Points of pictures that show meshes: their outlines are no finer than those of coarser prefixes,
+/// which could otherwise stand for them (errorsOfOutlines()).
+constexpr size_t kMeshPoints = 8 * kViewPoints;
 /// Of prefixes of streams with other maps of priorities: the error of all heights does not say how
 /// far their outlines are off, so that they stand for themselves as well.
-constexpr size_t kPrefixPoints = 8 * kPoints;
+constexpr size_t kPrefixPoints = 8 * kViewPoints;
 /// Points at outlines, over all cameras: they make the error of these right to an eighth.
 constexpr size_t kEnoughAtOutlines = 64;
-/// Of one picture: at first, and about each pixel of 768 x 512.
-constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
-
-/// The heights that a view of a coarser level shows, with the last ones once more where they do not
-/// reach the border.
-std::vector<float> toBorder(std::vector<float> shown, Extent extent, Extent reaching) {
-  if (extent == reaching) return shown;
-  std::vector<float> heights;
-  heights.reserve(reaching.samples());
-  for (uint32_t y = 0; y < reaching.height; ++y) {
-    const float* row = &shown[size_t{std::min(y, extent.height - 1)} * extent.width];
-    heights.insert(heights.end(), row, row + extent.width);
-    if (extent.width < reaching.width) heights.push_back(row[extent.width - 1]);
-  }
-  return heights;
-}
 
 /// Those of the options, or for any viewer; none if the terrain has no bounds.
 std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& ground) {
   if (inputs.options.camera_count > 0) return givenCameras(inputs.options);
   const Result<std::vector<Camera>> cameras = unknownViewer(ground.bounds());
   return cameras.ok() ? *cameras : std::vector<Camera>();
-}
-
-Status blames(const Camera& camera, const char* what) {
-  return {TKS_USAGE, "Camera '" + camera.name + "' " + what + "."};
 }
 
 /// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
@@ -94,107 +72,6 @@ std::vector<double> squaresAt(const ComponentCurve& curve, const std::vector<siz
   return squares;
 }
 
-/// What decoders show of the inputs after the bytes of some nodes; calls must come with rising
-/// nodes, the last one for the original.
-class Decoded {
- public:
-  Decoded(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
-          const Rated<CodedTexture>& texture)
-      : inputs_(inputs), heights_(heights), texture_(texture) {
-    heights_memory_.tracks.all_levels = texture_memory_.tracks.all_levels = true;
-    if (looksAtMeshes(inputs, *heights.coded.of))
-      mesh_.emplace(inputs, *heights.coded.of, texture.coded.of->texels);
-  }
-
-  struct Samples {
-    std::vector<std::byte> data;  ///< of the type of the inputs
-    std::vector<uint8_t> valid;   ///< empty: all are
-  };
-  Samples heightsAt(size_t point, const View& view) {
-    const CodedHeights& coded = heights_.coded;
-    DecodedHeights shown = decodedAt(point, view);
-    std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
-                                   shown.geometry.heights.size());
-    fromSteps(shown, coded.header, coded.layers, samples.data());
-    return {std::move(samples), std::move(shown.geometry.valid)};
-  }
-  bool showsMeshes() const { return mesh_.has_value(); }
-  /// What viewers see of the heights.
-  Relief shownAt(size_t point) {
-    if (mesh_) {
-      std::optional<Relief> mesh = mesh_->ofDecoded(decodedAt(point, mesh_->view()).geometry);
-      if (mesh) return std::move(*mesh);
-    }
-    return reliefAt(point);
-  }
-  /// What they see of all heights, if that is a mesh.
-  std::optional<Relief> meshOfAll() const { return mesh_ ? mesh_->ofOriginal() : std::nullopt; }
-  /// Voids have every sample of their border.
-  Relief reliefAt(size_t point) {
-    const tks_heights& whole = *inputs_.heights;
-    const Extent extent{whole.width, whole.height};
-    View view;
-    if (heights_.coded.of->steps.valid.empty())
-      view = enoughOf(extent, kSamplesPerByte * heights_.curve.points[point].bytes);
-    const Samples samples = heightsAt(point, view);
-    tks_heights shown = whole;
-    shown.width = view.extentIn(extent).width;
-    shown.height = view.extentIn(extent).height;
-    Relief relief = reliefOf(shown, samples.data.data(), samples.valid);
-    relief.frame = frameOf(whole);
-    relief.step = view.step();
-    relief.heights = toBorder(std::move(relief.heights), view.extentIn(extent), relief.extent());
-    return relief;
-  }
-  Relief original() const {
-    return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
-  }
-
-  ScreenTexture textureAt(size_t point) {
-    const CodedTexture& coded = texture_.coded;
-    const Extent whole = coded.header.extent();
-    View view;
-    if (!coded.header.direct())
-      view = enoughOf(whole, kTexelsPerByte * texture_.curve.points[point].bytes);
-    return {texelsAt(point, view), whole, view.level};
-  }
-  Texels texelsAt(size_t point, const View& view) {
-    const CodedTexture& coded = texture_.coded;
-    const uint64_t bytes = texture_.curve.points[point].bytes;
-    const Codewords prefix = prefixAfter(coded.rated(), texture_.curve.packets, bytes);
-    return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, &texture_memory_});
-  }
-
- private:
-  DecodedHeights decodedAt(size_t point, const View& view) {
-    const CodedHeights& coded = heights_.coded;
-    const uint64_t bytes = heights_.curve.points[point].bytes;
-    const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
-    return decodeHeights(coded.header, coded.layers, prefix, view,
-                         {inputs_.options.threads, &heights_memory_});
-  }
-
-  static constexpr uint64_t kTexelsPerByte = 8, kSamplesPerByte = 16, kLeast = 4096;
-
-  /// What few bytes can show is shown by the coarser levels as well, in less time: one that every
-  /// wavelet has, of at least so many samples.
-  static View enoughOf(Extent whole, uint64_t samples) {
-    View view;
-    const uint64_t enough = std::max(samples, kLeast);
-    while (view.extentIn(whole).samples() / 4 >= enough &&
-           std::min(whole.width, whole.height) >> (view.level + 1) >= 32)
-      ++view.level;
-    return view;
-  }
-
-  const EncodeInputs& inputs_;
-  Rated<CodedHeights> heights_;
-  Rated<CodedTexture> texture_;
-  std::optional<ShownMesh> mesh_;  ///< what viewers see, if it is not the grid
-  HeightsMemory heights_memory_;
-  TextureMemory texture_memory_;
-};
-
 /// Mean squared difference of two reliefs of all samples.
 double squaresBetween(const Relief& a, const Relief& b) {
   assert(a.heights.size() == b.heights.size());
@@ -223,7 +100,7 @@ struct Surfaces {
   std::vector<double> square_metres;  ///< their errors
 };
 
-Surfaces surfacesOf(const ScreenPoints& points, const GroundRays& ground, Decoded& decoded,
+Surfaces surfacesOf(const ScreenPoints& points, const GroundRays& ground, DecodedNodes& decoded,
                     const Nodes& nodes, Extent texels) {
   Surfaces surfaces;
   std::optional<Relief> mesh = decoded.meshOfAll();
@@ -254,8 +131,9 @@ std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenPoints
 /// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
 /// texture is looked at through all of them.
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
-                                   Decoded& decoded, const Nodes& nodes, const Texels& texels) {
-  const ScreenPoints points(cameras, decoded.showsMeshes() ? kMeshPoints : kPoints);
+                                   DecodedNodes& decoded, const Nodes& nodes,
+                                   const Texels& texels) {
+  const ScreenPoints points(cameras, decoded.showsMeshes() ? kMeshPoints : kViewPoints);
   const Extent extent = texels.extent();
   const Surfaces surfaces = surfacesOf(points, ground, decoded, nodes, extent);
   const std::vector<std::vector<SeenPoint>>& seen = surfaces.seen;
@@ -288,10 +166,10 @@ std::vector<std::byte> bytesOfTexels(const Texels& texels, tks_sample sample) {
 }
 
 /// Errors of all pairs of nodes by the caller's renderer; none if it failed.
-std::vector<double> renderedErrors(const EncodeInputs& inputs, Decoded& decoded,
+std::vector<double> renderedErrors(const EncodeInputs& inputs, DecodedNodes& decoded,
                                    const Nodes& nodes) {
   const tks_encode_options& options = inputs.options;
-  std::vector<Decoded::Samples> surfaces;
+  std::vector<DecodedNodes::Samples> surfaces;
   for (const size_t node : nodes.heights) surfaces.push_back(decoded.heightsAt(node, {}));
   const size_t rows = nodes.heights.size() + 1, columns = nodes.textures.size() + 1;
   std::vector<double> errors(rows * columns);
@@ -353,40 +231,7 @@ PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) 
   return {{first(heights), first(texture)}, {2, 1, 1, 0}};
 }
 
-/// The ground may fill so small a part of the picture that no point of a few falls on it.
-bool seesNothing(const Camera& camera, const GroundRays& ground) {
-  for (size_t count = kFewPoints; count <= kManyPoints; count *= 8) {
-    const ScreenPoints points({camera}, count);
-    if (points.blindCameras(points.seenOf(ground, {1, 1})).empty()) return false;
-  }
-  return true;
-}
-
 }  // namespace
-
-Status checkCameras(const EncodeInputs& inputs) {
-  const tks_encode_options& options = inputs.options;
-  if (options.camera_count == 0) return {};
-  const std::vector<Camera> cameras = givenCameras(options);
-  for (const Camera& camera : cameras)
-    if (Status status = checkCamera(camera); !status.ok()) return status;
-  if (std::all_of(cameras.begin(), cameras.end(), [](const Camera& c) { return c.weight == 0; }))
-    return {TKS_USAGE, "No camera has a weight above 0."};
-  if (inputs.heights == nullptr) return {};
-  const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
-  if (!valid.ok()) return valid.status();
-  const GroundRays ground(reliefOf(*inputs.heights, inputs.heights->data, *valid));
-  for (const Camera& camera : cameras) {
-    const auto height = ground.heightAt(camera.eye[0], camera.eye[2]);
-    if (camera.eye[1] < height.value_or(ground.bounds().low[1]))
-      return blames(camera, "is below the ground");
-  }
-  const ScreenPoints points(cameras, kPoints);
-  for (const size_t i : points.blindCameras(points.seenOf(ground, {1, 1}))) {
-    if (seesNothing(cameras[i], ground)) return blames(cameras[i], "sees no ground");
-  }
-  return {};
-}
 
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture) {
@@ -395,7 +240,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
       inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.of);
   const double ratio = inputs.options.picture_error != nullptr || meshes_for_cameras ? 4 : 2;
   const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
-  Decoded decoded(inputs, heights, texture);
+  DecodedNodes decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
   const double metres = metresOfStep(heights.coded);
@@ -408,7 +253,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   if (exact) return unseen(heights.curve, texture.curve);
   std::vector<double> errors;
   if (inputs.options.picture_error != nullptr) {
-    Decoded for_renderer(inputs, heights, texture);
+    DecodedNodes for_renderer(inputs, heights, texture);
     errors = renderedErrors(inputs, for_renderer, nodes);
   }
   if (errors.empty() && !cameras.empty())
@@ -423,7 +268,7 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
   const CodedTexture& texture = *selection.texture;
   const ComponentCurve of_heights = curveOfPrefixes(heights, selection.packets, lengths);
   const ComponentCurve of_texture = curveOfPrefixes(texture, selection.packets, lengths);
-  Decoded decoded(inputs, {heights, of_heights}, {texture, of_texture});
+  DecodedNodes decoded(inputs, {heights, of_heights}, {texture, of_texture});
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
   if (cameras.empty()) return {};

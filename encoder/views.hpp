@@ -6,27 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "base/status.hpp"
-#include "encoder/coded_heights.hpp"
-#include "encoder/coded_texture.hpp"
+#include "encoder/decoded_nodes.hpp"
 #include "encoder/inputs.hpp"
 #include "encoder/selection.hpp"
-#include "ground/camera.hpp"
-#include "ratecontrol/component_curve.hpp"
 #include "ratecontrol/pair_errors.hpp"
 
 namespace tetrakis::inline encoder {
-
-/// TKS_USAGE with a sentence that names the camera, if one of the options is none
-/// (checkCamera()), is below the ground, or sees none of it; or if all weights are 0.
-Status checkCameras(const EncodeInputs& inputs);
-
-/// A component as it is coded, with the curve of its packets.
-template <class Coded>
-struct Rated {
-  const Coded& coded;
-  const ComponentCurve& curve;
-};
 
 /// Decodes some prefixes of either component and looks at their pairs. inputs: of both.
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,

@@ -3,7 +3,7 @@
 // (thesis 6.3) among the component's tracks, in its own distortion: what is cheap to improve
 // anywhere comes first. Then the packets of a region, and of its neighbours, are strewn over the
 // stream, and who fetches a window by ranges takes hundreds of them, or what lies between. Two
-// coarser orders keep them together. docs/MEASUREMENTS.md has what these take from prefixes.
+// coarser orders keep them together. docs/EXPERIMENTS.md has what these take from prefixes.
 #pragma once
 
 #include <vector>

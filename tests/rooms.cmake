@@ -24,5 +24,6 @@ tks_wall(tks_quadtree "track" "geometry" "texture" "ratecontrol" "tetrakis" "::"
 tks_wall(tks_texture "geometry" "mesh" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_encoder "tetrakis" "::")
 if(TARGET tks_reference)
-  tks_wall(tks_reference "tks_(base|coder|track|stream|wavelet|geometry|mesh|texture|ratecontrol)" "tetrakis" "::")
+  tks_wall(tks_reference
+    "tks_(base|coder|track|stream|wavelet|geometry|mesh|texture|ratecontrol)" "tetrakis" "::")
 endif()

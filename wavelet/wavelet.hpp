@@ -7,7 +7,7 @@
 // coefficient once (wavelet/joint_lifting.hpp). The finest levels do not round their low bands at
 // all, but carry the fractions to the next one. Then the low bands of three levels are doubled, so
 // that coarser levels round half as much: prefixes get better, lossless streams a little longer.
-// docs/MEASUREMENTS.md says by how much.
+// docs/EXPERIMENTS.md says by how much.
 #pragma once
 
 #include <algorithm>

@@ -74,7 +74,5 @@ int main(int argc, char** argv) {
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
   if (options.studies.empty() && options.figures.empty()) options.studies = {"splits"};
-  const tetrakis::Status status = run(options);
-  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
-  return status.code();
+  return exitCode(run(options));
 }

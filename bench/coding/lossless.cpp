@@ -182,23 +182,14 @@ class Run {
 
 int run(const Options& options) {
   Run run;
-  bool failed = false;
   std::printf("%-28s %10s %10s %-12s %10s %7s\n", "file", "tetrakis", "geotiff", "coding", "jxl_e9",
               "ratio");
-  for (const std::string& folder : options.folders) {
-    for (const std::filesystem::path& path : heightFilesBelow(folder, options.filters)) {
-      std::filesystem::path item = std::filesystem::relative(path, folder);
-      const Status status = run.measure(path.string(), item.replace_extension().string());
-      if (status.ok()) continue;
-      std::fprintf(stderr, "%s: %s\n", path.c_str(), status.message().c_str());
-      failed = true;
-    }
-  }
+  const bool all = measureHeightFiles(
+      options.folders, options.filters,
+      [&](const std::string& path, const std::string& item) { return run.measure(path, item); });
   run.printMeans();
-  if (failed || options.csv.empty()) return failed;
-  const Status status = updateResults(options.csv, "lossless", run.rows());
-  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
-  return !status.ok();
+  if (!all || options.csv.empty()) return !all;
+  return exitCode(updateResults(options.csv, "lossless", run.rows()));
 }
 
 }  // namespace

@@ -139,23 +139,14 @@ Status measureFile(const std::string& path, const std::string& item, const Optio
 
 int run(const Options& options) {
   std::vector<ResultRow> rows;
-  bool failed = false;
   std::printf("%-24s %8s %10s %10s %7s   %s\n", "file", "error", "tetrakis", "lerc", "ratio",
               "errors found");
-  for (const std::string& folder : options.folders) {
-    for (const std::filesystem::path& path : heightFilesBelow(folder, options.filters)) {
-      std::filesystem::path item = std::filesystem::relative(path, folder);
-      const Status status =
-          measureFile(path.string(), item.replace_extension().string(), options, rows);
-      if (status.ok()) continue;
-      std::fprintf(stderr, "%s: %s\n", path.c_str(), status.message().c_str());
-      failed = true;
-    }
-  }
-  if (failed || options.csv.empty()) return failed;
-  const Status status = updateResults(options.csv, "max_error", rows);
-  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
-  return !status.ok();
+  const bool all = measureHeightFiles(options.folders, options.filters,
+                                      [&](const std::string& path, const std::string& item) {
+                                        return measureFile(path, item, options, rows);
+                                      });
+  if (!all || options.csv.empty()) return !all;
+  return exitCode(updateResults(options.csv, "max_error", rows));
 }
 
 }  // namespace

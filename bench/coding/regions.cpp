@@ -260,8 +260,5 @@ int main(int argc, char** argv) {
   arguments.runs(options.runs);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
-
-  const Status status = run(options);
-  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
-  return status.code();
+  return tetrakis::bench::exitCode(run(options));
 }

@@ -2,6 +2,7 @@
 #include "bench/harness/arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "tools/files/positive.hpp"
 
@@ -95,6 +96,11 @@ std::optional<int> Arguments::parse(int argc, const char* const* argv) {
     return app_->exit(error);
   }
   return std::nullopt;
+}
+
+int exitCode(const Status& status) {
+  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
+  return status.code();
 }
 
 }  // namespace tetrakis::bench

@@ -59,4 +59,7 @@ class Arguments {
   std::unique_ptr<CLI::App> app_;
 };
 
+/// What main() returns; what failed is told on stderr.
+int exitCode(const Status& status);
+
 }  // namespace tetrakis::bench

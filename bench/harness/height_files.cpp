@@ -2,6 +2,7 @@
 #include "bench/harness/height_files.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace tetrakis::bench {
 
@@ -18,6 +19,21 @@ std::vector<std::filesystem::path> heightFilesBelow(const std::string& folder,
   }
   std::sort(files.begin(), files.end());
   return files;
+}
+
+bool measureHeightFiles(const std::vector<std::string>& folders,
+                        const std::vector<std::string>& filters, const MeasureFile& measure) {
+  bool all = true;
+  for (const std::string& folder : folders) {
+    for (const std::filesystem::path& path : heightFilesBelow(folder, filters)) {
+      std::filesystem::path item = std::filesystem::relative(path, folder);
+      const Status status = measure(path.string(), item.replace_extension().string());
+      if (status.ok()) continue;
+      std::fprintf(stderr, "%s: %s\n", path.c_str(), status.message().c_str());
+      all = false;
+    }
+  }
+  return all;
 }
 
 }  // namespace tetrakis::bench

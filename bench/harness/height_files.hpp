@@ -3,8 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 
@@ -12,5 +15,12 @@ namespace tetrakis::bench {
 /// one of these texts; empty: all.
 std::vector<std::filesystem::path> heightFilesBelow(const std::string& folder,
                                                     const std::vector<std::string>& filters);
+
+/// Measures one file; item: its path below the folder, without the extension.
+using MeasureFile = std::function<Status(const std::string& path, const std::string& item)>;
+
+/// Has all files below the folders measured; false if one failed, which is told on stderr.
+bool measureHeightFiles(const std::vector<std::string>& folders,
+                        const std::vector<std::string>& filters, const MeasureFile& measure);
 
 }  // namespace tetrakis::bench

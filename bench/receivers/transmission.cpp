@@ -328,7 +328,5 @@ int main(int argc, char** argv) {
   arguments.positive({"--bytes", "Of the stream, and of all tiles together"}, options.bytes);
   arguments.text({"--frames", "Write PSNR over time to a CSV file"}, options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
-  const tetrakis::Status status = run(options);
-  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
-  return status.code();
+  return exitCode(run(options));
 }

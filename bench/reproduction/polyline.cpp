@@ -272,8 +272,5 @@ int main(int argc, char** argv) {
                  options.all_rates);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
-
-  const Status status = run(options);
-  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
-  return status.code();
+  return exitCode(run(options));
 }

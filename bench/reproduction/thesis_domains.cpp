@@ -233,8 +233,5 @@ int main(int argc, char** argv) {
   arguments.within({"--most", "Largest d: meshes have 2 * 4^d triangles"}, options.most, 6, 11);
   arguments.csv(options.csv);
   if (const std::optional<int> code = arguments.parse(argc, argv)) return *code;
-
-  const Status status = run(options);
-  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().c_str());
-  return status.code();
+  return exitCode(run(options));
 }

@@ -189,20 +189,11 @@ void expectWithinBounds(const Bytes& bytes, const std::string& what, bool may_re
   }
 }
 
-tks_encode_options inRegions(tks_encode_options options, uint32_t side_of_regions) {
-  options.regions = side_of_regions;
-  return options;
-}
-
 Bytes withVoids(const Raster& raster, const tks_encode_options& options) {
   tks_heights heights = raster.heights();
   heights.has_nodata = 1;
   heights.nodata = sampleAt(raster.data, raster.sample, raster.width / 2);
-  tks_buffer buffer = {};
-  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
-  Bytes bytes(buffer.data, buffer.data + buffer.size);
-  tks_free_buffer(&buffer);
-  return bytes;
+  return encodeHeights(heights, options);
 }
 
 /// Alpha 0 or 255 in blocks.
@@ -226,13 +217,6 @@ Raster drawing(uint32_t width, uint32_t height, uint32_t channels, bool photogra
     }
   }
   return raster;
-}
-
-tks_encode_options within(double error) {
-  tks_encode_options options = {};
-  options.size = sizeof options;
-  options.max_error = error;
-  return options;
 }
 
 TEST(DecodeMemory, HeightsOfEveryKindStayBelowTheBound) {

@@ -38,14 +38,7 @@ Bytes encodeWithVoids(Raster& heights, samples::VoidShape shape) {
   tks_heights given = heights.heights();
   given.has_nodata = 1;
   given.nodata = 255;
-  const tks_encode_options options = lossless();
-  tks_buffer buffer = {};
-  char message[256] = "";
-  EXPECT_EQ(tks_encode(&given, nullptr, &options, &buffer, message, sizeof message), TKS_OK)
-      << message;
-  const Bytes bytes(buffer.data, buffer.data + buffer.size);
-  tks_free_buffer(&buffer);
-  return bytes;
+  return encodeHeights(given, lossless());
 }
 
 /// Heights that the encoder draws: plain, beside voids, with a table, with corrections of samples.

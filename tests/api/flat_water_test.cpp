@@ -44,11 +44,6 @@ GeometryLayers layersOf(const Bytes& stream) {
   return readHeader(stream)->header.layers;
 }
 
-tks_encode_options inRegions(tks_encode_options options) {
-  options.regions = 32;
-  return options;
-}
-
 TEST(FlatWater, ComesBackWithAllTypes) {
   for (const tks_sample type : kTypes) {
     const Flooded f = flooded(VoidShape::kCoast, type, 60, 45);
@@ -61,7 +56,7 @@ TEST(FlatWater, ComesBackWithAllTypes) {
 /// From the end of the opening on, at every 61st byte.
 TEST(FlatWater, IsExactInEveryPrefixThatHoldsItsShape) {
   for (const tks_encode_options& options :
-       {lossless(), budget(9000), inRegions(lossless()), inRegions(budget(9000))}) {
+       {lossless(), budget(9000), inRegions(lossless(), 32), inRegions(budget(9000), 32)}) {
     const Flooded f = flooded(VoidShape::kHalf, TKS_I16, 128, 100);
     const Bytes stream = encode(&f.raster, nullptr, options);
     const GeometryLayers layers = layersOf(stream);
@@ -79,7 +74,8 @@ TEST(FlatWater, IsExactInEveryPrefixThatHoldsItsShape) {
 }
 
 TEST(FlatWater, DecodesAsTheReferenceDoesInAllPrefixesAndLevels) {
-  for (const tks_encode_options& options : {lossless(), budget(3000), inRegions(budget(3000))}) {
+  for (const tks_encode_options& options :
+       {lossless(), budget(3000), inRegions(budget(3000), 32)}) {
     const Flooded f = flooded(VoidShape::kCoast, TKS_U16, 90, 70);
     const Bytes stream = encode(&f.raster, nullptr, options);
     for (size_t bytes = readHeader(stream)->bytes; bytes <= stream.size(); bytes += 311) {
@@ -123,7 +119,8 @@ TEST(FlatWater, CorrectionsLieBesideIt) {
 }
 
 TEST(FlatWater, WindowsAreThoseOfTheWhole) {
-  for (const tks_encode_options& options : {lossless(), budget(5000), inRegions(budget(5000))}) {
+  for (const tks_encode_options& options :
+       {lossless(), budget(5000), inRegions(budget(5000), 32)}) {
     const Flooded f = flooded(VoidShape::kCoast, TKS_I16, 130, 111);
     const Bytes stream = encode(&f.raster, nullptr, options);
     for (const size_t bytes : {stream.size(), stream.size() / 2}) {

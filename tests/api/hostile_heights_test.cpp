@@ -83,10 +83,9 @@ TEST(HostileHeights, InfinityIsRefusedOrVoid) {
   EXPECT_NE(std::string(message).find("column 1, row 2"), std::string::npos) << message;
   heights.has_nodata = 1;
   heights.nodata = static_cast<double>(-kInfinity);
-  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message), TKS_OK);
-  Stream stream(Prefix(buffer.data, buffer.size));
+  const Bytes bytes = encodeHeights(heights, options);
+  Stream stream(bytes);
   EXPECT_TRUE(sameBytes(stream.heights(), raster.data));
-  tks_free_buffer(&buffer);
 }
 
 /// Ground of whole metres, as floats.
@@ -210,28 +209,15 @@ TEST(HostileHeights, StoredSamplesComeHighBytesFirst) {
 /// whatever a conversion makes of it is a height.
 TEST(HostileHeights, NodataBeyondTheTypeMeetsNoSample) {
   const Raster raster = make({Pattern::kRidges, 24, 20, 1, TKS_U8});
-  tks_encode_options options = lossless();
-  options.lossless = 0;
-  options.max_error = 2;
   for (double nodata = 256; nodata < 512; nodata += 1) {
     tks_heights heights = raster.heights();
     heights.has_nodata = 1;
     heights.nodata = nodata;
-    tks_buffer buffer = {};
-    char message[256] = "";
-    ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message), TKS_OK)
-        << nodata << ": " << message;
-    Stream stream(Prefix(buffer.data, buffer.size));
-    EXPECT_LE(largestError(raster, stream.heights()), options.max_error);
-    tks_free_buffer(&buffer);
+    SCOPED_TRACE(nodata);
+    const Bytes bytes = encodeHeights(heights, within(2));
+    Stream stream(bytes);
+    EXPECT_LE(largestError(raster, stream.heights()), 2);
   }
-}
-
-tks_encode_options within(double error) {
-  tks_encode_options options = {};
-  options.size = sizeof options;
-  options.max_error = error;
-  return options;
 }
 
 TEST(ErrorBound, HoldsForAllTypesPatternsAndBounds) {
@@ -266,13 +252,11 @@ TEST(ErrorBound, FinerThanTheGivenStepIsRefused) {
   tks_heights heights = raster.heights();
   heights.step = 5;
   tks_buffer buffer = {};
-  tks_encode_options options = within(1);
-  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_USAGE);
-  options = within(4);
-  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
-  Stream stream(Prefix(buffer.data, buffer.size));
+  const tks_encode_options finer = within(1);
+  EXPECT_EQ(tks_encode(&heights, nullptr, &finer, &buffer, nullptr, 0), TKS_USAGE);
+  const Bytes bytes = encodeHeights(heights, within(4));
+  Stream stream(bytes);
   EXPECT_LE(largestError(raster, stream.heights()), 4);
-  tks_free_buffer(&buffer);
 }
 
 /// Cut late enough to do without corrections, the same bound takes far more bytes than this.

@@ -232,11 +232,7 @@ TEST(MipLevels, InfoTellsTheirSizesAndSpacing) {
   tks_heights heights = raster.heights();
   heights.spacing_x = 30;
   heights.spacing_y = 25;
-  const tks_encode_options options = lossless();
-  tks_buffer buffer = {};
-  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
-  const Images images = decodeLevels({buffer.data, buffer.size}, 3, 0);
-  tks_free_buffer(&buffer);
+  const Images images = decodeLevels(encodeHeights(heights, lossless()), 3, 0);
   EXPECT_EQ(images.info.width, 13u);
   EXPECT_EQ(images.info.height, 6u);
   EXPECT_EQ(images.info.spacing_x, 240);

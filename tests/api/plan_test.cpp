@@ -234,10 +234,7 @@ TEST(Plan, CoversGroundOfAbsurdSpacing) {
   options.index = 1;
   for (const double spacing : {1e-200, 1e200}) {
     heights.spacing_x = heights.spacing_y = spacing;
-    tks_buffer buffer = {};
-    ASSERT_EQ(tks_encode(&heights, &image, &options, &buffer, nullptr, 0), TKS_OK);
-    const Bytes bytes(buffer.data, buffer.data + buffer.size);
-    tks_free_buffer(&buffer);
+    const Bytes bytes = encodeGiven(&heights, &image, options);
     const tks_screen_camera view = alongRows(45, -20, 900);
     for (const uint64_t request : {0, 500}) {
       Stream stream(Prefix(bytes).first(terrain.header + 900));

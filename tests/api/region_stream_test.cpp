@@ -16,21 +16,6 @@ using samples::make;
 using samples::Pattern;
 using samples::Raster;
 
-tks_encode_options inRegions(tks_encode_options options, uint32_t side = 16) {
-  options.regions = side;
-  return options;
-}
-
-Bytes encodeHeights(const tks_heights& heights, const tks_encode_options& options) {
-  tks_buffer buffer = {};
-  char message[256] = "";
-  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message), TKS_OK)
-      << message;
-  const Bytes bytes(buffer.data, buffer.data + buffer.size);
-  tks_free_buffer(&buffer);
-  return bytes;
-}
-
 /// 16-bit heights of which some are void.
 struct Coast {
   explicit Coast(samples::VoidShape shape) : raster(make({Pattern::kRidges, 70, 45, 1, TKS_I16})) {

@@ -50,11 +50,6 @@ bool repeats(const Bytes& stream) {
   return !readHeader(stream)->header.geometry->repeats.none();
 }
 
-tks_encode_options inRegions(tks_encode_options options) {
-  options.regions = 16;
-  return options;
-}
-
 TEST(RepeatedLines, ComeBackWithAllTypesAndRuns) {
   for (const tks_sample type : kTypes) {
     const Raster of = small(type);

@@ -52,21 +52,7 @@ Holed holed(VoidShape shape, tks_sample sample, uint32_t width, uint32_t height)
 }
 
 Bytes encode(const Holed& h, const tks_encode_options& options) {
-  const tks_heights heights = h.heights();
-  tks_buffer buffer = {};
-  char message[256] = "";
-  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message), TKS_OK)
-      << message;
-  Bytes bytes(buffer.data, buffer.data + buffer.size);
-  tks_free_buffer(&buffer);
-  return bytes;
-}
-
-tks_encode_options within(double error) {
-  tks_encode_options options = {};
-  options.size = sizeof options;
-  options.max_error = error;
-  return options;
+  return encodeHeights(h.heights(), options);
 }
 
 std::vector<uint8_t> decodedValidity(Stream& stream) {

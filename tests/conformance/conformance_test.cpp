@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "bitstream/stream/header.hpp"
+#include "conformance/cases/vector_cases.hpp"
 #include "conformance/digest.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "conformance/runner.hpp"
-#include "conformance/vector_cases.hpp"
 #include "tests/support/reference_status.hpp"
 
 namespace tetrakis::conformance {

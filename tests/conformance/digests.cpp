@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <span>
 
+#include "conformance/cases/vector_cases.hpp"
 #include "conformance/digest.hpp"
 #include "conformance/samples/terrain_samples.hpp"
-#include "conformance/vector_cases.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis {

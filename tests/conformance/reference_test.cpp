@@ -92,10 +92,7 @@ TEST(Reference, AgreesOnHeightsOfAllTypesAndPatterns) {
 
 /// Encodes with a target of the caller's and voids, whole and damaged, and compares prefixes.
 void expectAgreementOnLayers(const tks_heights& heights, const tks_encode_options& options) {
-  tks_buffer buffer = {};
-  ASSERT_EQ(tks_encode(&heights, nullptr, &options, &buffer, nullptr, 0), TKS_OK);
-  Bytes stream(buffer.data, buffer.data + buffer.size);
-  tks_free_buffer(&buffer);
+  const Bytes stream = encodeHeights(heights, options);
   expectAgreementOnPrefixes(stream, 16);
   const size_t header = static_cast<size_t>(Stream(stream).info().header_bytes);
   for (size_t i = 0; i < 8; ++i) {
@@ -122,11 +119,7 @@ TEST(Reference, AgreesOnDamagedGeoreferences) {
     std::copy_n(turned, 6, image.geotransform);
     if (shared)
       std::copy_n(std::begin({399960., 60., 0., 5300040., 0., -15.}), 6, image.geotransform);
-    tks_buffer buffer = {};
-    const tks_encode_options options = lossless();
-    ASSERT_EQ(tks_encode(&heights, &image, &options, &buffer, nullptr, 0), TKS_OK);
-    const Bytes stream(buffer.data, buffer.data + buffer.size);
-    tks_free_buffer(&buffer);
+    const Bytes stream = encodeGiven(&heights, &image, lossless());
     const size_t header = static_cast<size_t>(Stream(stream).info().header_bytes);
     for (size_t at = 8; at + 4 < header; ++at) {
       for (const int change : {1, 2, 4, 127, 128, 255}) {
@@ -416,12 +409,7 @@ TEST(Reference, AgreesOnJointStreamsWithMetadataAndIndex) {
   const tks_image i = image.image();
   tks_encode_options options = budget(1000);
   options.index = 1;
-  tks_buffer buffer = {};
-  char message[256] = "";
-  ASSERT_EQ(tks_encode(&h, &i, &options, &buffer, message, sizeof message), TKS_OK) << message;
-  const Bytes stream(buffer.data, buffer.data + buffer.size);
-  tks_free_buffer(&buffer);
-  expectAgreementOnPrefixes(stream, 30);
+  expectAgreementOnPrefixes(encodeGiven(&h, &i, options), 30);
 }
 
 // Several regions, groups of them, and last ones that are longer.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,18 @@ inline void expectConforming(const LatticeMesh& mesh, uint32_t width, uint32_t h
   ASSERT_EQ(used.size(), mesh.vertices.size()) << "a vertex of no triangle";
   for (const auto& [from, to] : edges)
     ASSERT_NE(edges.contains({to, from}), onBorder(from, to, width, height)) << from << " - " << to;
+}
+
+/// An order of all vertices in which each follows its parents.
+inline void expectParentsFirst(const Lattice& lattice, std::span<const VertexId> order) {
+  std::vector<bool> inserted(lattice.vertexCount());
+  for (const VertexId v : order) {
+    EXPECT_FALSE(inserted[v]);
+    inserted[v] = true;
+    lattice.forEachParent(lattice.site(v),
+                          [&](Site parent) { EXPECT_TRUE(inserted[lattice.id(parent)]); });
+  }
+  EXPECT_EQ(order.size(), lattice.vertexCount());
 }
 
 }  // namespace tetrakis::checks

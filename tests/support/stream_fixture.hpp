@@ -34,6 +34,18 @@ inline tks_encode_options budget(uint64_t bytes) {
   return options;
 }
 
+inline tks_encode_options within(double error) {
+  tks_encode_options options = {};
+  options.size = sizeof options;
+  options.max_error = error;
+  return options;
+}
+
+inline tks_encode_options inRegions(tks_encode_options options, uint32_t side = 16) {
+  options.regions = side;
+  return options;
+}
+
 /// Sizes that a small decode may need, so that a damaged header cannot ask for gigabytes.
 inline tks_limits smallLimits() {
   tks_limits limits = {};
@@ -44,19 +56,28 @@ inline tks_limits smallLimits() {
 }
 
 /// The stream; a failed expectation and no bytes if there is none. Null leaves a track out.
-inline Bytes encode(const samples::Raster* heights, const samples::Raster* image,
-                    const tks_encode_options& options) {
-  const tks_heights h = heights ? heights->heights() : tks_heights{};
-  const tks_image i = image ? image->image() : tks_image{};
+inline Bytes encodeGiven(const tks_heights* heights, const tks_image* image,
+                         const tks_encode_options& options) {
   tks_buffer buffer = {};
   char message[256] = "";
-  const tks_status status = tks_encode(heights ? &h : nullptr, image ? &i : nullptr, &options,
-                                       &buffer, message, sizeof message);
+  const tks_status status = tks_encode(heights, image, &options, &buffer, message, sizeof message);
   EXPECT_EQ(status, TKS_OK) << message;
   Bytes bytes;
   if (status == TKS_OK) bytes.assign(buffer.data, buffer.data + buffer.size);
   tks_free_buffer(&buffer);
   return bytes;
+}
+
+/// Of heights that say more than their samples: voids, a spacing, a unit.
+inline Bytes encodeHeights(const tks_heights& heights, const tks_encode_options& options) {
+  return encodeGiven(&heights, nullptr, options);
+}
+
+inline Bytes encode(const samples::Raster* heights, const samples::Raster* image,
+                    const tks_encode_options& options) {
+  const tks_heights h = heights ? heights->heights() : tks_heights{};
+  const tks_image i = image ? image->image() : tks_image{};
+  return encodeGiven(heights ? &h : nullptr, image ? &i : nullptr, options);
 }
 
 /// One open decoder; closes it.

@@ -33,6 +33,10 @@ struct Size {
   Extent extent() const { return {width, height}; }
 };
 
+/// Of planes with voids or held samples: lines, small and odd sides, more levels one way.
+inline constexpr Size kMaskedSizes[] = {{1, 1}, {1, 9},   {9, 1},   {2, 2},   {5, 3},
+                                        {9, 2}, {17, 17}, {40, 23}, {64, 65}, {2, 300}};
+
 inline std::vector<Subband> subbandsOf(const Size& size) {
   return Pyramid(size.extent()).subbands();
 }

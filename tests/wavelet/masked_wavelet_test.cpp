@@ -17,14 +17,11 @@ using samples::kVoidShapes;
 using samples::validity;
 using samples::VoidShape;
 
-constexpr Size kSizes[] = {{1, 1}, {1, 9},   {9, 1},   {2, 2},   {5, 3},
-                           {9, 2}, {17, 17}, {40, 23}, {64, 65}, {2, 300}};
-
 TEST(MaskedWavelet, IsReversible) {
   Random random(1);
   for (const WaveletSpec& spec : allSpecs()) {
     for (const int bits : {kNarrowBits, kWideBits}) {
-      for (const Size& size : kSizes) {
+      for (const Size& size : kMaskedSizes) {
         for (const VoidShape shape : kVoidShapes) {
           const auto valid = validity(shape, size.width, size.height);
           const Plane samples = randomPlane(random, size.count(), -(1 << 26), 1 << 26);
@@ -41,7 +38,7 @@ TEST(MaskedWavelet, RestoresValuesThatWrapAround) {
   Random random(2);
   for (const FilterId id : kAllFilters) {
     for (const int bits : {kNarrowBits, kWideBits}) {
-      for (const Size& size : kSizes) {
+      for (const Size& size : kMaskedSizes) {
         for (const VoidShape shape : kVoidShapes) {
           const auto valid = validity(shape, size.width, size.height);
           const WaveletSpec spec = uniform(id, false, bits);
@@ -75,7 +72,7 @@ TEST(MaskedWavelet, AmplifiesLittle) {
 /// Voids are only moved to where the coefficient of their vertex stands.
 TEST(MaskedWavelet, LeavesVoidsAlone) {
   for (const FilterId id : kAllFilters) {
-    for (const Size& size : kSizes) {
+    for (const Size& size : kMaskedSizes) {
       Plane samples(size.count());
       std::iota(samples.begin(), samples.end(), 1000);
       for (const VoidShape shape : kVoidShapes) {
@@ -95,7 +92,7 @@ TEST(MaskedWavelet, LeavesVoidsAlone) {
 TEST(MaskedWavelet, VoidsAreNotRead) {
   Random random(4);
   for (const WaveletSpec& spec : allSpecs()) {
-    for (const Size& size : kSizes) {
+    for (const Size& size : kMaskedSizes) {
       for (const VoidShape shape : kVoidShapes) {
         const auto valid = validity(shape, size.width, size.height);
         const Plane a = randomPlane(random, size.count(), -1000, 1000);
@@ -127,7 +124,7 @@ TEST(MaskedWavelet, AMaskWithoutVoidsIsNoMask) {
     for (const int bits : {kNarrowBits, kWideBits}) {
       // But with any mask rows and columns are lifted one after the other.
       if (spec.whole && bits <= WaveletSpec::kJointBits) continue;
-      for (const Size& size : kSizes) {
+      for (const Size& size : kMaskedSizes) {
         const WaveletSpec exact = withBits(spec, bits);
         const std::vector<uint8_t> valid(size.count(), 1);
         // Masked sums never wrap: narrow ones agree as long as they do not either.

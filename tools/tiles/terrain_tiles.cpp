@@ -14,6 +14,7 @@
 #include "tools/report/scene.hpp"
 #include "tools/tiles/ground_tileset.hpp"
 #include "tools/tiles/quantized_mesh.hpp"
+#include "tools/tiles/tile_folders.hpp"
 #include "tools/tiles/tile_textures.hpp"
 
 namespace tetrakis::tools {
@@ -143,19 +144,10 @@ class TileWriter {
   }
 
   Status writeLevel(const TerrainLevel& terrain) {
-    const TileRange& range = terrain.range();
-    for (uint32_t x = range.x0; x <= range.x1; ++x) {
-      const fs::path column = fs::path(folder_) / std::to_string(range.level) / std::to_string(x);
-      std::error_code error;
-      fs::create_directories(column, error);
-      if (error)
-        return {TKS_IO, "cannot create " + quoted(column.string()) + ": " + error.message()};
-      for (uint32_t y = range.y0; y <= range.y1; ++y) {
-        const Status status = writeTile(terrain, {range.level, x, y}, column);
-        if (!status.ok()) return status;
-      }
-    }
-    return {};
+    return writeTiles(folder_, terrain.range(),
+                      [&](const GeographicTile& tile, const fs::path& column) {
+                        return writeTile(terrain, tile, column);
+                      });
   }
 
   Status writeTile(const TerrainLevel& terrain, const GeographicTile& tile,

@@ -12,6 +12,7 @@
 #include "tools/files/meshes/mesh_writers.hpp"
 #include "tools/files/place/earth.hpp"
 #include "tools/files/stream.hpp"
+#include "tools/tiles/tile_folders.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -73,17 +74,9 @@ class ImageryWriter {
   Status writeLevel(const TileRange& range) {
     const double texel = tileDegrees(range.level) / kTexels;
     if (const Status status = levels_.decodeFor({texel, texel}, 0, 0); !status.ok()) return status;
-    for (uint32_t x = range.x0; x <= range.x1; ++x) {
-      const fs::path column = fs::path(folder_) / std::to_string(range.level) / std::to_string(x);
-      std::error_code error;
-      fs::create_directories(column, error);
-      if (error)
-        return {TKS_IO, "cannot create " + quoted(column.string()) + ": " + error.message()};
-      for (uint32_t y = range.y0; y <= range.y1; ++y)
-        if (const Status status = writeTile({range.level, x, y}, column); !status.ok())
-          return status;
-    }
-    return {};
+    return writeTiles(folder_, range, [this](const GeographicTile& tile, const fs::path& column) {
+      return writeTile(tile, column);
+    });
   }
 
   Status writeTile(const GeographicTile& tile, const fs::path& column) {

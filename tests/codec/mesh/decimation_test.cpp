@@ -166,15 +166,7 @@ TEST(Decimation, OrderDoesNotDependOnWhenSlopesAreSummedUp) {
 TEST(Decimation, OrderHoldsEveryVertexAfterItsParents) {
   const Terrain terrain(61, 38, Relief::kTerrain);
   const Result<MeshSequence> sequence = decimate(terrain.view());
-  const Lattice& lattice = sequence->lattice();
-  std::vector<bool> inserted(lattice.vertexCount());
-  for (const VertexId v : sequence->order()) {
-    EXPECT_FALSE(inserted[v]);
-    inserted[v] = true;
-    lattice.forEachParent(lattice.site(v),
-                          [&](Site parent) { EXPECT_TRUE(inserted[lattice.id(parent)]); });
-  }
-  EXPECT_EQ(sequence->order().size(), lattice.vertexCount());
+  checks::expectParentsFirst(sequence->lattice(), sequence->order());
 }
 
 TEST(Decimation, MeshesOfGrowingBudgetsAreNestedAndNeverWorse) {

@@ -198,15 +198,7 @@ TEST(FittedHeights, GainsAddUpToTheError) {
 TEST(FittedHeights, OrderIsNestedAndEveryVertexFollowsItsParents) {
   const Terrain terrain(61, 38);
   const Result<FittedSequence> sequence = FittedSequence::make(terrain.surface());
-  const Lattice& lattice = sequence->lattice();
-  std::vector<bool> inserted(lattice.vertexCount());
-  for (const VertexId v : sequence->order()) {
-    EXPECT_FALSE(inserted[v]);
-    inserted[v] = true;
-    lattice.forEachParent(lattice.site(v),
-                          [&](Site parent) { EXPECT_TRUE(inserted[lattice.id(parent)]); });
-  }
-  EXPECT_EQ(sequence->order().size(), lattice.vertexCount());
+  checks::expectParentsFirst(sequence->lattice(), sequence->order());
 }
 
 TEST(FittedHeights, ErrorFallsWithTheBudgetAndBelowThatOfInterpolation) {

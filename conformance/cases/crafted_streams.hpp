@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bitstream/stream/header.hpp"
-#include "conformance/vector_cases.hpp"
+#include "conformance/cases/vector_cases.hpp"
 
 namespace tetrakis::conformance {
 

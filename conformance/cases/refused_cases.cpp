@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "codec/geometry/line_repeats_encoder.hpp"
-#include "conformance/crafted_cases.hpp"
-#include "conformance/crafted_streams.hpp"
+#include "conformance/cases/cases.hpp"
+#include "conformance/cases/crafted_streams.hpp"
 #include "conformance/samples/header_seal.hpp"
 
 namespace tetrakis::conformance {

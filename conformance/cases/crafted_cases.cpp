@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "conformance/crafted_cases.hpp"
-#include "codec/drawing/drawing_pass.hpp"
-#include "codec/geometry/drawn_steps.hpp"
-
-#include <functional>
+// Streams that no encoder makes: headers at the ends of their ranges before codewords of noise.
+// Here are those of heights; wavelets and drawings have files of their own.
 #include <limits>
 
-#include "bitstream/coder/range_encoder.hpp"
 #include "codec/geometry/flat_encoder.hpp"
 #include "codec/geometry/line_repeats_encoder.hpp"
-#include "conformance/crafted_streams.hpp"
-#include "lattice/levels.hpp"
-#include "texture_wavelet/drawn/drawn_colours.hpp"
+#include "conformance/cases/cases.hpp"
+#include "conformance/cases/crafted_streams.hpp"
 
 namespace tetrakis::conformance {
 namespace {
@@ -202,168 +197,10 @@ std::vector<VectorCase> nodataCases() {
                      true)};
 }
 
-/// Sets of shears for more levels than there are, or for fewer.
-VectorCase shearCase(uint32_t width, uint32_t height, size_t sets, int planes) {
-  StreamHeader header = textureHeader(width, height, 3, TKS_U16, planes);
-  header.texture->colour_shears.resize(sets + 1);
-  uint32_t count = 0;
-  for (auto& shears : header.texture->colour_shears) {
-    for (int64_t& shear : shears) {
-      const uint32_t h = samples::hash(++count, width, 42);
-      shear = planes > 20 ? h % 65535 - int64_t{32767} : h % 301 - int64_t{150};
-    }
-  }
-  header.texture->colour_order = static_cast<uint8_t>(sets % 6);
-  const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  return crafted("shears_" + std::to_string(sets) + "_" + size,
-                 "noise: " + std::to_string(sets) + " sets of shears of coefficients",
-                 streamOf(header, noise(700, static_cast<uint32_t>(sets))));
-}
-
-VectorCase weightCase(uint32_t channels, uint8_t levels) {
-  StreamHeader header = textureHeader(100, 60, channels, TKS_U8, 9);
-  header.texture->weights.levels = levels;
-  for (size_t c = 0; c < channels; ++c) {
-    header.texture->priority[c] = c % 2 == 0 ? -128 : 128;
-    for (size_t i = 0; i < size_t{2} * levels; ++i) {
-      const uint32_t h = samples::hash(static_cast<uint32_t>(i), levels, 43 + channels);
-      header.texture->weights.priority[c][i] = h % 257 - int64_t{128};
-    }
-  }
-  const std::string name = std::to_string(levels);
-  return crafted("weights_" + name + "_100x60", "noise: weights of " + name + " levels",
-                 streamOf(header, noise(900, levels)));
-}
-
-/// Makes a drawing as it goes: `fresh` values, then indices that nothing foretells.
-template <class Value>
-class MadeDrawing {
- public:
-  /// make: a value of 32 random bits.
-  MadeDrawing(uint32_t fresh, Value (*make)(uint32_t)) : fresh_(fresh), make_(make) {}
-
-  DrawnIndex target(size_t) {
-    const uint32_t h = samples::hash(++count_, 0, 44);
-    value_ = make_(h);
-    return count_ <= fresh_ ? kNoIndex : static_cast<DrawnIndex>(h >> 8 & 4095);
-  }
-  const Value& value(size_t) const { return value_; }
-  bool bit(AdaptiveBit& model, bool ours) {
-    encoder_.encode(model, ours);
-    return ours;
-  }
-  bool evenBit(bool ours) {
-    encoder_.encodeEven(ours);
-    return ours;
-  }
-  bool stopped() const { return false; }
-  Bytes finish() { return encoder_.finish(); }
-
- private:
-  uint32_t fresh_, count_ = 0;
-  Value (*make_)(uint32_t);
-  Value value_{};
-  RangeEncoder encoder_;
-};
-
-Bytes drawnStream(uint32_t width, uint32_t height, uint32_t fresh) {
-  const Texels format{width, height, 1, 8, {}};
-  std::vector<DrawnIndex> indices(size_t{width} * height, kNoIndex);
-  DrawnColours colours(format);
-  MadeDrawing<DrawnColour> io(
-      fresh, [](uint32_t h) { return DrawnColour{static_cast<uint16_t>(h & 255)}; });
-  DrawingPass(PlaneView<DrawnIndex>(indices, {width, height}), colours, io)
-      .run(levelsOf(width, height));
-  return streamOf(textureHeader(width, height, 1, TKS_U8, kDrawnPlanes), io.finish());
-}
-
-StreamHeader drawnHeightsHeader(uint32_t width, uint32_t height, tks_sample sample) {
-  StreamHeader header = heightsHeader(width, height, sample, GeometryHeader::kDirectPlanes);
-  header.geometry->drawn = true;
-  return header;
-}
-
-/// Steps over all of 32 bits.
-Bytes drawnHeightsStream(uint32_t width, uint32_t height, uint32_t fresh) {
-  std::vector<DrawnIndex> indices(size_t{width} * height, kNoIndex);
-  DrawnSteps steps;
-  MadeDrawing<int32_t> io(fresh, [](uint32_t h) { return static_cast<int32_t>(h); });
-  DrawingPass(PlaneView<DrawnIndex>(indices, {width, height}), steps, io)
-      .run(levelsOf(width, height));
-  return streamOf(drawnHeightsHeader(width, height, TKS_F32), io.finish());
-}
-
-std::vector<VectorCase> drawnCases() {
-  StreamHeader kind = textureHeader(21, 20, 2, TKS_U16, kDrawnPlanes);
-  StreamHeader over = textureHeader(40, 30, 3, TKS_U8, 6);
-  over.texture->overlay_bytes = 150;
-  return {crafted("colours_4096_67x65", "drawn: more texels than the list of colours holds",
-                  drawnStream(67, 65, 4200)),
-          crafted("colours_beyond_30x25", "drawn: indices beyond the list of colours",
-                  drawnStream(30, 25, 40)),
-          crafted("steps_4096_67x65", "drawn heights: more values than the list holds",
-                  drawnHeightsStream(67, 65, 4200)),
-          crafted("noise_drawn_heights_30x21", "drawn heights: noise",
-                  streamOf(drawnHeightsHeader(30, 21, TKS_I16), noise(600, 33))),
-          crafted("noise_drawn_21x20", "drawn: noise", streamOf(kind, noise(500, 31))),
-          crafted("noise_overlay_40x30", "noise: an overlay before coefficients",
-                  streamOf(over, noise(700, 32)))};
-}
-
-/// A complete stream with other fields of the wavelet than its encoder wrote.
-VectorCase waveletCase(const std::string& name, const std::string& purpose,
-                       const VectorCase& source,
-                       const std::function<void(WaveletHeader&)>& change) {
-  const auto stream = encodeCase(source);
-  if (!stream.ok()) return crafted(name, purpose, {0});
-  ParsedHeader parsed = *readHeader(*stream);
-  change(parsed.header.geometry->wavelet);
-  Bytes bytes = writeHeader(parsed.header);
-  bytes.insert(bytes.end(), stream->begin() + static_cast<ptrdiff_t>(parsed.bytes), stream->end());
-  return crafted(name, purpose, std::move(bytes));
-}
-
-std::vector<VectorCase> roundedCases() {
-  VectorCase flat, voids;
-  flat.name = voids.name = "regions";
-  flat.options.size = voids.options.size = sizeof(tks_encode_options);
-  flat.options.lossless = voids.options.lossless = 1;
-  flat.options.regions = voids.options.regions = 16;
-  flat.heights = samples::Recipe{samples::Pattern::kRidges, 40, 37, 1, TKS_I8};
-  voids.heights = flat.heights;
-  voids.voids = samples::VoidShape::kSpeckle;
-  voids.nodata = -128;
-  const auto halved = [](WaveletHeader& wavelet) { wavelet.rounded_bytes /= 2; };
-  VectorCase half = waveletCase("rounded_half_40x37",
-                                "regions round from half of the encoder's bytes on", flat, halved);
-  VectorCase layers = waveletCase("rounded_layers_40x37",
-                                  "bytes of validity are none of coefficients", voids, halved);
-  for (VectorCase* each : {&half, &layers}) each->dense = true;
-  return {half,
-          layers,
-          waveletCase("rounded_never_40x37", "a complete stream without roundings", flat,
-                      [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 1 << 20; }),
-          waveletCase("rounded_always_40x37", "the inverse rounds from the first byte on", flat,
-                      [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 0; }),
-          waveletCase("doubled_0_40x37", "no low band is doubled", flat,
-                      [](WaveletHeader& wavelet) { wavelet.first_doubled = 0; }),
-          waveletCase("doubled_1_40x37", "levels 1 and 2 are doubled", flat,
-                      [](WaveletHeader& wavelet) { wavelet.first_doubled = 1; }),
-          waveletCase("joint_17_bits_40x37", "joint sums of 64 bits", flat,
-                      [](WaveletHeader& wavelet) { wavelet.bits = 17; }),
-          waveletCase("joint_not_40x37", "21 bits: rows, then columns, and doubled", flat,
-                      [](WaveletHeader& wavelet) { wavelet.bits = 21; })};
-}
-
-std::vector<VectorCase> shearCases() {
-  return {shearCase(40, 33, 5, 30), shearCase(41, 22, 2, 12), shearCase(20, 20, 7, 30),
-          shearCase(8, 8, 3, 12)};
-}
-
 }  // namespace
 
 std::vector<VectorCase> craftedCases() {
-  std::vector<VectorCase> all = {weightCase(3, 2), weightCase(4, 8)};
+  std::vector<VectorCase> all = weightCases();
   for (const auto& cases :
        {wideCases(), craftedTableCases(), flatCases(), repeatedCases(), correctionCases(),
         nodataCases(), shearCases(), drawnCases(), roundedCases()})

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lists of cases, by area. vector_cases.cpp puts them in the order of the manifest.
+#pragma once
+
+#include <vector>
+
+#include "conformance/cases/vector_cases.hpp"
+
+namespace tetrakis::conformance {
+
+// height_cases.cpp
+std::vector<VectorCase> geometryCases();
+std::vector<VectorCase> layerCases();
+std::vector<VectorCase> sparseCases();
+
+// height_kind_cases.cpp
+std::vector<VectorCase> tableCases();
+std::vector<VectorCase> drawnHeightsCases();
+std::vector<VectorCase> copiedCases();
+std::vector<VectorCase> waterCases();
+
+// texture_cases.cpp
+std::vector<VectorCase> textureCases();
+
+// stream_cases.cpp
+std::vector<VectorCase> jointCases();
+std::vector<VectorCase> storedCases();
+std::vector<VectorCase> regionCases();
+std::vector<VectorCase> toldCases();
+std::vector<VectorCase> placedCases();
+std::vector<VectorCase> damagedCases();
+
+// Streams that are written out (VectorCase::stream).
+// crafted_cases.cpp: all of these.
+std::vector<VectorCase> craftedCases();
+// crafted_wavelet_cases.cpp
+std::vector<VectorCase> weightCases();
+std::vector<VectorCase> shearCases();
+std::vector<VectorCase> roundedCases();
+// crafted_drawing_cases.cpp
+std::vector<VectorCase> drawnCases();
+// refused_cases.cpp
+std::vector<VectorCase> unusualAndRefusedCases();
+
+}  // namespace tetrakis::conformance

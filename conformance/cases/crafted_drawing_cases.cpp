@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawings of noise: values and indices that nothing foretells.
+#include "bitstream/coder/range_encoder.hpp"
+#include "codec/drawing/drawing_pass.hpp"
+#include "codec/geometry/drawn_steps.hpp"
+#include "conformance/cases/cases.hpp"
+#include "conformance/cases/crafted_streams.hpp"
+#include "lattice/levels.hpp"
+#include "texture_wavelet/drawn/drawn_colours.hpp"
+
+namespace tetrakis::conformance {
+namespace {
+
+/// Makes a drawing as it goes: `fresh` values, then indices that nothing foretells.
+template <class Value>
+class MadeDrawing {
+ public:
+  /// make: a value of 32 random bits.
+  MadeDrawing(uint32_t fresh, Value (*make)(uint32_t)) : fresh_(fresh), make_(make) {}
+
+  DrawnIndex target(size_t) {
+    const uint32_t h = samples::hash(++count_, 0, 44);
+    value_ = make_(h);
+    return count_ <= fresh_ ? kNoIndex : static_cast<DrawnIndex>(h >> 8 & 4095);
+  }
+  const Value& value(size_t) const { return value_; }
+  bool bit(AdaptiveBit& model, bool ours) {
+    encoder_.encode(model, ours);
+    return ours;
+  }
+  bool evenBit(bool ours) {
+    encoder_.encodeEven(ours);
+    return ours;
+  }
+  bool stopped() const { return false; }
+  Bytes finish() { return encoder_.finish(); }
+
+ private:
+  uint32_t fresh_, count_ = 0;
+  Value (*make_)(uint32_t);
+  Value value_{};
+  RangeEncoder encoder_;
+};
+
+Bytes drawnStream(uint32_t width, uint32_t height, uint32_t fresh) {
+  const Texels format{width, height, 1, 8, {}};
+  std::vector<DrawnIndex> indices(size_t{width} * height, kNoIndex);
+  DrawnColours colours(format);
+  MadeDrawing<DrawnColour> io(
+      fresh, [](uint32_t h) { return DrawnColour{static_cast<uint16_t>(h & 255)}; });
+  DrawingPass(PlaneView<DrawnIndex>(indices, {width, height}), colours, io)
+      .run(levelsOf(width, height));
+  return streamOf(textureHeader(width, height, 1, TKS_U8, kDrawnPlanes), io.finish());
+}
+
+StreamHeader drawnHeightsHeader(uint32_t width, uint32_t height, tks_sample sample) {
+  StreamHeader header = heightsHeader(width, height, sample, GeometryHeader::kDirectPlanes);
+  header.geometry->drawn = true;
+  return header;
+}
+
+/// Steps over all of 32 bits.
+Bytes drawnHeightsStream(uint32_t width, uint32_t height, uint32_t fresh) {
+  std::vector<DrawnIndex> indices(size_t{width} * height, kNoIndex);
+  DrawnSteps steps;
+  MadeDrawing<int32_t> io(fresh, [](uint32_t h) { return static_cast<int32_t>(h); });
+  DrawingPass(PlaneView<DrawnIndex>(indices, {width, height}), steps, io)
+      .run(levelsOf(width, height));
+  return streamOf(drawnHeightsHeader(width, height, TKS_F32), io.finish());
+}
+
+}  // namespace
+
+std::vector<VectorCase> drawnCases() {
+  StreamHeader kind = textureHeader(21, 20, 2, TKS_U16, kDrawnPlanes);
+  StreamHeader over = textureHeader(40, 30, 3, TKS_U8, 6);
+  over.texture->overlay_bytes = 150;
+  return {crafted("colours_4096_67x65", "drawn: more texels than the list of colours holds",
+                  drawnStream(67, 65, 4200)),
+          crafted("colours_beyond_30x25", "drawn: indices beyond the list of colours",
+                  drawnStream(30, 25, 40)),
+          crafted("steps_4096_67x65", "drawn heights: more values than the list holds",
+                  drawnHeightsStream(67, 65, 4200)),
+          crafted("noise_drawn_heights_30x21", "drawn heights: noise",
+                  streamOf(drawnHeightsHeader(30, 21, TKS_I16), noise(600, 33))),
+          crafted("noise_drawn_21x20", "drawn: noise", streamOf(kind, noise(500, 31))),
+          crafted("noise_overlay_40x30", "noise: an overlay before coefficients",
+                  streamOf(over, noise(700, 32)))};
+}
+
+}  // namespace tetrakis::conformance

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fields of wavelets that no encoder writes: shears and priorities for any levels, roundings that
+// begin elsewhere, low bands that are doubled elsewhere.
+#include <functional>
+
+#include "conformance/cases/cases.hpp"
+#include "conformance/cases/crafted_streams.hpp"
+
+namespace tetrakis::conformance {
+namespace {
+
+/// Sets of shears for more levels than there are, or for fewer.
+VectorCase shearCase(uint32_t width, uint32_t height, size_t sets, int planes) {
+  StreamHeader header = textureHeader(width, height, 3, TKS_U16, planes);
+  header.texture->colour_shears.resize(sets + 1);
+  uint32_t count = 0;
+  for (auto& shears : header.texture->colour_shears) {
+    for (int64_t& shear : shears) {
+      const uint32_t h = samples::hash(++count, width, 42);
+      shear = planes > 20 ? h % 65535 - int64_t{32767} : h % 301 - int64_t{150};
+    }
+  }
+  header.texture->colour_order = static_cast<uint8_t>(sets % 6);
+  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  return crafted("shears_" + std::to_string(sets) + "_" + size,
+                 "noise: " + std::to_string(sets) + " sets of shears of coefficients",
+                 streamOf(header, noise(700, static_cast<uint32_t>(sets))));
+}
+
+VectorCase weightCase(uint32_t channels, uint8_t levels) {
+  StreamHeader header = textureHeader(100, 60, channels, TKS_U8, 9);
+  header.texture->weights.levels = levels;
+  for (size_t c = 0; c < channels; ++c) {
+    header.texture->priority[c] = c % 2 == 0 ? -128 : 128;
+    for (size_t i = 0; i < size_t{2} * levels; ++i) {
+      const uint32_t h = samples::hash(static_cast<uint32_t>(i), levels, 43 + channels);
+      header.texture->weights.priority[c][i] = h % 257 - int64_t{128};
+    }
+  }
+  const std::string name = std::to_string(levels);
+  return crafted("weights_" + name + "_100x60", "noise: weights of " + name + " levels",
+                 streamOf(header, noise(900, levels)));
+}
+
+/// A complete stream with other fields of the wavelet than its encoder wrote.
+VectorCase waveletCase(const std::string& name, const std::string& purpose,
+                       const VectorCase& source,
+                       const std::function<void(WaveletHeader&)>& change) {
+  const auto stream = encodeCase(source);
+  if (!stream.ok()) return crafted(name, purpose, {0});
+  ParsedHeader parsed = *readHeader(*stream);
+  change(parsed.header.geometry->wavelet);
+  Bytes bytes = writeHeader(parsed.header);
+  bytes.insert(bytes.end(), stream->begin() + static_cast<ptrdiff_t>(parsed.bytes), stream->end());
+  return crafted(name, purpose, std::move(bytes));
+}
+
+}  // namespace
+
+std::vector<VectorCase> weightCases() {
+  return {weightCase(3, 2), weightCase(4, 8)};
+}
+
+std::vector<VectorCase> shearCases() {
+  return {shearCase(40, 33, 5, 30), shearCase(41, 22, 2, 12), shearCase(20, 20, 7, 30),
+          shearCase(8, 8, 3, 12)};
+}
+
+std::vector<VectorCase> roundedCases() {
+  VectorCase flat, voids;
+  flat.name = voids.name = "regions";
+  flat.options.size = voids.options.size = sizeof(tks_encode_options);
+  flat.options.lossless = voids.options.lossless = 1;
+  flat.options.regions = voids.options.regions = 16;
+  flat.heights = samples::Recipe{samples::Pattern::kRidges, 40, 37, 1, TKS_I8};
+  voids.heights = flat.heights;
+  voids.voids = samples::VoidShape::kSpeckle;
+  voids.nodata = -128;
+  const auto halved = [](WaveletHeader& wavelet) { wavelet.rounded_bytes /= 2; };
+  VectorCase half = waveletCase("rounded_half_40x37",
+                                "regions round from half of the encoder's bytes on", flat, halved);
+  VectorCase layers = waveletCase("rounded_layers_40x37",
+                                  "bytes of validity are none of coefficients", voids, halved);
+  for (VectorCase* each : {&half, &layers}) each->dense = true;
+  return {half,
+          layers,
+          waveletCase("rounded_never_40x37", "a complete stream without roundings", flat,
+                      [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 1 << 20; }),
+          waveletCase("rounded_always_40x37", "the inverse rounds from the first byte on", flat,
+                      [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 0; }),
+          waveletCase("doubled_0_40x37", "no low band is doubled", flat,
+                      [](WaveletHeader& wavelet) { wavelet.first_doubled = 0; }),
+          waveletCase("doubled_1_40x37", "levels 1 and 2 are doubled", flat,
+                      [](WaveletHeader& wavelet) { wavelet.first_doubled = 1; }),
+          waveletCase("joint_17_bits_40x37", "joint sums of 64 bits", flat,
+                      [](WaveletHeader& wavelet) { wavelet.bits = 17; }),
+          waveletCase("joint_not_40x37", "21 bits: rows, then columns, and doubled", flat,
+                      [](WaveletHeader& wavelet) { wavelet.bits = 21; })};
+}
+
+}  // namespace tetrakis::conformance

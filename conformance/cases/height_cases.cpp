@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights of all types and sizes, beside voids and corrections.
+#include "conformance/cases/case_builders.hpp"
+#include "conformance/cases/cases.hpp"
+
+namespace tetrakis::conformance {
+
+std::vector<VectorCase> geometryCases() {
+  VectorCase fine = heightsCase("fine_i32_budget_60x45", "32-bit heights; three fraction bits",
+                                {Pattern::kRidges, 60, 45, 1, TKS_I32}, budget(1500));
+  fine.thirds = true;
+  VectorCase negative = heightsCase(
+      "negative_i16_48x31", "negative heights, scale and offset; rounded to a max-error bound",
+      {Pattern::kRidges, 48, 31, 1, TKS_I16}, maxError(3));
+  negative.scale = 0.1;
+  negative.offset = -400;
+  return {
+      heightsCase("tiny_2x2", "smallest surface: one band", {Pattern::kRidges, 2, 2, 1, TKS_I16},
+                  lossless()),
+      heightsCase("odd_3x17", "odd sizes; a side that is never split",
+                  {Pattern::kRidges, 3, 17, 1, TKS_U16}, lossless()),
+      heightsCase("flat_33x33", "no detail at all: no bit-planes",
+                  {Pattern::kFlat, 33, 33, 1, TKS_U16}, lossless()),
+      heightsCase("extreme_i16_17x17",
+                  "lowest and highest values side by side: every bit-plane is used",
+                  {Pattern::kExtreme, 17, 17, 1, TKS_I16}, budget(4096)),
+      heightsCase("extreme_u8_9x20", "8-bit heights; long coefficients",
+                  {Pattern::kExtreme, 9, 20, 1, TKS_U8}, budget(4096)),
+      heightsCase("ramp_i8_20x60", "signed 8-bit heights on a slope",
+                  {Pattern::kRamp, 20, 60, 1, TKS_I8}, lossless()),
+      heightsCase("wide_u32_20x12", "32-bit unsigned heights",
+                  {Pattern::kRidges, 20, 12, 1, TKS_U32}, lossless()),
+      heightsCase("long_160x5", "long side: levels that split one side alone",
+                  {Pattern::kRidges, 160, 5, 1, TKS_U16}, lossless()),
+      heightsCase("steps_40x40", "walls and terraces, whose lines repeat: abrupt signs",
+                  {Pattern::kSteps, 40, 40, 1, TKS_I32}, maxError(0.25)),
+      negative,
+      heightsCase("float_65x65", "32-bit float heights on an exact step",
+                  {Pattern::kRidges, 65, 65, 1, TKS_F32}, lossless()),
+      fine,
+      heightsCase("geometry_budget_129x97",
+                  "fraction bits; cut by a byte budget in the middle of a packet",
+                  {Pattern::kRidges, 129, 97, 1, TKS_U16}, budget(6000)),
+  };
+}
+
+/// Validity and corrections.
+std::vector<VectorCase> layerCases() {
+  using samples::VoidShape;
+  VectorCase thirds =
+      heightsCase("float_thirds_31x33", "floats that no step restores: corrections of samples",
+                  {Pattern::kRidges, 31, 33, 1, TKS_F32}, lossless());
+  thirds.thirds = true;
+  VectorCase extreme = heightsCase(
+      "extreme_u32_16x15", "the whole range of 32 bits: wide sums, corrections of integer samples",
+      {Pattern::kExtreme, 16, 15, 1, TKS_U32}, maxError(0.25));
+  extreme.thirds = true;
+  VectorCase wide = heightsCase("extreme_float_14x19", "floats with wide sums and corrections",
+                                {Pattern::kExtreme, 14, 19, 1, TKS_F32}, maxError(1e-9));
+  wide.thirds = true;
+  VectorCase both =
+      heightsCase("coast_thirds_40x30", "NaN without a nodata value, and corrections of samples",
+                  {Pattern::kRidges, 40, 30, 1, TKS_F32}, lossless());
+  both.thirds = true;
+  const Recipe small{Pattern::kRidges, 45, 38, 1, TKS_I16};
+  return {
+      withVoids(heightsCase("coast_lossless_45x38", "bays and islands: masked lifting", small,
+                            lossless()),
+                VoidShape::kCoast, -9999),
+      withVoids(heightsCase("coast_budget_90x70", "a coast and fraction bits, cut by a byte budget",
+                            {Pattern::kRidges, 90, 70, 1, TKS_U16}, budget(2500)),
+                VoidShape::kCoast, 0),
+      withVoids(heightsCase("speckle_u8_21x34", "single voids everywhere; nodata among the heights",
+                            {Pattern::kRidges, 21, 34, 1, TKS_U8}, lossless()),
+                VoidShape::kSpeckle, 100),
+      withVoids(heightsCase("checker_voids_18x9", "every other sample is void",
+                            {Pattern::kSteps, 18, 9, 1, TKS_I16}, maxError(0.25)),
+                VoidShape::kChecker, -1),
+      withVoids(heightsCase("nothing_valid_12x7", "voids only",
+                            {Pattern::kRidges, 12, 7, 1, TKS_F32}, lossless()),
+                VoidShape::kAll, NAN),
+      withVoids(both, VoidShape::kCoast, NAN),
+      thirds,
+      extreme,
+      wide,
+      heightsCase("bounded_64x64", "corrections of steps within a max-error bound",
+                  {Pattern::kRidges, 64, 64, 1, TKS_U16}, maxError(1500)),
+      withVoids(
+          heightsCase("coast_bounded_64x50", "validity, coefficients and corrections of steps",
+                      {Pattern::kRidges, 64, 50, 1, TKS_I16}, maxError(1500)),
+          VoidShape::kCoast, -32768),
+  };
+}
+
+/// Voids, values declared for them, and planes of which most is empty.
+std::vector<VectorCase> sparseCases() {
+  using samples::VoidShape;
+  const auto declared = [](VectorCase vector_case, double nodata) {
+    vector_case.nodata = nodata;
+    vector_case.apart = true;
+    return vector_case;
+  };
+  VectorCase tiny = heightsCase("tiny_float_24x40", "floats around the smallest normal one",
+                                {Pattern::kRidges, 24, 40, 1, TKS_F32}, lossless());
+  tiny.exponent = -131;
+  tiny.thirds = true;
+  VectorCase spikes = heightsCase("spikes_300x300", "a large plain with few spikes: header level 1",
+                                  {Pattern::kFlat, 300, 300, 1, TKS_I16}, budget(4096));
+  spikes.spikes = 9001;
+  return {
+      declared(heightsCase("nodata_unused_u8_64x48", "a nodata value is declared, nothing is void",
+                           {Pattern::kRidges, 64, 48, 1, TKS_U8}, budget(900)),
+               175),
+      declared(heightsCase("nodata_beyond_u8_20x20", "a nodata value that the type does not have",
+                           {Pattern::kExtreme, 20, 20, 1, TKS_U8}, budget(4096)),
+               -9999),
+      withVoids(
+          declared(heightsCase("nodata_most_u8_40x30", "voids of the largest value of the type",
+                               {Pattern::kExtreme, 40, 30, 1, TKS_U8}, budget(700)),
+                   255),
+          VoidShape::kCoast, 255),
+      withVoids(heightsCase("half_void_i16_256x40", "blocks without a coefficient that exists",
+                            {Pattern::kRidges, 256, 40, 1, TKS_I16}, budget(6000)),
+                VoidShape::kHalf, -1),
+      heightsCase("long_i16_9000x4", "twelve levels of one side: more than ten splits",
+                  {Pattern::kRidges, 9000, 4, 1, TKS_I16}, budget(500)),
+      tiny,
+      spikes,
+  };
+}
+
+}  // namespace tetrakis::conformance

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kinds of heights that have a tool of their own: tables of values, drawings, repeated lines, flat
+// areas.
+#include "conformance/cases/case_builders.hpp"
+#include "conformance/cases/cases.hpp"
+
+namespace tetrakis::conformance {
+
+/// Heights that count the values of a table.
+std::vector<VectorCase> tableCases() {
+  using samples::FewValues;
+  const auto valued = [](FewValues values, VectorCase vector_case) {
+    vector_case.values = values;
+    return vector_case;
+  };
+  const Recipe small{Pattern::kRidges, 48, 40, 1, TKS_U8, 3};
+  return {
+      valued(FewValues::kFeet,
+             heightsCase("table_feet_f32_48x40", "a table of values: feet written as metres", small,
+                         lossless())),
+      valued(FewValues::kRare, heightsCase("table_rare_f32_48x40",
+                                           "corrections of samples whose values are not in the "
+                                           "table",
+                                           small, lossless())),
+      withVoids(valued(FewValues::kStretched,
+                       heightsCase("table_coast_u16_48x40",
+                                   "a table of integers behind a mask of voids, in regions", small,
+                                   inRegions(lossless(), 16))),
+                samples::VoidShape::kCoast, 7),
+  };
+}
+
+/// Few values in large shapes, which take fewer bytes drawn than by wavelet.
+std::vector<VectorCase> drawnHeightsCases() {
+  const auto classes = [](const std::string& name, const std::string& purpose, uint32_t width,
+                          uint32_t height) {
+    VectorCase vector_case =
+        heightsCase(name, purpose, {Pattern::kRidges, width, height, 1, TKS_U8, 3}, lossless());
+    vector_case.classes = 5;
+    return vector_case;
+  };
+  VectorCase rescaled =
+      classes("drawn_table_f32_60x47", "drawn heights that count the values of a table", 60, 47);
+  rescaled.values = samples::FewValues::kRescaled;
+  VectorCase rare =
+      classes("drawn_rare_f32_52x44", "drawn heights beside corrections of samples", 52, 44);
+  rare.values = samples::FewValues::kRare;
+  VectorCase joint =
+      classes("drawn_joint_index_50x41_30x20", "drawn heights beside a texture, index", 50, 41);
+  joint.texture = Recipe{Pattern::kRidges, 30, 20, 3, TKS_U8, 7};
+  joint.options = indexed(lossless());
+  VectorCase copied = classes("drawn_copies_u8_75x62", "drawn heights whose lines repeat", 38, 31);
+  copied.copies[0] = copied.copies[1] = 2;
+  return {classes("drawn_u8_70x53", "drawn heights", 70, 53),
+          classes("drawn_long_u8_2x300", "drawn heights, two columns", 2, 300),
+          withVoids(classes("drawn_coast_u8_64x51", "drawn heights beside voids", 64, 51),
+                    samples::VoidShape::kCoast, 255),
+          rescaled,
+          rare,
+          joint,
+          copied};
+}
+
+/// Samples that were copied to a larger grid.
+std::vector<VectorCase> copiedCases() {
+  const auto copied = [](VectorCase vector_case, uint32_t across, uint32_t down) {
+    vector_case.copies[0] = across;
+    vector_case.copies[1] = down;
+    return vector_case;
+  };
+  return {
+      copied(heightsCase("copies_3x3_i16_88x73", "samples copied to a larger grid, lossless",
+                         {Pattern::kRidges, 30, 25, 1, TKS_I16}, lossless()),
+             3, 3),
+      copied(withVoids(heightsCase("copies_2x4_u16_79x77", "copies beside voids, by a byte budget",
+                                   {Pattern::kRidges, 40, 20, 1, TKS_U16}, budget(700)),
+                       samples::VoidShape::kCoast, 3),
+             2, 4),
+      copied(heightsCase("copies_1x5_f32_36x96", "rows of floats that are copies, in regions",
+                         {Pattern::kRidges, 36, 20, 1, TKS_F32}, inRegions(lossless(), 16)),
+             1, 5),
+  };
+}
+
+/// Flat areas.
+std::vector<VectorCase> waterCases() {
+  using samples::VoidShape;
+  VectorCase tenths =
+      heightsCase("water_corrected_f32_96x80", "flat areas beside corrections of samples",
+                  {Pattern::kRidges, 96, 80, 1, TKS_F32}, lossless());
+  tenths.thirds = true;
+  return {
+      withWater(heightsCase("water_i16_120x90", "flat areas, lossless",
+                            {Pattern::kRidges, 120, 90, 1, TKS_I16}, lossless()),
+                VoidShape::kCoast),
+      withWater(heightsCase("water_budget_u16_128x101", "flat areas with fraction bits",
+                            {Pattern::kRidges, 128, 101, 1, TKS_U16}, budget(8000)),
+                VoidShape::kHalf),
+      withVoids(withWater(heightsCase("water_voids_i16_100x100", "flat areas beside voids",
+                                      {Pattern::kRidges, 100, 100, 1, TKS_I16}, lossless()),
+                          VoidShape::kHalf),
+                VoidShape::kCoast, -32768),
+      withWater(heightsCase("water_regions_i32_150x130", "flat areas, in regions",
+                            {Pattern::kRidges, 150, 130, 1, TKS_I32}, inRegions(lossless(), 16)),
+                VoidShape::kCoast),
+      withWater(tenths, VoidShape::kCoast)};
+}
+
+}  // namespace tetrakis::conformance

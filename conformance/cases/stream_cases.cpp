@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a stream as a whole may hold: both components, stored samples, regions, priorities, a place
+// on the ground; and damage.
+#include "conformance/cases/case_builders.hpp"
+#include "conformance/cases/cases.hpp"
+
+namespace tetrakis::conformance {
+
+std::vector<VectorCase> jointCases() {
+  const auto joint = [](const std::string& name, const std::string& purpose, const Recipe& heights,
+                        const Recipe& image, const tks_encode_options& options) {
+    VectorCase vector_case = heightsCase(name, purpose, heights, options);
+    vector_case.texture = image;
+    return vector_case;
+  };
+  const Recipe heights{Pattern::kRidges, 97, 97, 1, TKS_U16};
+  const Recipe image{Pattern::kRidges, 128, 128, 3, TKS_U8, 7};
+  const Recipe small_heights{Pattern::kRidges, 33, 33, 1, TKS_I16};
+  const Recipe small_image{Pattern::kRidges, 40, 40, 3, TKS_U8, 7};
+  return {
+      joint("joint_budget_97x97_128x128", "geometry and texture packets in one order, byte budget",
+            heights, image, budget(12000)),
+      joint("joint_lossless_33x33_40x40", "geometry and texture to the last bit", small_heights,
+            small_image, lossless()),
+      joint("joint_index_33x33_40x40", "front index before the packets", small_heights, small_image,
+            indexed(lossless())),
+  };
+}
+
+/// Noise, which takes fewer bytes stored than coded.
+std::vector<VectorCase> storedCases() {
+  VectorCase thirds = heightsCase("stored_f32_20x21", "floats that are stored, beside voids",
+                                  {Pattern::kExtreme, 20, 21, 1, TKS_F32}, maxError(1e-9));
+  thirds.thirds = true;
+  return {heightsCase("stored_i16_17x19", "heights that are stored",
+                      {Pattern::kExtreme, 17, 19, 1, TKS_I16}, maxError(0.25)),
+          withVoids(thirds, samples::VoidShape::kSpeckle, NAN),
+          textureCase("stored_rgb_15x13", "a texture that is stored",
+                      {Pattern::kExtreme, 15, 13, 3, TKS_U8}, lossless()),
+          textureCase("stored_grey_alpha16_14x15", "samples of two bytes, stored",
+                      {Pattern::kExtreme, 14, 15, 2, TKS_U16}, lossless())};
+}
+
+/// Spatial regions, and several groups of them.
+std::vector<VectorCase> regionCases() {
+  VectorCase joint =
+      heightsCase("regions_joint_index_40x33_50x47", "regions of heights and texture, index",
+                  {Pattern::kRidges, 40, 33, 1, TKS_I16}, indexed(inRegions(lossless(), 16)));
+  joint.texture = Recipe{Pattern::kRidges, 50, 47, 3, TKS_U8, 7};
+  VectorCase budgeted = heightsCase(
+      "regions_budget_97x97_128x128", "regions with fraction bits; cut by a byte budget",
+      {Pattern::kRidges, 97, 97, 1, TKS_U16}, inRegions(budget(9000), 32));
+  budgeted.texture = Recipe{Pattern::kRidges, 128, 128, 3, TKS_U8, 7};
+  VectorCase corrected =
+      heightsCase("regions_coast_thirds_60x41", "regions beside validity and corrections",
+                  {Pattern::kRidges, 60, 41, 1, TKS_F32}, inRegions(lossless(), 16));
+  corrected.thirds = true;
+  return {heightsCase("regions_groups_200x70", "two groups of regions below the base",
+                      {Pattern::kSteps, 200, 70, 1, TKS_U8}, inRegions(budget(1500), 16)),
+          heightsCase("regions_long_150x9", "regions side by side; a last one that is longer",
+                      {Pattern::kRidges, 150, 9, 1, TKS_I16}, inRegions(lossless(), 32)),
+          joint, budgeted, withVoids(corrected, samples::VoidShape::kCoast, NAN)};
+}
+
+/// Coefficients have priorities, by what a camera sees.
+std::vector<VectorCase> toldCases() {
+  const auto told = [](const std::string& name, const std::string& purpose,
+                       const tks_encode_options& options) {
+    VectorCase both = heightsCase(name, purpose, {Pattern::kRidges, 90, 67, 1, TKS_I16}, options);
+    both.texture = {Pattern::kRidges, 60, 80, 3, TKS_U8};
+    both.told = true;
+    return both;
+  };
+  VectorCase masked =
+      asCutout(withVoids(told("told_masks_90x67_60x80",
+                              "maps of priorities beside voids and a cut-out", budget(5000)),
+                         samples::VoidShape::kCoast, -32768),
+               samples::VoidShape::kCoast);
+  masked.texture->channels = 4;
+  return {told("told_90x67_60x80", "maps of priorities: heights and texture to the last bit",
+               lossless()),
+          told("told_regions_90x67_60x80", "maps of priorities over several tracks",
+               inRegions(budget(7000), 32)),
+          masked};
+}
+
+/// The part of the header that says where things lie.
+std::vector<VectorCase> placedCases() {
+  VectorCase joint = heightsCase("placed_joint_20x15_40x31", "georeference of heights and texture",
+                                 {Pattern::kRidges, 20, 15, 1, TKS_I16}, indexed(lossless()));
+  joint.texture = Recipe{Pattern::kRidges, 40, 31, 1, TKS_U8, 7};
+  VectorCase texture = textureCase("placed_texture_17x20", "georeference of a texture alone",
+                                   {Pattern::kRidges, 17, 20, 3, TKS_U8, 7}, lossless());
+  joint.placed = texture.placed = true;
+  return {joint, texture};
+}
+
+/// Streams that a decoder must refuse, by the byte that is wrong (docs/FORMAT.md, section 2).
+std::vector<VectorCase> damagedCases() {
+  const Recipe heights{Pattern::kRidges, 9, 9, 1, TKS_I16};
+  const auto damaged = [&](const std::string& name, const std::string& purpose, int byte) {
+    VectorCase vector_case = heightsCase(name, purpose, heights, lossless());
+    vector_case.damaged_byte = byte;
+    return vector_case;
+  };
+  return {damaged("damaged_magic", "not a Tetrakis stream", 0),
+          damaged("damaged_version", "a format version from the future", 4),
+          damaged("damaged_header", "the header's checksum does not match", 12)};
+}
+
+}  // namespace tetrakis::conformance

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures: channels, filters, drawings, overlays, cut-outs.
+#include "conformance/cases/case_builders.hpp"
+#include "conformance/cases/cases.hpp"
+
+namespace tetrakis::conformance {
+
+std::vector<VectorCase> textureCases() {
+  const auto image = [](Pattern pattern, uint32_t width, uint32_t height, uint32_t channels,
+                        tks_sample sample) {
+    return Recipe{pattern, width, height, channels, sample, 7};
+  };
+  return {
+      textureCase("texture_1x1", "smallest texture: no wavelet step",
+                  image(Pattern::kRidges, 1, 1, 3, TKS_U8), lossless()),
+      textureCase("texture_1x23", "one column", image(Pattern::kRidges, 1, 23, 1, TKS_U8),
+                  lossless()),
+      textureCase("grey_61x40", "one channel", image(Pattern::kRidges, 61, 40, 1, TKS_U8),
+                  lossless()),
+      textureCase("grey_alpha_24x25", "two channels: grey and alpha",
+                  image(Pattern::kRidges, 24, 25, 2, TKS_U8), lossless()),
+      textureCase("grey_alpha_budget_70x50", "alpha with fraction bits, cut by a byte budget",
+                  image(Pattern::kRidges, 70, 50, 2, TKS_U8), budget(1200)),
+      textureCase("rgb_50x37", "three channels: colour transform",
+                  image(Pattern::kRidges, 50, 37, 3, TKS_U8), lossless()),
+      textureCase("rgba_32x32", "four channels: alpha beside the colour transform",
+                  image(Pattern::kRidges, 32, 32, 4, TKS_U8), lossless()),
+      textureCase("rgb16_21x30", "16-bit texture", image(Pattern::kRidges, 21, 30, 3, TKS_U16),
+                  lossless()),
+      textureCase("rgba16_budget_60x40", "16-bit texture with fraction bits: wide sums",
+                  image(Pattern::kRidges, 60, 40, 4, TKS_U16), budget(2500)),
+      asCutout(textureCase("cutout_rgb_40x33", "alpha as a mask; colours that it hides are coded",
+                           image(Pattern::kRidges, 40, 33, 4, TKS_U8), lossless()),
+               samples::VoidShape::kCoast),
+      asCutout(
+          textureCase("cutout_rgb_budget_70x45", "hidden colours are void; cut by a byte budget",
+                      image(Pattern::kRidges, 70, 45, 4, TKS_U8), budget(1500)),
+          samples::VoidShape::kCoast),
+      asCutout(textureCase("cutout_grey16_1x41", "cut-out of 16-bit grey, one column",
+                           image(Pattern::kRidges, 1, 41, 2, TKS_U16), quality(40)),
+               samples::VoidShape::kSpeckle),
+      textureCase("checker_rgb_16x16", "highest frequency at full range: every bit-plane is used",
+                  image(Pattern::kChecker, 16, 16, 3, TKS_U8), lossless()),
+      textureCase("ramp_129x96", "another filter from level 3 on",
+                  image(Pattern::kRamp, 129, 96, 1, TKS_U8), quality(58)),
+      textureCase("ramp_90x40", "another filter from level 2 on",
+                  image(Pattern::kRamp, 90, 40, 1, TKS_U8), quality(58)),
+      textureCase("drawn_grey_70x33", "drawn: one channel",
+                  image(Pattern::kSteps, 70, 33, 1, TKS_U8), lossless()),
+      textureCase("drawn_rgba16_45x60", "drawn: four channels of 16 bits",
+                  image(Pattern::kSteps, 45, 60, 4, TKS_U16), lossless()),
+      drawnOver(textureCase("overlay_rgb_64x50", "drawn over an image: its wavelet stops there",
+                            image(Pattern::kRidges, 64, 50, 3, TKS_U8), lossless()),
+                samples::VoidShape::kCoast),
+      drawnOver(textureCase("overlay_rgba16_budget_90x40",
+                            "drawn over four channels of 16 bits, cut by a byte budget",
+                            image(Pattern::kRidges, 90, 40, 4, TKS_U16), budget(3000)),
+                samples::VoidShape::kCoast),
+      asCutout(drawnOver(textureCase("overlay_cutout_budget_80x60",
+                                     "a mask, then an overlay; hidden colours are void",
+                                     image(Pattern::kRidges, 80, 60, 4, TKS_U8), budget(2000)),
+                         samples::VoidShape::kCoast),
+               samples::VoidShape::kFrame),
+      asCutout(drawnOver(textureCase("overlay_cutout_64x50", "a mask, then an overlay, lossless",
+                                     image(Pattern::kRidges, 64, 50, 4, TKS_U8), lossless()),
+                         samples::VoidShape::kCoast),
+               samples::VoidShape::kFrame),
+      asCutout(textureCase("cutout_all_hidden_33x20", "nothing is seen",
+                           image(Pattern::kRidges, 33, 20, 4, TKS_U8), budget(300)),
+               samples::VoidShape::kAll),
+      textureCase("texture_budget_128x128", "texture alone, cut by a byte budget",
+                  image(Pattern::kRidges, 128, 128, 3, TKS_U8), budget(8000)),
+      weighted(textureCase("weights_rgba_70x40", "bands of each component have priorities",
+                           image(Pattern::kRidges, 70, 40, 4, TKS_U8), budget(1500))),
+  };
+}
+
+}  // namespace tetrakis::conformance
