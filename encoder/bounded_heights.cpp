@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -182,12 +183,16 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   const double room = (wanted - errorsOf(*inputs.heights, of->steps).largest) / of->steps.step;
   constexpr double kMost = 1 << 24;
   const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
+  std::vector<Candidate<CodedHeights>> kept;
   for (const int32_t tried : {largest, std::max(largest - 1, 0), 0}) {
+    if (tried == 0 && !kept.empty()) break;
     std::vector<Candidate<CodedHeights>> made = attempts(bound, tried);
-    std::erase_if(made, [&](const auto& one) { return !keepsBound(inputs, *one.coded); });
-    if (!made.empty()) return fewestBytes(std::move(made)).coded;
+    const auto beyond =
+        std::erase_if(made, [&](const auto& one) { return !keepsBound(inputs, *one.coded); });
+    std::move(made.begin(), made.end(), std::back_inserter(kept));
+    if (beyond == 0) break;
   }
-  return exactly();
+  return kept.empty() ? exactly() : fewestBytes(std::move(kept)).coded;
 }
 
 namespace {

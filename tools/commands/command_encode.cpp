@@ -38,9 +38,7 @@ Status describe(const EncodeArguments& arguments, HeightFile& heights) {
   heights.scale = arguments.scale.value_or(heights.scale);
   heights.offset = arguments.offset.value_or(heights.offset);
   if (arguments.unit) heights.unit = canonicalUnit(*arguments.unit);
-  if (arguments.crs) {
-    if (Status status = giveCrs(heights, *arguments.crs); !status.ok()) return status;
-  }
+  if (arguments.crs) giveCrs(heights, *arguments.crs);
   if (arguments.vertical_datum) giveVerticalDatum(heights, *arguments.vertical_datum);
   if (arguments.spacing.empty()) return Status();
   const Result<std::array<double, 2>> spacing = parseSpacing(arguments.spacing);

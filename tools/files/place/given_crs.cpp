@@ -4,20 +4,14 @@
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/geo_keys.hpp"
 #include "tools/files/place/ground_spacing.hpp"
-#include "tools/files/place/proj_objects.hpp"
 
 namespace tetrakis::tools {
 
-Status giveCrs(HeightFile& heights, const std::string& crs) {
-  const ProjContext context = quietContext();
-  if (!crs.empty() && !findCrs(context.get(), crs))
-    return {TKS_USAGE,
-            "--crs takes EPSG:code, EPSG:code+code or WKT; PROJ does not know '" + crs + "'"};
+void giveCrs(HeightFile& heights, const std::string& crs) {
   heights.crs = crs;
   heights.geo_keys.clear();
   if (crsUnit(crs, CrsAxis::kVertical)) heights.vertical_datum.clear();
   setGroundSpacing(heights);
-  return {};
 }
 
 void giveVerticalDatum(HeightFile& heights, const std::string& datum) {

@@ -9,9 +9,8 @@
 namespace tetrakis::tools {
 
 /// Drops what the file says of its CRS. Spacing follows from the new one where PROJ knows its unit;
-/// one with a vertical part replaces the vertical datum too. Empty: there is none. TKS_USAGE: PROJ
-/// does not know it.
-Status giveCrs(HeightFile& heights, const std::string& crs);
+/// one with a vertical part replaces the vertical datum too.
+void giveCrs(HeightFile& heights, const std::string& crs);
 
 /// Drops what the file says of its vertical CRS alone.
 void giveVerticalDatum(HeightFile& heights, const std::string& datum);
