@@ -215,5 +215,18 @@ TEST_F(CliPlace, NotesAskForWhatIsGuessed) {
   EXPECT_FALSE(asks("--bytes 1k --triangles 50 --spacing 10", "--spacing"));
 }
 
+TEST_F(CliPlace, AnUnknownCrsIsKeptWithANote) {
+  ASSERT_EQ(cli("synth --size 17 -o s").code, 0);
+  for (const auto& [crs, known] :
+       {std::pair("EPSG:99999", false), {"nonsense", false}, {"EPSG:25832+5773", true}}) {
+    const auto outcome =
+        cli(std::string("encode s/height.tif --lossless -f -o a.tks --crs ") + crs);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err.find(std::string("does not know the CRS '") + crs) == std::string::npos,
+              known);
+    EXPECT_EQ(Json::parse(cli("info --json a.tks").out)["heights"]["crs"], crs);
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test
