@@ -2,6 +2,7 @@
 #include "api/needed.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "api/memory.hpp"
@@ -96,10 +97,14 @@ Result<View> viewOfPart(const tks_decoder& decoder, tks_part part, const tks_win
 /// otherwise. If no gap would tell that what is missing is not needed, the last byte does.
 void showGap(const tks_decoder& decoder, std::vector<tks_range>& ranges) {
   const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
-  if (ranges.size() != 1 || ranges[0].offset != decoder.parsed.bytes) return;
-  const uint64_t known = ranges[0].offset + ranges[0].size;
+  uint64_t known = decoder.parsed.bytes;
+  for (const tks_range& range : ranges) {
+    if (range.offset != known) return;
+    known += range.size;
+  }
+  if (ranges.empty()) return;
   if (known + 1 < end) ranges.push_back({end - 1, 1, 0});
-  if (known + 1 == end) ++ranges[0].size;
+  if (known + 1 == end) ++ranges.back().size;
 }
 
 Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* window,
@@ -115,10 +120,14 @@ Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* windo
   const Component component = part == TKS_PART_TEXTURE ? Component::kTexture : Component::kGeometry;
   std::vector<bool> needed = neededTracks(header, component, *view);
   if (part == TKS_PART_VALIDITY) needed.assign(1, true);
+  const bool regions_apart = decoder.index == TKS_INDEX_WINDOWS;
+  std::optional<uint32_t> last;
   forEachPacket(decoder, [&](const PacketHead& entry, uint64_t place, uint64_t size, uint64_t) {
     if (entry.component() != component || entry.track >= needed.size() || !needed[entry.track])
       return;
-    if (!ranges.empty() && ranges.back().offset + ranges.back().size == place) {
+    const bool goes_on = !regions_apart || last == entry.track;
+    last = entry.track;
+    if (goes_on && !ranges.empty() && ranges.back().offset + ranges.back().size == place) {
       ranges.back().size += size;
     } else {
       ranges.push_back({place, size, 0});

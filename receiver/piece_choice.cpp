@@ -71,18 +71,34 @@ Choice chooseRequests(std::span<const Piece> pieces, std::span<const uint32_t> o
   return best;
 }
 
-/// Where no run is worth its request: one from the most helpful piece on, which ends with one that
-/// helps as well.
+/// Where no run is worth its request: the one of so many bytes that helps most, from one piece that
+/// helps to another. Where all that help are longer, the first bytes of the most helpful one.
 Choice chooseOne(std::span<const Piece> pieces, std::span<const uint32_t> order, uint64_t bytes) {
   Choice chosen(pieces.size());
   if (order.empty()) return chosen;
-  size_t end = order[0];
-  for (size_t i = order[0]; i < pieces.size() && bytes > 0; ++i) {
+  const auto counts = [&](size_t i) {
+    return pieces[i].is_missing && pieces[i].helps() == pieces[order[0]].helps();
+  };
+  const auto gain = [&](size_t i) {
+    return counts(i) ? pieces[i].worth.all * static_cast<double>(pieces[i].size()) : 0;
+  };
+  size_t first = order[0], last = order[0];
+  double sum = 0, most = 0;
+  for (size_t begin = 0, end = 0; end < pieces.size(); ++end) {
+    sum += gain(end);
+    for (; pieces[end].end - pieces[begin].begin > bytes && begin < end; ++begin)
+      sum -= gain(begin);
+    if (!(sum > most) || pieces[end].end - pieces[begin].begin > bytes) continue;
+    most = sum;
+    first = begin;
+    last = end;
+  }
+  while (first < last && !counts(first)) ++first;
+  while (first < last && !counts(last)) --last;
+  for (size_t i = first; i <= last; ++i) {
     chosen[i] = std::min(bytes, pieces[i].size());
     bytes -= chosen[i];
-    if (pieces[i].is_missing && pieces[i].helps() == pieces[order[0]].helps()) end = i + 1;
   }
-  std::fill(chosen.begin() + static_cast<ptrdiff_t>(end), chosen.end(), 0);
   return chosen;
 }
 

@@ -30,7 +30,7 @@ const make = (verb, file, ...options) => {
 
 /** The input's heights at a place on Earth, which tiles want: in UTM, at the equator. */
 function placed() {
-  const quiet = {stdio: ['ignore', 'pipe', 'ignore']};  // PROJ does not know the CRS of synth
+  const quiet = {stdio: ['ignore', 'pipe', 'ignore']};  // PROJ may not know its CRS
   const {size} = JSON.parse(execFileSync('gdalinfo', ['-json', `${input}/height.tif`], quiet));
   const [across, down] = size.map((samples) => String(samples * spacing));
   execFileSync('gdal_translate', ['-q', '-a_srs', 'EPSG:32632', '-a_ullr', '0', down, across, '0',

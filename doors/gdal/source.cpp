@@ -14,6 +14,10 @@ namespace {
 /// least that GDAL reads over a network.
 constexpr uint64_t kHeaderGuess = 16384;
 
+/// Each call of tks_put looks at all that is there: shares of more regions would take longer than
+/// all of the stream.
+constexpr size_t kMostShares = 512;
+
 int errorNumber(tks_status status) {
   switch (status) {
     case TKS_USAGE:
@@ -160,6 +164,40 @@ bool Source::loadRanges(const std::vector<tks_range>& ranges) {
   return true;
 }
 
+bool Source::loadShares(std::vector<tks_range> ranges, uint64_t bytes) {
+  // The last bit-planes are noise, which costs every sample alike: without the same number of bytes
+  // each, regions err alike.
+  const auto without = [&](uint64_t most) {
+    std::vector<tks_range> cut = ranges;
+    for (size_t i = 1; i < cut.size(); ++i) cut[i].size -= std::min(cut[i].size, most);
+    return cut;
+  };
+  uint64_t least = 0, most = 0;
+  for (const tks_range& range : ranges) most = std::max(most, range.size);
+  while (least < most) {
+    const uint64_t middle = least + (most - least) / 2;
+    uint64_t sum = 0;
+    for (const tks_range& range : without(middle)) sum += range.size;
+    if (sum > bytes) {
+      least = middle + 1;
+    } else {
+      most = middle;
+    }
+  }
+  if (most == 0) return reopen(end_);
+  ranges = without(most);
+  std::erase_if(ranges, [](const tks_range& range) { return range.size == 0; });
+  decoder_.reset();  // which may borrow bytes that move
+  if (!read(ranges) || !reopen(info_.header_bytes)) return false;
+  opened_ = 0;
+  for (const tks_range& range : ranges) {
+    const tks_status status = tks_put(decoder_.get(), range.offset, bytes_.at(range.offset).data(),
+                                      static_cast<size_t>(range.size));
+    if (status != TKS_OK) return failed(status);
+  }
+  return true;
+}
+
 bool Source::load(uint32_t level, const tks_window* window) {
   if (settings_.strict && !verified_) {
     if (!reopen(end_)) return false;
@@ -167,14 +205,16 @@ bool Source::load(uint32_t level, const tks_window* window) {
     verified_ = true;
   }
   const uint64_t pixels = uint64_t{width(level)} * height(level) * pixelBytes();
-  // A prefix of a stream for windows lacks most regions.
-  const bool cuts = level > 0 && info_.index != TKS_INDEX_WINDOWS;
+  // A prefix of a stream for windows lacks most regions: a level takes a first part of each.
+  const bool apart = info_.index == TKS_INDEX_WINDOWS;
+  const bool cuts = level > 0 && !apart;
   const uint64_t first = cuts ? std::min(end_, info_.header_bytes + pixels) : end_;
   if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
   // Of a shorter file the first bytes are asked for, not what a window would need of all.
   if (opened_ == first || !complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
   const auto ranges = neededRanges(level, window);
   if (!ranges) return false;
+  if (level > 0 && apart && ranges->size() <= kMostShares) return loadShares(*ranges, pixels);
   const uint64_t cost = FileBytes::costOf(*ranges);
   if (cost >= first - first / 4) return reopen(first);
   // Who has read most of it will read the rest. The whole stream decodes to the same.

@@ -392,11 +392,11 @@ typedef struct tks_ranges {
 void tks_free_ranges(tks_ranges* ranges);
 
 /* Which bytes behind the header a call needs of a stream with a front index, to decode what it
- * would of the complete stream: the packets of the tracks that it decodes. Given to tks_put they
- * suffice, for what is missing of other tracks counts as there. Ranges come in their order and do
- * not touch. Of streams in regions a window needs some regions, a level from 3 on no region of the
- * finest levels. For a rougher terrain take of every range what lies before some byte. TKS_USAGE:
- * there is no index, part or window. TKS_LIMIT: as the call. */
+ * would of the complete stream: packets of the tracks that it decodes, in their order. Given to
+ * tks_put they suffice: what else is missing counts as there. A window needs some regions, a level
+ * from 3 on none of the finest levels. For a rougher terrain take what lies before some byte; of
+ * streams for windows take a first part of each range: each is a region, and may touch the next.
+ * TKS_USAGE: there is no index, part or window. TKS_LIMIT: as the call. */
 tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
                              tks_ranges* out);
 

@@ -84,6 +84,20 @@ TEST_F(CliPlace, TilesLieWhereGdalReadsThem) {
             std::string::npos);
 }
 
+TEST_F(CliPlace, SampleTerrainsLieInTheAlps) {
+  for (const char* kind : {"mountains", "city", "voids"}) {
+    ASSERT_EQ(cli(std::string("synth --size 18 -f -o s --kind ") + kind).code, 0);
+    const Json info = gdalinfo("s/height.tif");
+    const double spacing = info["geoTransform"][1];
+    EXPECT_EQ(info["geoTransform"],
+              Json({500000 - 9 * spacing, spacing, 0.0, 5200000 + 9 * spacing, 0.0, -spacing}));
+    EXPECT_NE(info["coordinateSystem"]["wkt"].dump().find("UTM zone 32N"), std::string::npos);
+    ASSERT_EQ(cli("-q encode s/height.tif --lossless -f -o s.tks").code, 0);
+    EXPECT_EQ(Json::parse(cli("info --json s.tks").out)["heights"]["crs"], "EPSG:32632");
+    EXPECT_EQ(cli("-q tiles s.tks -f -o t").code, 0) << kind;
+  }
+}
+
 TEST_F(CliPlace, WorldFilesAreReadAndWritten) {
   const std::string world = "10.5\n0\n0\n-10.25\n400005.25\n5300034.875\n";
   const tools::GeoTransform wanted{400000, 10.5, 0, 5300040, 0, -10.25};
@@ -199,6 +213,19 @@ TEST_F(CliPlace, NotesAskForWhatIsGuessed) {
   EXPECT_TRUE(asks("--bytes 1k --triangles 50", "--spacing"));
   EXPECT_TRUE(asks("--bytes 1k --triangles 50", "--unit"));
   EXPECT_FALSE(asks("--bytes 1k --triangles 50 --spacing 10", "--spacing"));
+}
+
+TEST_F(CliPlace, AnUnknownCrsIsKeptWithANote) {
+  ASSERT_EQ(cli("synth --size 17 -o s").code, 0);
+  for (const auto& [crs, known] :
+       {std::pair("EPSG:99999", false), {"nonsense", false}, {"EPSG:25832+5773", true}}) {
+    const auto outcome =
+        cli(std::string("encode s/height.tif --lossless -f -o a.tks --crs ") + crs);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err.find(std::string("does not know the CRS '") + crs) == std::string::npos,
+              known);
+    EXPECT_EQ(Json::parse(cli("info --json a.tks").out)["heights"]["crs"], crs);
+  }
 }
 
 }  // namespace

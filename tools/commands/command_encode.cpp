@@ -17,6 +17,7 @@
 #include "tools/commands/progress.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/memory_limit.hpp"
+#include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/given_crs.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
@@ -73,6 +74,8 @@ Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const
                          std::isalpha(static_cast<unsigned char>(arguments.max_error.back()));
   const bool seen = isSeen(arguments);
   Notes notes;
+  if (arguments.crs && !arguments.crs->empty() && !isKnownCrs(*arguments.crs))
+    notes.push_back({"PROJ does not know the CRS '" + *arguments.crs + "', which is kept", ""});
   if (heights.unit.empty() && (seen || converted) && !asked("--unit"))
     notes.push_back({"the unit of the heights is not known and counts as metres: give --unit", ""});
   if (heights.spacing_x <= 0 && heights.spacing_y <= 0 && seen && !asked("--spacing"))

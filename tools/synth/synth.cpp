@@ -14,6 +14,11 @@ namespace {
 
 constexpr float kNoData = -9999;
 
+// Terrain of no place is put where globes and GIS can show it without distortion: its middle lies
+// on the central meridian of a UTM zone, at 47 degrees north, in the Alps.
+constexpr const char* kCrs = "EPSG:32632";
+constexpr double kMiddleEast = 500000, kMiddleNorth = 5200000;
+
 template <class T>
 void put(const T& value, std::byte*& out) {
   std::memcpy(out, &value, sizeof value);
@@ -28,6 +33,11 @@ HeightFile heightsOf(const synth::Relief& relief, const synth::Storage& storage,
   file.scale = storage.step;
   file.spacing_x = file.spacing_y = relief.spacing;
   file.unit = std::string("m");
+  file.crs = std::string(kCrs);
+  file.registration = TKS_REGISTRATION_AREA;
+  const double half = relief.spacing * size / 2;
+  file.geotransform = {kMiddleEast - half, relief.spacing, 0, kMiddleNorth + half, 0,
+                       -relief.spacing};
   if (holes) file.nodata = kNoData;
   file.data.resize((whole ? sizeof(uint16_t) : sizeof(float)) * size * size);
   std::byte* out = file.data.data();

@@ -163,8 +163,12 @@ class Terrain {
       for (let before = -1; this.#held.bytes < bytes && this.#held.bytes > before; ) {
         before = this.#held.bytes;
         const isPlanned = seen && this.info?.hasIndex && !this.#source.sequential;
-        if (isPlanned) await this.#fetchPlanned(seen, bytes - before, triangles);
-        else await this.#fetchNext(bytes - before);
+        if (!isPlanned) {
+          await this.#fetchNext(bytes - before);
+          continue;
+        }
+        await this.#fetchPlanned(seen, bytes - before, triangles);
+        if (bytes - this.#held.bytes < this.requestBytes) return;  // not worth another request
       }
     };
     const reading = (this.#reading = this.#reading.catch(() => {}).then(step));
@@ -214,7 +218,7 @@ class Terrain {
     for (let wanted = Math.min(Math.max(this.#held.bytes, FIRST_BYTES), limit); ; ) {
       const frame = await this.decode({...options, bytes: wanted, signal});
       yield frame;
-      if (frame.bytes >= limit || frame.bytes < wanted) return;
+      if (wanted === limit || wanted - frame.bytes > this.requestBytes) return;
       wanted = headerBytes + GROWTH * Math.max(wanted - headerBytes, FIRST_BYTES);
       if (2 * wanted > limit) wanted = limit;
     }

@@ -227,7 +227,7 @@ def test_overviews_of_a_stream_for_windows(tmp_path):
         copy(heights, tmp_path / "a.tks", "BLOCKSIZE=32", "INDEX=" + index)
         dataset = opened(tmp_path / "a.tks")
         overview = dataset.GetRasterBand(1).GetOverview(1).ReadAsArray()
-        assert np.sqrt(np.mean((overview - means) ** 2)) < 60
+        assert np.sqrt(np.mean((overview - means) ** 2)) < 80  # of missing regions 290
 
 
 def test_windows_of_an_indexed_file(tmp_path):

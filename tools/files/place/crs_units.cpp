@@ -52,6 +52,11 @@ std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis) {
                                   : std::nullopt;
 }
 
+bool isKnownCrs(const std::string& crs) {
+  const ProjContext context = quietContext();
+  return context && findCrs(context.get(), crs);
+}
+
 bool isInDegrees(const std::string& crs) {
   constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const ProjContext context = quietContext();

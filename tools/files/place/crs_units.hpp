@@ -20,6 +20,9 @@ enum class CrsAxis { kHorizontal, kVertical };
 /// machine lacks PROJ's database.
 std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis);
 
+/// Whether PROJ can tell what CRS that is.
+bool isKnownCrs(const std::string& crs);
+
 /// Whether the CRS is geographic, with degrees for its horizontal axes; not if PROJ does not know
 /// it.
 bool isInDegrees(const std::string& crs);
