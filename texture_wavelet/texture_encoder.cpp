@@ -100,7 +100,7 @@ WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, c
     transformColours(colour, 0, planes);
     std::vector<PlaneView<const int32_t>> all;
     for (const std::vector<int32_t>& plane : planes) all.push_back(view_of(plane));
-    return chooseWavelet(all, texels.bits, purpose);
+    return chooseLosslessWavelet(all, texels.bits);
   }
   const WaveletHeader wavelet =
       chooseWavelet(view_of(planes[texels.channels >= 3 ? 1 : 0]), texels.bits, purpose);

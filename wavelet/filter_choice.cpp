@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A coefficient c coded with a step T costs about log2(1 + |c| / T) bits, its norm counted in |c|.
-// Of the sums over all details the smallest wins, those of kLong made larger. Against the best of
-// the choices, found by coding with each, that loses up to 0.3 % of the bytes on nine aerial images
-// and maps and on seven DEMs; without it, up to 2.5 %.
+// Of the sums over all details the smallest wins, each made larger by what its filters are known to
+// lose besides. For lossy streams, against the best of the choices, found by coding with each, that
+// loses up to 0.3 % of the bytes on nine aerial images and maps and on seven DEMs; were kLong not
+// made larger, up to 2.5 %.
 #include "wavelet/filter_choice.hpp"
 
 #include <algorithm>
@@ -28,7 +29,22 @@ constexpr auto kO = static_cast<uint8_t>(FilterId::kOrthogonal);
 constexpr auto kL = static_cast<uint8_t>(FilterId::kLong);
 constexpr std::array<Filters, 4> kLossyChoices = {
     {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}}};
-constexpr std::array<Filters, 3> kLosslessChoices = {{{kM, kM, kM}, {kL, kL, kL}, {kS, kS, kS}}};
+
+/// Filters for the last bit, and by how much the estimate of their bits counts more because of what
+/// prefixes are worth (docs/MEASUREMENTS.md, "Cuts of lossless streams"). The estimate makes
+/// differences of bytes three to four times as large as they are.
+struct LosslessChoice {
+  Filters filters;
+  double penalty;
+};
+constexpr std::array<LosslessChoice, 3> kLosslessHeights = {
+    {{{kM, kM, kM}, 1.004}, {{kL, kL, kL}, 1}, {{kS, kS, kS}, 1.02}}};
+
+/// Coarse levels of images have the filter of lossy streams. It rounds each coefficient four times,
+/// where joint lifting rounds it once (wavelet/joint_lifting.hpp): details become longer by what
+/// that adds, and where this shows in the estimate, cuts come near to the roundings as well.
+constexpr std::array<LosslessChoice, 4> kLosslessImages = {
+    {{{kM, kO, kO}, 1}, {{kL, kL, kL}, 1.04}, {{kM, kM, kM}, 1.055}, {{kS, kS, kS}, 1.09}}};
 
 constexpr double kSignificant =
     0.1;  // share of the other details that the step T leaves above itself
@@ -120,13 +136,6 @@ double penaltyOf(const Filters& filters) {
   return 1 + kPerChoice * static_cast<double>(std::count(filters.begin(), filters.end(), kL));
 }
 
-/// Cuts of lossless streams are worse the shorter the filter is. By the Bjontegaard rate they lose
-/// 10 % with kShort and 2 % with kSixTap (eight images), which some bytes at the end are worth. The
-/// estimate makes differences of bytes three to four times as large as they are.
-double cutPenaltyOf(const Filters& filters) {
-  return filters[0] == kS ? 1.02 : filters[0] == kM ? 1.004 : 1;
-}
-
 /// A choice, and about how many bits the details of the samples take.
 struct Choice {
   WaveletHeader header;
@@ -149,34 +158,59 @@ std::vector<Sample> samplesOf(std::span<const PlaneView<const int32_t>> planes,
   return samples;
 }
 
-Choice chooseAmong(const std::vector<Sample>& samples, int bits, Purpose purpose) {
-  const bool lossless = purpose == Purpose::kLossless;
-  std::span<const Filters> choices = kLosslessChoices;
-  if (!lossless) choices = std::span(kLossyChoices).first(bits > kOrthogonalBits ? 1 : 4);
+/// bits: as the estimate has them.
+void keepIfBetter(const WaveletHeader& header, double bits, double penalty, Choice& best) {
+  if (bits * penalty < best.penalised) best = {header, bits, bits * penalty};
+}
+
+WaveletHeader headerWith(const Filters& filters, int fraction_bits, int bits) {
+  WaveletHeader header{filters, 0, 0, kLateDoubled, 0};
+  header.fraction_bits = static_cast<uint8_t>(fraction_bits);
+  header.bits = static_cast<uint8_t>(bits + fraction_bits);
+  return header;
+}
+
+Choice chooseLossy(const std::vector<Sample>& samples, int bits) {
   Choice best;
   float step = 0;
-  for (const Filters& filters : choices) {
-    WaveletHeader header{filters, 0, 0, kLateDoubled, 0};
-    if (!lossless)
-      header.fraction_bits = static_cast<uint8_t>(std::clamp(20 - bits, 0, kMostFractionBits));
-    header.bits = static_cast<uint8_t>(bits + header.fraction_bits);
+  for (const Filters& filters : kLossyChoices) {
+    if (filters.back() == kO && bits > kOrthogonalBits) continue;
+    const WaveletHeader header =
+        headerWith(filters, std::clamp(20 - bits, 0, kMostFractionBits), bits);
     std::vector<float> details;
-    for (const Sample& sample : samples) appendDetails(sample, header, lossless, details);
-    if (step == 0) step = lossless ? 1 : stepOf(details);
-    const double estimate = bitsOf(details, step);
-    const double penalised = estimate * (lossless ? cutPenaltyOf(filters) : penaltyOf(filters));
-    if (penalised < best.penalised) best = {header, estimate, penalised};
+    for (const Sample& sample : samples) appendDetails(sample, header, false, details);
+    if (step == 0) step = stepOf(details);
+    keepIfBetter(header, bitsOf(details, step), penaltyOf(filters), best);
   }
-  if (lossless && best.bits < kFewBits * samplesIn(samples))
-    best.header.first_doubled = kEarlyDoubled;
   if (best.header.fraction_bits > 0) best.header.first_doubled = 0;
   return best;
+}
+
+Choice chooseLossless(const std::vector<Sample>& samples, int bits,
+                      std::span<const LosslessChoice> choices) {
+  Choice best;
+  for (const auto& [filters, penalty] : choices) {
+    if (filters.back() == kO && bits > kOrthogonalBits) continue;
+    const WaveletHeader header = headerWith(filters, 0, bits);
+    std::vector<float> details;
+    for (const Sample& sample : samples) appendDetails(sample, header, true, details);
+    keepIfBetter(header, bitsOf(details, 1), penalty, best);
+  }
+  if (best.header.filters.back() != kO && best.bits < kFewBits * samplesIn(samples))
+    best.header.first_doubled = kEarlyDoubled;
+  return best;
+}
+
+/// Of heights, and of textures that are not for the last bit.
+Choice chooseAmong(const std::vector<Sample>& samples, int bits, Purpose purpose) {
+  if (purpose == Purpose::kLossy) return chooseLossy(samples, bits);
+  return chooseLossless(samples, bits, kLosslessHeights);
 }
 
 }  // namespace
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose) {
-  return chooseWavelet(std::span(&plane, 1), bits, purpose);
+  return chooseAmong(samplesOf(std::span(&plane, 1)), bits, purpose).header;
 }
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
@@ -184,9 +218,8 @@ WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSam
   return chooseAmong(samplesOf(std::span(&plane, 1), held), bits, purpose).header;
 }
 
-WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,
-                            Purpose purpose) {
-  return chooseAmong(samplesOf(planes), bits, purpose).header;
+WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits) {
+  return chooseLossless(samplesOf(planes), bits, kLosslessImages).header;
 }
 
 WaveletHeader withShortReach(WaveletHeader chosen) {

@@ -19,17 +19,17 @@ enum class Purpose : uint8_t {
   kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
 };
 
-/// Chooses the filters of a plane whose samples have `bits` bits. They are tried on typical parts
-/// of the plane, and compared by an estimate of the bits that their coefficients take.
+/// Chooses the filters of heights, or of a lossy texture by one plane of it. They are tried on
+/// typical parts of the plane, whose samples have `bits` bits, and compared by an estimate of the
+/// bits that their coefficients take.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose);
 
 /// The same for a plane of which samples are held.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                             int bits, Purpose purpose);
 
-/// Chooses the same filters for several planes of one size.
-WaveletHeader chooseWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,
-                            Purpose purpose);
+/// Chooses the same filters for all planes of an image that is coded to the last bit.
+WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits);
 
 /// A choice for streams of which windows will be read: the filter of the coarse levels is the
 /// shortest. Each level doubles what its filter reaches, so that they pull in most of the regions

@@ -58,6 +58,24 @@ TEST(FilterChoice, SuitsThePlane) {
   EXPECT_NE(choose(drawn(), Purpose::kLossy), all(FilterId::kLong));
 }
 
+/// Coarse levels of images have the filter of lossy streams, but not where its roundings are most
+/// of what there is to code, or where there are steps.
+TEST(FilterChoice, OfLosslessImagesLooksAtTheirPrefixes) {
+  const auto choose = [](const Plane& plane) {
+    const PlaneView<const int32_t> view(plane, kSize.extent());
+    return chooseLosslessWavelet(std::span(&view, 1), 8).filters;
+  };
+  const auto surface = [](double height) {
+    return planeOf(kSize, [height](double x, double y) {
+      const double grain = std::sin(12.9898 * x + 78.233 * y) * 43758.5453;
+      return height * (std::sin(0.05 * x) + std::cos(0.04 * y) + (grain - std::floor(grain)) / 8);
+    });
+  };
+  EXPECT_EQ(choose(surface(60))[2], static_cast<uint8_t>(FilterId::kOrthogonal));
+  EXPECT_NE(choose(surface(5))[2], static_cast<uint8_t>(FilterId::kOrthogonal));
+  EXPECT_EQ(choose(drawn()), all(FilterId::kShort));
+}
+
 TEST(FilterChoice, IsDeterministic) {
   for (const Plane& plane : {oversampled(), drawn()}) {
     for (const Purpose purpose : kPurposes) {

@@ -51,6 +51,7 @@ double bitsOf(const std::vector<int32_t>& plane, uint32_t width, uint32_t height
   return bits;
 }
 
+/// Of all planes. The shears of coefficients are left out.
 double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
   double bits = 0;
   for (Sample& sample : samples) {
@@ -84,6 +85,10 @@ ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Ext
     least = bits;
     best = candidate;
   }
+  // Prefixes are better with the colours of lossy streams.
+  constexpr double kAboutAsFew = 1.01;
+  const ColourTransform lossy = fitColour(planes, extent);
+  if (bitsOf(samples, lossy) <= kAboutAsFew * least) return lossy;
   constexpr double kStep = 1;  // what is left when the last bits are coded
   turnLevels(best, axes, kStep);
   return best;

@@ -13,7 +13,8 @@ namespace tetrakis::inline colour {
 /// A rotation that packs the energy is best at low rates; the last bits are noise, which it spreads
 /// over all components. Takes the cheapest, by the residuals of a gradient predictor, of the
 /// fitted rotations (colour_axes.hpp), JPEG 2000's reversible transform about each channel, and
-/// none. planes: 1 to 4 planes of that extent, as in fitColour.
+/// none; but the colours of lossy streams, which are better for prefixes, where these cost about as
+/// little. planes: 1 to 4 planes of that extent, as in fitColour.
 ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Extent extent);
 
 }  // namespace tetrakis::inline colour
