@@ -18,7 +18,7 @@ namespace tetrakis::inline api {
 namespace {
 
 constexpr uint64_t kOnce = 256 << 10;         // models, plans, lists of levels
-constexpr uint64_t kDrawnOnce = 3 << 20;      // models of drawings and overlays
+constexpr uint64_t kDrawnOnce = 7 << 19;      // models of drawings and overlays
 constexpr uint64_t kBytesPerTrack = 64;       // its region, and views of its bytes
 constexpr uint64_t kValue = sizeof(int32_t);  // of a plane
 constexpr uint64_t kRow = 8;                  // of corrections, a sample of the row before
@@ -221,7 +221,8 @@ class TextureBytes {
     // A window's samples are apart from its coefficients, which are gone then.
     const uint64_t samples = view_.window ? components * kValue * shown_ : all;
     const uint64_t state = stateBytes(decoder_, header_, components, masked_, Component::kTexture);
-    return kDrawnOnce + opening() + trackBytes(header_) +
+    const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnce : kOnce;
+    return once + opening() + trackBytes(header_) +
            std::max({all + state, all + masks + planes.work, samples + masks + out});
   }
 

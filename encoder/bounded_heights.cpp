@@ -197,6 +197,21 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
 
 namespace {
 
+/// Whether corrections behind a cut may take fewer bytes than the whole coefficients. In the mean
+/// of all samples flat areas hide what the free ones would gain; where the areas are holes in
+/// noise, free samples alone lack the surface that the transform would have without areas. Either
+/// hint is worth a trial.
+bool correctionsMayPay(const CodedHeights& whole) {
+  const HeightSteps& steps = whole.of->steps;
+  const uint64_t bytes = bytesOf(whole.tracks);
+  const auto may_pay = [&](const std::vector<uint8_t>& mask) {
+    const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.of->samples), mask);
+    return correctionsMayPay(plane, steps.range_bits, bytes);
+  };
+  const bool some_flat = !whole.flat.areas.levels.empty();
+  return may_pay(freeSamples(whole)) || (some_flat && may_pay(steps.valid));
+}
+
 /// By wavelet.
 std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
                                                      const Quantised& of) {
@@ -204,9 +219,7 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   auto whole = candidateOf(codeHeights(of, Purpose::kLossless, options));
   const HeightSteps& steps = of->steps;
   if (whole.coded->tracks.size() > 1 || !steps.exact || !steps.table.empty()) return whole.coded;
-  const std::vector<uint8_t> free = freeSamples(*whole.coded);
-  const PlaneView<const int32_t> plane(steps.steps, extentOf(*of->samples), free);
-  if (!correctionsMayPay(plane, steps.range_bits, whole.bytes())) return whole.coded;
+  if (!correctionsMayPay(*whole.coded)) return whole.coded;
   options.limit = whole.bytes();
   const Bound bound{of, Purpose::kLossy, chooseHeightFilters(*of, Purpose::kLossy), options, 0};
   auto corrected = candidateOf(correct(bound, 0, flatAreasOf(bound, 0), {}));
@@ -219,13 +232,13 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
 
 /// A drawing shows shapes and slopes between them, and no roughness: its prefixes suit only heights
 /// of few values, of which it takes clearly fewer bytes than the wavelet. So it has to save a
-/// sixteenth. It is tried where the estimate, which may be off by a twentieth, allows that it is
+/// sixteenth. It is tried where the estimate, which is often off by a twentieth, says that it is
 /// the shorter one.
 std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
                                                         const Quantised& of) {
   constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
   std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, of);
-  if (whole->tracks.size() > 1 || !whole->header.priorities.none()) return whole;
+  if (whole->tracks.size() > 1) return whole;
   const HeightSteps& steps = of->steps;
   const auto bytes = static_cast<double>(bytesOf(whole->tracks));
   if (estimateDrawing({steps.steps, extentOf(*of->samples), steps.valid}) > kEstimateOff * bytes)

@@ -34,9 +34,10 @@ using Texture = std::shared_ptr<const CodedTexture>;
 Heights codeWithinBound(const EncodeInputs& inputs,
                         const std::shared_ptr<const QuantisedHeights>& of) {
   Heights bounded = codeBoundedHeights(inputs, of);
+  const uint64_t bytes = bytesOf(bounded->tracks);
   Heights exact =
-      exactHeightsFor(inputs, inputs.options.max_error / std::abs(inputs.heights->scale));
-  return exact && bytesOf(exact->tracks) < bytesOf(bounded->tracks) ? exact : bounded;
+      exactHeightsFor(inputs, inputs.options.max_error / std::abs(inputs.heights->scale), bytes);
+  return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
 }
 
 /// Coding ends at half of the error that is to be reached: the account is not as exact as that, and

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/geometry/drawing_estimate.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/exact_heights.hpp"
 #include "encoder/height_errors.hpp"
@@ -100,8 +101,33 @@ std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates
   return selection;
 }
 
-/// Everything to the last bit, if that fits the budget and takes nothing from prefixes.
-std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy) {
+/// Heights of few values to the last bit, in less than the budget. Lossy heights know nothing of
+/// drawings or tables of values, and may never come as near; so prefixes may be somewhat worse. A
+/// table has to save half of the bytes for that; a drawing has saved enough by what it is.
+std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
+                                          const HeightsCandidate& lossy) {
+  constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
+  constexpr double kAnyError = std::numeric_limits<double>::infinity();
+  if (!lossy.coded) return {};
+  const uint64_t room = std::min(inputs.options.bytes, lossy.bytes());
+  const QuantisedHeights& of = *lossy.coded->of;
+  const bool generous =
+      static_cast<double>(inputs.options.bytes) >= kGenerous * lossy.coded->counted();
+  if (!generous && !drawingMayFit({of.steps.steps, extentOf(*of.samples), of.steps.valid}, room))
+    return {};
+  HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError, room)};
+  if (!exact.coded) return {};
+  const bool drawn = exact.coded->header.drawn;
+  if (!drawn && exact.coded->layers.table_bytes == 0) return {};
+  if (exact.bytes() * (drawn ? 1 : 2) > room) return {};
+  exact.curve = curveOfHeights(inputs, *exact.coded);
+  return exact;
+}
+
+/// Everything to the last bit, if that fits the budget and takes nothing from prefixes. few:
+/// heights of few values, which are taken as they are.
+std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy,
+                                          const std::optional<HeightsCandidate>& few) {
   const auto& [heights, texture, errors] = lossy;
   if (!heights.coded && !hasLosslessWay(*texture.coded)) return {};
   Candidates exact = lossy;
@@ -113,27 +139,12 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
     room -= exact.texture.bytes();
   }
   if (heights.coded) {
-    std::optional<HeightsCandidate> whole = exactHeights(inputs, heights, room);
-    if (!whole) return {};
+    std::optional<HeightsCandidate> whole = few ? few : exactHeights(inputs, heights, room);
+    if (!whole || whole->bytes() >= room) return {};
     exact.heights = *std::move(whole);
+    if (few) exact.errors = nullptr;
   }
   return selectIfLossless(inputs, std::move(exact));
-}
-
-/// Only heights, of few values: with their table, of which lossy heights know nothing, they may end
-/// exact within half of the budget and half of the bytes that lossy heights have. Then prefixes may
-/// be somewhat worse.
-std::optional<Selection> fewValuesIfMuchShorter(const EncodeInputs& inputs,
-                                                const Candidates& lossy) {
-  constexpr double kGenerous = 2. / 8;  // bytes a sample
-  constexpr double kAnyError = std::numeric_limits<double>::infinity();
-  const uint64_t budget = inputs.options.bytes;
-  if (lossy.texture.coded ||
-      static_cast<double>(budget) < kGenerous * lossy.heights.coded->counted())
-    return {};
-  const HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError)};
-  if (!exact.coded || 2 * exact.bytes() > std::min(budget, lossy.heights.bytes())) return {};
-  return selectIfLossless(inputs, {exact, {}});
 }
 
 /// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
@@ -173,19 +184,27 @@ bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
 }
 
 /// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones.
-std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs,
-                                               const Candidates& lossy) {
-  std::vector<HeightsCandidate> ways = exactWays(inputs, lossy.heights);
+/// few: as above; of these only the end counts.
+std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const Candidates& lossy,
+                                               std::optional<HeightsCandidate> few, bool nearly) {
+  std::vector<HeightsCandidate> ways;
+  if (nearly) ways = exactWays(inputs, lossy.heights);
+  const size_t of_many = ways.size();
+  if (few) ways.push_back(*std::move(few));
   if (ways.empty()) return {};
   const std::vector<double> of_lossy = errorsWithin(inputs, lossy);
   if (of_lossy.empty()) return {};
   double least = of_lossy.back();
   std::optional<Selection> best;
-  for (HeightsCandidate& way : ways) {
+  for (size_t i = 0; i < ways.size(); ++i) {
     Candidates exact = lossy;
-    exact.heights = std::move(way);
+    exact.heights = std::move(ways[i]);
+    if (i >= of_many) {
+      exact.errors = nullptr;  // pictures of a drawing are not those of coefficients
+      exact = withCurves(inputs, std::move(exact));
+    }
     const std::vector<double> errors = errorsWithin(inputs, exact);
-    if (!pays(errors, of_lossy) || errors.back() >= least) continue;
+    if (errors.back() >= least || (i < of_many && !pays(errors, of_lossy))) continue;
     least = errors.back();
     best = orderPackets(exact);
   }
@@ -197,14 +216,14 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs,
 std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
                                            const Selection& selection) {
   assert(inputs.budgeted());
-  if (std::optional<Selection> exact = fewValuesIfMuchShorter(inputs, lossy)) return exact;
+  std::optional<HeightsCandidate> few = fewValues(inputs, lossy.heights);
   const Nearly nearly = nearlyExact(inputs, selection);
-  if (nearly.heights && nearly.texture) {
-    std::optional<Selection> exact = losslessIfItFits(inputs, lossy);
+  if ((few || nearly.heights) && nearly.texture) {
+    std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few);
     if (exact) return exact;
   }
-  if (!nearly.heights || !lossy.errors) return {};
-  return exactHeightsIfTheyPay(inputs, lossy);
+  if (!lossy.errors) return {};
+  return exactHeightsIfTheyPay(inputs, lossy, std::move(few), nearly.heights);
 }
 
 }  // namespace tetrakis::inline encoder

@@ -3,12 +3,14 @@
 
 #include <cassert>
 
+#include "codec/geometry/drawing_estimate.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/quantised_heights.hpp"
 
 namespace tetrakis::inline encoder {
 
-std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error) {
+std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
+                                                    uint64_t lossy_bytes) {
   constexpr double kMostSteps = 2;  // of error, if heights are multiples of a step
   assert(inputs.heights != nullptr && inputs.options.lossless == 0);
   tks_encode_options options = inputs.options;
@@ -20,7 +22,9 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   const Result<std::shared_ptr<const QuantisedHeights>> heights = quantiseHeights(lossless);
   if (!heights.ok()) return nullptr;
   const HeightSteps& steps = (*heights)->steps;
-  if (steps.table.empty() && error > kMostSteps * steps.step) return nullptr;
+  const PlaneView<const int32_t> plane(steps.steps, extentOf(*inputs.heights), steps.valid);
+  if (steps.table.empty() && error > kMostSteps * steps.step && !drawingMayFit(plane, lossy_bytes))
+    return nullptr;
   return codeLosslessHeights(lossless, *heights);
 }
 

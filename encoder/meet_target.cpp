@@ -73,7 +73,7 @@ uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture
 /// fewer.
 HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy) {
   const double steps = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
-  const auto exact = exactHeightsFor(inputs, steps * lossy.coded->of->steps.step);
+  const auto exact = exactHeightsFor(inputs, steps * lossy.coded->of->steps.step, lossy.bytes());
   if (!exact) return lossy;
   return fewestBytes<CodedHeights>({std::move(lossy), {exact}});
 }

@@ -50,6 +50,9 @@ class RangeDecoder {
     slack_ = missing_ > 3 ? 0xffffffff : (uint32_t{1} << (8 * missing_)) - 1;
   }
 
+  /// zero: P(bit = 0) in units of 2^-16, neither 0 nor 1.
+  bool decodeOf(uint32_t zero) { return split(zero); }
+
   bool decodeEven() { return split(1u << (AdaptiveBit::kPrecision - 1)); }
 
   /// The available bytes do not decide the decision asked for last.

@@ -20,6 +20,9 @@ class RangeEncoder {
     model.update(bit);
   }
 
+  /// Encodes one decision. zero: P(bit = 0) in units of 2^-16, neither 0 nor 1.
+  void encodeOf(uint32_t zero, bool bit) { split(zero, bit); }
+
   /// Encodes one decision of even odds.
   void encodeEven(bool bit) { split(1u << (AdaptiveBit::kPrecision - 1), bit); }
 

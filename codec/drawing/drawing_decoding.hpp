@@ -18,6 +18,7 @@ class DrawingDecoding {
   DrawnIndex target(size_t) const { return kNoIndex; }
   const Value& value(size_t) const { return unknown_; }
   bool bit(AdaptiveBit& model, bool) { return decoder_.decode(model); }
+  bool bitOf(uint32_t zero, bool) { return decoder_.decodeOf(zero); }
   bool evenBit(bool) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
 

@@ -8,6 +8,10 @@ DrawingModels::DrawingModels()
       singles_(size_t{1} << kSingleBits),
       indices_(size_t{1} << kDrawnIndexBits),
       rivals_(size_t{1} << kRivalBits),
-      patterns_(size_t{2 * Candidates::kRanked} << kPatternBits) {}
+      patterns_(size_t{2 * Candidates::kRanked} << kPatternBits),
+      differences_(size_t{1} << kDifferencesBits),
+      values_(size_t{1} << kValuesBits) {
+  candidate_weights_.fill(freshWeights<5>());
+}
 
 }  // namespace tetrakis::inline drawing

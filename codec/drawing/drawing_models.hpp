@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "bitstream/coder/adaptive_bit.hpp"
+#include "codec/drawing/drawing_mixture.hpp"
 #include "codec/drawing/drawing_neighbours.hpp"
 
 namespace tetrakis::inline drawing {
 
 /// Models of one decision, from the most special to the most general. The first that has experience
-/// is asked, or the last; all learn.
+/// is asked, or the last; all learn. Quick, for the decisions of which there are most.
 struct ModelChain {
   std::array<AdaptiveBit*, 3> models;
 
@@ -34,9 +35,7 @@ class DrawingModels {
   /// places). General: how many.
   ModelChain candidate(const Candidates& around, int place, LevelKind kind) {
     const VotedIndex& c = around[place];
-    const bool centre = kind == LevelKind::kCentres;
-    const uint32_t pattern =
-        (static_cast<uint32_t>(2 * place + centre) << kPatternBits) + c.pattern;
+    const uint32_t asked = askedOf(place, kind), pattern = (asked << kPatternBits) + c.pattern;
     const bool rivalled = around.count() > 1;
     const uint32_t rival = rivalled ? around[place == 0 ? 1 : 0].pattern & 0x3f : 0;
     int more = 0;
@@ -44,30 +43,61 @@ class DrawingModels {
     if (place == 1) more = std::min(around.count(), 4) - 1;
     const int count = (((place * 4 + more) * 5 + c.near) * 3 + c.causal) * 9 + c.ring;
     return {{&rivals_[hash(pattern * 64 + rival, kRivalBits)], &patterns_[pattern],
-             &counts_[static_cast<size_t>(2 * count + centre)]}};
+             &counts_[static_cast<size_t>(2 * count + (asked & 1))]}};
+  }
+
+  /// The same, with what the values say: those of the first three candidates, which repeat where
+  /// classes border on each other, and how near's differ from the candidate, which repeats on
+  /// slopes of any height.
+  template <class List>
+  Mixture<5> mixedCandidate(const Candidates& around, int place, LevelKind kind, const List& list) {
+    const ModelChain chain = candidate(around, place, kind);
+    const uint32_t asked = askedOf(place, kind);
+    uint32_t values = asked, differences = asked;
+    for (int i = 0; i < Candidates::kRanked; ++i) values = values * kFactor + around.at(i);
+    for (size_t i = 0; i < Candidates::kNear; ++i) {
+      const DrawnIndex near = around.neighbour(i);
+      const uint32_t difference =
+          near == kNoIndex ? kNoDifference : list.difference(near, around[place].index);
+      differences = differences * (kNoDifference + 1) + difference;
+    }
+    const auto count = static_cast<uint32_t>(std::min(around.count(), 4) - 1);
+    return {
+        {chain.models[0], chain.models[1], chain.models[2],
+         &differences_[hash(differences, kDifferencesBits)], &values_[hash(values, kValuesBits)]},
+        candidate_weights_[4 * asked + count]};
   }
 
   /// A bit of an index. node: 1 followed by its bits so far, the highest first.
-  ModelChain index(const Candidates& around, uint32_t node) {
+  Mixture<3> index(const Candidates& around, uint32_t node) {
     const uint32_t first = around.count() > 0 ? around[0].index : kMostDrawnValues;
     const uint32_t second = around.count() > 1 ? around[1].index : kMostDrawnValues;
     return {{&pairs_[hash((first * kFactor + second) * kFactor + node, kPairBits)],
-             &singles_[hash(first * kFactor + node, kSingleBits)], &indices_[node]}};
+             &singles_[hash(first * kFactor + node, kSingleBits)], &indices_[node]},
+            index_weights_};
   }
 
   AdaptiveBit fresh;  ///< the value has not appeared before
 
  private:
   static constexpr uint32_t kFactor = kMostDrawnValues + 3;
-  static constexpr int kPairBits = 18, kSingleBits = 16, kRivalBits = 18, kPatternBits = 14;
+  static constexpr int kPairBits = 18, kSingleBits = 16, kRivalBits = 18, kPatternBits = 14,
+                       kDifferencesBits = 16, kValuesBits = 16;
+  static constexpr uint32_t kNoDifference = 36;  ///< above all of List::difference()
+
+  static uint32_t askedOf(int place, LevelKind kind) {
+    return static_cast<uint32_t>(2 * place + (kind == LevelKind::kCentres));
+  }
 
   static uint32_t hash(uint32_t context, int bits) {
     return (context * 2654435761u) >> (32 - bits);
   }
 
   std::vector<AdaptiveBit> pairs_, singles_, indices_;
-  std::vector<AdaptiveBit> rivals_, patterns_;
+  std::vector<AdaptiveBit> rivals_, patterns_, differences_, values_;
   std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> counts_;
+  std::array<MixtureWeights<5>, 2 * Candidates::kRanked * 4> candidate_weights_;
+  MixtureWeights<3> index_weights_ = freshWeights<3>();
 };
 
 }  // namespace tetrakis::inline drawing

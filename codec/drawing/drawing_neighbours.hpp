@@ -39,7 +39,7 @@ class Candidates {
   using Indices = std::array<DrawnIndex, kNeighbours>;
 
   /// known: the bits of the neighbours that there are.
-  Candidates(const Indices& indices, uint32_t known) {
+  Candidates(const Indices& indices, uint32_t known) : neighbours_(indices), known_(known) {
     while (known != 0) {
       const DrawnIndex index = indices[static_cast<size_t>(std::countr_zero(known))];
       uint32_t pattern = 0;
@@ -56,6 +56,10 @@ class Candidates {
 
   int count() const { return count_; }
   const VotedIndex& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
+  /// kNoIndex beyond the last one.
+  DrawnIndex at(int place) const { return place < count_ ? (*this)[place].index : kNoIndex; }
+  /// That of a neighbour, in the order above; kNoIndex if there is none.
+  DrawnIndex neighbour(size_t i) const { return known_ >> i & 1 ? neighbours_[i] : kNoIndex; }
 
  private:
   void add(DrawnIndex index, uint32_t pattern) {
@@ -83,6 +87,8 @@ class Candidates {
     }
   }
 
+  Indices neighbours_;
+  uint32_t known_;
   std::array<VotedIndex, kNeighbours> all_;  // only the first count_ are written
   int count_ = 0;
 };

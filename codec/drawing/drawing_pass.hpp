@@ -27,11 +27,13 @@ namespace tetrakis::inline drawing {
 /// Runs over all vertices once. List is the list of values:
 ///   size_t size()
 ///   void code(const Candidates&, size_t vertex, Io&)    codes and adds a value that it lacks
+///   uint32_t difference(DrawnIndex, DrawnIndex)         of two values: a class of at most 35
 /// Io is the encoder's or the decoder's side of a decision; `ours` is what the encoder knows of it
 /// and the decoder ignores:
 ///   DrawnIndex target(size_t vertex)           kNoIndex for a value that has not appeared
 ///   const auto& value(size_t vertex)           of the list's kind
 ///   bool bit(AdaptiveBit&, bool ours)
+///   bool bitOf(uint32_t zero, bool ours)       of odds that no single model has
 ///   bool evenBit(bool ours)
 ///   bool stopped()                             the last decision did not count
 template <class List, class Io>
@@ -70,7 +72,7 @@ class DrawingPass {
                     int first) {
     for (int place = first; place < std::min(around.count(), Candidates::kRanked); ++place) {
       const DrawnIndex index = around[place].index;
-      if (ask(models_.candidate(around, place, kind), target == index)) return index;
+      if (ask(models_.mixedCandidate(around, place, kind, list_), target == index)) return index;
     }
     if (!isNew(target)) return known(around, target);
     list_.code(around, vertex, io_);
@@ -93,6 +95,13 @@ class DrawingPass {
     }
     const auto last = static_cast<uint32_t>(list_.size() - 1);
     return static_cast<DrawnIndex>(std::min(node - (1u << kDrawnIndexBits), last));
+  }
+
+  template <size_t kModels>
+  bool ask(Mixture<kModels> mixture, bool ours) {
+    const bool bit = io_.bitOf(mixture.zero(), ours);
+    mixture.learn(bit);
+    return bit;
   }
 
   bool ask(const ModelChain& chain, bool ours) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,16 @@ namespace tetrakis::inline geometry {
 class DrawnSteps {
  public:
   size_t size() const { return steps_.size(); }
+  /// Of a to b: 17 for none, below for a lower one; one class each up to 5 steps.
+  uint32_t difference(DrawnIndex a, DrawnIndex b) const {
+    const int64_t higher = int64_t{steps_[a]} - steps_[b];
+    const uint64_t steps = static_cast<uint64_t>(higher < 0 ? -higher : higher);
+    const uint32_t kind = steps < 6
+                              ? static_cast<uint32_t>(steps)
+                              : std::min(3 + static_cast<uint32_t>(std::bit_width(steps)), 16u);
+    return higher < 0 ? 17 - kind : 17 + kind;
+  }
+
   int32_t operator[](DrawnIndex i) const { return steps_[i]; }
 
   /// Codes a step that the list lacks as the difference to the mean of the first two candidates,

@@ -28,6 +28,10 @@ class MadeDrawing {
     encoder_.encode(model, ours);
     return ours;
   }
+  bool bitOf(uint32_t zero, bool ours) {
+    encoder_.encodeOf(zero, ours);
+    return ours;
+  }
   bool evenBit(bool ours) {
     encoder_.encodeEven(ours);
     return ours;

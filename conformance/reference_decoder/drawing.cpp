@@ -19,6 +19,23 @@ uint32_t hash(uint32_t context, int bits) {
   return (context * 2654435761u) >> (32 - bits);
 }
 
+/// FORMAT 9.1, "Mixed".
+int squash(int odds) {
+  constexpr int kAt[33] = {1,    2,    3,    6,    10,   16,   27,   45,   73,   120,  194,
+                           310,  488,  747,  1101, 1546, 2047, 2549, 2994, 3348, 3607, 3785,
+                           3901, 3975, 4022, 4050, 4068, 4079, 4085, 4089, 4092, 4093, 4094};
+  const int place = (odds + 2048) / 128, part = (odds + 2048) % 128;
+  return (kAt[place] * (128 - part) + kAt[place + 1] * part + 64) / 128;
+}
+
+int stretch(int probability) {
+  int odds = -2047;
+  for (int half = 2048; half > 0; half /= 2) {
+    if (odds + half <= 2047 && squash(odds + half - 1) < probability) odds += half;
+  }
+  return odds;
+}
+
 }  // namespace
 
 Offset Drawing::coarser(bool centre, int s, int i) {
@@ -63,20 +80,8 @@ std::vector<Candidate> Drawing::candidatesOf(bool centre, int s, int x, int y) c
 }
 
 int Drawing::next(const std::vector<Candidate>& candidates, bool centre) {
-  const int n = static_cast<int>(candidates.size());
-  for (int i = 0; i < std::min(n, 3); ++i) {
-    const Candidate& c = candidates[static_cast<size_t>(i)];
-    int more = 0;
-    if (i == 0 && n > 1) more = std::min(candidates[1].near(), 3);
-    if (i == 1) more = std::min(n, 4) - 1;
-    const int count =
-        ((((i * 4 + more) * 5 + c.near()) * 3 + c.causal()) * 9 + c.ring()) * 2 + centre;
-    const uint32_t pattern = static_cast<uint32_t>(2 * i + centre) * 16384 + c.pattern;
-    const uint32_t rival = n > 1 ? candidates[i == 0 ? 1 : 0].pattern % 64 : 0;
-    if (decide({&rival_[hash(64 * pattern + rival, 18)], &pattern_[pattern],
-                &count_.at(static_cast<size_t>(count))})) {
-      return c.index;
-    }
+  for (size_t i = 0; i < std::min<size_t>(candidates.size(), 3); ++i) {
+    if (isCandidate(candidates, i, centre)) return candidates[i].index;
   }
   if (listed() == 0 || (listed() < 4096 && decide(fresh_))) {
     append(candidates);
@@ -85,14 +90,51 @@ int Drawing::next(const std::vector<Candidate>& candidates, bool centre) {
   return known(candidates);
 }
 
+bool Drawing::isCandidate(const std::vector<Candidate>& candidates, size_t i, bool centre) {
+  const size_t n = candidates.size();
+  const Candidate& c = candidates[i];
+  int more = 0;
+  if (i == 0 && n > 1) more = std::min(candidates[1].near(), 3);
+  if (i == 1) more = static_cast<int>(std::min<size_t>(n, 4)) - 1;
+  const int place = static_cast<int>(i);
+  const int count =
+      ((((place * 4 + more) * 5 + c.near()) * 3 + c.causal()) * 9 + c.ring()) * 2 + centre;
+  const auto asked = static_cast<uint32_t>(2 * place + centre);
+  const uint32_t pattern = asked * 16384 + c.pattern;
+  const uint32_t rival = n > 1 ? candidates[i == 0 ? 1 : 0].pattern % 64 : 0;
+  Model* const shape[3] = {&rival_[hash(64 * pattern + rival, 18)], &pattern_[pattern],
+                           &count_.at(static_cast<size_t>(count))};
+  if (c.pattern == 0x3fff) return decide({shape[0], shape[1], shape[2]}) != 0;
+  uint32_t trio = asked;
+  for (size_t k = 0; k < 3; ++k)
+    trio = trio * 4099 + (k < n ? static_cast<uint32_t>(candidates[k].index) : 65535u);
+  Model* const models[5] = {shape[0], shape[1], shape[2],
+                            &slope_[hash(slopeOf(candidates, i, asked), 16)],
+                            &trio_[hash(trio, 16)]};
+  return mix(models, weights_[4 * asked + std::min<size_t>(n, 4) - 1]) != 0;
+}
+
+uint32_t Drawing::slopeOf(const std::vector<Candidate>& candidates, size_t i,
+                          uint32_t asked) const {
+  uint32_t slope = asked;
+  for (uint32_t neighbour = 0; neighbour < 4; ++neighbour) {
+    uint32_t d = 36;
+    for (const Candidate& c : candidates) {
+      if (c.pattern >> neighbour & 1) d = difference(c.index, candidates[i].index);
+    }
+    slope = slope * 37 + d;
+  }
+  return slope;
+}
+
 int Drawing::known(const std::vector<Candidate>& candidates) {
   const uint32_t k1 = candidates.empty() ? 4096 : candidates[0].index;
   const uint32_t k2 = candidates.size() < 2 ? 4096 : candidates[1].index;
   uint32_t node = 1;
   while (node < 4096) {
-    const int bit = decide({&pair_[hash((k1 * 4099 + k2) * 4099 + node, 18)],
-                            &single_[hash(k1 * 4099 + node, 16)], &plain_[node]});
-    node = 2 * node + bit;
+    Model* const models[3] = {&pair_[hash((k1 * 4099 + k2) * 4099 + node, 18)],
+                              &single_[hash(k1 * 4099 + node, 16)], &plain_[node]};
+    node = 2 * node + static_cast<uint32_t>(mix(models, known_weights_));
   }
   return std::min(static_cast<int>(node) - 4096, static_cast<int>(listed()) - 1);
 }
@@ -114,6 +156,24 @@ int Drawing::decide(const std::array<Model*, 3>& models) {
   const int bit = decide(*asked);
   for (Model* model : models) {
     if (model != asked) model->learn(bit);
+  }
+  return bit;
+}
+
+int Drawing::mix(std::span<Model* const> models, std::span<int64_t> weights) {
+  std::vector<int64_t> odds;
+  int64_t sum = 0;
+  for (size_t i = 0; i < models.size(); ++i) {
+    odds.push_back(stretch(models[i]->zero() / 16));
+    sum += odds[i] * weights[i];
+  }
+  const int p = squash(static_cast<int>(std::clamp<int64_t>(sum >> 16, -2047, 2047)));
+  const int bit = counted(decoder_.decode(static_cast<uint32_t>(16 * p + 8)));
+  const int error = 16 * ((bit ? 0 : 4095) - p);
+  for (size_t i = 0; i < models.size(); ++i) {
+    const int64_t weight = weights[i] + ((odds[i] * error + 32768) >> 16);
+    weights[i] = std::clamp<int64_t>(weight, -1048576, 1048576);
+    models[i]->learn(bit);
   }
   return bit;
 }

@@ -43,12 +43,19 @@ class Drawing {
         single_(1 << 16),
         plain_(1 << 12),
         rival_(1 << 18),
-        pattern_(6 << 14) {}
+        pattern_(6 << 14),
+        slope_(1 << 16),
+        trio_(1 << 16) {
+    for (auto& weights : weights_) weights.fill(20000);
+    known_weights_.fill(20000);
+  }
 
  protected:
   /// Appends a new value to the list.
   virtual void append(const std::vector<Candidate>& candidates) = 0;
   virtual size_t listed() const = 0;
+  /// `difference` of FORMAT 9.1 and 8.4.
+  virtual uint32_t difference(int a, int b) const = 0;
   ~Drawing() = default;
 
   void decodeIndices();
@@ -87,15 +94,20 @@ class Drawing {
  private:
   std::vector<Candidate> candidatesOf(bool centre, int s, int x, int y) const;
   int next(const std::vector<Candidate>& candidates, bool centre);
+  bool isCandidate(const std::vector<Candidate>& candidates, size_t i, bool centre);
+  uint32_t slopeOf(const std::vector<Candidate>& candidates, size_t i, uint32_t asked) const;
   int known(const std::vector<Candidate>& candidates);
   int decide(const std::array<Model*, 3>& models);
+  int mix(std::span<Model* const> models, std::span<int64_t> weights);
   int decide(Model& model);
   int even();
 
   RangeDecoder decoder_;
   std::array<Model, 3 * 4 * 5 * 3 * 9 * 2> count_;
   Model fresh_;
-  std::vector<Model> pair_, single_, plain_, rival_, pattern_;
+  std::vector<Model> pair_, single_, plain_, rival_, pattern_, slope_, trio_;
+  std::array<std::array<int64_t, 5>, 24> weights_;
+  std::array<int64_t, 3> known_weights_;
 };
 
 }  // namespace tetrakis::reference

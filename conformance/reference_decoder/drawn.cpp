@@ -44,6 +44,8 @@ class DrawnDecoder : Drawing {
 
  private:
   size_t listed() const override { return colours_.size(); }
+  uint32_t difference(int a, int b) const override { return a != b; }
+
   void append(const std::vector<Candidate>& candidates) override {
     colours_.push_back(newColour(candidates));
   }

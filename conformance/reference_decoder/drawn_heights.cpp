@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: drawn heights (docs/FORMAT.md, section 8.4).
+#include <algorithm>
 #include <array>
+#include <bit>
 
 #include "conformance/reference_decoder/drawing.hpp"
 #include "conformance/reference_decoder/layers.hpp"
@@ -30,6 +32,14 @@ class DrawnHeights : Drawing {
 
  private:
   size_t listed() const override { return steps_.size(); }
+
+  uint32_t difference(int a, int b) const override {
+    const int64_t d = int64_t{steps_[static_cast<size_t>(a)]} - steps_[static_cast<size_t>(b)];
+    const auto size = static_cast<uint64_t>(d < 0 ? -d : d);
+    const int bits = static_cast<int>(std::bit_width(size));
+    const int kind = size < 6 ? static_cast<int>(size) : std::min(bits + 3, 16);
+    return static_cast<uint32_t>(d < 0 ? 17 - kind : 17 + kind);
+  }
 
   void append(const std::vector<Candidate>& candidates) override {
     int64_t expected = 0;

@@ -69,6 +69,7 @@ class Model {
   }
 
   int seen() const { return seen_; }
+  int zero() const { return std::clamp(zero_, 4, 65532); }
 
  private:
   int zero_ = 0x8000, seen_ = 0;

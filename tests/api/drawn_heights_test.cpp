@@ -75,6 +75,36 @@ TEST(DrawnHeights, ComeBackExactly) {
   }
 }
 
+/// Lossy coefficients of classes ring, and may never reach what a drawing has from the start.
+TEST(DrawnHeights, NoTargetTakesMoreBytesThanTheLastBit) {
+  for (const DrawnKind& kind : drawnKinds(61, 50)) {
+    if (kind.name == "voids") continue;  // its nodata value is not in the raster
+    SCOPED_TRACE(kind.name);
+    const size_t least = kind.stream.size(), most = least + 16;
+    for (const size_t bytes : {most, 4 * least}) {
+      const Bytes stream = encode(&kind.heights, nullptr, budget(bytes));
+      EXPECT_LE(stream.size(), most) << bytes;
+      EXPECT_TRUE(Stream(stream).heights() == kind.heights.data) << bytes;
+    }
+    tks_encode_options psnr = budget(0), bound = budget(0);
+    psnr.psnr = 70;
+    bound.max_error = 0.4;
+    EXPECT_LE(encode(&kind.heights, nullptr, psnr).size(), most);
+    EXPECT_LE(encode(&kind.heights, nullptr, bound).size(), most);
+  }
+}
+
+/// Of all bytes the texture gets those that the drawing leaves.
+TEST(DrawnHeights, AreExactBesideATexture) {
+  const Raster heights = classesOf(90, 81);
+  const Raster image = make({Pattern::kRidges, 90, 81, 3, TKS_U8, 9});
+  const size_t drawing = encode(&heights, nullptr, lossless()).size();
+  const Bytes stream = encode(&heights, &image, budget(8 * drawing));
+  EXPECT_LE(stream.size(), 8 * drawing);
+  EXPECT_EQ(Stream(stream).info().heights_drawn, 1);
+  EXPECT_TRUE(Stream(stream).heights() == heights.data);
+}
+
 TEST(DrawnHeights, TerrainIsNot) {
   for (const tks_sample sample : {TKS_U8, TKS_I16, TKS_F32}) {
     const Raster ridges = make({Pattern::kRidges, 90, 81, 1, sample, 3});

@@ -28,6 +28,9 @@ class DrawnColours {
 
   size_t size() const { return colours_.size(); }
   const DrawnColour& operator[](DrawnIndex i) const { return colours_[i]; }
+
+  /// 0 for one colour, 1 for two.
+  uint32_t difference(DrawnIndex a, DrawnIndex b) const { return a != b; }
   void add(const DrawnColour& colour) { colours_.push_back(colour); }
 
   /// Codes the colour of a texel that the list lacks. Each channel as the difference to the mean of
