@@ -19,6 +19,10 @@ namespace {
 constexpr size_t kMapPoints = 1 << 16;
 /// Of the range of heights: what 16 to 64 kB leave.
 constexpr double kTypicalError = 0.005;
+/// What a pixel shows is off as the texels are, whatever their errors. Those of the heights cost in
+/// proportion to their squares only as long as they move the texture by less than its details are
+/// wide: costs of one size of errors promise half of what they say (docs/MEASUREMENTS.md).
+constexpr double kFullOfHeights = 0.5;
 /// Tiles on a side, of a power of two samples. Smaller ones fit the view better, but take bytes,
 /// and coefficients are coded worse where neighbours have another priority.
 constexpr uint32_t kMostTiles = 24;
@@ -44,20 +48,20 @@ class TileWorths {
   }
 
   /// A bit-plane takes three quarters off squared errors: a tile where a squared error costs four
-  /// times as much would have one more, were costs those of all errors. They are those of one size
-  /// of errors, and of no level; so it has half of one more (docs/EXPERIMENTS.md).
-  PriorityMap map() && {
+  /// times as much has `full` = 1 more, if costs are those of all errors.
+  PriorityMap map(double full) && {
     const std::vector<double> densities = perSample();
     const double most = *std::max_element(densities.begin(), densities.end());
     if (!(most > 0)) return {};
     constexpr double kTop = kPriorities - 1;
     for (const double density : densities) {
-      const double wanted = density > 0 ? kTop + std::log2(density / most) / 4 : 0;
+      const double wanted = density > 0 ? kTop + full * std::log2(density / most) / 2 : 0;
       map_.priorities.push_back(static_cast<uint8_t>(std::clamp(std::round(wanted), 0.0, kTop)));
     }
-    const auto [least, first] = std::minmax_element(map_.priorities.begin(), map_.priorities.end());
-    if (*least == *first) return {};
-    for (uint8_t& p : map_.priorities) p = static_cast<uint8_t>(p - *least);
+    const auto ends = std::minmax_element(map_.priorities.begin(), map_.priorities.end());
+    const uint8_t least = *ends.first;
+    if (least == *ends.second) return {};
+    for (uint8_t& p : map_.priorities) p = static_cast<uint8_t>(p - least);
     return std::move(map_);
   }
 
@@ -109,7 +113,7 @@ ViewPriorities prioritiesOf(const EncodeInputs& inputs) {
     of_heights.add(worth.column, worth.row, worth.heights);
     of_texture.add(worth.column, worth.row, worth.texture);
   }
-  return {std::move(of_heights).map(), std::move(of_texture).map()};
+  return {std::move(of_heights).map(kFullOfHeights), std::move(of_texture).map(1)};
 }
 
 }  // namespace tetrakis::inline encoder

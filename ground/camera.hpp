@@ -24,7 +24,7 @@ struct Camera {
 /// Named view of a terrain, from the south, north up: "oblique" (sees all of it, 35 degrees above
 /// the horizon), "low" (from just above the highest ground, sees about a tenth before the sky),
 /// "top" (sees all of it, straight down). "all" gives the three, "orbit" the oblique view from four
-/// sides. Other names, or bounds that are not finite: TKS_USAGE.
+/// sides, "any" those of unknownViewer(). Other names, or bounds that are not finite: TKS_USAGE.
 Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& bounds);
 
 /// A mix for a viewer of whom nothing is known: the oblique and the low view from four sides, which

@@ -232,7 +232,9 @@ Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds&
   if (view == "top") return std::vector{topView(bounds)};
   if (view == "all") return std::vector{obliqueView(bounds), lowView(bounds), topView(bounds)};
   if (view == "orbit") return fromFourSides(obliqueView, bounds);
-  return Status(TKS_USAGE, "no view is called '" + view + "': use oblique, low, top, orbit or all");
+  if (view == "any") return unknownViewer(given);
+  return Status(TKS_USAGE,
+                "no view is called '" + view + "': use oblique, low, top, orbit, all or any");
 }
 
 Result<std::vector<Camera>> unknownViewer(const Bounds& given) {

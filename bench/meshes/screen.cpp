@@ -13,9 +13,12 @@ Result<Screen> Screen::create(const tools::Surface& surface, const GroundFrame& 
   auto renderer = tools::Renderer::create();
   if (!renderer.ok()) return renderer.status();
   screen.renderer_ = std::move(*renderer);
-  auto cameras = presetCameras("all", tools::boundsOf(surface, frame));
+  const Bounds bounds = tools::boundsOf(surface, frame);
+  auto cameras = presetCameras("all", bounds), any = presetCameras("any", bounds);
   if (!cameras.ok()) return cameras.status();
+  if (!any.ok()) return any.status();
   screen.cameras_ = std::move(*cameras);
+  screen.any_ = std::move(*any);
   tools::MeshFile mesh = tools::fullGrid(surface, frame);
   mesh.texture = &texture;
   auto pictures = screen.renderer_->draw(mesh, screen.cameras_);
@@ -24,10 +27,10 @@ Result<Screen> Screen::create(const tools::Surface& surface, const GroundFrame& 
   return screen;
 }
 
-std::vector<tks_screen_camera> Screen::meshCameras() const {
-  std::vector<tks_screen_camera> cameras;
-  for (const Camera& camera : cameras_) cameras.push_back(tools::meshCamera(camera, frame_));
-  return cameras;
+std::vector<tks_screen_camera> Screen::told(const std::vector<Camera>& cameras) const {
+  std::vector<tks_screen_camera> list;
+  for (const Camera& camera : cameras) list.push_back(tools::meshCamera(camera, frame_));
+  return list;
 }
 
 Result<std::vector<double>> Screen::score(tools::MeshFile mesh, const tools::ImageFile* texture) {

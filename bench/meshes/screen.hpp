@@ -20,7 +20,9 @@ class Screen {
 
   const std::vector<Camera>& cameras() const { return cameras_; }
   /// As meshes are told of them.
-  std::vector<tks_screen_camera> meshCameras() const;
+  std::vector<tks_screen_camera> meshCameras() const { return told(cameras_); }
+  /// Those of a viewer of whom nothing is known.
+  std::vector<tks_screen_camera> anyCameras() const { return told(any_); }
 
   /// PSNR of all cameras, then of each. texture: null is the original's.
   Result<std::vector<double>> score(tools::MeshFile mesh,
@@ -30,10 +32,12 @@ class Screen {
   Screen(const GroundFrame& frame, const tools::ImageFile& texture)
       : frame_(frame), texture_(&texture) {}
 
+  std::vector<tks_screen_camera> told(const std::vector<Camera>& cameras) const;
+
   GroundFrame frame_;
   const tools::ImageFile* texture_;
   std::unique_ptr<tools::Renderer> renderer_;
-  std::vector<Camera> cameras_;
+  std::vector<Camera> cameras_, any_;
   std::vector<tools::Picture> reference_;
 };
 

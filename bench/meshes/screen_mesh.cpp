@@ -45,6 +45,7 @@ class Comparison {
     texture.sample = terrain_.texture.sample;
     texture.data = terrain_.texture.data.data();
     const std::vector<tks_screen_camera> cameras = screen_.meshCameras();
+    const std::vector<tks_screen_camera> any = screen_.anyCameras();
     const double spacing = 0.5 * (terrain_.frame.spacing_x + terrain_.frame.spacing_y);
     const Simplifier simplifier(terrain_.raster, terrain_.frame.metres_per_unit / spacing);
     for (const uint32_t budget : kBudgets) {
@@ -54,6 +55,8 @@ class Comparison {
       Status status = add("meshoptimizer", [&] { return Result<tools::MeshFile>(peer()); });
       if (status.ok()) status = ours("budget", [&] { return decoder->budgetMesh(budget); });
       if (status.ok()) status = ours("turned", [&] { return decoder->screenMesh({}, budget); });
+      if (status.ok())
+        status = ours("any+texture", [&] { return decoder->screenMesh(any, budget, &texture); });
       if (status.ok())
         status = ours("cameras", [&] { return decoder->screenMesh(cameras, budget); });
       if (status.ok())

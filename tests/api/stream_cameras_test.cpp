@@ -219,6 +219,20 @@ TEST(ToldStreams, ComeFirstWhereTheCameraLooks) {
   EXPECT_LT(texture[0], texture[1]);
 }
 
+/// From the north-east: the other two quarters are as far away as each other.
+TEST(ToldStreams, TreatAlikeWhatIsSeenAlike) {
+  const Raster surface = make({Pattern::kFlat, 256, 256, 1, TKS_U8});
+  const Raster picture = make({Pattern::kExtreme, 256, 256, 3, TKS_U8});
+  const tks_camera corner = {nullptr, {6000, 4000, -6000}, {0, 0, 0}, {0, 1, 0}, 80, 256, 256, 1};
+  tks_encode_options options = budget(150000);
+  options.cameras = &corner;
+  options.camera_count = 1;
+  const Bytes bytes = encode(&surface, &picture, options);
+  Stream told(bytes);
+  const auto [north, south] = squaresOfQuarters(picture, told.texture());
+  EXPECT_LT(std::max(north, south), 1.2 * std::min(north, south));
+}
+
 /// A map of priorities is left out where its bytes buy more as samples, and no work that tells
 /// whether it pays is reported twice.
 TEST(ToldStreams, HaveMapsWhereTheyPay) {

@@ -60,7 +60,7 @@ TEST_F(CliView, MeshesOfFewTrianglesAreMadeForAllCameras) {
   };
   const std::string map = decoded(""), turned = decoded("--turn-edges");
   EXPECT_NE(turned, map);
-  for (const char* cameras : {"--cameras c.json", "--view low", "--view all"}) {
+  for (const char* cameras : {"--cameras c.json", "--view low", "--view all", "--view any"}) {
     EXPECT_NE(decoded(cameras), map) << cameras;
     EXPECT_NE(decoded(cameras), turned) << cameras;
     EXPECT_EQ(decoded(cameras), decoded(cameras + std::string(" --turn-edges"))) << cameras;

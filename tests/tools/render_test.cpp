@@ -340,6 +340,12 @@ TEST(Cameras, AllIsTheThreeViewsAndOthersAreRefused) {
   EXPECT_EQ((*all)[0].name, "oblique");
   EXPECT_EQ((*all)[1].name, "low");
   EXPECT_EQ((*all)[2].name, "top");
+  const Result<std::vector<Camera>> any = presetCameras("any", kTerrains[0]);
+  ASSERT_TRUE(any.ok());
+  double weights = 0;
+  for (const Camera& camera : *any) weights += camera.weight;
+  EXPECT_EQ(any->size(), 9u);  // two views from four sides, and the top view
+  EXPECT_EQ(weights, 3);
   EXPECT_EQ(presetCameras("sideways", kTerrains[0]).status().code(), TKS_USAGE);
   Bounds nowhere;
   nowhere.low[1] = std::numeric_limits<double>::quiet_NaN();

@@ -92,14 +92,14 @@ CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
 
 /// The name of preset cameras (ground/preset_cameras.cpp), judged before any file is read.
 inline CLI::Validator presetView() {
-  return silent(CLI::IsMember({"oblique", "low", "top", "orbit", "all"}));
+  return silent(CLI::IsMember({"oblique", "low", "top", "orbit", "all", "any"}));
 }
 
 /// --cameras FILE.json or --view NAME.
 inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
   CLI::Option* const file =
       app.add_option("--cameras", choice.file, "Cameras to look with")->type_name("FILE.json");
-  app.add_option("--view", choice.view, "Preset cameras: oblique, low, top, orbit, all")
+  app.add_option("--view", choice.view, "Preset cameras: oblique, low, top, orbit, all, any")
       ->check(presetView())
       ->type_name("NAME")
       ->excludes(file);

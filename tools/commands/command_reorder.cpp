@@ -28,10 +28,8 @@ Status reorder(const ReorderArguments& arguments) {
   const Result<std::vector<Camera>> cameras = camerasOver(decoder, arguments.cameras);
   if (!cameras.ok()) return cameras.status();
   std::vector<tks_screen_camera> those;
-  for (const Camera& camera : *cameras) {
+  for (const Camera& camera : *cameras)
     those.push_back(meshCamera(camera, frameOf(decoder.info())));
-    those.back().weight = camera.weight;
-  }
   const Result<Buffer> reordered = decoder.reordered(those);
   if (!reordered) return reordered.status();
   const auto bytes = std::as_bytes(reordered->bytes());

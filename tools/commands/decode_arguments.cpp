@@ -73,9 +73,8 @@ CLI::Option* addMesh(CLI::App& verb, DecodeArguments& arguments) {
               "With --triangles the mesh for the file's cameras; else what one of them sees")
           ->type_name("FILE.json")
           ->needs(mesh);
-  verb.add_option(
-          "--view", arguments.camera.view,
-          "The same for a preset: low, oblique, top; with --triangles orbit and all as well")
+  verb.add_option("--view", arguments.camera.view,
+                  "The same for a preset: low, oblique, top; with --triangles orbit, all, any too")
       ->check(presetView())
       ->type_name("NAME")
       ->needs(mesh)

@@ -79,6 +79,7 @@ tks_screen_camera meshCamera(const Camera& camera, const GroundFrame& frame) {
   tks_screen_camera result = makeScreenCamera();
   result.width = camera.width;
   result.height = camera.height;
+  result.weight = camera.weight;
   const std::array<double, 16> clip = clipOf(camera, frame);
   std::copy(clip.begin(), clip.end(), result.clip);
   return result;
@@ -90,9 +91,12 @@ Result<Mesh> meshForCameras(Decoder& decoder, uint32_t triangles, const CameraCh
   if (!choice.isDefault()) {
     const Result<std::vector<Camera>> chosen = camerasOver(decoder, choice);
     if (!chosen.ok()) return chosen.status();
-    if (const Status seen = checkSight(decoder, *chosen); !seen.ok()) return seen;
+    const bool placed = choice.view != "any";  // by somebody, so that it should see something
+    if (const Status seen = placed ? checkSight(decoder, *chosen) : Status(); !seen.ok())
+      return seen;
     for (const Camera& camera : *chosen)
-      cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
+      if (camera.weight > 0) cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
+    if (cameras.empty()) return Status(TKS_USAGE, "no camera has a weight above 0");
   }
   const tks_image image = texture != nullptr ? asImage(*texture) : tks_image();
   return decoder.screenMesh(cameras, triangles, texture != nullptr ? &image : nullptr);
