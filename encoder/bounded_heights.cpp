@@ -47,6 +47,7 @@ CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
   auto rounded = std::make_shared<QuantisedHeights>();
   rounded->samples = bound.of->samples;
   rounded->layers = bound.of->layers;
+  rounded->shown_by = bound.of->shown_by;
   rounded->validity = bound.of->validity;
   rounded->steps = std::move(steps);
   if (!rounded->steps.exact) rounded->left = rounded->squaresOf(rounded->steps);

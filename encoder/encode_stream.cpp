@@ -160,8 +160,9 @@ Result<Selection> selectWithMaps(const EncodeInputs& given, const ViewPriorities
   if (bytesOfMaps(*with) * kCertain <= given.options.bytes) return with;
   tks_encode_options options = given.options;
   options.progress = nullptr;  // it has been told of all this
-  Result<Selection> without = codeAndSelect(
-      {given.heights, given.image, options, nullptr, given.whole, given.repeats, given.heaviest});
+  Result<Selection> without =
+      codeAndSelect({given.heights, given.image, options, nullptr, given.whole, given.repeats,
+                     given.heaviest, given.shown});
   if (without.ok() && !mapsPay(given, *with, *without)) return without;
   return with;
 }
@@ -199,8 +200,8 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   const CodedLines lines = linesFor(given);
   if (lines.repeats.none()) return encodeLines(given);
   const tks_heights coded = lines.of(*given.heights);
-  return encodeLines(
-      {&coded, given.image, given.options, nullptr, given.heights, &lines.repeats, lines.heaviest});
+  return encodeLines({&coded, given.image, given.options, nullptr, given.heights, &lines.repeats,
+                      lines.heaviest, lines.shown});
 }
 
 }  // namespace tetrakis::inline encoder

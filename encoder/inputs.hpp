@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/status.hpp"
 #include "base/texels.hpp"
@@ -36,6 +37,8 @@ struct EncodeInputs {
   const LineRepeats* repeats = nullptr;  ///< not null with `whole`
   /// How many times the mean squared error of the coded lines that of all lines may be.
   double heaviest = 1;
+  /// How many samples of the whole heights show each coded one; empty: one.
+  std::span<const uint32_t> shown = {};
 
   bool budgeted() const { return options.bytes != 0; }
 };

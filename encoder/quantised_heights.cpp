@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "codec/geometry/corrections_encoder.hpp"
@@ -96,8 +97,26 @@ double QuantisedHeights::squaresOf(const HeightSteps& other) const {
   return errorsOf(*samples, other, mostOfASample() * unit).squares / unit;
 }
 
+/// Sums those of samples that are shown equally often.
 double QuantisedHeights::squaresOf(const DecodedHeights& decoded,
                                    std::vector<uint8_t> valid) const {
+  if (shown_by.empty()) return alikeSquaresOf(decoded, std::move(valid));
+  std::vector<uint32_t> counts(shown_by.begin(), shown_by.end());
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  double squares = 0;
+  for (const uint32_t count : counts) {
+    std::vector<uint8_t> alike(shown_by.size());
+    for (size_t i = 0; i < alike.size(); ++i)
+      alike[i] = shown_by[i] == count && (valid.empty() || valid[i] != 0);
+    squares += count * alikeSquaresOf(decoded, std::move(alike));
+  }
+  const double all = std::accumulate(shown_by.begin(), shown_by.end(), 0.);
+  return squares * static_cast<double>(shown_by.size()) / all;
+}
+
+double QuantisedHeights::alikeSquaresOf(const DecodedHeights& decoded,
+                                        std::vector<uint8_t> valid) const {
   if (!steps.table.empty()) {
     const double unit = steps.step * steps.step;
     return squaresOfSamples(*samples, decoded, valid, steps, mostOfASample() * unit) / unit;
@@ -116,6 +135,7 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
   if (!chosen.ok()) return chosen.status();
   auto heights = std::make_shared<QuantisedHeights>();
   heights->samples = inputs.heights;
+  heights->shown_by = inputs.shown;
   heights->steps = std::move(chosen->steps);
   addValidity(*heights);
   addTable(*heights);

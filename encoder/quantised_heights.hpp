@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/status.hpp"
@@ -27,6 +28,8 @@ struct QuantisedHeights {
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
   double left = 0;
+  /// How many samples of the whole heights show each one, if lines repeat; outlives this.
+  std::span<const uint32_t> shown_by = {};
   double without_table = 0;  ///< squared error, in steps, of complete coefficients without it
 
   /// Corrections restore every sample.
@@ -47,8 +50,11 @@ struct QuantisedHeights {
   double squaresOf(const HeightSteps& other) const;
 
   /// Squared error, in steps, of what is decoded from a prefix, over the samples that `valid` says.
+  /// Samples that are shown more often than in the mean count more.
   /// With multiples of a step corrections are left out: they come all at once, behind all else.
   double squaresOf(const DecodedHeights& decoded, std::vector<uint8_t> valid) const;
+  /// However often samples are shown.
+  double alikeSquaresOf(const DecodedHeights& decoded, std::vector<uint8_t> valid) const;
 };
 
 /// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with

@@ -18,6 +18,7 @@ struct CodedLines {
   Extent extent = {0, 0};          ///< of these
   /// How many times the mean squared error of all samples may be that of the coded ones.
   double heaviest = 1;
+  std::vector<uint32_t> shown;  ///< by how many samples each coded one is shown
 
   /// The heights that are coded; their data is `samples`, which outlives them.
   tks_heights of(const tks_heights& whole) const;
