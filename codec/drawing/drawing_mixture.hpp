@@ -27,15 +27,10 @@ constexpr int32_t probabilityOf(int32_t odds) {
 }
 
 /// For each probability the least odds that have it, or more.
-inline constexpr auto kOdds = [] {
-  std::array<int16_t, 4096> table{};
-  int32_t odds = -kMostOdds;
-  for (int32_t p = 0; p < 4096; ++p) {
-    while (odds < kMostOdds && probabilityOf(odds) < p) ++odds;
-    table[static_cast<size_t>(p)] = static_cast<int16_t>(odds);
-  }
-  return table;
-}();
+using OddsTable = std::array<int16_t, 4096>;
+
+/// Made at run time: as a constant it would be 3 kB of the compressed module for the web.
+OddsTable makeOddsTable();
 
 /// What each model of a kind of decision is believed, in units of 2^-16.
 template <size_t kModels>
@@ -52,11 +47,12 @@ constexpr MixtureWeights<kModels> freshWeights() {
 template <size_t kModels>
 class Mixture {
  public:
-  Mixture(const std::array<AdaptiveBit*, kModels>& models, MixtureWeights<kModels>& weights)
+  Mixture(const std::array<AdaptiveBit*, kModels>& models, MixtureWeights<kModels>& weights,
+          const OddsTable& odds)
       : models_(models), weights_(weights) {
     int64_t sum = 0;
     for (size_t i = 0; i < kModels; ++i) {
-      odds_[i] = kOdds[models_[i]->zero() >> 4];
+      odds_[i] = odds[models_[i]->zero() >> 4];
       sum += int64_t{odds_[i]} * weights_[i];
     }
     sum = std::clamp<int64_t>(sum >> 16, -kMostOdds, kMostOdds);

@@ -65,7 +65,8 @@ class DrawingModels {
     return {
         {chain.models[0], chain.models[1], chain.models[2],
          &differences_[hash(differences, kDifferencesBits)], &values_[hash(values, kValuesBits)]},
-        candidate_weights_[4 * asked + count]};
+        candidate_weights_[4 * asked + count],
+        odds_};
   }
 
   /// A bit of an index. node: 1 followed by its bits so far, the highest first.
@@ -74,7 +75,8 @@ class DrawingModels {
     const uint32_t second = around.count() > 1 ? around[1].index : kMostDrawnValues;
     return {{&pairs_[hash((first * kFactor + second) * kFactor + node, kPairBits)],
              &singles_[hash(first * kFactor + node, kSingleBits)], &indices_[node]},
-            index_weights_};
+            index_weights_,
+            odds_};
   }
 
   AdaptiveBit fresh;  ///< the value has not appeared before
@@ -98,6 +100,7 @@ class DrawingModels {
   std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> counts_;
   std::array<MixtureWeights<5>, 2 * Candidates::kRanked * 4> candidate_weights_;
   MixtureWeights<3> index_weights_ = freshWeights<3>();
+  const OddsTable odds_ = makeOddsTable();
 };
 
 }  // namespace tetrakis::inline drawing

@@ -21,8 +21,9 @@ struct Size {
 };
 
 TEST(Mixture, OddsAreTheLeastOfTheirProbability) {
+  const OddsTable table = makeOddsTable();
   for (int32_t p = 0; p < 4096; ++p) {
-    const int32_t odds = kOdds[static_cast<size_t>(p)];
+    const int32_t odds = table[static_cast<size_t>(p)];
     EXPECT_TRUE(odds == kMostOdds || probabilityOf(odds) >= p) << p;
     EXPECT_TRUE(odds == -kMostOdds || probabilityOf(odds - 1) < p) << p;
   }
@@ -34,11 +35,12 @@ TEST(Mixture, LearnsWhomToBelieve) {
   std::array<AdaptiveBit, 2> knowing;
   AdaptiveBit ignorant;
   auto weights = freshWeights<2>();
+  const OddsTable odds = makeOddsTable();
   double bits = 0;
   constexpr int kDecisions = 4000;
   for (int i = 0; i < kDecisions; ++i) {
     const bool state = random() % 2 != 0, bit = random() % 16 == 0 ? !state : state;
-    Mixture<2> mixture({&knowing[state], &ignorant}, weights);
+    Mixture<2> mixture({&knowing[state], &ignorant}, weights, odds);
     const double zero = mixture.zero() / 65536.;
     bits -= std::log2(bit ? 1 - zero : zero);
     mixture.learn(bit);
@@ -51,8 +53,9 @@ TEST(Mixture, StaysWithinItsLimits) {
   std::mt19937 random(1);
   std::array<AdaptiveBit, 3> models;
   auto weights = freshWeights<3>();
+  const OddsTable odds = makeOddsTable();
   for (int i = 0; i < 200000; ++i) {
-    Mixture<3> mixture({&models[0], &models[1], &models[random() % 3]}, weights);
+    Mixture<3> mixture({&models[0], &models[1], &models[random() % 3]}, weights, odds);
     ASSERT_GT(mixture.zero(), 0u);
     ASSERT_LT(mixture.zero(), 65536u);
     mixture.learn(i / 1000 % 2 != 0 ? mixture.zero() < 32768 : mixture.zero() >= 32768);

@@ -124,6 +124,7 @@ def test_maps(tmp_path, qgis):
 
 def test_heights_and_texture_are_layers(placed, tmp_path, qgis):
     pytest.importorskip("qgis.core")
+    placed = shutil.copy(placed, tmp_path)  # QGIS writes statistics beside it
     image, _ = drawn(qgis, tmp_path, f'TKS:"{placed}":texture', 400)
     assert image[:, 300:].std() > 20
     _, facts = drawn(qgis, tmp_path, f'TKS:"{placed}":heights', 50)
