@@ -244,14 +244,13 @@ test('files that cannot be coded say why', async () => {
   }
 });
 
-test('of a stream with an index what this view needs comes first, and is drawn as a map', async () => {
+test('of a stream with an index all comes in few requests, and is drawn as a map', async () => {
   const stream = await encode({...terrainOf(193), bytes: 90000, index: true, regions: 32});
   await writeFile(join(folder, 'indexed.tks'), stream);
   await withPage('?tks=indexed.tks', async (page, server) => {
-    const asked = ranges(server).map((range) => /(\d+)-(\d+)/.exec(range).slice(1).map(Number));
-    assert.ok(asked.some(([begin], i) => i > 0 && begin !== asked[i - 1][1] + 1));
+    assert.ok(ranges(server).length <= 8, ranges(server).join(' '));
     const here = Number(await page.locator('#fetched').getAttribute('data-bytes'));
-    assert.ok(here > asked[0][1] && here <= stream.length);
+    assert.ok(here > stream.length - 4096 && here <= stream.length, `${here} of ${stream.length}`);
     assert.ok(await page.locator('#ground').isVisible());
   });
 });

@@ -120,8 +120,8 @@ async function pump() {
         tell(`The file is cut short: ${formatBytes(frame.bytes)} of ` +
           `${formatBytes(info.streamBytes)} are there, and shown.`, true);
       }
-      // This view needs no more.
-      if (view && frame.bytes < request.bytes) request.bytes = wanted.bytes;
+      // This view needs no more. Frames may lack what is not worth a request.
+      if (view && request.bytes - frame.bytes > current.requestBytes) request.bytes = wanted.bytes;
       show(frame, request);
     }
     document.body.dataset.state = 'done';
