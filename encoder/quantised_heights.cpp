@@ -94,39 +94,27 @@ double QuantisedHeights::mostOfASample() const {
 
 double QuantisedHeights::squaresOf(const HeightSteps& other) const {
   const double unit = other.step * other.step;
-  return errorsOf(*samples, other, mostOfASample() * unit).squares / unit;
+  return errorsOf(*samples, other, {mostOfASample() * unit}).squares / unit;
 }
 
-/// Sums those of samples that are shown equally often.
 double QuantisedHeights::squaresOf(const DecodedHeights& decoded,
                                    std::vector<uint8_t> valid) const {
-  if (shown_by.empty()) return alikeSquaresOf(decoded, std::move(valid));
-  std::vector<uint32_t> counts(shown_by.begin(), shown_by.end());
-  std::sort(counts.begin(), counts.end());
-  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  const double unit = steps.step * steps.step;
+  const SquareSum sum{mostOfASample() * unit, shown_by};
   double squares = 0;
-  for (const uint32_t count : counts) {
-    std::vector<uint8_t> alike(shown_by.size());
-    for (size_t i = 0; i < alike.size(); ++i)
-      alike[i] = shown_by[i] == count && (valid.empty() || valid[i] != 0);
-    squares += count * alikeSquaresOf(decoded, std::move(alike));
-  }
-  const double all = std::accumulate(shown_by.begin(), shown_by.end(), 0.);
-  return squares * static_cast<double>(shown_by.size()) / all;
-}
-
-double QuantisedHeights::alikeSquaresOf(const DecodedHeights& decoded,
-                                        std::vector<uint8_t> valid) const {
   if (!steps.table.empty()) {
-    const double unit = steps.step * steps.step;
-    return squaresOfSamples(*samples, decoded, valid, steps, mostOfASample() * unit) / unit;
+    squares = squaresOfSamples(*samples, decoded, valid, steps, sum);
+  } else {
+    HeightSteps shown;
+    shown.steps = wholeSteps(decoded.geometry);
+    shown.valid = std::move(valid);
+    shown.base = steps.base;
+    shown.step = steps.step;
+    squares = errorsOf(*samples, shown, sum).squares;
   }
-  HeightSteps shown;
-  shown.steps = wholeSteps(decoded.geometry);
-  shown.valid = std::move(valid);
-  shown.base = steps.base;
-  shown.step = steps.step;
-  return squaresOf(shown);
+  if (shown_by.empty()) return squares / unit;
+  const double all = std::accumulate(shown_by.begin(), shown_by.end(), 0.);
+  return squares / unit * (static_cast<double>(shown_by.size()) / all);
 }
 
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs) {

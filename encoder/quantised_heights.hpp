@@ -53,8 +53,6 @@ struct QuantisedHeights {
   /// Samples that are shown more often than in the mean count more.
   /// With multiples of a step corrections are left out: they come all at once, behind all else.
   double squaresOf(const DecodedHeights& decoded, std::vector<uint8_t> valid) const;
-  /// However often samples are shown.
-  double alikeSquaresOf(const DecodedHeights& decoded, std::vector<uint8_t> valid) const;
 };
 
 /// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with

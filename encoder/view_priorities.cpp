@@ -21,7 +21,7 @@ constexpr size_t kMapPoints = 1 << 16;
 constexpr double kTypicalError = 0.005;
 /// What a pixel shows is off as the texels are, whatever their errors. Those of the heights cost in
 /// proportion to their squares only as long as they move the texture by less than its details are
-/// wide: costs of one size of errors promise half of what they say (docs/MEASUREMENTS.md).
+/// wide: costs of one size of errors promise half of what they say (docs/EXPERIMENTS.md).
 constexpr double kFullOfHeights = 0.5;
 /// Tiles on a side, of a power of two samples. Smaller ones fit the view better, but take bytes,
 /// and coefficients are coded worse where neighbours have another priority.

@@ -31,7 +31,7 @@ constexpr std::array<Filters, 4> kLossyChoices = {
     {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}}};
 
 /// Filters for the last bit, and by how much the estimate of their bits counts more because of what
-/// prefixes are worth (docs/MEASUREMENTS.md, "Cuts of lossless streams"). The estimate makes
+/// prefixes are worth (docs/EXPERIMENTS.md, "Cuts of lossless streams"). The estimate makes
 /// differences of bytes three to four times as large as they are.
 struct LosslessChoice {
   Filters filters;

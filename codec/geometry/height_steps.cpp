@@ -131,7 +131,7 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
   return corrections;
 }
 
-StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double most) {
+StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, const SquareSum& sum) {
   return withSampleType(heights.sample, [&](auto type) {
     using T = decltype(type);
     const auto* samples = static_cast<const T*>(heights.data);
@@ -149,14 +149,15 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, double
       const double error =
           std::abs(static_cast<double>(restored[i]) - static_cast<double>(samples[i]));
       errors.largest = std::max(errors.largest, error);
-      errors.squares += std::min(error * error, most);
+      errors.squares += sum.of(i, error);
     }
     return errors;
   });
 }
 
 double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
-                        const std::vector<uint8_t>& valid, const HeightSteps& scale, double most) {
+                        const std::vector<uint8_t>& valid, const HeightSteps& scale,
+                        const SquareSum& sum) {
   const DecodedGeometry& geometry = decoded.geometry;
   return withSampleType(truth.sample, [&](auto type) {
     using T = decltype(type);
@@ -171,7 +172,7 @@ double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
         restored = fromOrder<T>(orderOf(restored) + correction);
       }
       const double error = static_cast<double>(restored) - static_cast<double>(samples[i]);
-      squares += std::min(error * error, most);
+      squares += sum.of(i, error);
     }
     return squares;
   });

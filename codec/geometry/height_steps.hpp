@@ -70,16 +70,25 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
 
 /// Largest distance between a valid sample and what its step becomes, and the sum of the squared
 /// distances; in sample units.
-/// most: what one sample adds to the squares at most.
 struct StepErrors {
   double largest = 0, squares = 0;
 };
+/// How squared errors add up.
+struct SquareSum {
+  double most = std::numeric_limits<double>::infinity();  ///< what one sample adds at most
+  std::span<const uint32_t> times = {};                   ///< how often each counts; empty: once
+  double of(size_t sample, double error) const {
+    const double square = std::min(error * error, most);
+    return times.empty() ? square : times[sample] * square;
+  }
+};
 StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps,
-                    double most = std::numeric_limits<double>::infinity());
+                    const SquareSum& sum = {});
 
 /// The squared distances between decoded samples, corrections included, and the true ones, over the
-/// samples that `valid` says (empty: all). scale: their base and step. most: what one adds at most.
+/// samples that `valid` says (empty: all). scale: their base and step.
 double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
-                        const std::vector<uint8_t>& valid, const HeightSteps& scale, double most);
+                        const std::vector<uint8_t>& valid, const HeightSteps& scale,
+                        const SquareSum& sum);
 
 }  // namespace tetrakis::inline geometry

@@ -2,6 +2,7 @@
 // Whole streams of heights that were enlarged by copying samples: they come back, their bytes are
 // those of the small grid, and prefixes, levels, windows and meshes are those of any other heights.
 #include <algorithm>
+#include <chrono>
 #include <span>
 
 #include "bitstream/stream/header.hpp"
@@ -191,6 +192,24 @@ TEST(RepeatedLines, LeaveSmallBudgetsToTheHeights) {
   const Raster large = copied(of, columns, linesOf(33, {1}));
   EXPECT_TRUE(repeats(encode(&large, nullptr, budget(6000))));
   EXPECT_FALSE(repeats(encode(&large, nullptr, budget(300))));
+}
+
+double secondsToEncode(const Raster& large) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(repeats(encode(&large, nullptr, lossless())));
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// However many lengths the runs have, and so however many weights of errors there are.
+TEST(RepeatedLines, TakeNoLongerWhereRunsDiffer) {
+  const Raster of = make({Pattern::kRidges, 100, 100, 1, TKS_I16});
+  std::vector<uint32_t> columns, rows;
+  for (uint32_t line = 0; line < 100; ++line) {
+    columns.insert(columns.end(), 8 + samples::hash(line, 7, 1) % 25, line);
+    rows.insert(rows.end(), 8 + samples::hash(line, 7, 2) % 25, line);
+  }
+  const double alike = secondsToEncode(copied(of, linesOf(100, {20}), linesOf(100, {20})));
+  EXPECT_LT(secondsToEncode(copied(of, columns, rows)), 8 * alike + 0.2);
 }
 
 /// Meshes are made of all samples.
