@@ -52,18 +52,39 @@ Status refuse(tks_decoder& decoder, const Status& status) {
   return status;
 }
 
-Status put(tks_decoder& decoder, uint64_t place, std::span<const uint8_t> bytes) {
-  if (bytes.empty()) return {};
-  if (!decoder.refused.ok()) return decoder.refused;
-  if (bytes.size() > std::numeric_limits<uint64_t>::max() - place)
-    return {TKS_USAGE, "No stream has so many bytes."};
-  if (place > decoder.data.size() && decoder.parsed.header.index.empty()) {
-    return {TKS_USAGE,
-            "The stream has no front index, so that its bytes come in their order: byte " +
-                std::to_string(decoder.data.size()) + " is the next."};
+/// Bytes from a place of the stream on.
+struct Run {
+  uint64_t place;
+  std::span<const uint8_t> bytes;
+};
+
+/// Whether the decoder may take them, in their order.
+Status check(const tks_decoder& decoder, std::span<const Run> runs) {
+  const bool anywhere = !decoder.parsed.header.index.empty();
+  uint64_t next = decoder.data.size();
+  for (const auto& [place, bytes] : runs) {
+    if (bytes.size() > std::numeric_limits<uint64_t>::max() - place)
+      return {TKS_USAGE, "No stream has so many bytes."};
+    if (bytes.empty()) continue;
+    if (place > next && !anywhere) {
+      return {TKS_USAGE,
+              "The stream has no front index, so that its bytes come in their order: byte " +
+                  std::to_string(next) + " is the next."};
+    }
+    next = std::max(next, place + bytes.size());
   }
+  return {};
+}
+
+/// The stream's packets are looked at once, however many runs there are.
+Status put(tks_decoder& decoder, std::span<const Run> runs) {
+  if (const Status status = check(decoder, runs); !status.ok()) return status;
+  uint64_t more = 0;
+  for (const Run& run : runs) more += run.bytes.size();
+  if (more == 0) return {};
+  if (!decoder.refused.ok()) return decoder.refused;
   const uint64_t held = decoder.pieces.empty() ? decoder.data.size() : decoder.pieces.bytes();
-  if (held + bytes.size() > decoder.max_memory) {
+  if (held + more > decoder.max_memory) {
     const std::string limit = describeBytes(decoder.max_memory);
     return refuse(decoder, {TKS_LIMIT,
                             "The bytes of the stream take more memory than the limit "
@@ -72,7 +93,7 @@ Status put(tks_decoder& decoder, uint64_t place, std::span<const uint8_t> bytes)
   }
   const size_t front = decoder.data.size();
   if (decoder.pieces.empty()) decoder.pieces.put(0, decoder.data);
-  decoder.pieces.put(place, bytes);
+  for (const auto& [place, bytes] : runs) decoder.pieces.put(place, bytes);
   decoder.data = decoder.pieces.from(0);
   Result<TakenPackets> taken = takePackets(decoder);
   if (!taken.ok()) {
@@ -91,13 +112,30 @@ Status put(tks_decoder& decoder, uint64_t place, std::span<const uint8_t> bytes)
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size) {
   if (data == nullptr && size != 0) return TKS_USAGE;
   return tetrakis::keeping(decoder, [&] {
-    return tetrakis::put(*decoder, decoder->data.size(), {data, size});
+    const tetrakis::Run run{decoder->data.size(), {data, size}};
+    return tetrakis::put(*decoder, {&run, 1});
   });
 }
 
 tks_status tks_put(tks_decoder* decoder, uint64_t offset, const uint8_t* data, size_t size) {
-  if (data == nullptr && size != 0) return TKS_USAGE;
-  return tetrakis::keeping(decoder, [&] { return tetrakis::put(*decoder, offset, {data, size}); });
+  const tks_range range{offset, size, 0};
+  return tks_put_ranges(decoder, &range, &data, 1);
+}
+
+tks_status tks_put_ranges(tks_decoder* decoder, const tks_range* ranges, const uint8_t* const* data,
+                          size_t count) {
+  if (count != 0 && (ranges == nullptr || data == nullptr)) return TKS_USAGE;
+  return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
+    std::vector<tetrakis::Run> runs;
+    runs.reserve(count);
+    for (size_t i = 0; i < count; ++i) {
+      if (data[i] == nullptr && ranges[i].size != 0) return {TKS_USAGE, "A range has no bytes."};
+      if (ranges[i].size > std::numeric_limits<size_t>::max())
+        return {TKS_USAGE, "No stream has so many bytes."};
+      runs.push_back({ranges[i].offset, {data[i], static_cast<size_t>(ranges[i].size)}});
+    }
+    return tetrakis::put(*decoder, runs);
+  });
 }
 
 tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes) {

@@ -14,10 +14,6 @@ namespace {
 /// least that GDAL reads over a network.
 constexpr uint64_t kHeaderGuess = 16384;
 
-/// Each call of tks_put looks at all that is there: shares of more regions would take longer than
-/// all of the stream.
-constexpr size_t kMostShares = 512;
-
 int errorNumber(tks_status status) {
   switch (status) {
     case TKS_USAGE:
@@ -150,18 +146,11 @@ bool Source::loadRanges(const std::vector<tks_range>& ranges) {
   decoder_.reset();  // which may borrow bytes that move
   if (!read(ranges) || !reopen(info_.header_bytes)) return false;
   opened_ = 0;
-  for (size_t i = 0; i < ranges.size();) {
-    // Each call copies what is there, so what was read in one piece is put in one piece.
-    const std::span<const uint8_t> known = bytes_.at(ranges[i].offset);
-    const uint64_t first = ranges[i].offset, end = first + known.size();
-    uint64_t last = first;
-    for (; i < ranges.size() && ranges[i].offset < end; ++i)
-      last = ranges[i].offset + ranges[i].size;
-    const tks_status status =
-        tks_put(decoder_.get(), first, known.data(), static_cast<size_t>(last - first));
-    if (status != TKS_OK) return failed(status);
-  }
-  return true;
+  std::vector<const uint8_t*> bytes;
+  for (const tks_range& range : ranges) bytes.push_back(bytes_.at(range.offset).data());
+  const tks_status status =
+      tks_put_ranges(decoder_.get(), ranges.data(), bytes.data(), ranges.size());
+  return status == TKS_OK || failed(status);
 }
 
 bool Source::loadShares(std::vector<tks_range> ranges, uint64_t bytes) {
@@ -187,15 +176,7 @@ bool Source::loadShares(std::vector<tks_range> ranges, uint64_t bytes) {
   if (most == 0) return reopen(end_);
   ranges = without(most);
   std::erase_if(ranges, [](const tks_range& range) { return range.size == 0; });
-  decoder_.reset();  // which may borrow bytes that move
-  if (!read(ranges) || !reopen(info_.header_bytes)) return false;
-  opened_ = 0;
-  for (const tks_range& range : ranges) {
-    const tks_status status = tks_put(decoder_.get(), range.offset, bytes_.at(range.offset).data(),
-                                      static_cast<size_t>(range.size));
-    if (status != TKS_OK) return failed(status);
-  }
-  return true;
+  return loadRanges(ranges);
 }
 
 bool Source::load(uint32_t level, const tks_window* window) {
@@ -214,7 +195,7 @@ bool Source::load(uint32_t level, const tks_window* window) {
   if (opened_ == first || !complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
   const auto ranges = neededRanges(level, window);
   if (!ranges) return false;
-  if (level > 0 && apart && ranges->size() <= kMostShares) return loadShares(*ranges, pixels);
+  if (level > 0 && apart) return loadShares(*ranges, pixels);
   const uint64_t cost = FileBytes::costOf(*ranges);
   if (cost >= first - first / 4) return reopen(first);
   // Who has read most of it will read the rest. The whole stream decodes to the same.

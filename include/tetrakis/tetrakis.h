@@ -260,6 +260,19 @@ tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
  * TKS_USAGE: there is no index, and `offset` lies behind a gap. */
 tks_status tks_put(tks_decoder* decoder, uint64_t offset, const uint8_t* data, size_t size);
 
+/* Bytes of a stream: `size` of them from `offset` on. */
+typedef struct tks_range {
+  uint64_t offset, size;
+  double gain; /* of tks_plan: what one of its first bytes takes off the squared error of the
+                  picture, beside other ranges of the plan; 0: nothing of it is seen */
+} tks_range;
+
+/* Many runs at once: data[i] holds the ranges[i].size bytes from ranges[i].offset on. As tks_put of
+ * one after the other, but what is there is looked at once and not for each of them. The library
+ * keeps none of the arrays. With TKS_USAGE none of the bytes has been taken. */
+tks_status tks_put_ranges(tks_decoder* decoder, const tks_range* ranges, const uint8_t* const* data,
+                          size_t count);
+
 /* One sentence about the last failure of this decoder; "" if none. Owned by the decoder. */
 const char* tks_message(const tks_decoder* decoder);
 
@@ -377,13 +390,6 @@ typedef enum tks_part {
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes);
 
-/* Bytes of a stream: `size` of them from `offset` on. */
-typedef struct tks_range {
-  uint64_t offset, size;
-  double gain; /* of tks_plan: what one of its first bytes takes off the squared error of the
-                  picture, beside other ranges of the plan; 0: nothing of it is seen */
-} tks_range;
-
 /* Allocated by the library; release with tks_free_ranges. No two of them overlap. */
 typedef struct tks_ranges {
   size_t count;
@@ -393,9 +399,9 @@ void tks_free_ranges(tks_ranges* ranges);
 
 /* Which bytes behind the header a call needs of a stream with a front index, to decode what it
  * would of the complete stream: packets of the tracks that it decodes, in their order. Given to
- * tks_put they suffice: what else is missing counts as there. A window needs some regions, a level
- * from 3 on none of the finest levels. For a rougher terrain take what lies before some byte; of
- * streams for windows take a first part of each range: each is a region, and may touch the next.
+ * tks_put_ranges they suffice: what else is missing counts as there. A window needs some regions, a
+ * level from 3 on none of the finest levels. For a rougher terrain take what lies before some byte;
+ * of streams for windows take a first part of each range: each is a region, and may touch the next.
  * TKS_USAGE: there is no index, part or window. TKS_LIMIT: as the call. */
 tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
                              tks_ranges* out);

@@ -157,12 +157,17 @@ class Decoder {
   const tks_info& info() const { return info_; }
 
   /// More bytes of the stream, which are copied: those behind the ones that are there
-  /// (tks_append), or from an offset on (tks_put). info() follows.
+  /// (tks_append), from an offset on (tks_put), or many runs at once (tks_put_ranges; data: the
+  /// bytes of each range). info() follows.
   Status append(std::span<const uint8_t> bytes) {
     return taken(tks_append(decoder_.get(), bytes.data(), bytes.size()));
   }
   Status put(uint64_t offset, std::span<const uint8_t> bytes) {
     return taken(tks_put(decoder_.get(), offset, bytes.data(), bytes.size()));
+  }
+  Status put(std::span<const tks_range> ranges, std::span<const uint8_t* const> data) {
+    if (data.size() != ranges.size()) return Status(TKS_USAGE, "Each range has its bytes.");
+    return taken(tks_put_ranges(decoder_.get(), ranges.data(), data.data(), ranges.size()));
   }
 
   /// Which bytes such a call needs for what it would decode of the complete stream, which has a

@@ -51,6 +51,22 @@ TEST(CppInterface, RoundTripThroughMovedObjects) {
   EXPECT_EQ(std::memcmp(heights->data(), samples.data(), heights->size()), 0);
 }
 
+TEST(CppInterface, RangesArePutAtOnce) {
+  const std::vector<int16_t> samples = waves();
+  const Result<Buffer> stream = encodeWaves(samples);
+  ASSERT_TRUE(stream);
+  const std::span<const uint8_t> bytes = stream->bytes();
+  const size_t middle = bytes.size() * 2 / 3, first = bytes.size() / 2;
+  Result<Decoder> decoder = Decoder::open(bytes.first(first));
+  ASSERT_TRUE(decoder);
+  const tks_range ranges[] = {{first, middle - first, 0}, {middle, bytes.size() - middle, 0}};
+  const uint8_t* const data[] = {bytes.data() + first, bytes.data() + middle};
+  EXPECT_EQ(decoder->put(ranges, std::span(data).first(1)).code(), TKS_USAGE);
+  ASSERT_TRUE(decoder->put(ranges, data).ok());
+  EXPECT_EQ(decoder->info().available_bytes, bytes.size());
+  EXPECT_TRUE(decoder->verify().ok());
+}
+
 TEST(CppInterface, MeshesStayInsideTheGrid) {
   const std::vector<int16_t> samples = waves();
   const Result<Buffer> stream = encodeWaves(samples);

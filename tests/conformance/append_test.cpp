@@ -166,6 +166,12 @@ Bytes encodeRegions(const samples::Raster* heights, const samples::Raster* image
   return encode(heights, image, options);
 }
 
+tks_status putRanges(Stream& stream, const Bytes& bytes, const std::vector<tks_range>& ranges) {
+  std::vector<const uint8_t*> data;
+  for (const tks_range& range : ranges) data.push_back(bytes.data() + range.offset);
+  return tks_put_ranges(stream.get(), ranges.data(), data.data(), ranges.size());
+}
+
 /// Decodes the tracks without the C interface.
 void expectTracks(Stream& stream, const ParsedHeader& parsed,
                   const std::array<std::vector<Bytes>, 2>& tracks) {
@@ -206,8 +212,9 @@ TEST(Put, AnyOrderDecodesWhatIsThere) {
     std::vector<size_t> order(places.size());
     std::iota(order.begin(), order.end(), size_t{0});
     std::shuffle(order.begin(), order.end(), random);
-    Stream stream(Prefix(bytes).first(parsed->bytes));
+    Stream stream(Prefix(bytes).first(parsed->bytes)), at_once(Prefix(bytes).first(parsed->bytes));
     std::vector<bool> there(bytes.size());
+    std::vector<tks_range> ranges;  // that the second stream does not have yet
     for (const size_t i : order) {
       const size_t begin = places[i], next = i + 1 < places.size() ? places[i + 1] : bytes.size();
       const size_t end = std::min(next + random() % 20, bytes.size());  // they may overlap
@@ -215,6 +222,12 @@ TEST(Put, AnyOrderDecodesWhatIsThere) {
           << tks_message(stream.get());
       for (size_t k = begin; k < end; ++k) there[k] = true;
       ASSERT_NO_FATAL_FAILURE(expectTracks(stream, *parsed, tracksOf(bytes, there, *parsed)));
+      ranges.push_back({begin, end - begin, 0});
+      if (random() % 3 != 0 && i != order.back()) continue;
+      ASSERT_EQ(putRanges(at_once, bytes, ranges), TKS_OK) << tks_message(at_once.get());
+      ASSERT_TRUE(at_once.heights() == stream.heights());
+      ASSERT_TRUE(at_once.texture() == stream.texture());
+      ranges.clear();
     }
     EXPECT_EQ(tks_verify(stream.get()), TKS_OK) << tks_message(stream.get());
     EXPECT_EQ(squaredError(heights, stream.heights()), 0);
@@ -312,6 +325,18 @@ TEST(Put, WithoutAnIndexBytesComeInTheirOrder) {
   EXPECT_EQ(squaredError(heights, stream.heights()), 0);
 }
 
+/// With a gap between them none of many ranges is taken, not even the first.
+TEST(Put, WithoutAnIndexRangesComeInTheirOrder) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 30, 20, 1, TKS_I16});
+  const Bytes bytes = encode(&heights, nullptr, lossless());
+  const size_t third = bytes.size() / 3, last = bytes.size() - 5;
+  Stream stream(Prefix(bytes).first(third));
+  EXPECT_EQ(putRanges(stream, bytes, {{third, 50, 0}, {last, 5, 0}}), TKS_USAGE);
+  EXPECT_EQ(putRanges(stream, bytes, {{third + 50, 5, 0}}), TKS_USAGE);
+  EXPECT_EQ(putRanges(stream, bytes, {{third, last - third, 0}, {last, 5, 0}}), TKS_OK);
+  EXPECT_EQ(squaredError(heights, stream.heights()), 0);
+}
+
 /// A packet of another stream is no packet of this one; what was there goes on.
 TEST(Put, ForeignBytesAreRefused) {
   const samples::Raster heights = samples::make({samples::Pattern::kRidges, 70, 45, 1, TKS_I16});
@@ -349,6 +374,11 @@ TEST(Append, NonsenseIsRefused) {
   EXPECT_EQ(tks_append(stream.get(), nullptr, 0), TKS_OK);
   EXPECT_EQ(tks_append(nullptr, bytes.data(), 5), TKS_USAGE);
   EXPECT_EQ(tks_put(stream.get(), UINT64_MAX, bytes.data(), 5), TKS_USAGE);
+  EXPECT_EQ(tks_put_ranges(stream.get(), nullptr, nullptr, 0), TKS_OK);
+  EXPECT_EQ(tks_put_ranges(stream.get(), nullptr, nullptr, 1), TKS_USAGE);
+  const tks_range range{0, 5, 0};
+  const uint8_t* const nothing = nullptr;
+  EXPECT_EQ(tks_put_ranges(stream.get(), &range, &nothing, 1), TKS_USAGE);
 }
 
 /// Where memory does not suffice to remember tracks, they are decoded from their beginning.
