@@ -221,7 +221,8 @@ def test_vsicurl_windows_of_a_stream_made_for_them(server):
 @pytest.mark.parametrize("server", [["INDEX=WINDOWS", "BLOCKSIZE=32"]], indirect=True)
 def test_vsicurl_overview_of_many_regions(server):
     """Of each of 2068 regions a first part: an overview does not take all of a large file."""
-    overview = opened(server).GetRasterBand(1).GetOverview(2).ReadAsArray()
+    dataset = opened(server)
+    overview = dataset.GetRasterBand(1).GetOverview(2).ReadAsArray()
     assert sum(last - first for first, last in Server.ranges) < 0.7 * len(Server.data)
     means = terrain(1500, 1400, "u2")[:1496].reshape(187, 8, 175, 8).mean(axis=(1, 3))
     assert np.sqrt(np.mean((overview[:187] - means) ** 2)) < 0.01 * 65536
