@@ -209,7 +209,7 @@ bool correctionsMayPay(const CodedHeights& whole) {
     const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.of->samples), mask);
     return correctionsMayPay(plane, steps.range_bits, bytes);
   };
-  const bool some_flat = !whole.flat.areas.levels.empty();
+  const bool some_flat = !whole.flat.areas.heights.empty();
   return may_pay(freeSamples(whole)) || (some_flat && may_pay(steps.valid));
 }
 

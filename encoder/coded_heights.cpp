@@ -20,8 +20,8 @@ double squaresOf(const FlatLayer& flat) {
   double squares = 0;
   for (const uint16_t number : flat.areas.numbers) {
     if (number == 0) continue;
-    const double level = flat.areas.levels[number - 1u];
-    squares += level * level;
+    const double height = flat.areas.heights[number - 1u];
+    squares += height * height;
   }
   return squares;
 }
@@ -119,7 +119,7 @@ HeightLayers layersAround(const GeometryLayers& known, std::span<const uint8_t> 
                           FlatChoice choice) {
   HeightLayers layers{known, corrections, choice.wavelet, std::move(choice.flat)};
   layers.layers.flat_bytes = layers.flat.codeword.size();
-  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());
+  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
   return layers;
 }
 

@@ -18,10 +18,10 @@ namespace tetrakis::inline geometry {
 /// Of a whole plane.
 struct FlatAreas {
   std::vector<uint16_t> numbers;  ///< of each sample: 0, or 1 + its area; empty: there are none
-  std::vector<int32_t> levels;    ///< of each area, in steps
+  std::vector<int32_t> heights;   ///< of each area, in steps
 
   bool empty() const { return numbers.empty(); }
-  HeldSamples held() const { return {numbers, levels}; }
+  HeldSamples held() const { return {numbers, heights}; }
 };
 
 /// For each sample the index of the first sample of its area, which is its own where it is alone.

@@ -21,7 +21,7 @@ FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, Mask 
   }
   if (numbered.count != areas) return {};
   FlatAreas out{std::move(numbered.numbers), std::vector<int32_t>(areas)};
-  FlatLevelsPass<DecisionDecoding>(io).run(out.levels);
+  FlatHeightsPass<DecisionDecoding>(io).run(out.heights);
   if (io.stopped()) return {};
   return out;
 }

@@ -40,7 +40,7 @@ FlatAreas FlatFinder::areas(uint32_t least, const Window& window) const {
   flat.reserve(window.extent().samples());
   const std::span<const int32_t> values = heights_.values();
   size_t k = 0;  // in the plane, of the window's sample i
-  // Where areas of two levels touch, the smaller one gives way by a sample.
+  // Where areas of two heights touch, the smaller one gives way by a sample.
   const auto part = [&](size_t i, size_t before, size_t k_before) {
     if ((flat[i] & flat[before]) == 0 || values[k] == values[k_before]) return;
     flat[sizeAt(k) <= sizeAt(k_before) ? i : before] = 0;
@@ -59,7 +59,7 @@ FlatAreas FlatFinder::areas(uint32_t least, const Window& window) const {
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
   const std::vector<int32_t> shown = cut(values, extent(), {0, window});
   for (size_t i = 0; i < shown.size(); ++i) {
-    if (areas.numbers[i] != 0) areas.levels[areas.numbers[i] - 1u] = shown[i];
+    if (areas.numbers[i] != 0) areas.heights[areas.numbers[i] - 1u] = shown[i];
   }
   return areas;
 }
@@ -72,8 +72,8 @@ std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask 
   DecisionEncoding io;
   FlatMaskIo<DecisionEncoding> mask_io(io, valid, flat.data());
   ValidityPass<FlatMaskIo<DecisionEncoding>>({known, plane}, mask_io).run();
-  std::vector<int32_t> levels = areas.levels;
-  FlatLevelsPass<DecisionEncoding>(io).run(levels);
+  std::vector<int32_t> heights = areas.heights;
+  FlatHeightsPass<DecisionEncoding>(io).run(heights);
   std::vector<uint8_t> codeword = io.finish();
   if (codeword.empty()) codeword.push_back(0);  // flat_bytes is at least 1
   return codeword;

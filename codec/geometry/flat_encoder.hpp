@@ -22,7 +22,7 @@ class FlatFinder {
   uint64_t samplesOf(uint32_t least, const Window& window) const;
 
   /// What a window shows of the areas of at least so many samples, without the samples that touch
-  /// larger ones of another level. None if it shows no such area, or too many.
+  /// larger ones of another height. None if it shows no such area, or too many.
   FlatAreas areas(uint32_t least, const Window& window) const;
 
  private:

@@ -139,7 +139,7 @@ DecodedHeights cutWindow(const DecodedHeights& whole, const View& view) {
 
 uint64_t HeightsMemory::bytes() const {
   return valid.size() + flat.numbers.size() * sizeof(uint16_t) +
-         flat.levels.size() * sizeof(int32_t) + tracks.bytes();
+         flat.heights.size() * sizeof(int32_t) + tracks.bytes();
 }
 
 std::vector<uint8_t> activityHints(const DecodedGeometry& geometry) {
