@@ -43,7 +43,7 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
 ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights) {
   const QuantisedHeights& source = *heights.of;
   const bool modelled = looksAtMeshes(inputs, source);
-  const Pricing pricing{heights.counted() / inputs.heaviest,
+  const Pricing pricing{heights.counted() / inputs.heaviest(),
                         modelled ? 0 : meshFloor(source, inputs.options.triangles),
                         inputs.image != nullptr, trackOrderOf(inputs.options)};
   HeightsMemory memory;

@@ -123,7 +123,7 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
   if (!chosen.ok()) return chosen.status();
   auto heights = std::make_shared<QuantisedHeights>();
   heights->samples = inputs.heights;
-  heights->shown_by = inputs.shown;
+  heights->shown_by = inputs.shownBy();
   heights->steps = std::move(chosen->steps);
   addValidity(*heights);
   addTable(*heights);
