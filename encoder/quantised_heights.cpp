@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "codec/geometry/corrections_encoder.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/stand_in_choice.hpp"
 #include "codec/geometry/value_table_encoder.hpp"
 #include "lattice/validity_encoder.hpp"

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/flat_encoder.hpp"
-#include "codec/geometry/flat_tiles.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_tiles.hpp"
 #include "wavelet/plane_cost.hpp"
 #include "wavelet/wavelet_header.hpp"
 

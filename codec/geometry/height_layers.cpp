@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "codec/geometry/corrections_decoder.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/drawn_heights.hpp"
-#include "codec/geometry/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 #include "codec/geometry/shown_lines.hpp"
 #include "codec/geometry/stored_heights.hpp"

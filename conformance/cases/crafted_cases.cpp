@@ -3,7 +3,7 @@
 // Here are those of heights; wavelets and drawings have files of their own.
 #include <limits>
 
-#include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"

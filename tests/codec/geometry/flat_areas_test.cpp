@@ -2,10 +2,10 @@
 // The layer of flat areas: what is found, and what comes back of it.
 #include <gtest/gtest.h>
 
+#include "codec/geometry/flat/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_tiles.hpp"
 #include "codec/geometry/flat_choice.hpp"
-#include "codec/geometry/flat_decoder.hpp"
-#include "codec/geometry/flat_encoder.hpp"
-#include "codec/geometry/flat_tiles.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"

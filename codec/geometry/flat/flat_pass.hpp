@@ -17,7 +17,7 @@
 #include "bitstream/coder/adaptive_bit.hpp"
 #include "lattice/validity_pass.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 /// The mask's side of a decision. Io: as below.
 template <class Io>
@@ -100,4 +100,4 @@ class FlatHeightsPass {
   std::array<AdaptiveBit, kMostBits> bits_;
 };
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

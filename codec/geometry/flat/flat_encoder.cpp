@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,9 +7,9 @@
 
 #include "bitstream/coder/decision_encoding.hpp"
 #include "bitstream/stream/header.hpp"
-#include "codec/geometry/flat_pass.hpp"
+#include "codec/geometry/flat/flat_pass.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heights) {
   const Extent extent = heights.extent();
@@ -79,4 +79,4 @@ std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask 
   return codeword;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

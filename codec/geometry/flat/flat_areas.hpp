@@ -13,7 +13,7 @@
 #include "base/plane.hpp"
 #include "wavelet/held_samples.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 /// Of a whole plane.
 struct FlatAreas {
@@ -62,4 +62,4 @@ struct NumberedAreas {
 };
 NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

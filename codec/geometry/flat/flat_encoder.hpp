@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 /// The areas of one height in a plane, of any size.
 class FlatFinder {
@@ -37,4 +37,4 @@ class FlatFinder {
 /// valid: the samples that are not void. There are areas.
 std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask valid);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_decoder.hpp"
 
 #include <utility>
 #include <vector>
 
 #include "bitstream/coder/decision_decoding.hpp"
-#include "codec/geometry/flat_pass.hpp"
+#include "codec/geometry/flat/flat_pass.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, Mask valid,
                           uint32_t areas) {
@@ -26,4 +26,4 @@ FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, Mask 
   return out;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat
