@@ -56,7 +56,8 @@ class PlaneLayout {
   /// the parts.
   void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
-  /// Says which priority each coefficient has that exists. Comes after markAbsent().
+  /// Sorts the coefficients of each band into tiers by their priority. Call it after markAbsent():
+  /// absent coefficients are of no tier.
   void markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
   /// Returns the coefficients of a part of a transformed plane, in the cell layout of its shape.
