@@ -56,8 +56,7 @@ class PlaneLayout {
   /// the parts.
   void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
-  /// Sorts the coefficients of each band into tiers by their priority. Call it after markAbsent():
-  /// absent coefficients are of no tier.
+  /// Sorts coefficients into tiers by priority. After markAbsent(): absent ones are of no tier.
   void markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
   /// Returns the coefficients of a part of a transformed plane, in the cell layout of its shape.
