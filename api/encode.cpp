@@ -133,7 +133,8 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
   if (Status status = takeArguments(heights, image, options, known); !status.ok()) return status;
   const tks_heights* known_heights = heights != nullptr ? &known.heights : nullptr;
   const tks_image* known_image = image != nullptr ? &known.image : nullptr;
-  Result<std::vector<uint8_t>> stream = encodeStream({known_heights, known_image, known.options});
+  Result<std::vector<uint8_t>> stream =
+      encodeStream({.heights = known_heights, .image = known_image, .options = known.options});
   if (!stream.ok()) return stream.status();
   Status proved = prove(*stream, known_heights, known_image, known.options);
   if (!proved.ok()) return proved;

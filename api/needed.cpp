@@ -7,6 +7,7 @@
 
 #include "api/memory.hpp"
 #include "api/ranges.hpp"
+#include "bitstream/stream/indexed_packets.hpp"
 #include "codec/geometry/shown_lines.hpp"
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -43,31 +44,17 @@ std::vector<bool> neededTracks(const StreamHeader& header, Component component, 
   return neededTracks(*header.geometry, lines, takesAll(header, lines));
 }
 
-/// Calls see(entry, place, size) for each packet of the index that the stream has bytes of; size:
-/// those, the packet's head included.
-void forEachPacket(const tks_decoder& decoder, const auto& see) {
-  const StreamHeader& header = decoder.parsed.header;
-  const TrackCounts counts = trackCounts(header);
-  const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
-  uint64_t place = decoder.parsed.bytes;
-  for (const auto& [entry, slope] : header.index) {
-    if (place >= end) return;
-    const auto component = static_cast<size_t>(entry.component());
-    const uint64_t head = headBytes(entry, counts[component].named).size();
-    const uint64_t size = std::min(head + (entry.head >> 2), end - place);
-    see(entry, place, size, std::min(head, size));
-    place += size;
-  }
-}
-
 /// How many bytes of a component's tracks that a view does not need are missing.
 uint64_t missingElsewhere(const tks_decoder& decoder, Component component, const View& view) {
   const std::vector<bool> needed = neededTracks(decoder.parsed.header, component, view);
   const auto elsewhere = [&](uint32_t track) { return track < needed.size() && !needed[track]; };
   uint64_t bytes = 0;
-  forEachPacket(decoder, [&](const PacketHead& entry, uint64_t, uint64_t size, uint64_t head) {
-    if (entry.component() == component && elsewhere(entry.track)) bytes += size - head;
-  });
+  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
+  for (const IndexedPacket& packet : IndexedPackets(decoder.parsed.header, decoder.parsed.bytes)) {
+    const PacketHead& head = packet.entry.packet;
+    if (head.component() == component && elsewhere(head.track))
+      bytes += std::min(packet.end, end) - std::min(packet.payload, end);
+  }
   for (const auto& [track, codeword] :
        decoder.packets.payload.codewords[static_cast<size_t>(component)])
     if (elsewhere(track)) bytes -= std::min<uint64_t>(bytes, codeword.size());
@@ -122,17 +109,20 @@ Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* windo
   if (part == TKS_PART_VALIDITY) needed.assign(1, true);
   const bool regions_apart = decoder.index == TKS_INDEX_WINDOWS;
   std::optional<uint32_t> last;
-  forEachPacket(decoder, [&](const PacketHead& entry, uint64_t place, uint64_t size, uint64_t) {
-    if (entry.component() != component || entry.track >= needed.size() || !needed[entry.track])
-      return;
-    const bool goes_on = !regions_apart || last == entry.track;
-    last = entry.track;
-    if (goes_on && !ranges.empty() && ranges.back().offset + ranges.back().size == place) {
+  const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
+  for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
+    const PacketHead& head = packet.entry.packet;
+    if (head.component() != component || head.track >= needed.size() || !needed[head.track])
+      continue;
+    const uint64_t size = std::min(packet.end, end) - packet.begin;
+    const bool goes_on = !regions_apart || last == head.track;
+    last = head.track;
+    if (goes_on && !ranges.empty() && ranges.back().offset + ranges.back().size == packet.begin) {
       ranges.back().size += size;
     } else {
-      ranges.push_back({place, size, 0});
+      ranges.push_back({packet.begin, size, 0});
     }
-  });
+  }
   showGap(decoder, ranges);
   return {};
 }

@@ -17,6 +17,7 @@
 #include "api/message.hpp"
 #include "api/screen_camera.hpp"
 #include "api/sighting.hpp"
+#include "bitstream/stream/indexed_packets.hpp"
 
 namespace tetrakis::inline api {
 namespace {
@@ -38,32 +39,31 @@ std::span<const uint8_t> payloadOf(std::span<const uint8_t> stream, const Parsed
   return behind.first(std::min<uint64_t>(behind.size(), parsed.header.payload_bytes));
 }
 
-/// The packets of the stream one after the other, heads included; one that is cut is the last.
-std::vector<std::span<const uint8_t>> packetsOf(const tks_decoder& decoder) {
-  const StreamHeader& header = decoder.parsed.header;
-  const TrackCounts counts = trackCounts(header);
-  std::span<const uint8_t> left = payloadOf(decoder.data, decoder.parsed);
-  std::vector<std::span<const uint8_t>> packets;
-  for (const auto& [head, slope] : header.index) {
-    const bool named = counts[static_cast<size_t>(head.component())].named;
-    const uint64_t bytes = headBytes(head, named).size() + (head.head >> 2);
-    packets.push_back(left.first(std::min<uint64_t>(left.size(), bytes)));
-    left = left.subspan(packets.back().size());
+/// What there is of a packet, its head included.
+struct AvailablePacket {
+  std::span<const uint8_t> bytes;
+  bool is_whole = false;
+};
+
+/// The packets of the index, of which those behind the end of the stream have no bytes.
+std::vector<AvailablePacket> packetsOf(const tks_decoder& decoder) {
+  const ParsedHeader& parsed = decoder.parsed;
+  const std::span<const uint8_t> payload = payloadOf(decoder.data, parsed);
+  const uint64_t end = parsed.bytes + payload.size();
+  std::vector<AvailablePacket> packets(parsed.header.index.size());
+  for (const IndexedPacket& packet : IndexedPackets(parsed.header, parsed.bytes)) {
+    if (packet.begin >= end) break;
+    const uint64_t known = std::min(packet.end, end) - packet.begin;
+    packets[packet.number] = {payload.subspan(packet.begin - parsed.bytes, known),
+                              packet.end <= end};
   }
   return packets;
 }
 
 /// The packets that are whole come first.
-void keepCutLast(const tks_decoder& decoder, const std::vector<std::span<const uint8_t>>& packets,
-                 std::vector<size_t>& order) {
-  const StreamHeader& header = decoder.parsed.header;
-  const TrackCounts counts = trackCounts(header);
-  const auto is_whole = [&](size_t i) {
-    const PacketHead& head = header.index[i].packet;
-    const bool named = counts[static_cast<size_t>(head.component())].named;
-    return packets[i].size() == headBytes(head, named).size() + (head.head >> 2);
-  };
-  const auto cut = std::stable_partition(order.begin(), order.end(), is_whole);
+void keepCutLast(const std::vector<AvailablePacket>& packets, std::vector<size_t>& order) {
+  const auto cut = std::stable_partition(order.begin(), order.end(),
+                                         [&](size_t i) { return packets[i].is_whole; });
   std::sort(cut, order.end());
 }
 
@@ -74,7 +74,7 @@ class ErrorLeft {
   explicit ErrorLeft(const std::vector<IndexEntry>& entries) : is_there_(entries.size()) {
     for (const auto& [packet, slope] : entries) {
       qualities_.push_back(packet.quality);
-      gains_.push_back(slopeOf(slope) * static_cast<double>(packet.head >> 2));
+      gains_.push_back(slopeOf(slope) * static_cast<double>(packet.length()));
     }
     for (size_t i = entries.size(); i-- > 0;) {
       const double taken = squares(i) - squares(entries.size() - 1);
@@ -130,7 +130,7 @@ std::vector<IndexEntry> reorderedIndex(const std::vector<IndexEntry>& index,
 void appendPacket(std::span<const uint8_t> packet, const PacketHead& head, bool named,
                   std::vector<uint8_t>& stream) {
   std::vector<uint8_t> bytes = headBytes(head, named);
-  assert(packet.size() <= bytes.size() + (head.head >> 2));
+  assert(packet.size() <= bytes.size() + head.length());
   bytes.resize(std::min(bytes.size(), packet.size()));
   stream.insert(stream.end(), bytes.begin(), bytes.end());
   const std::span<const uint8_t> rest = packet.subspan(bytes.size());
@@ -153,8 +153,8 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
   const StreamHeader& header = decoder.parsed.header;
   Result<std::vector<size_t>> order = orderFor(header, sightings);
   if (!order.ok()) return order.status();
-  const std::vector<std::span<const uint8_t>> packets = packetsOf(decoder);
-  keepCutLast(decoder, packets, *order);
+  const std::vector<AvailablePacket> packets = packetsOf(decoder);
+  keepCutLast(packets, *order);
   StreamHeader reordered = header;
   reordered.index = reorderedIndex(header.index, *order);
   std::vector<uint8_t> stream = writeHeader(reordered);
@@ -162,7 +162,7 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
   for (size_t i = 0; i < order->size(); ++i) {
     const PacketHead& head = reordered.index[i].packet;
     const bool named = counts[static_cast<size_t>(head.component())].named;
-    appendPacket(packets[(*order)[i]], head, named, stream);
+    appendPacket(packets[(*order)[i]].bytes, head, named, stream);
   }
   if (!holdTheSame(decoder.data, stream)) return wrongIndex();
   out.data = static_cast<uint8_t*>(std::malloc(stream.size()));

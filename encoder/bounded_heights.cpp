@@ -100,34 +100,46 @@ FlatChoice flatAreasOf(const Bound& bound, int32_t largest) {
                          cutPurpose(bound, largest));
 }
 
+/// One track of coefficients as a whole, and what lies around it.
+struct UncutHeights {
+  HeightLayers layers;
+  EncodedTrack track;
+};
+
+UncutHeights codeUncut(const Bound& bound, FlatChoice choice) {
+  const QuantisedHeights& heights = *bound.of;
+  HeightLayers layers = layersAround(heights, std::move(choice), bound.options.priorities);
+  EncodedTrack track = std::move(
+      codeCoefficients(heights, layers.wavelet, layers.flat.beside(bound.options)).front());
+  layers.wavelet.rounded_bytes = exactBytes(std::span(&track, 1));
+  return {std::move(layers), std::move(track)};
+}
+
+/// The layers with corrections to a largest error. distortion: of the cut before them, in the
+/// account's own measure, which the audit corrects later.
+HeightLayers withCorrections(HeightLayers layers, const Corrected& corrected, int32_t largest,
+                             double distortion) {
+  if (corrected.codeword.empty()) return layers;
+  layers.corrections = corrected.codeword;
+  layers.corrected_to = distortion * corrected.after / corrected.before;
+  layers.layers.corrections = CorrectionKind::kSteps;
+  layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
+  return layers;
+}
+
 /// mean_square: that the cut leaves, in steps; nothing: what takes the fewest bytes.
 CodedHeights correct(const Bound& bound, int32_t largest, FlatChoice choice,
                      std::optional<double> mean_square) {
   const QuantisedHeights& heights = *bound.of;
-  const EncodedTrack whole = std::move(
-      codeCoefficients(heights, choice.wavelet, choice.flat.beside(bound.options)).front());
-  choice.wavelet.rounded_bytes = exactBytes(std::span(&whole, 1));
-  GeometryHeader header = headerOf(heights);
-  header.wavelet = choice.wavelet;
-  header.planes = static_cast<uint8_t>(whole.planes);
-  if (bound.options.priorities != nullptr) header.priorities = headerOf(*bound.options.priorities);
-  const CorrectedCut cut_of(heights.steps, choice.flat.areas, header, whole, largest);
-  const uint64_t bytes = mean_square ? cut_of.bytesFor(*mean_square) : cut_of.best();
-  const Corrected corrected = cut_of.correct(bytes);
-  HeightLayers layers = layersAround(heights.layers, corrected.codeword, std::move(choice));
-  if (!corrected.codeword.empty()) {
-    layers.layers.corrections = CorrectionKind::kSteps;
-    layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
-  }
-  CodedHeights coded =
-      joinLayers(bound.of, layers, {cutAt(whole, bytes)}, bound.options.region_log2);
-  coded.header.priorities = header.priorities;
-  // In the account's own measure, which the audit corrects later.
-  if (!corrected.codeword.empty()) {
-    coded.tracks.front().points.back().distortion =
-        distortionAt(whole.points, bytes) * corrected.after / corrected.before;
-  }
-  return coded;
+  assert(heights.corrections.empty());
+  const auto [layers, track] = codeUncut(bound, std::move(choice));
+  const GeometryHeader header = headerOf(heights, layers, track.planes);
+  const CorrectedCut cut(heights.steps, layers.flat.areas, header, track, largest);
+  const uint64_t bytes = mean_square ? cut.bytesFor(*mean_square) : cut.best();
+  const Corrected corrected = cut.correct(bytes);
+  const double distortion = distortionAt(track.points, bytes);
+  return joinLayers(bound.of, withCorrections(layers, corrected, largest, distortion),
+                    {cutAt(track, bytes)}, bound.options.region_log2);
 }
 
 /// All attempts at a largest error in steps, whether they keep it or not.
@@ -209,7 +221,7 @@ bool correctionsMayPay(const CodedHeights& whole) {
     const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.of->samples), mask);
     return correctionsMayPay(plane, steps.range_bits, bytes);
   };
-  const bool some_flat = !whole.flat.areas.levels.empty();
+  const bool some_flat = !whole.flat.areas.heights.empty();
   return may_pay(freeSamples(whole)) || (some_flat && may_pay(steps.valid));
 }
 

@@ -20,8 +20,8 @@ double squaresOf(const FlatLayer& flat) {
   double squares = 0;
   for (const uint16_t number : flat.areas.numbers) {
     if (number == 0) continue;
-    const double level = flat.areas.levels[number - 1u];
-    squares += level * level;
+    const double height = flat.areas.heights[number - 1u];
+    squares += height * height;
   }
   return squares;
 }
@@ -74,7 +74,8 @@ void joinAccount(const QuantisedHeights& heights, const HeightLayers& layers, En
         track.points.front().distortion + voids * heights.validityWorth() + squaresOf(layers.flat);
     track.points.insert(track.points.begin(), {0, unknown, false, track.points.front().beyond});
   }
-  if (!layers.corrections.empty()) track.points.push_back({track.codeword.size(), 0});
+  if (!layers.corrections.empty())
+    track.points.push_back({track.codeword.size(), layers.corrected_to});
 }
 
 /// An account with a point for the mask and for each plane of bytes.
@@ -115,29 +116,46 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                             options);
 }
 
-HeightLayers layersAround(const GeometryLayers& known, std::span<const uint8_t> corrections,
-                          FlatChoice choice) {
-  HeightLayers layers{known, corrections, choice.wavelet, std::move(choice.flat)};
+HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
+                          const PriorityMap* priorities) {
+  HeightLayers layers{
+      .layers = heights.layers,
+      .corrections = heights.corrections,
+      .wavelet = choice.wavelet,
+      .priorities = priorities != nullptr ? headerOf(*priorities) : PriorityHeader(),
+      .flat = std::move(choice.flat)};
   layers.layers.flat_bytes = layers.flat.codeword.size();
-  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.levels.size());
+  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
   return layers;
+}
+
+GeometryHeader headerOf(const QuantisedHeights& heights, const HeightLayers& layers, int planes) {
+  GeometryHeader header = headerOf(heights);
+  header.wavelet = layers.wavelet;
+  header.priorities = layers.priorities;
+  header.planes = static_cast<uint8_t>(planes);
+  return header;
 }
 
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
                         std::vector<EncodedTrack> coefficients, int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
   const QuantisedHeights& heights = *of;
-  const auto& [all_layers, corrections, wavelet, flat] = layers;
-  CodedHeights coded{std::move(of),      headerOf(heights), all_layers, std::move(coefficients),
-                     corrections.size(), heights.left,      flat};
-  coded.header.wavelet = wavelet;
-  coded.header.planes = static_cast<uint8_t>(coded.tracks.front().planes);
+  const std::span<const uint8_t> corrections = layers.corrections;
+  const std::vector<uint8_t>& flat = layers.flat.codeword;
+  CodedHeights coded{.of = std::move(of),
+                     .header = headerOf(heights, layers, coefficients.front().planes),
+                     .layers = layers.layers,
+                     .tracks = std::move(coefficients),
+                     .closing = corrections.size(),
+                     .left = heights.left,
+                     .flat = layers.flat};
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
   EncodedTrack& track = coded.tracks.front();
   std::vector<uint8_t>& codeword = track.codeword;
   if (!corrections.empty()) coded.layers.coefficient_bytes = codeword.size();
   putTable(heights, coded.layers, track);
-  codeword.insert(codeword.begin(), flat.codeword.begin(), flat.codeword.end());
+  codeword.insert(codeword.begin(), flat.begin(), flat.end());
   codeword.insert(codeword.begin(), heights.validity.begin(), heights.validity.end());
   codeword.insert(codeword.end(), corrections.begin(), corrections.end());
   joinAccount(heights, layers, track);
@@ -152,7 +170,7 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
       {steps.steps, extentOf(*of->samples), steps.valid},
       {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
-  HeightLayers layers = layersAround(of->layers, of->corrections, std::move(choice));
+  HeightLayers layers = layersAround(*of, std::move(choice), options.priorities);
   std::vector<EncodedTrack> coefficients =
       codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));
   if (layers.wavelet.fraction_bits == 0) {
@@ -160,10 +178,7 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
     const double missing = roundedBits(plane, layers.wavelet) * of->counted();
     layers.wavelet.rounded_bytes = roundedBytes(coefficients, missing);
   }
-  CodedHeights coded =
-      joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
-  if (options.priorities != nullptr) coded.header.priorities = headerOf(*options.priorities);
-  return coded;
+  return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
 }
 
 std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of) {
@@ -171,7 +186,7 @@ std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> 
   std::optional<EncodedTrack> track =
       encodeDrawnHeights({steps.steps, extentOf(*of->samples), steps.valid});
   if (!track) return {};
-  const HeightLayers layers = layersAround(of->layers, of->corrections, {});
+  const HeightLayers layers = layersAround(*of, {}, nullptr);
   std::vector<EncodedTrack> tracks;
   tracks.push_back(*std::move(track));
   CodedHeights drawn = joinLayers(std::move(of), layers, std::move(tracks), 0);

@@ -39,17 +39,22 @@ struct CodedHeights {
   }
 };
 
-/// The layers around coefficients, and the filters of these.
+/// The layers around coefficients, and how these are coded.
 struct HeightLayers {
   GeometryLayers layers;
   std::span<const uint8_t> corrections;  ///< codeword
+  double corrected_to = 0;               ///< the squared error that corrections leave
   WaveletHeader wavelet;
+  PriorityHeader priorities;
   FlatLayer flat = {};
 };
 
-/// known: of table and voids; corrections: outlive the layers.
-HeightLayers layersAround(const GeometryLayers& known, std::span<const uint8_t> corrections,
-                          FlatChoice choice);
+/// The layers that the heights come with, which outlive the result, and flat areas.
+HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
+                          const PriorityMap* priorities);
+
+/// The header of heights whose coefficients, in so many bit-planes, have these layers around them.
+GeometryHeader headerOf(const QuantisedHeights& heights, const HeightLayers& layers, int planes);
 
 /// The filters that suit the heights.
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);

@@ -47,7 +47,7 @@ CodedHeights codeUntilReached(const EncodeInputs& inputs,
                               HeightTarget target) {
   const SampleRange range = rangeOf(*inputs.heights, of->steps.valid);
   const double wanted =
-      worstMeanSquare(range.high - range.low, inputs.options.psnr) / inputs.heaviest;
+      worstMeanSquare(range.high - range.low, inputs.options.psnr) / inputs.heaviest();
   target.mean_square = wanted / (of->steps.step * of->steps.step);
   CoefficientOptions options = heightOptions(inputs);
   if (target.mean_square > 1 && !of->restored())
@@ -153,16 +153,12 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
 /// (docs/EXPERIMENTS.md), and coding twice takes twice the time.
 Result<Selection> selectWithMaps(const EncodeInputs& given, const ViewPriorities& priorities) {
   constexpr uint64_t kCertain = 16;
-  EncodeInputs inputs = given;
-  inputs.priorities = &priorities;
-  Result<Selection> with = codeAndSelect(inputs);
+  Result<Selection> with = codeAndSelect(given.with(given.options, &priorities));
   if (!given.budgeted() || !with.ok() || !with->heights || !with->texture) return with;
   if (bytesOfMaps(*with) * kCertain <= given.options.bytes) return with;
   tks_encode_options options = given.options;
   options.progress = nullptr;  // it has been told of all this
-  Result<Selection> without =
-      codeAndSelect({given.heights, given.image, options, nullptr, given.whole, given.repeats,
-                     given.heaviest, given.shown});
+  Result<Selection> without = codeAndSelect(given.with(options, nullptr));
   if (without.ok() && !mapsPay(given, *with, *without)) return without;
   return with;
 }
@@ -200,8 +196,11 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   const CodedLines lines = linesFor(given);
   if (lines.repeats.none()) return encodeLines(given);
   const tks_heights coded = lines.of(*given.heights);
-  return encodeLines({&coded, given.image, given.options, nullptr, given.heights, &lines.repeats,
-                      lines.heaviest, lines.shown});
+  return encodeLines({.heights = &coded,
+                      .image = given.image,
+                      .options = given.options,
+                      .whole = given.heights,
+                      .lines = &lines});
 }
 
 }  // namespace tetrakis::inline encoder

@@ -17,8 +17,7 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   options.bytes = 0;
   options.psnr = options.max_error = 0;
   options.lossless = 1;
-  const EncodeInputs lossless{inputs.heights, inputs.image,   options,         inputs.priorities,
-                              inputs.whole,   inputs.repeats, inputs.heaviest, inputs.shown};
+  const EncodeInputs lossless = inputs.with(options, inputs.priorities);
   const Result<std::shared_ptr<const QuantisedHeights>> heights = quantiseHeights(lossless);
   if (!heights.ok()) return nullptr;
   const HeightSteps& steps = (*heights)->steps;

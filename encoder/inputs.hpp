@@ -8,8 +8,8 @@
 
 #include "base/status.hpp"
 #include "base/texels.hpp"
-#include "bitstream/stream/line_repeats.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
+#include "encoder/repeated_lines.hpp"
 #include "tetrakis/tetrakis.h"
 #include "texture_wavelet/texture_source.hpp"
 #include "wavelet/filter_choice.hpp"
@@ -32,15 +32,28 @@ struct EncodeInputs {
   const tks_image* image;      ///< null: there is none
   const tks_encode_options& options;
   const ViewPriorities* priorities = nullptr;  ///< null: none; else it outlives this as well
-  /// The caller's heights, of which `heights` are the coded lines; null: they are the same.
+  /// The caller's heights, and those lines of them that `heights` are; null: they are all lines.
   const tks_heights* whole = nullptr;
-  const LineRepeats* repeats = nullptr;  ///< not null with `whole`
-  /// How many times the mean squared error of the coded lines that of all lines may be.
-  double heaviest = 1;
-  /// How many samples of the whole heights show each coded one; empty: one.
-  std::span<const uint32_t> shown = {};
+  const CodedLines* lines = nullptr;
 
   bool budgeted() const { return options.bytes != 0; }
+  /// The caller's heights with all their lines.
+  const tks_heights* allHeights() const { return lines != nullptr ? whole : heights; }
+  /// The mean squared error of all lines is at most so many times that of the coded ones.
+  double heaviest() const { return lines != nullptr ? lines->heaviest : 1; }
+  /// By how many samples of all lines each coded sample is shown; empty: by one.
+  std::span<const uint32_t> shownBy() const {
+    return lines != nullptr ? std::span(lines->shown_by) : std::span<const uint32_t>();
+  }
+  /// The same under other options, which outlive the result, and with other priorities.
+  EncodeInputs with(const tks_encode_options& other, const ViewPriorities* others) const {
+    return {.heights = heights,
+            .image = image,
+            .options = other,
+            .priorities = others,
+            .whole = whole,
+            .lines = lines};
+  }
 };
 
 /// What components are coded for unless they have reasons of their own.

@@ -55,7 +55,7 @@ std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCan
     if (bytes < validity) return false;
     const Codewords prefix = prefixAfter(coded.rated(), packets, bytes);
     const SampleErrors errors = sampleErrorsOf(coded, prefix, inputs.options.threads);
-    return errors.mean_square * inputs.heaviest <= worst;
+    return errors.mean_square * inputs.heaviest() <= worst;
   });
 }
 

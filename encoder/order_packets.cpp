@@ -43,9 +43,10 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
 ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights) {
   const QuantisedHeights& source = *heights.of;
   const bool modelled = looksAtMeshes(inputs, source);
-  const Pricing pricing{heights.counted() / inputs.heaviest,
-                        modelled ? 0 : meshFloor(source, inputs.options.triangles),
-                        inputs.image != nullptr, trackOrderOf(inputs.options)};
+  const Pricing pricing{.samples = heights.counted() / inputs.heaviest(),
+                        .floor = modelled ? 0 : meshFloor(source, inputs.options.triangles),
+                        .shared = inputs.image != nullptr,
+                        .order = trackOrderOf(inputs.options)};
   HeightsMemory memory;
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
     return squaresOf(heights, prefixAfter(heights.rated(), packets, bytes), inputs.options.threads,
@@ -65,7 +66,9 @@ ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& te
   return curveOf(texture.rated(),
                  auditScope(inputs, texture.of->texels.samples.size(), texture.header.wavelet),
                  measure,
-                 {texture.counted(), 0, inputs.heights != nullptr, trackOrderOf(inputs.options)});
+                 {.samples = texture.counted(),
+                  .shared = inputs.heights != nullptr,
+                  .order = trackOrderOf(inputs.options)});
 }
 
 }  // namespace tetrakis::inline encoder

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "codec/geometry/corrections_encoder.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/stand_in_choice.hpp"
 #include "codec/geometry/value_table_encoder.hpp"
 #include "lattice/validity_encoder.hpp"
@@ -123,7 +123,7 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
   if (!chosen.ok()) return chosen.status();
   auto heights = std::make_shared<QuantisedHeights>();
   heights->samples = inputs.heights;
-  heights->shown_by = inputs.shown;
+  heights->shown_by = inputs.shownBy();
   heights->steps = std::move(chosen->steps);
   addValidity(*heights);
   addTable(*heights);

@@ -131,7 +131,7 @@ CodedLines findRepeatedLines(const tks_heights& heights) {
   const std::vector<uint32_t> across = runsOf(columns), down = runsOf(rows);
   for (const uint32_t rows_of_one : down) {
     for (const uint32_t columns_of_one : across)
-      lines.shown.push_back(rows_of_one * columns_of_one);
+      lines.shown_by.push_back(rows_of_one * columns_of_one);
   }
   lines.repeats = encodeRepeats(std::move(columns), std::move(rows));
   return lines;

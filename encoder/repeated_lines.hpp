@@ -16,9 +16,11 @@ struct CodedLines {
   LineRepeats repeats;             ///< none: it does not pay
   std::vector<std::byte> samples;  ///< of the lines that are coded
   Extent extent = {0, 0};          ///< of these
-  /// How many times the mean squared error of all samples may be that of the coded ones.
+  /// A coded sample counts as often as it is shown. This is the weight of the one that is shown
+  /// most often, beside the mean weight: the mean squared error of all samples is at most so many
+  /// times that of the coded ones.
   double heaviest = 1;
-  std::vector<uint32_t> shown;  ///< by how many samples each coded one is shown
+  std::vector<uint32_t> shown_by;  ///< how many samples each coded one stands for
 
   /// The heights that are coded; their data is `samples`, which outlives them.
   tks_heights of(const tks_heights& whole) const;

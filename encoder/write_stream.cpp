@@ -49,12 +49,11 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     header.geometry = selection.heights->header;
     header.geometry->max_error = options.max_error > 0 ? options.max_error : lossless ? 0 : -1;
     header.layers = selection.heights->layers;
-    if (inputs.repeats != nullptr) header.geometry->repeats = *inputs.repeats;
-    header.metadata = metadataOf(inputs.whole != nullptr ? *inputs.whole : *inputs.heights);
+    if (inputs.lines != nullptr) header.geometry->repeats = inputs.lines->repeats;
+    header.metadata = metadataOf(*inputs.allHeights());
   }
   if (selection.texture) header.texture = selection.texture->header;
-  header.georeference =
-      georeferenceOf(inputs.whole != nullptr ? inputs.whole : inputs.heights, inputs.image);
+  header.georeference = georeferenceOf(inputs.allHeights(), inputs.image);
   if (options.index != 0) header.index = indexOf(selection.packets);
   return header;
 }

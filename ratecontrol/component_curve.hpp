@@ -24,12 +24,14 @@ struct ComponentCurve {
   size_t opened = 0;  ///< the first point behind the opening
 };
 
-/// Which errors count, beside what, and whether packets keep together.
+/// How the errors of a component become what its packets are worth, and how it is divided into
+/// packets.
 struct Pricing {
-  double samples = 1;   ///< over which errors are means
-  double floor = 0;     ///< mean squared error below which less is worth nothing
-  bool shared = false;  ///< another component's packets come between: long ones are divided
-  TrackOrder order = TrackOrder::kSlopes;
+  double samples = 1;   ///< squared errors are divided by it: packets state means
+  double floor = 0;     ///< bytes that lower the mean squared error below it are worth nothing
+  bool shared = false;  ///< there is another component, whose packets may come between the parts of
+                        ///< a long packet: such packets are divided
+  TrackOrder order = TrackOrder::kSlopes;  ///< of several tracks among each other
 };
 
 /// Squared error of the decoded samples for the first bytes of such packets; without packets, of

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "bitstream/stream/indexed_packets.hpp"
 #include "bitstream/stream/pieces.hpp"
 #include "receiver/track_costs.hpp"
 
@@ -13,40 +14,26 @@ namespace tetrakis::inline receiver {
 
 namespace {
 
-/// Follows an index through the stream. What packets are worth does not rise within a track.
-class IndexWalk {
+/// What packets are worth, taken in the stream's order, beside those before them: it does not rise
+/// within a track, and a component's opening comes before all others.
+class WorthInOrder {
  public:
-  explicit IndexWalk(const StreamHeader& header, uint64_t begin)
-      : header_(header), counts_(trackCounts(header)), place_(begin) {}
+  explicit WorthInOrder(const StreamHeader& header) : header_(header) {}
 
-  /// Where the next packet begins.
-  uint64_t place() const { return place_; }
-
-  /// worth: of an entry without what came before.
-  PlacedPacket take(const IndexEntry& entry, const PacketWorth& worth) {
-    const PacketHead& head = entry.packet;
+  /// worth: of the packet without what came before.
+  PacketWorth take(const PacketHead& head, const PacketWorth& worth) {
     const auto component = static_cast<size_t>(head.component());
-    const uint64_t length = head.head >> 2;
-    const size_t before = headBytes(head, counts_[component].named).size();
-    constexpr uint64_t kBehindAll = uint64_t{1} << 63;  // lengths are below 2^62
-    const uint64_t end = std::min(place_ + before + length, kBehindAll);
-    PlacedPacket packet = {number_++, place_, end, worth};
-    place_ = end;
     if (head.track == 0 && opened_[component] < openingBytes(header_, head.component())) {
-      opened_[component] += length;
-      packet.worth = {kOpening, kOpening, kOpening};
-      return packet;
+      opened_[component] += head.length();
+      return {kOpening, kOpening, kOpening};
     }
     const auto [last, is_new] = last_.try_emplace({head.component(), head.track}, worth);
-    packet.worth = last->second = last->second.least(worth);
-    return packet;
+    last->second = last->second.least(worth);
+    return last->second;
   }
 
  private:
   const StreamHeader& header_;
-  TrackCounts counts_;
-  uint64_t place_;
-  size_t number_ = 0;
   std::array<uint64_t, kComponents> opened_{};
   std::map<std::pair<Component, uint32_t>, PacketWorth> last_;
 };
@@ -62,21 +49,21 @@ Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint
   std::vector<TrackCosts> costs;
   costs.reserve(sightings.size());
   for (const WeightedSighting& s : sightings) costs.emplace_back(header, s.sighting);
-  IndexWalk walk(header, begin);
+  WorthInOrder in_order(header);
   std::vector<PlacedPacket> packets;
   packets.reserve(header.index.size());
-  for (const IndexEntry& entry : header.index) {
-    if (walk.place() >= begin + header.payload_bytes) break;  // the index runs ahead of the packets
-    const double slope = slopeOf(entry.slope);
+  for (const IndexedPacket& packet : IndexedPackets(header, begin)) {
+    const PacketHead& head = packet.entry.packet;
+    const double slope = slopeOf(packet.entry.slope);
     PacketWorth worth{0, 0, slope};
     for (size_t i = 0; i < costs.size(); ++i) {
-      if (!costs[i].holds(entry.packet))
+      if (!costs[i].holds(head))
         return Status(TKS_CORRUPT, "Corrupt stream: its index names a track that there is not.");
-      const double here = slope * sightings[i].weight * costs[i].at(entry.packet);
+      const double here = slope * sightings[i].weight * costs[i].at(head);
       if (i == 0) worth.now = here;
       worth.all += here;
     }
-    packets.push_back(walk.take(entry, worth));
+    packets.push_back({packet.number, packet.begin, packet.end, in_order.take(head, worth)});
   }
   return packets;
 }

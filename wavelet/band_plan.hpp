@@ -56,7 +56,7 @@ class PlaneLayout {
   /// the parts.
   void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
-  /// Says which priority each coefficient has that exists. Comes after markAbsent().
+  /// Sorts coefficients into tiers by priority. After markAbsent(): absent ones are of no tier.
   void markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
 
   /// Returns the coefficients of a part of a transformed plane, in the cell layout of its shape.

@@ -3,7 +3,7 @@
 // any coefficient. A step reads a held sample, but does not change it as it changes others. It
 // makes of it what it makes of a signal that has the sample's value everywhere. So constants are
 // predicted exactly up to the shore of a lake, no coefficient of a held sample is coded, and
-// nothing rings across the shore: land next to water is predicted from the water's true level, and
+// nothing rings across the shore: land next to water is predicted from the water's true height, and
 // an update finds no detail on the water.
 //
 // Of such a signal all even samples are equal at any time, and so are all odd ones. With s[0] =

@@ -185,8 +185,10 @@ void JointLifting::addRounded(int places, std::span<int32_t> target) const {
   }
 }
 
-/// Where they are not: makes of n + r a coefficient n + [r + (...)], or 2 n + [2 (r + (...))], and
-/// back.
+/// Where samples have fractions, that is n + r with a whole number n and r sixteenths: the analysis
+/// makes of each a whole coefficient n + [r + s], where s is the sum of the brackets and [ ]
+/// rounds, or 2 n + [2 (r + s)] if the level doubles its low band. The synthesis finds n again,
+/// because decoders know r (findFractions()) and s before they come to the sample.
 void JointLifting::roundFractions(HalfRow of, int doublings) const {
   const int places = kJointPlaces - doublings;
   const std::span<int32_t> target = half(of.row, of.high);

@@ -109,7 +109,7 @@ Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const Trac
     PacketHead head;
     reader.shortestVarint("head", head.head, 0, UINT64_MAX);
     const TrackCount& count = counts[static_cast<size_t>(head.component())];
-    const uint64_t length = head.head >> 2;
+    const uint64_t length = head.length();
     if (count.named) reader.shortestVarint("region", head.track, 0, UINT32_MAX);
     reader.u8("quality", head.quality, 0, 255);
     if (reader.starved()) break;
@@ -153,9 +153,8 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
                     [&](const PacketHead& head, std::span<const uint8_t> bytes, bool complete) {
                       const auto component = static_cast<size_t>(head.component());
                       assert(head.track < counts[component].tracks);
-                      const bool whole = (head.head & 2) != 0;
                       out.heads.push_back(head);
-                      if (complete || !whole) {
+                      if (complete || !head.whole()) {
                         std::vector<uint8_t>& codeword = out.codewords[component][head.track];
                         codeword.insert(codeword.end(), bytes.begin(), bytes.end());
                       }

@@ -64,6 +64,8 @@ struct PacketHead {
   bool operator==(const PacketHead&) const = default;
 
   Component component() const { return static_cast<Component>(head & 1); }
+  bool whole() const { return (head & 2) != 0; }
+  uint64_t length() const { return head >> 2; }  ///< of the payload
 };
 
 /// What the front index says of a packet.

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "bitstream/stream/indexed_packets.hpp"
+
 namespace tetrakis::inline stream {
 
 void Pieces::put(uint64_t place, std::span<const uint8_t> bytes) {
@@ -77,36 +79,33 @@ void dropUnopened(const StreamHeader& header, Demultiplexed& payload) {
 }  // namespace
 
 Status addScattered(const Pieces& pieces, const ParsedHeader& parsed, Demultiplexed& payload) {
-  const std::vector<IndexEntry>& index = parsed.header.index;
   const uint64_t end = parsed.bytes + parsed.header.payload_bytes;
   std::set<std::pair<Component, uint32_t>> ended;  // tracks whose next byte is missing
-  uint64_t place = parsed.bytes;
   const auto before_end = [&](uint64_t from) {
     const std::span<const uint8_t> bytes = pieces.from(from);
     return bytes.first(std::min<uint64_t>(bytes.size(), end - std::min(from, end)));
   };
-  // The encoder may have cut the payload to a budget; the index then runs ahead of the packets.
-  for (size_t i = 0; i < index.size() && place < end; ++i) {
-    const PacketHead& entry = index[i].packet;
+  for (const IndexedPacket& packet : IndexedPackets(parsed.header, parsed.bytes)) {
+    const PacketHead& entry = packet.entry.packet;
     const auto component = static_cast<size_t>(entry.component());
     const TrackCount& tracks = payload.counts[component];
     if (entry.track >= tracks.tracks) {
       return {TKS_CORRUPT, "Corrupt stream: its index names a track that there is not."};
     }
     const std::vector<uint8_t> head = headBytes(entry, tracks.named);
-    const uint64_t length = entry.head >> 2, begin = place + head.size();
-    const std::span<const uint8_t> known = before_end(place), bytes = before_end(begin);
+    const std::span<const uint8_t> known = before_end(packet.begin),
+                                   bytes = before_end(packet.payload);
     if (!std::equal(head.begin(), head.begin() + std::min(head.size(), known.size()),
                     known.begin())) {
       return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
-                               std::to_string(place) + "."};
+                               std::to_string(packet.begin) + "."};
     }
-    place = begin + length;
-    const bool complete = bytes.size() >= length, whole = (entry.head & 2) != 0;
+    const bool complete = bytes.size() >= entry.length();
     const std::pair track(entry.component(), entry.track);
-    if (i >= payload.heads.size() && (complete || !whole) && !ended.contains(track)) {
+    const bool is_new = packet.number >= payload.heads.size();
+    if (is_new && (complete || !entry.whole()) && !ended.contains(track)) {
       std::vector<uint8_t>& codeword = payload.codewords[component][entry.track];
-      const auto taken = bytes.first(std::min<uint64_t>(bytes.size(), length));
+      const auto taken = bytes.first(std::min<uint64_t>(bytes.size(), entry.length()));
       codeword.insert(codeword.end(), taken.begin(), taken.end());
     }
     if (!complete) ended.insert(track);

@@ -20,10 +20,10 @@ struct RatePoint {
   double distortion;  ///< weighted squared error of the coefficients, by what viewers see of it
   /// Between the point before and this one, some prefix is noticeably worse than the best so far.
   bool dips = false;
-  /// The same wherever it is, less what distortion has: nothing unless there are priorities.
+  /// By how much the unweighted squared error exceeds distortion; 0 unless there are priorities.
   double beyond = 0;
 
-  /// All squared errors alike.
+  /// The unweighted squared error of the coefficients.
   double squares() const { return distortion + beyond; }
 };
 

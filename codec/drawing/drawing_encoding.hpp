@@ -22,9 +22,37 @@ struct Numbered {
   std::vector<Value> values;
 };
 
+/// The decisions of a drawing as a codeword.
+class DrawingDecisions {
+ public:
+  bool bit(AdaptiveBit& model, bool ours) {
+    encoder_.encode(model, ours);
+    return ours;
+  }
+  bool bitOf(uint32_t zero, bool ours) {
+    encoder_.encodeOf(zero, ours);
+    return ours;
+  }
+  bool evenBit(bool ours) {
+    encoder_.encodeEven(ours);
+    return ours;
+  }
+  bool stopped() const { return false; }
+  uint64_t decidedBytes() const { return encoder_.decidedBytes(); }
+
+  std::vector<uint8_t> finish() {
+    std::vector<uint8_t> codeword = encoder_.finish();
+    if (codeword.empty()) codeword.push_back(0);  // a track has at least one packet
+    return codeword;
+  }
+
+ private:
+  RangeEncoder encoder_;
+};
+
 /// Values have an index from the moment on when they are first coded.
 template <class Value>
-class DrawingEncoding {
+class DrawingEncoding : public DrawingDecisions {
  public:
   /// Squared error of what a decoder shows that knows the indices so far.
   using Measure = std::function<double()>;
@@ -42,32 +70,13 @@ class DrawingEncoding {
 
   /// Gives a value that has not appeared yet its index.
   DrawnIndex target(size_t sample) {
-    if (measure_ && encoder_.decidedBytes() >= next_) note(encoder_.decidedBytes());
+    if (measure_ && decidedBytes() >= next_) note(decidedBytes());
     DrawnIndex& index = index_[samples_.numbers[sample]];
     const DrawnIndex known = index;
     if (known == kNoIndex) index = static_cast<DrawnIndex>(listed_++);
     return known;
   }
   const Value& value(size_t sample) const { return samples_.values[samples_.numbers[sample]]; }
-  bool bit(AdaptiveBit& model, bool ours) {
-    encoder_.encode(model, ours);
-    return ours;
-  }
-  bool bitOf(uint32_t zero, bool ours) {
-    encoder_.encodeOf(zero, ours);
-    return ours;
-  }
-  bool evenBit(bool ours) {
-    encoder_.encodeEven(ours);
-    return ours;
-  }
-  bool stopped() const { return false; }
-
-  std::vector<uint8_t> finish() {
-    std::vector<uint8_t> codeword = encoder_.finish();
-    if (codeword.empty()) codeword.push_back(0);  // a track has at least one packet
-    return codeword;
-  }
 
   EncodedTrack finishTrack(int planes) {
     EncodedTrack track;
@@ -104,7 +113,6 @@ class DrawingEncoding {
   size_t listed_;
   std::vector<DrawnIndex> index_;  ///< of each number
   uint64_t next_ = 0;              ///< bytes at which the error is measured again
-  RangeEncoder encoder_;
   std::vector<RatePoint> points_;
 };
 

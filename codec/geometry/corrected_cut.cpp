@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "codec/geometry/corrections_encoder.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 
 namespace tetrakis::inline geometry {
 

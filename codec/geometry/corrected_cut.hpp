@@ -8,7 +8,7 @@
 
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
-#include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/height_steps.hpp"
 
 namespace tetrakis::inline geometry {

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/flat_encoder.hpp"
-#include "codec/geometry/flat_tiles.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_tiles.hpp"
 #include "wavelet/plane_cost.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -48,8 +48,8 @@ class TriedTile {
  public:
   TriedTile(const Tile& tile, const FlatAreas& flat, const WaveletHeader& wavelet)
       : values_(scaled(tile.heights, wavelet)),
-        levels_(scaled(flat.levels, wavelet)),
-        layout_(specOf(wavelet), tile.extent(), tile.valid, {flat.numbers, levels_}) {
+        area_heights_(scaled(flat.heights, wavelet)),
+        layout_(specOf(wavelet), tile.extent(), tile.valid, {flat.numbers, area_heights_}) {
     clearUnmarked(std::span(values_), tile.valid);
     forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
   }
@@ -64,7 +64,7 @@ class TriedTile {
     return values;
   }
 
-  std::vector<int32_t> values_, levels_;
+  std::vector<int32_t> values_, area_heights_;
   PlaneLayout layout_;
 };
 
@@ -190,7 +190,7 @@ class FlatTrials {
       std::vector<FlatAreas> areas;
       for (const Tile& tile : tiles_) {
         areas.push_back(finder_.areas(least, tile.place.window));
-        count += areas.back().levels.size();
+        count += areas.back().heights.size();
       }
       if (count == count_before) continue;
       count_before = count;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "wavelet/filter_choice.hpp"
 

@@ -73,14 +73,14 @@ class Significance {
   std::vector<int> quiet_;      ///< of each track, the finest levels without such a coefficient
 };
 
-/// Levels of the plane are exact where it is flat, at all mip levels.
+/// Where the plane is flat, its heights are exact at all mip levels.
 void holdShown(const FlatAreas& flat, Extent plane, const View& view,
                std::vector<int32_t>& heights) {
   if (flat.empty()) return;
   const Extent extent = view.extentIn(plane);
   for (uint32_t y = 0; y < extent.height; ++y) {
     const size_t row = (view.firstRow() + size_t{y} * view.step()) * plane.width;
-    hold({flat.numbers.data() + row + view.firstColumn(), view.step()}, flat.levels,
+    hold({flat.numbers.data() + row + view.firstColumn(), view.step()}, flat.heights,
          std::span(heights).subspan(size_t{y} * extent.width, extent.width));
   }
 }
@@ -124,8 +124,8 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
         if (significance) significance->take(i, state, parts);
       });
   out.fraction_bits = precision.fraction_bits;
-  for (int32_t& level : flat.levels)  // of what the layout holds, as it is needed from here on
-    level = static_cast<int32_t>(static_cast<uint32_t>(level) << out.fraction_bits);
+  for (int32_t& height : flat.heights)  // of what the layout holds, as it is needed from here on
+    height = static_cast<int32_t>(static_cast<uint32_t>(height) << out.fraction_bits);
   out.heights = synthesis.run(context.threads, precision.rounds);
   if (significance) significance->giveTo(out);
   const Extent extent = view.extentIn(header.extent());

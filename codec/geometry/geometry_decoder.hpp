@@ -9,7 +9,7 @@
 #include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
-#include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 #include "wavelet/region_decoder.hpp"
 
 namespace tetrakis::inline geometry {

@@ -41,12 +41,12 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   const WaveletSpec spec = specOf(wavelet);
   static const FlatAreas kNone;
   const FlatAreas& flat = options.flat == nullptr ? kNone : *options.flat;
-  std::vector<int32_t> levels = flat.levels;
-  for (int32_t& h : levels)
+  std::vector<int32_t> area_heights = flat.heights;
+  for (int32_t& h : area_heights)
     h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
   static const PriorityMap kAlike;
   const PriorityMap& priorities = options.priorities == nullptr ? kAlike : *options.priorities;
-  const PlaneLayout layout(spec, heights.extent(), heights.valid, {flat.numbers, levels},
+  const PlaneLayout layout(spec, heights.extent(), heights.valid, {flat.numbers, area_heights},
                            priorities);
   forwardWavelet(spec, layout.pyramid(), plane, options.threads);
   const double unit = std::exp2(-2 * wavelet.fraction_bits);

@@ -8,7 +8,7 @@
 #include "base/plane.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
-#include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 #include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline geometry {

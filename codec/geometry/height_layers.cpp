@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "codec/geometry/corrections_decoder.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/drawn_heights.hpp"
-#include "codec/geometry/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 #include "codec/geometry/shown_lines.hpp"
 #include "codec/geometry/stored_heights.hpp"
@@ -139,7 +139,7 @@ DecodedHeights cutWindow(const DecodedHeights& whole, const View& view) {
 
 uint64_t HeightsMemory::bytes() const {
   return valid.size() + flat.numbers.size() * sizeof(uint16_t) +
-         flat.levels.size() * sizeof(int32_t) + tracks.bytes();
+         flat.heights.size() * sizeof(int32_t) + tracks.bytes();
 }
 
 std::vector<uint8_t> activityHints(const DecodedGeometry& geometry) {

@@ -39,8 +39,8 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view);
 
-/// Returns the hints (codec/geometry/corrections_pass.hpp) of corrections of steps: how many of a
-/// vertex and its four neighbours are significant.
+/// Returns the hints (codec/geometry/corrections/corrections_pass.hpp) of corrections of steps: how
+/// many of a vertex and its four neighbours are significant.
 std::vector<uint8_t> activityHints(const DecodedGeometry& geometry);
 
 }  // namespace tetrakis::inline geometry

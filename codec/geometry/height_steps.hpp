@@ -58,8 +58,8 @@ Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
 void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
                const GeometryLayers& layers, void* out);
 
-/// The hints (codec/geometry/corrections_pass.hpp) of corrections to samples that these steps
-/// become. steps: whole, as decoders know them.
+/// The hints (codec/geometry/corrections/corrections_pass.hpp) of corrections to samples that these
+/// steps become. steps: whole, as decoders know them.
 std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header);
 
 /// The steps of a table's values as decoders know them: drawn, and whole.

@@ -3,7 +3,7 @@
 // Here are those of heights; wavelets and drawings have files of their own.
 #include <limits>
 
-#include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
@@ -90,7 +90,7 @@ std::vector<VectorCase> craftedTableCases() {
                      {TKS_I32, 1 << 20, 83, 300, {{400000, -300}, {524288, 300}, {700000, 9}}, 6})};
 }
 
-/// Flat areas of any shape and any level, and noise for coefficients.
+/// Flat areas of any shape and any height, and noise for coefficients.
 VectorCase flatNoise(const std::string& name, const std::string& purpose, StreamHeader header,
                      samples::VoidShape shape, uint32_t seed) {
   const Extent extent = header.geometry->extent();
@@ -98,7 +98,7 @@ VectorCase flatNoise(const std::string& name, const std::string& purpose, Stream
   NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, extent));
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
   for (uint32_t i = 0; i < numbered.count; ++i)
-    areas.levels[i] = static_cast<int32_t>(samples::hash(i % 11, seed, 43) >> (i % 5 * 5));
+    areas.heights[i] = static_cast<int32_t>(samples::hash(i % 11, seed, 43) >> (i % 5 * 5));
   Bytes codeword = encodeFlatAreas(areas, extent, {});
   header.layers.flat_bytes = codeword.size();
   header.layers.flat_areas = numbered.count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drawings of noise: values and indices that nothing foretells.
-#include "bitstream/coder/range_encoder.hpp"
+#include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
 #include "codec/geometry/drawn_steps.hpp"
 #include "conformance/cases/cases.hpp"
@@ -11,9 +11,10 @@
 namespace tetrakis::conformance {
 namespace {
 
-/// Makes a drawing as it goes: `fresh` values, then indices that nothing foretells.
+/// A drawing of no image, made while it is coded: its first `fresh` vertices take new values, all
+/// others values of random numbers in the list. An encoder would never write such a one.
 template <class Value>
-class MadeDrawing {
+class MadeDrawing : public DrawingDecisions {
  public:
   /// make: a value of 32 random bits.
   MadeDrawing(uint32_t fresh, Value (*make)(uint32_t)) : fresh_(fresh), make_(make) {}
@@ -24,26 +25,11 @@ class MadeDrawing {
     return count_ <= fresh_ ? kNoIndex : static_cast<DrawnIndex>(h >> 8 & 4095);
   }
   const Value& value(size_t) const { return value_; }
-  bool bit(AdaptiveBit& model, bool ours) {
-    encoder_.encode(model, ours);
-    return ours;
-  }
-  bool bitOf(uint32_t zero, bool ours) {
-    encoder_.encodeOf(zero, ours);
-    return ours;
-  }
-  bool evenBit(bool ours) {
-    encoder_.encodeEven(ours);
-    return ours;
-  }
-  bool stopped() const { return false; }
-  Bytes finish() { return encoder_.finish(); }
 
  private:
   uint32_t fresh_, count_ = 0;
   Value (*make_)(uint32_t);
   Value value_{};
-  RangeEncoder encoder_;
 };
 
 Bytes drawnStream(uint32_t width, uint32_t height, uint32_t fresh) {

@@ -34,12 +34,12 @@ std::vector<uint32_t> areasOf(const std::vector<uint8_t>& flat, int width, uint3
   return areas;
 }
 
-/// FORMAT 8.1, "Levels". Nothing: a decision does not count.
-class LevelDecoder {
+/// FORMAT 8.1, "Flat areas": the heights. Nothing: a decision does not count.
+class AreaHeightDecoder {
  public:
-  explicit LevelDecoder(RangeDecoder& decoder) : decoder_(decoder) {}
+  explicit AreaHeightDecoder(RangeDecoder& decoder) : decoder_(decoder) {}
 
-  std::optional<uint32_t> level() {
+  std::optional<uint32_t> height() {
     size_t place = 0;
     for (auto known = recent_.begin(); known != recent_.end(); ++known, ++place) {
       const std::optional<int> hit = hit_[place].decode(decoder_);
@@ -50,10 +50,10 @@ class LevelDecoder {
     }
     const std::optional<uint32_t> change = difference();
     if (!change) return std::nullopt;
-    const uint32_t level = (recent_.empty() ? 0 : recent_.front()) + *change;
+    const uint32_t height = (recent_.empty() ? 0 : recent_.front()) + *change;
     if (recent_.size() == 8) recent_.pop_back();
-    recent_.push_front(level);
-    return level;
+    recent_.push_front(height);
+    return height;
   }
 
  private:
@@ -91,11 +91,11 @@ Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t 
   uint32_t count = 0;
   Flat flat{areasOf(*mask, plane.width, count), {}};
   if (count != areas) return {};
-  LevelDecoder levels(decoder);
+  AreaHeightDecoder heights(decoder);
   for (uint32_t i = 0; i < areas; ++i) {
-    const std::optional<uint32_t> level = levels.level();
-    if (!level) return {};
-    flat.levels.push_back(static_cast<int32_t>(*level));
+    const std::optional<uint32_t> height = heights.height();
+    if (!height) return {};
+    flat.heights.push_back(static_cast<int32_t>(*height));
   }
   return flat;
 }

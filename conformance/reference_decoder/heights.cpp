@@ -81,12 +81,12 @@ struct Surface {
   Plane plane;
 };
 
-/// FORMAT 8.1, "Flat areas": held samples have their levels, at all mip levels.
+/// FORMAT 8.1, "Flat areas": held samples have the heights of their areas, at all mip levels.
 void putFlat(const Plane& whole, int level, Plane& image) {
   for (int y = 0; y < whole.height; y += 1 << level) {
     for (int x = 0; x < whole.width; x += 1 << level) {
       const uint32_t area = whole.areaOf(x, y);
-      if (area > 0) image.at(x >> level, y >> level) = whole.flat.levels.at(area - 1);
+      if (area > 0) image.at(x >> level, y >> level) = whole.flat.heights.at(area - 1);
     }
   }
 }
@@ -134,7 +134,7 @@ Surface decodeSurface(const GeometryHeader& header,
     place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
           surface.plane);
   }
-  for (int32_t& height : surface.plane.flat.levels) height = wrap(int64_t{height} << surface.f);
+  for (int32_t& height : surface.plane.flat.heights) height = wrap(int64_t{height} << surface.f);
   synthesise(header.wavelet, subbands, level, fraction.rounds, surface.plane);
   const Plane whole = surface.plane;
   if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);

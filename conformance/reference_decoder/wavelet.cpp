@@ -125,7 +125,7 @@ struct HeldValues {
 HeldValues heldValues(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,
                       const Plane& plane) {
   HeldValues held;
-  for (int32_t value : plane.flat.levels) {
+  for (int32_t value : plane.flat.heights) {
     int32_t high = 0;
     for (int l = 1; l <= level; ++l) {
       const auto hh = std::find_if(subbands.begin(), subbands.end(), [l](const Subband& subband) {

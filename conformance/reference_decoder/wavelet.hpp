@@ -51,8 +51,8 @@ Fraction fractionOf(const WaveletHeader& header, int planes, uint64_t bytes, int
 
 /// FORMAT 8.1, "Flat areas". Empty: there are none.
 struct Flat {
-  std::vector<uint32_t> areas;  ///< of each sample: 0 where it is not held, else 1 + its area
-  std::vector<int32_t> levels;  ///< of each area, in steps
+  std::vector<uint32_t> areas;   ///< of each sample: 0 where it is not held, else 1 + its area
+  std::vector<int32_t> heights;  ///< of each area, in steps
 };
 
 /// One value for each sample, row by row.

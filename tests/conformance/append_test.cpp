@@ -146,10 +146,10 @@ std::array<std::vector<Bytes>, 2> tracksOf(const Bytes& bytes, const std::vector
     if (place >= bytes.size()) break;
     const auto c = static_cast<size_t>(entry.component());
     place += headBytes(entry, counts[c].named).size();
-    const size_t length = entry.head >> 2;
+    const size_t length = entry.length();
     size_t known = 0;
     while (known < length && place + known < bytes.size() && there[place + known]) ++known;
-    if (!ended[c][entry.track] && (known == length || (entry.head & 2) == 0)) {
+    if (!ended[c][entry.track] && (known == length || !entry.whole())) {
       Bytes& track = tracks[c][entry.track];
       for (size_t i = 0; i < known; ++i) track.push_back(bytes[place + i]);
     }

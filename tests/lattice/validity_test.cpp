@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "codec/geometry/corrections_decoder.hpp"
-#include "codec/geometry/corrections_encoder.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "lattice/levels.hpp"
 #include "lattice/validity_decoder.hpp"

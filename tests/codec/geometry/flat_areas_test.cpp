@@ -2,10 +2,10 @@
 // The layer of flat areas: what is found, and what comes back of it.
 #include <gtest/gtest.h>
 
+#include "codec/geometry/flat/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_tiles.hpp"
 #include "codec/geometry/flat_choice.hpp"
-#include "codec/geometry/flat_decoder.hpp"
-#include "codec/geometry/flat_encoder.hpp"
-#include "codec/geometry/flat_tiles.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
@@ -19,12 +19,12 @@ using samples::VoidShape;
 
 constexpr Size kSizes[] = {{1, 1}, {1, 9}, {9, 1}, {2, 2}, {5, 3}, {40, 23}, {64, 65}, {2, 300}};
 
-/// Random levels, of which some are equal.
+/// Random heights, of which some are equal.
 FlatAreas areasOf(const std::vector<uint8_t>& flat, const Size& size, Random& random) {
   NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, size.extent()));
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
-  for (int32_t& level : areas.levels)
-    level = random() % 3 == 0 ? 5 : static_cast<int32_t>(random() >> random() % 32);
+  for (int32_t& height : areas.heights)
+    height = random() % 3 == 0 ? 5 : static_cast<int32_t>(random() >> random() % 32);
   return areas;
 }
 
@@ -48,24 +48,24 @@ TEST(FlatAreas, ComeBackAndNoPrefixShowsOthers) {
         std::vector<uint8_t> flat = validity(shape, size.width, size.height);
         for (size_t i = 0; i < flat.size(); ++i) flat[i] &= valid[i];
         const FlatAreas areas = areasOf(flat, size, random);
-        if (areas.levels.empty()) continue;
-        const auto count = static_cast<uint32_t>(areas.levels.size());
+        if (areas.heights.empty()) continue;
+        const auto count = static_cast<uint32_t>(areas.heights.size());
         const std::vector<uint8_t> codeword = encodeFlatAreas(areas, size.extent(), valid);
         const FlatAreas decoded = decodeFlatAreas(codeword, size.extent(), valid, count);
         ASSERT_EQ(decoded.numbers, areas.numbers) << size << ", " << shape;
-        ASSERT_EQ(decoded.levels, areas.levels) << size << ", " << shape;
+        ASSERT_EQ(decoded.heights, areas.heights) << size << ", " << shape;
         EXPECT_TRUE(decodeFlatAreas(codeword, size.extent(), valid, count + 1).empty());
         for (size_t bytes = 0; bytes < codeword.size(); bytes += 1 + codeword.size() / 20) {
           const FlatAreas some =
               decodeFlatAreas(std::span(codeword).first(bytes), size.extent(), valid, count);
-          ASSERT_TRUE(some.empty() || some.levels == areas.levels) << size << ", " << bytes;
+          ASSERT_TRUE(some.empty() || some.heights == areas.heights) << size << ", " << bytes;
         }
       }
     }
   }
 }
 
-TEST(FlatAreas, AreFoundAndNeverTouchOthersOfAnotherLevel) {
+TEST(FlatAreas, AreFoundAndNeverTouchOthersOfAnotherHeight) {
   Random random(2);
   const Size size{50, 41};
   Plane heights = randomPlane(random, size.count(), 0, 1);  // many areas, of all sizes
@@ -77,7 +77,7 @@ TEST(FlatAreas, AreFoundAndNeverTouchOthersOfAnotherLevel) {
     for (size_t i = 0; i < areas.numbers.size(); ++i) {
       if (areas.numbers[i] == 0) continue;
       ASSERT_TRUE(valid[i]);
-      ASSERT_EQ(areas.levels[areas.numbers[i] - 1u], heights[i]);
+      ASSERT_EQ(areas.heights[areas.numbers[i] - 1u], heights[i]);
     }
   }
   EXPECT_TRUE(finder.areas(10000, whole).empty());
@@ -92,7 +92,7 @@ TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
   }
   const HeightPurpose purpose{12, Purpose::kLossless};
   EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
-  EXPECT_EQ(chooseFlatAreas({lake, size.extent()}, purpose).flat.areas.levels,
+  EXPECT_EQ(chooseFlatAreas({lake, size.extent()}, purpose).flat.areas.heights,
             std::vector<int32_t>{17});
 }
 
@@ -124,7 +124,7 @@ TEST(FlatAreas, TilesStandForAPlane) {
   EXPECT_NEAR(flat, static_cast<double>(water), 0.3 * flat);
   const HeightPurpose purpose{12, Purpose::kLossless};
   EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
-  EXPECT_EQ(chooseFlatAreas({ponds, size.extent()}, purpose).flat.areas.levels,
+  EXPECT_EQ(chooseFlatAreas({ponds, size.extent()}, purpose).flat.areas.heights,
             std::vector<int32_t>(count, 4017));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coding of flat areas: which samples are flat, as a mask of the lattice
-// (lattice/validity_pass.hpp), of which voids are none without a decision; then the level of each
-// area. Inlets of one sea and ponds along one canal share theirs, so the eight latest levels that
-// differ are kept, the last one first. A level is one of these, named by its place; or it is new:
+// (lattice/validity_pass.hpp), of which voids are none without a decision; then the height of each
+// area. Inlets of one sea and ponds along one canal share theirs, so the eight latest heights that
+// differ are kept, the last one first. A height is one of these, named by its place; or it is new:
 // the difference to the last one, its number of bits in unary, then the bits below the highest.
 #pragma once
 
@@ -17,7 +17,7 @@
 #include "bitstream/coder/adaptive_bit.hpp"
 #include "lattice/validity_pass.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 /// The mask's side of a decision. Io: as below.
 template <class Io>
@@ -40,16 +40,16 @@ class FlatMaskIo {
 ///   bool decide(AdaptiveBit&, bool answer)   bool even(bool answer)   at even odds
 ///   bool stopped()                           the last decision did not count
 template <class Io>
-class FlatLevelsPass {
+class FlatHeightsPass {
  public:
-  explicit FlatLevelsPass(Io& io) : io_(io) {}
+  explicit FlatHeightsPass(Io& io) : io_(io) {}
 
-  /// levels: of the encoder those of the areas, of the decoder as many zeros, which it fills. They
+  /// heights: of the encoder those of the areas, of the decoder as many zeros, which it fills. They
   /// mean nothing behind the first decision that does not count.
-  void run(std::vector<int32_t>& levels) {
-    for (int32_t& level : levels) {
+  void run(std::vector<int32_t>& heights) {
+    for (int32_t& height : heights) {
       if (io_.stopped()) return;
-      level = next(level);
+      height = next(height);
     }
   }
 
@@ -65,11 +65,11 @@ class FlatLevelsPass {
     }
     if (place == known_) {
       const uint32_t last = static_cast<uint32_t>(known_ > 0 ? recent_[0] : 0);
-      const int32_t level =
+      const int32_t height =
           static_cast<int32_t>(last + difference(static_cast<uint32_t>(ours) - last));
       if (known_ < kRecent) ++known_;
       place = known_ - 1;
-      recent_[place] = level;
+      recent_[place] = height;
     }
     const auto end = recent_.begin() + static_cast<ptrdiff_t>(place);
     std::rotate(recent_.begin(), end, end + 1);
@@ -100,4 +100,4 @@ class FlatLevelsPass {
   std::array<AdaptiveBit, kMostBits> bits_;
 };
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

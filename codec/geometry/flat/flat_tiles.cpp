@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/flat_tiles.hpp"
+#include "codec/geometry/flat/flat_tiles.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::vector<SampledTile> sampleTiles(const FlatFinder& finder, uint32_t large, u
   return taken;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

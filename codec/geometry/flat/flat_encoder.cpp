@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,9 +7,9 @@
 
 #include "bitstream/coder/decision_encoding.hpp"
 #include "bitstream/stream/header.hpp"
-#include "codec/geometry/flat_pass.hpp"
+#include "codec/geometry/flat/flat_pass.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heights) {
   const Extent extent = heights.extent();
@@ -40,7 +40,7 @@ FlatAreas FlatFinder::areas(uint32_t least, const Window& window) const {
   flat.reserve(window.extent().samples());
   const std::span<const int32_t> values = heights_.values();
   size_t k = 0;  // in the plane, of the window's sample i
-  // Where areas of two levels touch, the smaller one gives way by a sample.
+  // Where areas of two heights touch, the smaller one gives way by a sample.
   const auto part = [&](size_t i, size_t before, size_t k_before) {
     if ((flat[i] & flat[before]) == 0 || values[k] == values[k_before]) return;
     flat[sizeAt(k) <= sizeAt(k_before) ? i : before] = 0;
@@ -59,7 +59,7 @@ FlatAreas FlatFinder::areas(uint32_t least, const Window& window) const {
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
   const std::vector<int32_t> shown = cut(values, extent(), {0, window});
   for (size_t i = 0; i < shown.size(); ++i) {
-    if (areas.numbers[i] != 0) areas.levels[areas.numbers[i] - 1u] = shown[i];
+    if (areas.numbers[i] != 0) areas.heights[areas.numbers[i] - 1u] = shown[i];
   }
   return areas;
 }
@@ -72,11 +72,11 @@ std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask 
   DecisionEncoding io;
   FlatMaskIo<DecisionEncoding> mask_io(io, valid, flat.data());
   ValidityPass<FlatMaskIo<DecisionEncoding>>({known, plane}, mask_io).run();
-  std::vector<int32_t> levels = areas.levels;
-  FlatLevelsPass<DecisionEncoding>(io).run(levels);
+  std::vector<int32_t> heights = areas.heights;
+  FlatHeightsPass<DecisionEncoding>(io).run(heights);
   std::vector<uint8_t> codeword = io.finish();
   if (codeword.empty()) codeword.push_back(0);  // flat_bytes is at least 1
   return codeword;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/corrections_encoder.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 
 #include <cassert>
 
 #include "bitstream/coder/range_encoder.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline corrections {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
   return io.finish();
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline corrections

@@ -13,15 +13,15 @@
 #include "base/plane.hpp"
 #include "wavelet/held_samples.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 /// Of a whole plane.
 struct FlatAreas {
   std::vector<uint16_t> numbers;  ///< of each sample: 0, or 1 + its area; empty: there are none
-  std::vector<int32_t> levels;    ///< of each area, in steps
+  std::vector<int32_t> heights;   ///< of each area, in steps
 
   bool empty() const { return numbers.empty(); }
-  HeldSamples held() const { return {numbers, levels}; }
+  HeldSamples held() const { return {numbers, heights}; }
 };
 
 /// For each sample the index of the first sample of its area, which is its own where it is alone.
@@ -62,4 +62,4 @@ struct NumberedAreas {
 };
 NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 /// The areas of one height in a plane, of any size.
 class FlatFinder {
@@ -22,7 +22,7 @@ class FlatFinder {
   uint64_t samplesOf(uint32_t least, const Window& window) const;
 
   /// What a window shows of the areas of at least so many samples, without the samples that touch
-  /// larger ones of another level. None if it shows no such area, or too many.
+  /// larger ones of another height. None if it shows no such area, or too many.
   FlatAreas areas(uint32_t least, const Window& window) const;
 
  private:
@@ -37,4 +37,4 @@ class FlatFinder {
 /// valid: the samples that are not void. There are areas.
 std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask valid);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

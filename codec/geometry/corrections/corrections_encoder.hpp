@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/corrections_pass.hpp"
+#include "codec/geometry/corrections/corrections_pass.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline corrections {
 
 /// Returns the codeword of one correction for each sample. Those of void samples are not coded.
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
                                        const CorrectionHints& hints);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline corrections

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/flat_areas.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 
 #include <cassert>
 
 #include "bitstream/stream/header.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat) {
   assert(flat.extent().samples() <= GeometryLayers::kMostFlatSamples);
@@ -21,4 +21,4 @@ NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat) {
   return areas;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

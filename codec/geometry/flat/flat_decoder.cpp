@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_decoder.hpp"
 
 #include <utility>
 #include <vector>
 
 #include "bitstream/coder/decision_decoding.hpp"
-#include "codec/geometry/flat_pass.hpp"
+#include "codec/geometry/flat/flat_pass.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, Mask valid,
                           uint32_t areas) {
@@ -21,9 +21,9 @@ FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, Mask 
   }
   if (numbered.count != areas) return {};
   FlatAreas out{std::move(numbered.numbers), std::vector<int32_t>(areas)};
-  FlatLevelsPass<DecisionDecoding>(io).run(out.levels);
+  FlatHeightsPass<DecisionDecoding>(io).run(out.heights);
   if (io.stopped()) return {};
   return out;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

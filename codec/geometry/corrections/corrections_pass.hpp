@@ -25,7 +25,7 @@
 #include "base/plane.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline corrections {
 
 /// What both sides know of the samples: a hint for each, below kHints. Samples that do not exist
 /// have no correction.
@@ -134,4 +134,4 @@ class CorrectionPass {
   Unary high_;  ///< the bit below the highest, by the class
 };
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline corrections

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "codec/geometry/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline flat {
 
 struct SampledTile {
   Window window;
@@ -22,4 +22,4 @@ struct SampledTile {
 /// of tiles of their kind.
 std::vector<SampledTile> sampleTiles(const FlatFinder& finder, uint32_t large, uint32_t small);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline flat

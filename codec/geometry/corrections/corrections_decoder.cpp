@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/corrections_decoder.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
 
 #include "bitstream/coder/range_decoder.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline corrections {
 
 namespace {
 
@@ -30,4 +30,4 @@ std::vector<int32_t> decodeCorrections(std::span<const uint8_t> codeword,
   return corrections;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline corrections

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bitstream/stream/header_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+
+namespace tetrakis::inline stream {
+
+namespace {
+
+/// Whether an integer sample type has that value.
+bool holds(uint8_t sample, double value) {
+  constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
+  constexpr double kMost[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
+  return kLeast[sample] <= value && value <= kMost[sample] && value == std::trunc(value);
+}
+
+Status checkLayers(const StreamHeader& header) {
+  const GeometryLayers& layers = header.layers;
+  if (layers.isDefault()) return {};
+  if (!header.geometry) {
+    return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
+  }
+  if (static_cast<uint8_t>(layers.corrections) > 2 ||
+      (layers.table_bytes > 0 && layers.corrections == CorrectionKind::kSteps)) {
+    return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
+  }
+  const bool steep =
+      std::any_of(layers.table_knots.begin(), layers.table_knots.end(),
+                  [](const TableKnot& k) { return std::abs(k.rise) > GeometryLayers::kMostRise; });
+  if (steep) {
+    return {TKS_CORRUPT, "Corrupt stream: a knot of its table of values lies too far off."};
+  }
+  if (layers.flat_bytes > 0 &&
+      header.geometry->extent().samples() > GeometryLayers::kMostFlatSamples) {
+    return {TKS_CORRUPT, "Corrupt stream: so large a height field has no flat areas."};
+  }
+  const bool integer = header.geometry->sample != TKS_F32;
+  if (integer && layers.validity_bytes > 0 &&
+      !(layers.has_nodata && holds(header.geometry->sample, layers.nodata))) {
+    return {TKS_CORRUPT, "Corrupt stream: integer heights have voids but no value for them."};
+  }
+  if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata))) {
+    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no number."};
+  }
+  return {};
+}
+
+Status checkRegions(const StreamHeader& header) {
+  const auto sound = [](const RegionHeader& r) {
+    return r.side_log2 == 0 || r.side_log2 >= kLeastRegionLog2;
+  };
+  if ((!header.geometry || sound(header.geometry->regions)) &&
+      (!header.texture || sound(header.texture->regions))) {
+    return {};
+  }
+  return {TKS_CORRUPT, "Corrupt stream: its regions are smaller than 16 samples."};
+}
+
+/// Heights that are drawn or stored are one track, whose samples nothing else holds.
+Status checkDirect(const StreamHeader& header) {
+  if (!header.geometry || !header.geometry->direct()) return {};
+  const GeometryLayers& layers = header.layers;
+  if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 ||
+      layers.corrections == CorrectionKind::kSteps) {
+    return {TKS_CORRUPT,
+            "Corrupt stream: drawn or stored heights have regions, flat areas or corrections of "
+            "steps."};
+  }
+  const bool plain = layers.corrections == CorrectionKind::kNone && layers.table_bytes == 0;
+  if (header.geometry->drawn || plain) return {};
+  return {TKS_CORRUPT, "Corrupt stream: stored heights have corrections or a table."};
+}
+
+Status checkNumbers(const StreamHeader& header) {
+  const auto finite = [](std::initializer_list<double> values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (header.geometry) {
+    const GeometryHeader& g = *header.geometry;
+    if (!finite({g.base, g.step, g.max_error}) || g.step <= 0) {
+      return {TKS_CORRUPT,
+              "Corrupt stream: base, step or largest error of the heights is out of range."};
+    }
+  }
+  const Metadata& m = header.metadata;
+  if (!finite({m.scale, m.offset, m.spacing_x, m.spacing_y}) || m.scale == 0 || m.spacing_x < 0 ||
+      m.spacing_y < 0) {
+    return {TKS_CORRUPT,
+            "Corrupt stream: scale, offset or spacing of the heights is out of range."};
+  }
+  return {};
+}
+
+Status checkGeoreference(const StreamHeader& header) {
+  const Georeference& g = header.georeference;
+  if (isSound(g.heights.transform) && isSound(g.texture.transform)) return {};
+  return {TKS_CORRUPT, "Corrupt stream: a number of its geotransforms is out of range."};
+}
+
+/// A texture that is drawn or stored is one track of all its channels.
+Status checkTexture(const StreamHeader& header) {
+  if (!header.texture) return {};
+  const TextureHeader& t = *header.texture;
+  if (t.sample != TKS_U8 && t.sample != TKS_U16) {
+    return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
+  }
+  if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0 || !t.priorities.none())) {
+    return {TKS_CORRUPT,
+            "Corrupt stream: a drawn or stored texture has regions, weights or priorities."};
+  }
+  return {};
+}
+
+Status checkPriorities(const StreamHeader& header) {
+  const auto sound = [](const auto& c) {
+    if (!c || c->priorities.none()) return true;
+    const int log2 = c->priorities.tile_log2;
+    return uint64_t{tilesAlong(c->width, log2)} * tilesAlong(c->height, log2) <=
+           PriorityHeader::kMostTiles;
+  };
+  if (sound(header.geometry) && sound(header.texture)) return {};
+  return {TKS_CORRUPT, "Corrupt stream: its map of priorities has more than 65536 tiles."};
+}
+
+Status checkLines(const StreamHeader& header) {
+  if (!header.geometry) return {};
+  const GeometryHeader& g = *header.geometry;
+  if (g.sample > TKS_F32) return {TKS_CORRUPT, "Corrupt stream: the type of its heights is none."};
+  if (g.width >= 2 && g.height >= 2) return {};
+  return {TKS_CORRUPT, "Corrupt stream: all columns or all rows of its heights repeat the first."};
+}
+
+}  // namespace
+
+Status checkMeaning(const StreamHeader& header) {
+  if (!header.geometry && !header.texture) {
+    return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
+  }
+  if (Status lines = checkLines(header); !lines.ok()) return lines;
+  if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
+  if (Status place = checkGeoreference(header); !place.ok()) return place;
+  if (Status layers = checkLayers(header); !layers.ok()) return layers;
+  if (Status regions = checkRegions(header); !regions.ok()) return regions;
+  if (Status direct = checkDirect(header); !direct.ok()) return direct;
+  if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
+  return checkTexture(header);
+}
+
+}  // namespace tetrakis::inline stream
