@@ -279,6 +279,36 @@ Status measurePrefixes(const Terrain& terrain, int runs, std::vector<ResultRow>&
   return {};
 }
 
+/// What it takes to share bytes between heights and texture: the encoding of both against that of
+/// either in as many bytes as it has got.
+Status measureSharing(const Terrain& terrain, int runs, std::vector<ResultRow>& rows) {
+  const StreamSource both{&terrain.heights, &terrain.image};
+  const auto stream = encodeTetrakis(both, kJointBytes);
+  if (!stream.ok()) return stream.status();
+  const auto decoded = decodeTetrakis(*stream);
+  if (!decoded.ok()) return decoded.status();
+  const auto jointly = [&] { return encodeTetrakis(both, kJointBytes).status(); };
+  const auto apart = [&]() -> Status {
+    const Status heights =
+        encodeTetrakis({&terrain.heights, nullptr}, decoded->geometry_bytes).status();
+    if (!heights.ok()) return heights;
+    return encodeTetrakis({nullptr, &terrain.image}, decoded->texture_bytes).status();
+  };
+  std::vector<double> joint, separate;
+  for (int i = 0; i < runs; ++i)
+    for (const auto& [work, seconds] :
+         {std::pair<std::function<Status()>, std::vector<double>*>(jointly, &joint),
+          {apart, &separate}}) {
+      const Result<double> time = processorSeconds(work);
+      if (!time.ok()) return time.status();
+      seconds->push_back(*time);
+    }
+  const double ratio = median(joint) / median(separate);
+  std::printf("both in 64 kB: %.2f times the time of heights and texture by themselves\n", ratio);
+  rows.push_back({"joint_64k_encode", "tetrakis", "time_over_separate", ratio});
+  return {};
+}
+
 Status run(const Options& options) {
   if (options.heights.empty() != options.image.empty())
     return Status(TKS_USAGE, "a height file and an image go together");
@@ -288,6 +318,7 @@ Status run(const Options& options) {
   if (!tasks.ok()) return tasks.status();
   auto rows = measure(*tasks, options.runs);
   if (!rows.ok()) return rows.status();
+  if (Status s = measureSharing(*terrain, options.runs, *rows); !s.ok()) return s;
   if (Status s = measurePrefixes(*terrain, options.runs, *rows); !s.ok()) return s;
   return options.csv.empty() ? Status() : updateResults(options.csv, "speed", *rows);
 }
