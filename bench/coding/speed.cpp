@@ -2,6 +2,7 @@
 // bench_speed [HEIGHT IMAGE]: encoding and decoding, one thread, beside OpenJPEG in one process:
 // alternating runs, medians of the processor time, and their ratio.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <ctime>
 #include <functional>
@@ -279,6 +280,44 @@ Status measurePrefixes(const Terrain& terrain, int runs, std::vector<ResultRow>&
   return {};
 }
 
+/// Heights and texture by themselves, in so many bytes each.
+Status encodeApart(const Terrain& terrain, uint64_t height_bytes, uint64_t texture_bytes) {
+  const Status heights = encodeTetrakis({&terrain.heights, nullptr}, height_bytes).status();
+  if (!heights.ok()) return heights;
+  return encodeTetrakis({nullptr, &terrain.image}, texture_bytes).status();
+}
+
+/// What it takes to share bytes between heights and texture: the time of encoding both, over that
+/// of either in as many bytes as it has got (which only the joint encoding finds out), and over
+/// that of either in all of the bytes (which the joint encoding has to reckon with).
+Status measureSharing(const Terrain& terrain, int runs, std::vector<ResultRow>& rows) {
+  const StreamSource both{&terrain.heights, &terrain.image};
+  const auto stream = encodeTetrakis(both, kJointBytes);
+  if (!stream.ok()) return stream.status();
+  const auto decoded = decodeTetrakis(*stream);
+  if (!decoded.ok()) return decoded.status();
+  const std::array<std::function<Status()>, 3> works = {
+      [&] { return encodeTetrakis(both, kJointBytes).status(); },
+      [&] { return encodeApart(terrain, decoded->geometry_bytes, decoded->texture_bytes); },
+      [&] { return encodeApart(terrain, kJointBytes, kJointBytes); }};
+  std::array<std::vector<double>, 3> seconds;
+  for (int i = 0; i < runs; ++i)
+    for (size_t k = 0; k < works.size(); ++k) {
+      const Result<double> time = processorSeconds(works[k]);
+      if (!time.ok()) return time.status();
+      seconds[k].push_back(*time);
+    }
+  const double joint = median(seconds[0]);
+  const double shares = joint / median(seconds[1]), whole = joint / median(seconds[2]);
+  std::printf(
+      "both in 64 kB: %.2f times the time of either in its share by itself, %.2f times that of "
+      "either in 64 kB\n",
+      shares, whole);
+  rows.push_back({"joint_64k_encode", "tetrakis", "time_over_shares_apart", shares});
+  rows.push_back({"joint_64k_encode", "tetrakis", "time_over_64k_apart", whole});
+  return {};
+}
+
 Status run(const Options& options) {
   if (options.heights.empty() != options.image.empty())
     return Status(TKS_USAGE, "a height file and an image go together");
@@ -288,6 +327,7 @@ Status run(const Options& options) {
   if (!tasks.ok()) return tasks.status();
   auto rows = measure(*tasks, options.runs);
   if (!rows.ok()) return rows.status();
+  if (Status s = measureSharing(*terrain, options.runs, *rows); !s.ok()) return s;
   if (Status s = measurePrefixes(*terrain, options.runs, *rows); !s.ok()) return s;
   return options.csv.empty() ? Status() : updateResults(options.csv, "speed", *rows);
 }

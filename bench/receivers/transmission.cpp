@@ -107,7 +107,7 @@ Status runStatic(const Terrain& terrain, std::span<const uint8_t> stream) {
   const tks_info& info = decoder->info();
   Result<tools::Comparer> comparer = tools::Comparer::create(terrain.original, info);
   if (!comparer.ok()) return comparer.status();
-  if (Status status = comparer->look({"", "oblique"}); !status.ok()) return status;
+  if (Status status = comparer->look({}); !status.ok()) return status;
   std::printf(
       "static view            kb/s  triangles  s to 25 dB  30 dB  35 dB  last dB  kB to "
       "0.1 dB below\n");

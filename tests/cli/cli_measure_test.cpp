@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What info, compare and the report say.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.hpp"
@@ -103,6 +104,55 @@ TEST_F(CliMeasure, TrianglesBoundTheMeshAndMoreOfThemAreCloser) {
   EXPECT_LE(fine["triangles"], 2000);
   EXPECT_GT(coarse["height_rmse"], fine["height_rmse"]);
   EXPECT_GT(fine["height_rmse"], 0);
+}
+
+/// The same oblique camera looks at both meshes: only the second is made for it.
+TEST_F(CliMeasure, MeshIsMadeForTheCamerasThatAreChosen) {
+  ASSERT_EQ(cli("synth -o s --size 129").code, 0);
+  ASSERT_EQ(cli("encode s/height.tif --texture s/texture.png --lossless -o a.tks").code, 0);
+  const std::string compare =
+      "compare a.tks --height s/height.tif --texture s/texture.png --triangles 1000";
+  const auto map = json(compare), told = json(compare + " --view oblique");
+  EXPECT_EQ(map["cameras"][0]["name"], told["cameras"][0]["name"]);
+  EXPECT_LE(told["triangles"], 1000);
+  EXPECT_GT(told["screen_psnr"].get<double>(), map["screen_psnr"].get<double>() + 1);
+  EXPECT_GT(told["height_rmse"], map["height_rmse"]) << "a map has the least error of heights";
+}
+
+/// Which does not depend on whether the texture is judged, too.
+TEST_F(CliMeasure, MeshForCamerasIsThatOfTheStreamsTexture) {
+  makeStream(65);
+  const std::string compare = "compare a.tks --height height.tif --triangles 300 --view low";
+  EXPECT_EQ(json(compare)["height_rmse"], json(compare + " --texture texture.png")["height_rmse"]);
+}
+
+TEST_F(CliMeasure, PicturesCountByTheWeightsOfTheirCameras) {
+  makeStream(65);
+  const std::string from = R"({"target": [0,400,0], "eye": )";
+  const auto compareWith = [&](const std::string& weights) {
+    write("cameras.json", R"({"cameras": [)" + from + R"([0,1500,1500], "weight": )" + weights +
+                              "}, " + from + R"([300,900,0], "weight": 1}]})");
+    return json(
+        "compare a.tks --bytes 1k --height height.tif --texture texture.png "
+        "--cameras cameras.json");
+  };
+  const auto squares = [](const nlohmann::json& seen) {
+    return std::pow(10, -seen["screen_psnr"].get<double>() / 10);
+  };
+  const auto heavy = compareWith("3");
+  const double first = squares(heavy["cameras"][0]), second = squares(heavy["cameras"][1]);
+  ASSERT_GT(std::abs(first / second - 1), 0.01) << "else weights cannot show";
+  EXPECT_NEAR(squares(heavy) / ((3 * first + second) / 4), 1, 1e-9);
+  EXPECT_NEAR(squares(compareWith("0")) / second, 1, 1e-9);
+  EXPECT_NEAR(squares(compareWith("1e308")) / first, 1, 1e-9);
+}
+
+TEST_F(CliMeasure, CamerasWithoutWeightsCannotJudge) {
+  makeStream();
+  write("none.json", R"({"cameras": [{"eye": [0,900,900], "target": [0,0,0], "weight": 0}]})");
+  const Outcome run = cli("compare a.tks --height height.tif --cameras none.json");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("no camera has a weight above 0"), std::string::npos) << run.err;
 }
 
 TEST_F(CliMeasure, MaxErrorHoldsInTheUnitAsked) {

@@ -441,6 +441,9 @@ TEST(ScreenPsnr, AveragesTheErrorOverPicturesThatShowAnything) {
   EXPECT_NEAR(screenPsnr({a, a, empty}, {b, a, empty}), expected, 1e-12);
   EXPECT_EQ(screenPsnr({a, empty}, {a, empty}), std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isnan(screenPsnr({a}, {a, b})));
+  const double weighted = 10 * std::log10(255.0 * 255.0 / 3);  // a quarter of 12
+  EXPECT_NEAR(screenPsnr({a, a, empty}, {b, a, empty}, {0.5, 1.5, 9}), weighted, 1e-12);
+  EXPECT_TRUE(std::isnan(screenPsnr({a, a}, {b, a}, {1})));
   EXPECT_TRUE(std::isnan(screenPsnr({a}, {pictureOf({0, 0, 0, 255, 0, 0, 0, 255})})));
 }
 

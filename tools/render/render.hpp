@@ -48,7 +48,9 @@ class Renderer {
 
 /// PSNR in dB between two sets of pictures of the same cameras: squared error over RGB of the
 /// pixels that either picture covers, mean of the MSE over the pictures that show anything.
-/// Infinity when equal; NaN when the sets differ in number or size.
-double screenPsnr(const std::vector<Picture>& reference, const std::vector<Picture>& test);
+/// weights: of the pictures in that mean, one each, none negative; empty: all alike. Infinity when
+/// what counts is equal; NaN when the sets differ in number or size.
+double screenPsnr(const std::vector<Picture>& reference, const std::vector<Picture>& test,
+                  const std::vector<double>& weights = {});
 
 }  // namespace tetrakis::tools

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distortion where the viewer sees it: between rendered pictures (thesis, section 6.1).
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -26,16 +27,21 @@ std::optional<double> pictureMse(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-double screenPsnr(const std::vector<Picture>& reference, const std::vector<Picture>& test) {
+double screenPsnr(const std::vector<Picture>& reference, const std::vector<Picture>& test,
+                  const std::vector<double>& weights) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (reference.size() != test.size()) return kNone;
+  if (!weights.empty() && weights.size() != reference.size()) return kNone;
+  const double heaviest = weights.empty() ? 1 : *std::max_element(weights.begin(), weights.end());
   double sum = 0, pictures = 0;
   for (size_t i = 0; i < reference.size(); ++i) {
     const Picture &a = reference[i], &b = test[i];
     if (a.width != b.width || a.height != b.height) return kNone;
+    const double weight = weights.empty() ? 1 : weights[i] / heaviest;  // sums stay finite
+    if (!(weight > 0)) continue;
     if (const std::optional<double> mse = pictureMse(a, b)) {
-      sum += *mse;
-      pictures += 1;
+      sum += weight * *mse;
+      pictures += weight;
     }
   }
   if (sum == 0) return std::numeric_limits<double>::infinity();

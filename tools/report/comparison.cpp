@@ -9,6 +9,7 @@
 
 #include "tools/files/plain_heights.hpp"
 #include "tools/files/stream.hpp"
+#include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -93,6 +94,12 @@ Status checkImage(const ImageFile& image, const tks_info& header) {
                     describe(image.width, image.height, image.channels, image.sample));
 }
 
+/// Bytes of what is made of heights: of a sample two surfaces of doubles, a grid of triangles, the
+/// reference.
+uint64_t copiesOf(const tks_info& info) {
+  return uint64_t{72} * info.width * info.height;
+}
+
 /// The reference with the metadata that the encoder was told.
 HeightFile asEncoded(const HeightFile& heights, const tks_info& header) {
   HeightFile result = heights;
@@ -129,6 +136,10 @@ Status Comparer::look(const CameraChoice& choice) {
   if (!cameras.ok()) return cameras.status();
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create();
   if (!renderer.ok()) return renderer.status();
+  const auto counts = [](const Camera& camera) { return camera.weight > 0; };
+  if (std::none_of(cameras->begin(), cameras->end(), counts))
+    return Status(TKS_USAGE, "no camera has a weight above 0");
+  choice_ = choice;
   cameras_ = std::move(*cameras);
   renderer_ = std::move(*renderer);
   MeshFile mesh = fullGrid(surface_, frame_);
@@ -139,24 +150,24 @@ Status Comparer::look(const CameraChoice& choice) {
   return Status();
 }
 
-Result<MeshFile> Comparer::measureHeights(Decoder& decoder, uint32_t triangles,
-                                          Measurement& result) const {
-  // Of a sample: two surfaces of doubles, a grid of triangles, the reference.
-  constexpr uint64_t kSample = 72;
-  const uint64_t copies = kSample * decoder.info().width * decoder.info().height;
-  if (triangles == 0) {
-    const Result<HeightFile> heights = decodeHeights(decoder, {}, copies);
-    if (!heights.ok()) return heights.status();
-    const Surface surface = heightsOf(*heights);
-    result.heights = heightErrors(surface_, surface);
-    MeshFile mesh = fullGrid(surface, frame_);
-    result.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3);
-    return mesh;
-  }
+Result<MeshFile> Comparer::measureSurface(Decoder& decoder, Measurement& result) const {
+  const Result<HeightFile> heights = decodeHeights(decoder, {}, copiesOf(decoder.info()));
+  if (!heights.ok()) return heights.status();
+  const Surface surface = heightsOf(*heights);
+  result.heights = heightErrors(surface_, surface);
+  MeshFile mesh = fullGrid(surface, frame_);
+  result.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3);
+  return mesh;
+}
+
+Result<MeshFile> Comparer::measureMesh(Decoder& decoder, uint32_t triangles,
+                                       const ImageFile* texture, Measurement& result) const {
   const Result<uint64_t> fits =
-      decoder.checkMemory(TKS_PART_BUDGET_MESH, nullptr, triangles, copies);
+      decoder.checkMemory(TKS_PART_BUDGET_MESH, nullptr, triangles, copiesOf(decoder.info()));
   if (!fits) return fits.status();
-  const Result<Mesh> mesh = decoder.budgetMesh(triangles);
+  const Result<Mesh> mesh = choice_.isDefault()
+                                ? decoder.budgetMesh(triangles)
+                                : meshForCameras(decoder, triangles, choice_, texture);
   if (!mesh) return mesh.status();
   result.triangles = mesh->triangleCount();
   result.heights = heightErrors(surface_, rasterize(*mesh, frame_.width, frame_.height));
@@ -170,7 +181,9 @@ Status Comparer::drawAndScore(MeshFile& mesh, const ImageFile* texture, Measurem
   result.pictures = std::move(*pictures);
   for (size_t i = 0; i < pictures_.size(); ++i)
     result.camera_psnr.push_back(screenPsnr({pictures_[i]}, {result.pictures[i]}));
-  result.screen_psnr = screenPsnr(pictures_, result.pictures);
+  std::vector<double> weights;
+  for (const Camera& camera : cameras_) weights.push_back(camera.weight);
+  result.screen_psnr = screenPsnr(pictures_, result.pictures, weights);
   return Status();
 }
 
@@ -181,26 +194,27 @@ Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t 
   result.bytes = stream.size();
   result.geometry_bytes = decoder->info().geometry_bytes;
   result.texture_bytes = decoder->info().texture_bytes;
-  MeshFile mesh;
-  if (reference_->heights) {
-    Result<MeshFile> drawn = measureHeights(*decoder, triangles, result);
-    if (!drawn.ok()) return drawn.status();
-    mesh = std::move(*drawn);
-  } else {
-    mesh = fullGrid(surface_, frame_);
-  }
+  const bool makes_mesh = reference_->heights && triangles > 0;
+  const bool shows_texture = decoder->info().has_texture && makes_mesh && !choice_.isDefault();
   std::optional<ImageFile> texture;
-  if (reference_->image) {
+  if (reference_->image || shows_texture) {
     // Both as doubles, and the reference.
     const uint64_t copies = imageBytes(decoder->info()) * (1 + 2 * sizeof(double));
     Result<ImageFile> decoded = decodeImage(*decoder, {}, copies);
     if (!decoded.ok()) return decoded.status();
     texture = std::move(*decoded);
+  }
+  if (reference_->image)
     result.texture_psnr =
         imagePsnr(*reference_->image, *texture, decoder->info().texture_cutout == 2);
-  }
+  const ImageFile* const texels = texture ? &*texture : nullptr;
+  Result<MeshFile> mesh = makes_mesh            ? measureMesh(*decoder, triangles, texels, result)
+                          : reference_->heights ? measureSurface(*decoder, result)
+                                                : fullGrid(surface_, frame_);
+  if (!mesh.ok()) return mesh.status();
   if (renderer_)
-    if (Status status = drawAndScore(mesh, texture ? &*texture : nullptr, result); !status.ok())
+    if (Status status = drawAndScore(*mesh, reference_->image ? texels : nullptr, result);
+        !status.ok())
       return status;
   return result;
 }

@@ -34,7 +34,7 @@ struct Measurement {
   std::optional<uint32_t> triangles;  ///< of the mesh that was drawn
   std::optional<HeightErrors> heights;
   std::optional<double> texture_psnr;  ///< dB over all channels that count (tks_image)
-  std::optional<double> screen_psnr;   ///< dB over all cameras
+  std::optional<double> screen_psnr;   ///< dB over all cameras, by their weights
   std::vector<double> camera_psnr;     ///< dB, one a camera; empty without a renderer
   std::vector<Picture> pictures;       ///< one a camera
 };
@@ -48,11 +48,13 @@ class Comparer {
   static Result<Comparer> create(const Reference& reference, const tks_info& header);
 
   /// Draws the reference with these cameras; from then on measure() draws too. Errors: of the
-  /// renderer, of the camera file.
+  /// renderer, of the camera file; TKS_USAGE if no camera has a weight above 0.
   Status look(const CameraChoice& choice);
 
-  /// triangles 0: the surface itself, drawn as its full grid; otherwise the budget mesh, whose
-  /// linear interpolation at every sample then counts for the height errors.
+  /// triangles 0: the surface itself, drawn as its full grid; otherwise the mesh that a receiver
+  /// makes of the stream, whose linear interpolation at every sample then counts for the height
+  /// errors: for the cameras of look() and with the stream's texture, or, where none were chosen,
+  /// the budget mesh.
   Result<Measurement> measure(std::span<const uint8_t> stream, uint32_t triangles);
 
   const std::vector<Camera>& cameras() const { return cameras_; }
@@ -61,13 +63,16 @@ class Comparer {
  private:
   explicit Comparer(const Reference& reference) : reference_(&reference) {}
 
-  Result<MeshFile> measureHeights(Decoder& decoder, uint32_t triangles, Measurement& result) const;
+  Result<MeshFile> measureSurface(Decoder& decoder, Measurement& result) const;
+  Result<MeshFile> measureMesh(Decoder& decoder, uint32_t triangles, const ImageFile* texture,
+                               Measurement& result) const;
   Status drawAndScore(MeshFile& mesh, const ImageFile* texture, Measurement& result);
 
   const Reference* reference_;
   GroundFrame frame_;
   Surface surface_;  ///< reference heights in the unit of the stream, or a flat 2 x 2 stand-in
   std::unique_ptr<Renderer> renderer_;
+  CameraChoice choice_;
   std::vector<Camera> cameras_;
   std::vector<Picture> pictures_;
 };
