@@ -48,9 +48,9 @@ Status checkPlace(const std::string& whose, const T& raster) {
 Status checkHeights(const tks_heights& h) {
   if (h.data == nullptr) return misuse("The heights have no samples.");
   if (tks_sample_bytes(h.sample) == 0) return misuse("The heights have an unknown sample type.");
-  if (h.width < 2 || h.height < 2 || h.width > kMaxSide || h.height > kMaxSide) {
+  if (h.width < 1 || h.height < 1 || h.width > kMaxSide || h.height > kMaxSide) {
     return misuse("Heights of " + std::to_string(h.width) + " x " + std::to_string(h.height) +
-                  " samples: each side takes 2 to " + std::to_string(kMaxSide) + ".");
+                  " samples: each side takes 1 to " + std::to_string(kMaxSide) + ".");
   }
   if (!std::isfinite(h.scale) || h.scale == 0 || !std::isfinite(h.offset)) {
     return misuse("The scale of the heights must be finite and not 0, the offset finite.");

@@ -39,6 +39,8 @@ Status checkCameras(const EncodeInputs& inputs) {
   if (std::all_of(cameras.begin(), cameras.end(), [](const Camera& c) { return c.weight == 0; }))
     return {TKS_USAGE, "No camera has a weight above 0."};
   if (inputs.heights == nullptr) return {};
+  if (inputs.heights->width < 2 || inputs.heights->height < 2)
+    return {TKS_USAGE, "Heights of one column or row have no area that a camera could see."};
   const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
   if (!valid.ok()) return valid.status();
   const GroundRays ground(reliefOf(*inputs.heights, inputs.heights->data, *valid));

@@ -173,13 +173,14 @@ Result<std::vector<uint8_t>> encodeLines(const EncodeInputs& inputs) {
   return stream;
 }
 
-/// The lines to code; none where all are. A judge of pictures takes whole heights. A PSNR is that
+/// The lines to code; none where all are. Beside a texture cameras look at the coded heights: two
+/// lines have an area, one has none. A judge of pictures takes whole heights. A PSNR is that
 /// of all samples, of which those of long runs count more: with voids nobody knows by how much.
 /// Small budgets have no bytes for a long map.
 CodedLines linesFor(const EncodeInputs& given) {
   const tks_encode_options& options = given.options;
   if (given.heights == nullptr || options.picture_error != nullptr) return {};
-  CodedLines lines = findRepeatedLines(*given.heights);
+  CodedLines lines = findRepeatedLines(*given.heights, given.image == nullptr ? 1 : 2);
   const bool has_voids = given.heights->has_nodata != 0 || given.heights->sample == TKS_F32;
   if (options.psnr > 0 && (has_voids || lines.heaviest > 1.1)) return {};
   constexpr uint64_t kMostOfBudget = 8;

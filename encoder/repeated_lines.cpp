@@ -79,14 +79,16 @@ uint32_t codedOf(const std::vector<uint8_t>& repeated) {
   return static_cast<uint32_t>(std::count(repeated.begin(), repeated.end(), 0));
 }
 
-/// Breaks runs that are longer than 19 of 20 runs are, and such as would leave one line alone:
-/// lines in them are coded though they repeat others. Where the longest run that is left is still
-/// more than twice the mean, no line counts as repeated. Returns the length of the longest run.
-uint32_t even(std::vector<uint8_t>& repeated) {
+/// Breaks runs that are longer than 19 of 20 runs are, and such as would leave fewer than `least`
+/// lines: lines in them are coded though they repeat others. Where the longest run that is left is
+/// still more than twice the mean, no line counts as repeated. Returns the length of the longest
+/// run.
+uint32_t even(std::vector<uint8_t>& repeated, uint32_t least) {
   std::vector<uint32_t> runs = runsOf(repeated);
   const auto usual = runs.begin() + static_cast<ptrdiff_t>((runs.size() - 1) * 19 / 20);
   std::nth_element(runs.begin(), usual, runs.end());
-  const uint32_t most = std::min(*usual, static_cast<uint32_t>((repeated.size() + 1) / 2));
+  const uint32_t most =
+      std::min(*usual, static_cast<uint32_t>((repeated.size() + least - 1) / least));
   uint32_t run = 0;
   for (uint8_t& repeat : repeated) {
     if (run == most) repeat = 0;
@@ -111,17 +113,17 @@ tks_heights CodedLines::of(const tks_heights& whole) const {
   return coded;
 }
 
-CodedLines findRepeatedLines(const tks_heights& heights) {
+CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least) {
   constexpr double kPays = 0.9;  // of the samples are left
-  assert(heights.width >= 2 && heights.height >= 2);
+  assert(heights.width > 0 && heights.height > 0 && least > 0);
   const SampleBytes samples(heights);
   std::vector<uint8_t> columns = samples.repeatedColumns(), rows = samples.repeatedRows();
-  const uint64_t heaviest = uint64_t{even(columns)} * even(rows);
+  const uint64_t heaviest = uint64_t{even(columns, least)} * even(rows, least);
   CodedLines lines;
   lines.extent = {codedOf(columns), codedOf(rows)};
   const uint64_t samples_of_all = uint64_t{heights.width} * heights.height;
   // A map of lines takes more bytes than one height does, but fewer than one height in regions.
-  const bool one_height = lines.extent.width == 2 && lines.extent.height == 2;  // most likely
+  const bool one_height = lines.extent.width <= least && lines.extent.height <= least;  // likely
   if (one_height && samples_of_all <= kOneRegionHeights) return {};
   const auto all = static_cast<double>(samples_of_all);
   const double left = static_cast<double>(lines.extent.samples()) / all;

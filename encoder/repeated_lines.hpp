@@ -28,6 +28,7 @@ struct CodedLines {
 
 /// Lines are taken to repeat others where runs of them are about as long everywhere, so that all
 /// coded samples count alike: a sea in the first hundred rows is no reason to code one of them.
-CodedLines findRepeatedLines(const tks_heights& heights);
+/// least: how many columns, and how many rows, are coded at least where there are as many.
+CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least);
 
 }  // namespace tetrakis::inline encoder

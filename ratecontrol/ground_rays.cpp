@@ -61,7 +61,7 @@ struct GroundRays::Path {
 GroundRays::GroundRays(Relief relief) : relief_(std::move(relief)) {
   const GroundFrame& f = relief_.frame;
   const Extent grid = relief_.extent();
-  assert(f.width >= 2 && f.height >= 2 && relief_.heights.size() == grid.samples());
+  assert(grid.samples() > 0 && relief_.heights.size() == grid.samples());
   constexpr float kLowest = -std::numeric_limits<float>::infinity();
   Level cells{grid.width - 1, grid.height - 1, {}};
   cells.highest.resize(size_t{cells.width} * cells.height);
@@ -87,10 +87,11 @@ GroundRays::GroundRays(Relief relief) : relief_(std::move(relief)) {
               fine.highest[size_t{y} * fine.width + x]);
     levels_.push_back(std::move(coarse));
   }
-  double low = kNever;
-  for (const float h : relief_.heights)
+  double low = kNever, high = -kNever;
+  for (const double h : relief_.heights) {
     if (h < low) low = h;
-  const double high = levels_.back().highest.front();
+    if (h > high) high = h;
+  }
   const double x = (f.width - 1.0) * f.spacing_x / 2, z = (f.height - 1.0) * f.spacing_y / 2;
   bounds_ = low <= high ? Bounds{{-x, low, -z}, {x, high, z}} : Bounds{{-x, 0, -z}, {x, 0, z}};
 }
@@ -121,6 +122,7 @@ std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, co
 }
 
 std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
+  if (levels_.front().highest.empty()) return {};
   const double step = relief_.step;
   std::optional<GroundHit> found = firstHit(Path(ray, relief_.frame, step));
   if (!found) return found;

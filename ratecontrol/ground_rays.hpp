@@ -23,7 +23,10 @@ struct Relief {
   uint32_t step = 1;
 
   /// How many heights there are.
-  Extent extent() const { return {(frame.width - 2) / step + 2, (frame.height - 2) / step + 2}; }
+  Extent extent() const { return {along(frame.width), along(frame.height)}; }
+
+ private:
+  uint32_t along(uint32_t size) const { return size < 2 ? size : (size - 2) / step + 2; }
 };
 
 /// In the axes of GroundFrame.
@@ -42,7 +45,8 @@ class GroundRays {
  public:
   explicit GroundRays(Relief relief);
 
-  /// The first triangle that the ray meets, from either side; none touches a void.
+  /// The first triangle that the ray meets, from either side; none touches a void. One column or
+  /// row of heights has no triangles.
   std::optional<GroundHit> hit(const Ray& ray) const;
 
   /// Where the ray meets the plane of a hit, in columns and rows; nothing if it runs along it.

@@ -110,8 +110,8 @@ struct GeometryHeader {
   template <class V>
   void visit(V& v) {
     Extent whole = shown();
-    v.varint("geometry_width", whole.width, 2, kMaxSide);
-    v.varint("geometry_height", whole.height, 2, kMaxSide);
+    v.varint("geometry_width", whole.width, 1, kMaxSide);
+    v.varint("geometry_height", whole.height, 1, kMaxSide);
     auto kind = static_cast<uint8_t>(sample + (repeats.none() ? 0 : kWithRepeats));
     v.u8("geometry_sample", kind, 0, kWithRepeats + TKS_F32);
     sample = kind % kWithRepeats;

@@ -125,12 +125,9 @@ Status checkPriorities(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its map of priorities has more than 65536 tiles."};
 }
 
-Status checkLines(const StreamHeader& header) {
-  if (!header.geometry) return {};
-  const GeometryHeader& g = *header.geometry;
-  if (g.sample > TKS_F32) return {TKS_CORRUPT, "Corrupt stream: the type of its heights is none."};
-  if (g.width >= 2 && g.height >= 2) return {};
-  return {TKS_CORRUPT, "Corrupt stream: all columns or all rows of its heights repeat the first."};
+Status checkSampleType(const StreamHeader& header) {
+  if (!header.geometry || header.geometry->sample <= TKS_F32) return {};
+  return {TKS_CORRUPT, "Corrupt stream: the type of its heights is none."};
 }
 
 }  // namespace
@@ -139,7 +136,7 @@ Status checkMeaning(const StreamHeader& header) {
   if (!header.geometry && !header.texture) {
     return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
   }
-  if (Status lines = checkLines(header); !lines.ok()) return lines;
+  if (Status type = checkSampleType(header); !type.ok()) return type;
   if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
   if (Status place = checkGeoreference(header); !place.ok()) return place;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;

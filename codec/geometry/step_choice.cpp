@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -231,6 +232,12 @@ double chooseStep(Stepper<T>& stepper, const StepNeeds&) {
   return step;
 }
 
+/// With as many digits as it needs: a step may be tiny.
+std::string decimal(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
 }  // namespace
 
 Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs) {
@@ -244,7 +251,7 @@ Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs) 
         if (std::is_floating_point_v<T> && chosen && stepper.range() == 0) return stepper.flat();
         const double step = chosen ? chooseStep(stepper, needs) : needs.given;
         if (stepper.fits(step)) return stepper.with(step);
-        return Status(TKS_USAGE, "A step of " + std::to_string(step) +
+        return Status(TKS_USAGE, "A step of " + decimal(step) +
                                      " divides the range of the heights into more than 2^26 "
                                      "parts; give a larger one.");
       });

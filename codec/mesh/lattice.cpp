@@ -13,7 +13,7 @@ constexpr BorderRule kRule = BorderRule::kOverhanging;
 Result<Lattice> Lattice::make(uint32_t width, uint32_t height) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
   if (width < 2 || height < 2)
-    return Status(TKS_USAGE, "A surface of " + size + " samples has no mesh; use at least 2 x 2.");
+    return Status(TKS_USAGE, "Heights of " + size + " samples have no area, and so no mesh.");
   if (uint64_t{width} * height > uint64_t{1} << 31)
     return Status(TKS_LIMIT, "A mesh of " + size + " samples is too large; the limit is 2^31.");
   Lattice lattice(width, height);

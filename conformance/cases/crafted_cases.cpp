@@ -133,12 +133,15 @@ std::vector<VectorCase> repeatedCases() {
     return repeated;
   };
   StreamHeader corrected = heightsHeader(70, 31, TKS_F32, 14),
-               ends = heightsHeader(40, 60, TKS_U16, 12);
+               ends = heightsHeader(40, 60, TKS_U16, 12), one = heightsHeader(1, 50, TKS_I16, 12);
   corrected.geometry->repeats = encodeRepeats(runs(70, 1), runs(31, 2));
   corrected.layers.corrections = CorrectionKind::kSamples;
   corrected.layers.coefficient_bytes = 300;
   ends.geometry->repeats = {{40, 60}, std::string("\x35\x17", 2)};
-  return {crafted("noise_repeats_f32_70x31", "noise: repeated lines in runs of any lengths",
+  one.geometry->repeats = encodeRepeats(std::vector<uint8_t>{0, 1, 1, 1, 1, 1, 1}, runs(50, 3));
+  return {crafted("noise_repeats_7x50", "noise: one column, which all others repeat",
+                  streamOf(one, noise(300, 93))),
+          crafted("noise_repeats_f32_70x31", "noise: repeated lines in runs of any lengths",
                   streamOf(corrected, noise(900, 91))),
           crafted("noise_repeats_end_40x60", "noise: a map of repeated lines that ends early",
                   streamOf(ends, noise(700, 92)))};

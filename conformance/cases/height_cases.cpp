@@ -17,6 +17,10 @@ std::vector<VectorCase> geometryCases() {
   return {
       heightsCase("tiny_2x2", "smallest surface: one band", {Pattern::kRidges, 2, 2, 1, TKS_I16},
                   lossless()),
+      heightsCase("row_300x1", "one row: levels that split one side alone, to the end",
+                  {Pattern::kRidges, 300, 1, 1, TKS_I16}, lossless()),
+      heightsCase("column_1x300", "one column of floats, cut by a byte budget",
+                  {Pattern::kRidges, 1, 300, 1, TKS_F32}, budget(400)),
       heightsCase("odd_3x17", "odd sizes; a side that is never split",
                   {Pattern::kRidges, 3, 17, 1, TKS_U16}, lossless()),
       heightsCase("flat_33x33", "no detail at all: no bit-planes",

@@ -3,7 +3,6 @@
 #include <functional>
 #include <limits>
 
-#include "codec/geometry/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
 #include "conformance/samples/header_seal.hpp"
@@ -65,10 +64,7 @@ std::vector<VectorCase> refusedHeaders() {
          [](StreamHeader& h) { h.geometry->planes = 64; });
   refuse("sample", "heights of a type that there is not",
          [](StreamHeader& h) { h.geometry->sample = 7; });
-  refuse("lines", "heights whose rows all repeat the first", [](StreamHeader& h) {
-    const std::vector<uint8_t> columns(9), rows = {0, 1, 1, 1, 1, 1, 1, 1, 1};
-    h.geometry->repeats = encodeRepeats(columns, rows);
-  });
+  refuse("side", "heights of no column", [](StreamHeader& h) { h.geometry->width = 0; });
   refuse("tiles", "a map of more than 65536 tiles", [](StreamHeader& h) {
     h = heightsHeader(4097, 4096, TKS_I16, 8);
     h.geometry->priorities = {4, "map"};

@@ -54,14 +54,13 @@ void readLines(Reader& in, GeometryHeader& g) {
   g.lines = LineMap(code, g.width, g.height);
   g.width = g.lines.columns.back() + 1;
   g.height = g.lines.rows.back() + 1;
-  if (g.width < 2 || g.height < 2) in.fail(Outcome::kCorrupt);
 }
 
 /// FORMAT 2, table Geometry.
 GeometryHeader readGeometry(Reader& in) {
   GeometryHeader g;
-  g.width = static_cast<int>(in.varint(2, 1 << 20));
-  g.height = static_cast<int>(in.varint(2, 1 << 20));
+  g.width = static_cast<int>(in.varint(1, 1 << 20));
+  g.height = static_cast<int>(in.varint(1, 1 << 20));
   const int kind = in.u8(0, 14);
   g.sample = kind % 8;
   if (g.sample > kF32) in.fail(Outcome::kCorrupt);

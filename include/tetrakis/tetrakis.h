@@ -72,7 +72,8 @@ typedef enum tks_registration {
 } tks_registration;
 
 /* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
- * Sizes from 2 x 2. A sample v stands for the height v * scale + offset in `unit`.
+ * Sizes from 1 x 1; one column or row has no area, so that no mesh can be made of it and no camera
+ * sees it. A sample v stands for the height v * scale + offset in `unit`.
  *
  * Voids: samples equal to `nodata` (if has_nodata), and floats that are NaN, are no heights. Their
  * mask is coded; they take no part in any filter, error or mesh, and come back as `nodata`, without
@@ -434,7 +435,9 @@ typedef struct tks_mesh {
 } tks_mesh;
 
 /* max_triangles bounds TKS_MESH_BUDGET (0: every sample becomes a vertex) and is ignored for
- * TKS_MESH_CODED. A budget below the base mesh gives the base mesh. */
+ * TKS_MESH_CODED. A budget below the base mesh gives the base mesh. TKS_USAGE, from this and all
+ * calls that make meshes: there are no heights, or only one column or row of them, which has no
+ * area. */
 tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                            tks_mesh* out);
 void tks_free_mesh(tks_mesh* mesh);

@@ -53,7 +53,7 @@ TEST_F(Arguments, UnspoiltCallWorks) {
 TEST_F(Arguments, Heights) {
   const std::function<void(Call&)> spoils[] = {
       [](Call& c) { c.heights.size = 3; },
-      [](Call& c) { c.heights.width = 1; },
+      [](Call& c) { c.heights.width = 0; },
       [](Call& c) { c.heights.height = 0; },
       [](Call& c) { c.heights.sample = static_cast<tks_sample>(7); },
       [](Call& c) { c.heights.data = nullptr; },

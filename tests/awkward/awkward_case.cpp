@@ -291,7 +291,8 @@ AwkwardCase awkwardCase(uint64_t seed, uint32_t most_samples) {
   Dice dice(seed);
   AwkwardCase c;
   const uint32_t width = awkwardSide(dice, std::min(most_samples / 2, 1500u));
-  const uint32_t height = awkwardSide(dice, std::max(2u, std::min(most_samples / width, 1500u)));
+  const uint32_t rows = awkwardSide(dice, std::max(2u, std::min(most_samples / width, 1500u)));
+  const uint32_t height = dice.once(12) ? 1 : rows;
   const auto kind = static_cast<Kind>(dice.below(static_cast<uint32_t>(Kind::kCount)));
   c.heights =
       dice.once(2) ? groundOf(dice, kind, width, height) : groundOf(dice, kind, height, width);

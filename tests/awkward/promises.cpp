@@ -119,6 +119,13 @@ std::string checkWhole(const AwkwardCase& c, std::span<const uint8_t> stream) {
   return info.lossless && texture.samples != c.texture->data ? "a texel has changed" : "";
 }
 
+bool hasArea(tks_decoder* decoder) {
+  tks_info info = {};
+  info.size = sizeof info;
+  tks_get_info(decoder, &info);
+  return info.width > 1 && info.height > 1;
+}
+
 /// A prefix decodes, and so do a level and a mesh of it.
 std::string checkCut(std::span<const uint8_t> prefix) {
   tks_decoder* decoder = nullptr;
@@ -128,7 +135,8 @@ std::string checkCut(std::span<const uint8_t> prefix) {
   const std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> owner(decoder, tks_close);
   if (std::string found = decode(decoder, true).complaint; !found.empty()) return found;
   tks_mesh mesh = {};
-  if (tks_decode_mesh(decoder, TKS_MESH_BUDGET, 40, &mesh) != TKS_OK) return tks_message(decoder);
+  const tks_status meshed = tks_decode_mesh(decoder, TKS_MESH_BUDGET, 40, &mesh);
+  if (meshed != (hasArea(decoder) ? TKS_OK : TKS_USAGE)) return tks_message(decoder);
   tks_free_mesh(&mesh);
   if (tks_set_levels(decoder, 1, 0) != TKS_OK) return {};
   return decode(decoder, true).complaint;

@@ -111,6 +111,16 @@ TEST_F(CliUsage, CamerasThatCannotBeReadSayWhy) {
   makeInputs();
   const Outcome run = cli("encode height.tif -o b.tks --lossless --cameras missing.json");
   EXPECT_NE(run.err.find("No such file"), std::string::npos) << run.err;
+  const Outcome empty = cli("encode height.tif -o b.tks --lossless --cameras /dev/null");
+  EXPECT_EQ(empty.code, 1);
+  EXPECT_NE(empty.err.find("'/dev/null' is empty"), std::string::npos) << empty.err;
+}
+
+TEST_F(CliUsage, TinyStepsAreReportedAsTheyAre) {
+  makeInputs();
+  const Outcome run = cli("encode height.tif -o b.tks --bytes 900 --step 1e-30");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("A step of 1e-30 divides"), std::string::npos) << run.err;
 }
 
 TEST_F(CliUsage, PartsOfTheSummaryAddUp) {

@@ -136,7 +136,7 @@ TEST(Reference, AgreesOnDamagedGeoreferences) {
 
 TEST(Reference, AgreesOnVoids) {
   for (const samples::VoidShape shape : samples::kVoidShapes) {
-    for (const auto& [width, height] : {std::pair{2u, 2u}, {19u, 14u}, {40u, 9u}}) {
+    for (const auto& [width, height] : {std::pair{2u, 2u}, {19u, 14u}, {40u, 9u}, {50u, 1u}}) {
       SCOPED_TRACE(static_cast<int>(shape));
       Raster raster = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
       const auto valid = samples::validity(shape, width, height);
@@ -195,8 +195,9 @@ TEST(Reference, AgreesOnFloatsOfAllMagnitudes) {
 
 // 65 x 9 has several blocks, some of them narrow; 129 x 2 is split in x alone.
 TEST(Reference, AgreesOnHeightsOfAllShapes) {
-  constexpr uint32_t kSizes[][2] = {{2, 2},  {3, 17}, {2, 9},   {9, 2},   {3, 3}, {33, 22},
-                                    {5, 40}, {40, 5}, {129, 2}, {2, 129}, {65, 9}};
+  constexpr uint32_t kSizes[][2] = {{2, 2},   {3, 17}, {2, 9},   {9, 2},   {3, 3},
+                                    {33, 22}, {5, 40}, {40, 5},  {129, 2}, {2, 129},
+                                    {65, 9},  {1, 1},  {129, 1}, {1, 129}};
   for (const auto& size : kSizes) {
     const samples::Recipe recipe{Pattern::kRidges, size[0], size[1], 1, TKS_I16, 6};
     SCOPED_TRACE(nameOf(recipe));

@@ -219,6 +219,40 @@ TEST_F(GeoTiff, KeysOfOtherMakersComeBack) {
 }
 
 /// Tags that make no sense cost the information, not the heights.
+/// What is not used is not left out silently: of heights, nor of a texture.
+TEST_F(GeoTiff, TransformsOfNoUseAreNoted) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto expectNotes = [this](bool noted) {
+    const std::string text =
+        noted ? "its geotransform is not used: a scale is 0, or a number is none or too large" : "";
+    const HeightFile heights = read();
+    EXPECT_EQ(heights.geotransform.has_value(), !noted);
+    ASSERT_EQ(notes.size(), noted ? 1U : 0U);
+    if (noted) {
+      EXPECT_EQ(notes[0].text, text);
+    }
+    std::string remark;
+    const auto image = readImage(path("a.tif"), &remark);
+    ASSERT_TRUE(image.ok());
+    EXPECT_EQ(remark, text);
+  };
+  tiff.doubles(kTiepoint, {0, 0, 0, 7, 60, 0});
+  for (const double scale : {0.0, kNone, 1e300, 2.0}) {
+    tiff.doubles(kPixelScale, {2, scale, 0});
+    expectNotes(scale != 2.0);
+  }
+  tiff.doubles(kTiepoint, {0, 0, 0, kNone, 60, 0});
+  expectNotes(true);
+  tiff.remove(kPixelScale);
+  tiff.remove(kTiepoint);
+  std::vector<double> matrix = {1, 0, 0, 7, 0, -1, 0, 60, 0, 0, 0, 0, 0, 0, 0, 1};
+  tiff.doubles(kTransformation, matrix);
+  expectNotes(false);
+  matrix[1] = kNone;
+  tiff.doubles(kTransformation, matrix);
+  expectNotes(true);
+}
+
 TEST_F(GeoTiff, BrokenTagsCountAsMissing) {
   const TinyTiff plain = tiff;
   const auto expectPlain = [this, &plain](const char* what) {

@@ -271,7 +271,7 @@ TEST_F(HeightVoids, DoublesThatAreFloatsAreTaken) {
 }
 
 TEST_F(HeightVoids, NodataOfDoublesNeedNotBeAFloat) {
-  for (const double nodata : {std::numeric_limits<double>::lowest(), -9999.1, -9999.0}) {
+  for (const double nodata : {std::numeric_limits<double>::lowest(), -3.4e38, -9999.1, -9999.0}) {
     TinyTiff tiff = tiffOf<double>({1, nodata, 3});
     char text[40];
     std::snprintf(text, sizeof text, "%.17g", nodata);
@@ -282,6 +282,24 @@ TEST_F(HeightVoids, NodataOfDoublesNeedNotBeAFloat) {
     EXPECT_TRUE(std::isnan(sample) || double{sample} == heights->nodata) << nodata;
     EXPECT_EQ(samplesOf<float>(*heights)[2], 3);
   }
+}
+
+TEST_F(HeightVoids, NodataThatNoSampleCanHaveIsNoted) {
+  TinyTiff tiff = tiffOf<int16_t>({1, -9999, 3});
+  for (const char* text : {"-9999.4", "70000", "nan", "-9999"}) {
+    tiff.ascii(kGdalNodata, text);
+    ASSERT_TRUE(read(tiff).ok());
+    if (std::string(text) == "-9999") {
+      EXPECT_TRUE(notes.empty());
+      continue;
+    }
+    ASSERT_FALSE(notes.empty()) << text;
+    EXPECT_EQ(notes[0].text, "the nodata value " + std::string(text) +
+                                 " is none that its samples can have: it makes nothing void");
+  }
+  tiff.ascii(kGdalNodata, "-9999");
+  ASSERT_TRUE(read(tiff, 0.5).ok());
+  EXPECT_TRUE(notes.empty()) << "who gives one knows it";
 }
 
 TEST_F(HeightVoids, UnitsOfGdalGetOneName) {

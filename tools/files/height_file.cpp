@@ -138,7 +138,11 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
     const Status tags = readGeoTags(raster->file.path(), heights, notes);
     if (!tags.ok()) return tags;
   }
-  if (nodata) heights.nodata = nodata;
+  if (nodata) {
+    heights.nodata = nodata;
+  } else if (const auto note = noteOnNodata(heights)) {
+    notes.push_back(*note);
+  }
   const bool wide = raster->shape.sample == PictureSample::kDouble;
   auto data = readSamples(*raster, wide ? PictureSample::kDouble : storedAs(*sample));
   if (!data.ok()) return data.status();

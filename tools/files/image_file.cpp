@@ -75,10 +75,10 @@ ImageFile turnedUpright(const ImageFile& stored, int orientation) {
 }
 
 /// Of the pixels as they are stored. Tags go before a world file beside.
-Result<Georeference> placeOf(const Raster& raster, const std::string& path) {
+Result<Georeference> placeOf(const Raster& raster, const std::string& path, Notes& notes) {
   Georeference place;
   if (raster.is_tiff()) {
-    auto tags = readGeoreference(raster.file.path());
+    auto tags = readGeoreference(raster.file.path(), notes);
     if (!tags.ok() || tags->geotransform) return tags;
     place = std::move(*tags);
   }
@@ -114,8 +114,11 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
   if (note) *note = noteOn(*raster);
   if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
-  auto place = placeOf(*raster, path);
+  Notes notes;
+  auto place = placeOf(*raster, path, notes);
   if (!place.ok()) return place.status();
+  for (const Note& of_place : notes)
+    if (note) *note += (note->empty() ? "" : ", ") + of_place.text;
   image.place = std::move(*place);
   return image;
 }

@@ -212,6 +212,14 @@ Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& n
   return {};
 }
 
+std::optional<Note> noteOnNodata(const HeightFile& heights) {
+  if (!heights.nodata || heights.sample == TKS_F32) return {};
+  if (asSample(*heights.nodata, heights.sample)) return {};
+  return Note{"the nodata value " + shortest(*heights.nodata) +
+                  " is none that its samples can have: it makes nothing void",
+              ""};
+}
+
 std::optional<Note> noteOnOutliers(const HeightFile& heights) {
   if (heights.nodata) return std::nullopt;
   const Outliers found = visitSamples(heights, [](auto samples) { return outliersOf(samples); });

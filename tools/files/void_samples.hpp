@@ -30,6 +30,9 @@ void matchNodata(HeightFile& heights);
 /// value that no other sample has, with a note. TKS_USAGE if there is none.
 Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& notes);
 
+/// A note if the nodata value is none that the samples can have, so that no sample meets it.
+std::optional<Note> noteOnNodata(const HeightFile& heights);
+
 /// A note if a few samples are so far from all others that they can only be undeclared voids.
 std::optional<Note> noteOnOutliers(const HeightFile& heights);
 

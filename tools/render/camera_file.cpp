@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras from JSON.
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "ground/vec3.hpp"
@@ -105,15 +107,30 @@ Status unreadable(const std::string& path) {
   return Status(TKS_IO, "cannot read the cameras '" + path + "': " + std::strerror(errno));
 }
 
-Result<Json> readJson(const std::string& path) {
+Result<std::string> readText(const std::string& path) {
   std::ifstream file(path);
   if (!file) return unreadable(path);
   try {
-    return Json::parse(file);
-  } catch (const Json::exception& error) {
-    return Status(TKS_USAGE, "'" + path + "' is not JSON: " + error.what());
+    return std::string(std::istreambuf_iterator<char>(file), {});
   } catch (const std::ios_base::failure&) {
     return unreadable(path);
+  }
+}
+
+Result<Json> readJson(const std::string& path) {
+  const Result<std::string> text = readText(path);
+  if (!text.ok()) return text.status();
+  if (text->find_first_not_of(" \t\r\n") == std::string::npos)
+    return Status(TKS_USAGE, "'" + path + "' is empty: it must be JSON with a list \"cameras\"");
+  try {
+    return Json::parse(*text);
+  } catch (const Json::parse_error& error) {
+    const auto end = text->begin() + static_cast<ptrdiff_t>(std::min(error.byte, text->size()));
+    const auto line = 1 + std::count(text->begin(), end, '\n');
+    return Status(TKS_USAGE,
+                  "'" + path + "' is not JSON from line " + std::to_string(line) + " on");
+  } catch (const Json::exception&) {
+    return Status(TKS_USAGE, "'" + path + "' holds a number beyond all that can be read");
   }
 }
 

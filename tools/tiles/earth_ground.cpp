@@ -33,6 +33,8 @@ float bilinear(const LevelSurface& surface, double x, double y) {
 
 Result<EarthGround> EarthGround::create(const tks_info& info) {
   if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
+  if (info.width < 2 || info.height < 2)
+    return Status(TKS_USAGE, "heights of one column or row have no area to make tiles of");
   const std::string crs = info.crs;
   if (!info.has_geotransform || crs.empty())
     return Status(TKS_USAGE,

@@ -98,7 +98,7 @@ bool isMaskPage(TIFF* tiff, uint32_t width, uint32_t height);
 Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes);
 
 /// Only the place, of any picture.
-Result<Georeference> readGeoreference(const std::string& path);
+Result<Georeference> readGeoreference(const std::string& path, Notes& notes);
 
 /// Deflated TIFF with the tags that readGeoTags reads. A spacing without a place becomes a local
 /// grid in metres, in no CRS.

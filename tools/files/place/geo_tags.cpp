@@ -45,10 +45,14 @@ void announceGeoTags(TIFF* tiff) {
   TIFFMergeFieldInfo(tiff, kGeoFields.data(), kGeoFields.size());
 }
 
-std::optional<GeoTransform> readTransform(TIFF* tiff, bool point) {
+std::optional<GeoTransform> readTransform(TIFF* tiff, bool point, Notes& notes) {
   const auto scale = tagValues<double>(tiff, kModelPixelScaleTag, TIFF_DOUBLE);
   const auto tie = tagValues<double>(tiff, kModelTiepointTag, TIFF_DOUBLE);
   const auto m = tagValues<double>(tiff, kModelTransformationTag, TIFF_DOUBLE);
+  const auto unusable = [&notes] {
+    notes.push_back(
+        {"its geotransform is not used: a scale is 0, or a number is none or too large", ""});
+  };
   GeoTransform t{};
   if (scale.size() >= 2 && scale[0] != 0 && scale[1] != 0) {
     constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
@@ -60,8 +64,12 @@ std::optional<GeoTransform> readTransform(TIFF* tiff, bool point) {
   } else if (m.size() >= 8) {  // row-major: x = m0 i + m1 j + m3, y = m4 i + m5 j + m7
     t = {m[3], m[0], m[1], m[7], m[4], m[5]};
   } else {
+    if (scale.size() >= 2) unusable();
     return std::nullopt;
   }
+  GeoTransform stated = t;
+  if (m.size() < 8 && tie.size() < 6) stated[0] = stated[3] = 0;
+  if (!isSound(stated)) unusable();
   if (point) {
     t[0] -= t[1] * 0.5 + t[2] * 0.5;
     t[3] -= t[4] * 0.5 + t[5] * 0.5;

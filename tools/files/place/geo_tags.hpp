@@ -24,8 +24,9 @@ bool setTag(TIFF* tiff, uint32_t tag, const std::string& text);
 void announceGeoTags(TIFF* tiff);
 
 /// As GDAL reads it: pixel scale and tiepoint, or a matrix; nothing if there are neither. The
-/// origin is NaN where a tiepoint is missing. point: the tags speak of the middles of pixels.
-std::optional<GeoTransform> readTransform(TIFF* tiff, bool point);
+/// origin is NaN where a tiepoint is missing. Tags whose numbers make no place are noted.
+/// point: the tags speak of the middles of pixels.
+std::optional<GeoTransform> readTransform(TIFF* tiff, bool point, Notes& notes);
 
 /// The reverse, as GDAL writes it: GDAL reads the same numbers.
 bool writeTransform(TIFF* tiff, const GeoTransform& transform, bool point);

@@ -157,7 +157,7 @@ Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
   if (!file.ok()) return file.status();
   TIFF* const tiff = file->get();
   const GeoKeys keys = readGeoKeys(tiff);
-  const auto transform = readTransform(tiff, speaksOfPoints(keys));
+  const auto transform = readTransform(tiff, speaksOfPoints(keys), notes);
   setSpacing(heights, keys, transform, notes);
   setPlace(heights, keys, transform);
   setVerticalDatum(heights, keys);
@@ -168,12 +168,12 @@ Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
   return {};
 }
 
-Result<Georeference> readGeoreference(const std::string& path) {
+Result<Georeference> readGeoreference(const std::string& path, Notes& notes) {
   const auto file = TiffFile::open(path, "r");
   if (!file.ok()) return file.status();
   const GeoKeys keys = readGeoKeys(file->get());
   Georeference place;
-  setPlace(place, keys, readTransform(file->get(), speaksOfPoints(keys)));
+  setPlace(place, keys, readTransform(file->get(), speaksOfPoints(keys), notes));
   keepKeys(place, keys);
   return place;
 }

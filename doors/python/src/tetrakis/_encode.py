@@ -196,7 +196,7 @@ def encode(
     Every prefix of the stream that holds its header (some 100 bytes) is a stream as well.
 
     Arrays
-        heights: (rows, columns), from 2 x 2, of uint8, int8, uint16, int16, uint32, int32 or
+        heights: (rows, columns), from 1 x 1, of uint8, int8, uint16, int16, uint32, int32 or
             float32; any strides and byte order. A sample v is the height ``v * scale + offset`` in
             `unit`. NaN, samples equal to `nodata`, and masked samples of a masked array are voids.
             Integers with a mask and without `nodata` are given a nodata value that no sample has.
