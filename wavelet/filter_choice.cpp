@@ -43,7 +43,7 @@ constexpr std::array<LosslessChoice, 3> kLosslessHeights = {
 
 /// Coarse levels of images have a filter that is nearly orthogonal, as those of lossy streams are.
 constexpr std::array<LosslessChoice, 4> kLosslessImages = {
-    {{{kL, kQ, kQ}, 1}, {{kL, kL, kQ}, 1.045}, {{kM, kM, kM}, 1.055}, {{kS, kS, kS}, 1.09}}};
+    {{{kL, kQ, kQ}, 1}, {{kL, kL, kQ}, 1.045}, {{kM, kM, kM}, 1.08}, {{kS, kS, kS}, 1.115}}};
 
 constexpr double kSignificant =
     0.1;  // share of the other details that the step T leaves above itself
