@@ -26,6 +26,7 @@ using Filters = std::array<uint8_t, WaveletSpec::kChoices>;
 constexpr auto kS = static_cast<uint8_t>(FilterId::kShort);
 constexpr auto kM = static_cast<uint8_t>(FilterId::kSixTap);
 constexpr auto kO = static_cast<uint8_t>(FilterId::kOrthogonal);
+constexpr auto kQ = static_cast<uint8_t>(FilterId::kQuiet);
 constexpr auto kL = static_cast<uint8_t>(FilterId::kLong);
 constexpr std::array<Filters, 4> kLossyChoices = {
     {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}}};
@@ -40,23 +41,21 @@ struct LosslessChoice {
 constexpr std::array<LosslessChoice, 3> kLosslessHeights = {
     {{{kM, kM, kM}, 1.004}, {{kL, kL, kL}, 1}, {{kS, kS, kS}, 1.02}}};
 
-/// Coarse levels of images have the filter of lossy streams. It rounds each coefficient four times,
-/// where joint lifting rounds it once (wavelet/joint_lifting.hpp): details become longer by what
-/// that adds, and where this shows in the estimate, cuts come near to the roundings as well.
+/// Coarse levels of images have a filter that is nearly orthogonal, as those of lossy streams are.
 constexpr std::array<LosslessChoice, 4> kLosslessImages = {
-    {{{kM, kO, kO}, 1}, {{kL, kL, kL}, 1.04}, {{kM, kM, kM}, 1.055}, {{kS, kS, kS}, 1.09}}};
+    {{{kL, kQ, kQ}, 1}, {{kL, kL, kQ}, 1.045}, {{kM, kM, kM}, 1.08}, {{kS, kS, kS}, 1.115}}};
 
 constexpr double kSignificant =
     0.1;  // share of the other details that the step T leaves above itself
 constexpr int kMostFractionBits = 4;
 constexpr uint32_t kTrialSide = 96;
-constexpr int kOrthogonalBits = 20;  // with more, the growing low bands of kOrthogonal pass 2^30
+constexpr int kGrowingBits = 20;  // with more, the low bands of kOrthogonal and kQuiet pass 2^30
 
 /// Doubling low bands after level 2 in the place of level 4 halves the roundings of levels 3 and 4,
 /// and takes 1/16 of a bit a sample. That is worth it where few bits are lossless, because then
 /// cuts come near to what roundings lose.
 constexpr uint8_t kEarlyDoubled = 2, kLateDoubled = 3;
-constexpr double kFewBits = 1.6;
+constexpr double kFewBits = 1.6, kFewQuietBits = 1.15;
 
 struct Sample {
   Extent extent;
@@ -174,7 +173,7 @@ Choice chooseLossy(const std::vector<Sample>& samples, int bits) {
   Choice best;
   float step = 0;
   for (const Filters& filters : kLossyChoices) {
-    if (filters.back() == kO && bits > kOrthogonalBits) continue;
+    if (filters.back() == kO && bits > kGrowingBits) continue;
     const WaveletHeader header =
         headerWith(filters, std::clamp(20 - bits, 0, kMostFractionBits), bits);
     std::vector<float> details;
@@ -190,14 +189,18 @@ Choice chooseLossless(const std::vector<Sample>& samples, int bits,
                       std::span<const LosslessChoice> choices) {
   Choice best;
   for (const auto& [filters, penalty] : choices) {
-    if (filters.back() == kO && bits > kOrthogonalBits) continue;
+    if (filters.back() == kQ && bits > kGrowingBits) continue;
     const WaveletHeader header = headerWith(filters, 0, bits);
     std::vector<float> details;
     for (const Sample& sample : samples) appendDetails(sample, header, true, details);
     keepIfBetter(header, bitsOf(details, 1), penalty, best);
   }
-  if (best.header.filters.back() != kO && best.bits < kFewBits * samplesIn(samples))
+  const bool quiet = best.header.filters.back() == kQ;
+  if (best.bits < (quiet ? kFewQuietBits : kFewBits) * samplesIn(samples)) {
     best.header.first_doubled = kEarlyDoubled;
+    // Level 2 is then lifted jointly, and rounds each coefficient once (wavelet/joint_lifting.hpp).
+    if (quiet) best.header.filters[1] = kL;
+  }
   return best;
 }
 

@@ -18,8 +18,8 @@
 namespace tetrakis::inline wavelet {
 
 /// Which filter of the menu. The numbers stand in stream headers.
-enum class FilterId : uint8_t { kShort = 0, kSixTap = 1, kOrthogonal = 2, kLong = 3 };
-inline constexpr int kFilters = 4;
+enum class FilterId : uint8_t { kShort = 0, kSixTap = 1, kOrthogonal = 2, kLong = 3, kQuiet = 4 };
+inline constexpr int kFilters = 5;
 
 inline constexpr size_t kMaxPairs = 5;
 

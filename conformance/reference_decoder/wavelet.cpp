@@ -203,6 +203,7 @@ const Filter& filterOf(const WaveletHeader& header, int level) {
       {8, 20, {{-147, 28, -9}, {78, -20, 6}}},
       {12, 15, {{-7895, 81}, {-258, 64}, {4447, 105}, {2189, -297}}},
       {8, 20, {{-157, 41, -17, 8, -3}, {77, -24, 12, -6, 2}}},
+      {13, 15, {{0}, {1435, -176}, {-3653, 706, -186}, {2218, -254, 116}}},
   };
   return kFilters[filterNumber(header, level)];
 }
@@ -238,8 +239,10 @@ Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
       return subband.orientation == kHH && subband.level == l;
     });
     const int splits = (hh->splitsX == l) + (hh->splitsY == l);
-    for (int i = 0; i < splits && filterNumber(header, l) == 2; ++i)
-      weight = (weight * 847671299 + (1 << 29)) >> 30;
+    const size_t filter = filterNumber(header, l);
+    if (filter != 2 && filter != 4) continue;
+    const int64_t factor = filter == 2 ? 847671299 : 821297201;
+    for (int i = 0; i < splits; ++i) weight = (weight * factor + (1 << 29)) >> 30;
   }
   int d = 0;
   for (int l = 1; l <= level; ++l) d += doublesLow(header, l);

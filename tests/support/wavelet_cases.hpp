@@ -25,7 +25,7 @@ inline std::ostream& operator<<(std::ostream& out, const WaveletSpec& spec) {
 namespace test {
 
 inline constexpr std::array<FilterId, kFilters> kAllFilters = {
-    FilterId::kShort, FilterId::kSixTap, FilterId::kOrthogonal, FilterId::kLong};
+    FilterId::kShort, FilterId::kSixTap, FilterId::kOrthogonal, FilterId::kLong, FilterId::kQuiet};
 
 struct Size {
   uint32_t width, height;

@@ -82,19 +82,23 @@ TEST(Wavelet, AnyCoefficientsAreLegal) {
   }
 }
 
-/// The weights of the four-step filter cancel to 1e-7: its details may be off by the rounding.
+/// The weights of four-step filters cancel to 1e-7: details of kOrthogonal may be off by the
+/// rounding, those of kQuiet only where low bands have grown beyond what such weights can cancel.
 TEST(Wavelet, KeepsConstantsOutOfTheDetailBands) {
   const Size sizes[] = {{83, 59}, {2, 40}, {5, 1}, {64, 64}};
   for (const WaveletSpec& spec : allSpecs()) {
-    const bool exact = std::find(spec.filters.begin(), spec.filters.end(), FilterId::kOrthogonal) ==
-                       spec.filters.end();
+    const auto has = [&spec](FilterId id) {
+      return std::find(spec.filters.begin(), spec.filters.end(), id) != spec.filters.end();
+    };
     for (const int32_t value : {1, -1, 1234, -77777, 1 << 20, -(1 << 20)}) {
+      const bool large = std::abs(value) >= 1 << 20;
+      const int most = has(FilterId::kQuiet) && large ? 2 : has(FilterId::kOrthogonal) ? 1 : 0;
       for (const Size& size : sizes) {
         const Plane plane = forward(withBits(spec, 22), Plane(size.count(), value), size);
         for (const Subband& band : subbandsOf(size)) {
           if (band.orientation == Orientation::kLL) continue;
           forEachCoefficient(band, size.width, [&](size_t i, size_t) {
-            ASSERT_LE(std::abs(plane[i]), exact ? 0 : 1) << spec << ", " << size << ": " << value;
+            ASSERT_LE(std::abs(plane[i]), most) << spec << ", " << size << ": " << value;
           });
         }
       }
