@@ -150,6 +150,20 @@ TEST_F(CliFiles, TwoOutputsOfOneNameAreRefusedBeforeAnyWork) {
   EXPECT_EQ(cli("decode a.tks --height /dev/null --texture /dev/null").code, 0);
 }
 
+TEST_F(CliFiles, AnEncoderDoesNotReplaceWhatItReads) {
+  makeStream();
+  ASSERT_EQ(cli("decode a.tks --height h.tif --texture t.png").code, 0);
+  std::filesystem::create_symlink("h.tif", path("link.tif"));
+  const std::string heights = content("h.tif"), texture = content("t.png");
+  for (const char* output : {"h.tif", "./h.tif", "link.tif", "t.png"}) {
+    const Outcome run = cli("encode h.tif --texture t.png --lossless -f -o " + std::string(output));
+    EXPECT_EQ(run.code, 1) << output;
+    EXPECT_NE(run.err.find("would replace the input"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(content("h.tif"), heights);
+  EXPECT_EQ(content("t.png"), texture);
+}
+
 TEST_F(CliFiles, TexturesAreWrittenInOtherFormatsAndRefusedWhereTheyDoNotFit) {
   makeStream();
   ASSERT_EQ(cli("decode a.tks --texture t.ppm").code, 0);

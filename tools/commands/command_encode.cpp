@@ -14,6 +14,7 @@
 #include "base/length_unit.hpp"
 #include "tools/commands/encode_arguments.hpp"
 #include "tools/commands/output.hpp"
+#include "tools/commands/output_names.hpp"
 #include "tools/commands/progress.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/memory_limit.hpp"
@@ -249,6 +250,8 @@ struct EncodeOutputs {
 };
 
 Result<EncodeOutputs> planOutputs(const EncodeArguments& arguments) {
+  const Status stay = checkInputsStay({arguments.height, arguments.texture}, arguments.output);
+  if (!stay.ok()) return stay;
   Result<Output> stream = Output::plan(arguments.output, arguments.force, ".tks");
   if (!stream.ok()) return stream.status();
   EncodeOutputs outputs{std::move(*stream), std::nullopt, std::nullopt};

@@ -18,17 +18,38 @@ fs::path followLinks(fs::path path) {
   return path;
 }
 
+namespace {
+
+bool isDevice(const std::string& name) {
+  std::error_code ignored;
+  return name != "-" && fs::exists(name, ignored) && !fs::is_regular_file(name, ignored);
+}
+
+/// One path for all names of a file.
+fs::path placeOf(const std::string& name) {
+  if (name == "-") return name;
+  std::error_code ignored;
+  const fs::path path = fs::weakly_canonical(fs::absolute(followLinks(name), ignored), ignored);
+  return path.empty() ? fs::path(name) : path;
+}
+
+}  // namespace
+
 Status checkDistinct(const std::vector<std::string>& names) {
   std::set<fs::path> taken;
   for (const std::string& name : names) {
-    std::error_code ignored;
-    if (name != "-" && fs::exists(name, ignored) && !fs::is_regular_file(name, ignored)) continue;
-    const fs::path path =
-        name == "-" ? fs::path(name)
-                    : fs::weakly_canonical(fs::absolute(followLinks(name), ignored), ignored);
-    if (taken.insert(path.empty() ? fs::path(name) : path).second) continue;
+    if (isDevice(name) || taken.insert(placeOf(name)).second) continue;
     if (name == "-") return {TKS_USAGE, "only one output can be standard output"};
     return {TKS_USAGE, "two outputs would be " + quoted(name) + ": give each a name of its own"};
+  }
+  return {};
+}
+
+Status checkInputsStay(const std::vector<std::string>& inputs, const std::string& output) {
+  if (output == "-" || isDevice(output)) return {};
+  for (const std::string& input : inputs) {
+    if (input.empty() || input == "-" || placeOf(input) != placeOf(output)) continue;
+    return {TKS_USAGE, "the output would replace the input " + quoted(input) + ": name another"};
   }
   return {};
 }

@@ -17,6 +17,10 @@ std::filesystem::path followLinks(std::filesystem::path path);
 /// and pipes take any number.
 Status checkDistinct(const std::vector<std::string>& names);
 
+/// TKS_USAGE if the output is one of the inputs (links followed; empty names are none). Devices and
+/// pipes may be both.
+Status checkInputsStay(const std::vector<std::string>& inputs, const std::string& output);
+
 /// The files that writing this mesh makes: an .obj brings its .mtl and .png.
 std::vector<std::string> meshFiles(const std::string& mesh);
 
