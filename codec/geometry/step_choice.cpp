@@ -3,8 +3,8 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -232,10 +232,11 @@ double chooseStep(Stepper<T>& stepper, const StepNeeds&) {
   return step;
 }
 
-/// With as many digits as it needs: a step may be tiny.
+/// With six digits: a step may be tiny.
 std::string decimal(double value) {
   std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
 }
 
 }  // namespace

@@ -394,13 +394,19 @@ def test_sizes_as_the_command_line_has_them(tmp_path):
         refused(lambda wrong=wrong: copy(terrain(), name, "BYTES=" + wrong), "no number of bytes")
 
 
+@pytest.mark.parametrize("shape", [(1, 9), (9, 1), (1, 1)])
+def test_one_line_of_heights(tmp_path, shape):
+    heights = np.arange(100, 100 + shape[0] * shape[1], dtype="i2").reshape(shape)
+    dataset = copy(heights, tmp_path / "a.tks")
+    np.testing.assert_array_equal(dataset.ReadAsArray().reshape(shape), heights)
+
+
 def test_sources_that_are_no_heights(tmp_path):
     name = tmp_path / "a.tks"
     three = np.zeros((3, 8, 9), np.int16)
     message = refused(lambda: copy(three, name), "one band", "has 3", "-b 1")
     assert "TEXTURE" in message
     refused(lambda: copy(np.zeros((8, 9), np.complex64), name), "CFloat32")
-    refused(lambda: copy(np.zeros((1, 9), np.uint8), name), "9 x 1")
     infinite = terrain(20, 30)
     infinite[4, 7] = np.inf
     refused(lambda: copy(infinite, name), "nfinit")

@@ -136,6 +136,12 @@ class Limits(ctypes.Structure):
     ]
 
 
+class Range(ctypes.Structure):
+    """tks_range."""
+
+    _fields_ = [("offset", c_uint64), ("size", c_uint64), ("gain", c_double)]
+
+
 class StreamInfo(ctypes.Structure):
     """tks_info."""
 
@@ -204,12 +210,6 @@ class Window(ctypes.Structure):
     _fields_ = [("x", c_uint32), ("y", c_uint32), ("width", c_uint32), ("height", c_uint32)]
 
 
-class Range(ctypes.Structure):
-    """tks_range."""
-
-    _fields_ = [("offset", c_uint64), ("size", c_uint64), ("gain", c_double)]
-
-
 class Ranges(ctypes.Structure):
     """tks_ranges."""
 
@@ -269,9 +269,9 @@ STRUCTS = {
     "tks_encode_options": EncodeOptions,
     "tks_buffer": Buffer,
     "tks_limits": Limits,
+    "tks_range": Range,
     "tks_info": StreamInfo,
     "tks_window": Window,
-    "tks_range": Range,
     "tks_ranges": Ranges,
     "tks_mesh": Mesh,
     "tks_screen_camera": ScreenCamera,
