@@ -224,7 +224,7 @@ TEST_F(GeoTiff, TransformsOfNoUseAreNoted) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto expectNotes = [this](bool noted) {
     const std::string text =
-        noted ? "its geotransform is not used: a scale is 0, or a number is none or too large" : "";
+        noted ? "its geotransform is not used: a scale is 0, or a number is NaN or too large" : "";
     const HeightFile heights = read();
     EXPECT_EQ(heights.geotransform.has_value(), !noted);
     ASSERT_EQ(notes.size(), noted ? 1U : 0U);

@@ -294,8 +294,8 @@ TEST_F(HeightVoids, NodataThatNoSampleCanHaveIsNoted) {
       continue;
     }
     ASSERT_FALSE(notes.empty()) << text;
-    EXPECT_EQ(notes[0].text, "the nodata value " + std::string(text) +
-                                 " is none that its samples can have: it makes nothing void");
+    EXPECT_EQ(notes[0].text, "no sample of its type can have the nodata value " +
+                                 std::string(text) + ", which makes nothing void");
   }
   tiff.ascii(kGdalNodata, "-9999");
   ASSERT_TRUE(read(tiff, 0.5).ok());

@@ -421,7 +421,7 @@ TEST_F(CameraFiles, SaysWhereItIsNoJson) {
   const std::pair<const char*, std::string> cases[] = {
       {" \n", "' is empty: it must be JSON with a list \"cameras\""},
       {"{\n\"cameras\": [\n}", "' is not JSON from line 3 on"},
-      {R"({"cameras": [1e999]})", "' holds a number beyond all that can be read"}};
+      {R"({"cameras": [1e999]})", "' holds a number that is too large to be read"}};
   for (const auto& [text, sentence] : cases)
     EXPECT_EQ(read(text).status().message(), "'" + path_ + sentence);
 }

@@ -215,8 +215,8 @@ Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& n
 std::optional<Note> noteOnNodata(const HeightFile& heights) {
   if (!heights.nodata || heights.sample == TKS_F32) return {};
   if (asSample(*heights.nodata, heights.sample)) return {};
-  return Note{"the nodata value " + shortest(*heights.nodata) +
-                  " is none that its samples can have: it makes nothing void",
+  return Note{"no sample of its type can have the nodata value " + shortest(*heights.nodata) +
+                  ", which makes nothing void",
               ""};
 }
 

@@ -130,7 +130,7 @@ Result<Json> readJson(const std::string& path) {
     return Status(TKS_USAGE,
                   "'" + path + "' is not JSON from line " + std::to_string(line) + " on");
   } catch (const Json::exception&) {
-    return Status(TKS_USAGE, "'" + path + "' holds a number beyond all that can be read");
+    return Status(TKS_USAGE, "'" + path + "' holds a number that is too large to be read");
   }
 }
 

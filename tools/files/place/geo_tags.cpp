@@ -51,7 +51,7 @@ std::optional<GeoTransform> readTransform(TIFF* tiff, bool point, Notes& notes) 
   const auto m = tagValues<double>(tiff, kModelTransformationTag, TIFF_DOUBLE);
   const auto unusable = [&notes] {
     notes.push_back(
-        {"its geotransform is not used: a scale is 0, or a number is none or too large", ""});
+        {"its geotransform is not used: a scale is 0, or a number is NaN or too large", ""});
   };
   GeoTransform t{};
   if (scale.size() >= 2 && scale[0] != 0 && scale[1] != 0) {
