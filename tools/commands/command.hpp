@@ -58,6 +58,17 @@ inline CLI::Validator silent(CLI::Validator validator) {
   return validator.description("");
 }
 
+/// Any number; infinite ones and NaN are some.
+inline CLI::Validator anyNumber() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) ? std::string()
+                                                      : "'" + text + "' is not a number";
+      },
+      "");
+}
+
 /// A number that is neither infinite nor NaN.
 inline CLI::Validator finite() {
   return CLI::Validator(
@@ -66,6 +77,17 @@ inline CLI::Validator finite() {
         return CLI::detail::lexical_cast(text, value) && std::isfinite(value)
                    ? std::string()
                    : "'" + text + "' is not a finite number";
+      },
+      "");
+}
+
+/// 0, 1, 2, … of up to 32 bits.
+inline CLI::Validator wholeNumber() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        uint32_t value = 0;
+        return CLI::detail::lexical_cast(text, value) ? std::string()
+                                                      : "'" + text + "' is not a whole number";
       },
       "");
 }

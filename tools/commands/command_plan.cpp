@@ -102,10 +102,10 @@ void addPlan(CLI::App& app, CommandLine& line) {
   verb.add_option("--renderer", arguments->renderer, "Triangles a second: 200k/s")
       ->type_name("RATE");
   verb.add_option("--seconds", arguments->seconds, "How long the bytes may take")
-      ->check(silent(CLI::PositiveNumber) & finite())
+      ->check(positive())
       ->type_name("S");
   verb.add_option("--fps", arguments->fps, "Frames drawn in a second (30)")
-      ->check(silent(CLI::PositiveNumber) & finite())
+      ->check(positive())
       ->type_name("N");
   addCameraOptions(verb, arguments->cameras);
   verb.add_flag("--json", arguments->json, "JSON instead of a table");

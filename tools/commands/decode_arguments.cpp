@@ -91,12 +91,14 @@ void addArguments(CLI::App& verb, DecodeArguments& arguments) {
   CLI::Option* const level =
       verb.add_option("--level", arguments.level,
                       "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
+          ->check(wholeNumber())
           ->type_name("K")
           ->excludes(mesh)
           ->excludes(size);
   verb.add_option("--window", arguments.window, "Only these samples, and the texels over them")
       ->delimiter(',')
       ->expected(4)
+      ->check(wholeNumber())
       ->option_text("X,Y,W,H")  // the type's name would stand before "x 4"
       ->excludes(mesh)
       ->excludes(size)

@@ -60,6 +60,7 @@ void addDescription(CLI::App& verb, EncodeArguments& arguments) {
       ->type_name("X");
   verb.add_option("--offset", arguments.offset, "See --scale")->check(finite())->type_name("X");
   verb.add_option("--nodata", arguments.nodata, "Samples of this value are void; NaN always is")
+      ->check(anyNumber())
       ->type_name("X");
   verb.add_option("--step", arguments.step, "Quantisation step in samples; else exact if possible")
       ->check(positive())
