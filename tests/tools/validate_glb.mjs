@@ -20,16 +20,23 @@ function loadValidator() {
   process.exit(2);
 }
 
+/// The validator does not know KHR_texture_basisu, and takes its KTX2 images for no images.
+function isKtx2Image(issue, info) {
+  return (info.extensionsUsed ?? []).includes('KHR_texture_basisu') &&
+         /^\/images\/\d+/.test(issue.pointer ?? '') &&
+         ['VALUE_NOT_IN_LIST', 'IMAGE_UNRECOGNIZED_FORMAT'].includes(issue.code);
+}
+
 async function countProblems(validator, path) {
   const bytes = new Uint8Array(await readFile(path));
-  const { issues } = await validator.validateBytes(bytes, { uri: path });
-  const problems = issues.messages.filter((issue) => issue.severity <= 1);  // 0 error, 1 warning
+  const { issues, info } = await validator.validateBytes(bytes, { uri: path });
+  const problems = issues.messages.filter(
+      (issue) => issue.severity <= 1 && !isKtx2Image(issue, info));  // 0 error, 1 warning
   for (const issue of problems.slice(0, kShownIssues)) {
     console.log(`${path}: ${issue.code} ${issue.pointer ?? ''} ${issue.message}`);
   }
-  const count = issues.numErrors + issues.numWarnings;
-  console.log(`${path}: ${issues.numErrors} errors, ${issues.numWarnings} warnings`);
-  return count;
+  console.log(`${path}: ${problems.length} errors and warnings`);
+  return problems.length;
 }
 
 const paths = process.argv.slice(2);

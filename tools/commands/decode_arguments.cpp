@@ -62,10 +62,12 @@ CLI::Option* addMesh(CLI::App& verb, DecodeArguments& arguments) {
                               {"draco", MeshCompression::kDraco},
                               {"meshopt", MeshCompression::kMeshopt}})
       ->needs(mesh);
-  addChoice<MeshTexture>(
-      verb, "--mesh-texture", arguments.mesh_options.texture,
-      "Of the texture in a .glb (default: JPEG, or PNG with alpha or 16 bits)",
-      {{"jpeg", MeshTexture::kJpeg}, {"png", MeshTexture::kPng}, {"webp", MeshTexture::kWebp}})
+  addChoice<MeshTexture>(verb, "--mesh-texture", arguments.mesh_options.texture,
+                         "Of the texture in a .glb (default: JPEG, or PNG with alpha or 16 bits)",
+                         {{"jpeg", MeshTexture::kJpeg},
+                          {"png", MeshTexture::kPng},
+                          {"webp", MeshTexture::kWebp},
+                          {"ktx2", MeshTexture::kKtx2}})
       ->needs(mesh);
   CLI::Option* const cameras =
       verb.add_option(

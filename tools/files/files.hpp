@@ -126,8 +126,8 @@ Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
 enum class MeshCompression { kNone, kDraco, kMeshopt };
 
 /// Of the texture in a .glb, reduced to 8 bits. kChosen: JPEG, or PNG when it has alpha or 16 bits.
-/// kJpeg refuses alpha.
-enum class MeshTexture { kChosen, kJpeg, kPng, kWebp };
+/// kJpeg refuses alpha; kKtx2 takes a program that may be missing (TKS_UNSUPPORTED).
+enum class MeshTexture { kChosen, kJpeg, kPng, kWebp, kKtx2 };
 
 struct MeshOptions {
   MeshCompression compression = MeshCompression::kNone;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texture inside a GLB: JPEG and PNG, which glTF 2.0 has, or WebP (EXT_texture_webp).
+// The texture inside a GLB: JPEG and PNG, which glTF 2.0 has, WebP (EXT_texture_webp), or KTX2
+// (KHR_texture_basisu).
 #include "tools/files/meshes/glb_document.hpp"
 #include "tools/files/meshes/mesh_writers.hpp"
 #include "tools/files/pictures/png.hpp"
@@ -13,7 +14,7 @@ using nlohmann::json;
 constexpr int kTextureQuality = 90;
 constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
 
-/// WebP has no grey.
+/// WebP has no grey, nor has the KTX2 that glTF takes.
 ImageFile inColour(const ImageFile& grey) {
   ImageFile colour{grey.width, grey.height, grey.channels + 2, TKS_U8, {}};
   colour.data.reserve(grey.data.size() / grey.channels * colour.channels);
@@ -37,6 +38,12 @@ Result<std::vector<std::byte>> encodeWebp(const ImageFile& image) {
                       {shapeOf(image), image.data, "webp:" + std::to_string(kTextureQuality)});
 }
 
+/// What a reader has to know beyond glTF 2.0; null: nothing.
+const char* extensionOf(MeshTexture format) {
+  if (format == MeshTexture::kWebp) return "EXT_texture_webp";
+  return format == MeshTexture::kKtx2 ? "KHR_texture_basisu" : nullptr;
+}
+
 }  // namespace
 
 ImageFile reducedTo8Bits(const ImageFile& image) {
@@ -53,9 +60,12 @@ ImageFile reducedTo8Bits(const ImageFile& image) {
 Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format) {
   const ImageFile reduced = image.sample == TKS_U8 ? ImageFile{} : reducedTo8Bits(image);
   const ImageFile& texels = image.sample == TKS_U8 ? image : reduced;
+  const auto coloured = [&] { return image.channels < 3 ? inColour(texels) : texels; };
   switch (format) {
+    case MeshTexture::kKtx2:
+      return ofType("image/ktx2", encodeKtx2(coloured()));
     case MeshTexture::kWebp:
-      return ofType("image/webp", encodeWebp(image.channels < 3 ? inColour(texels) : texels));
+      return ofType("image/webp", encodeWebp(coloured()));
     case MeshTexture::kJpeg:
       if (image.channels % 2 == 0)
         return Status(TKS_USAGE,
@@ -82,9 +92,9 @@ Status addTexture(Glb& glb, const ImageFile& image, MeshTexture format) {
                                      {"wrapS", kClampToEdge},
                                      {"wrapT", kClampToEdge}});
   json texture{{"sampler", 0}};
-  if (format == MeshTexture::kWebp) {
-    texture["extensions"] = {{"EXT_texture_webp", {{"source", 0}}}};
-    glb.useExtension("EXT_texture_webp", true);
+  if (const char* const extension = extensionOf(format)) {
+    texture["extensions"] = {{extension, {{"source", 0}}}};
+    glb.useExtension(extension, true);
   } else {
     texture["source"] = 0;
   }

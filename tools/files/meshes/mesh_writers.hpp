@@ -30,6 +30,10 @@ struct EncodedTexture {
 /// A picture as a GLB holds it, of 8 bits. TKS_USAGE: the format cannot hold it.
 Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format);
 
+/// A KTX2 file of an image of 8 bits, RGB or RGBA, which goes to sides that are multiples of 4.
+/// Runs a program of others: TKS_UNSUPPORTED where none is installed.
+Result<std::vector<std::byte>> encodeKtx2(const ImageFile& image);
+
 /// Binary glTF 2.0 in one piece.
 Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh, const MeshOptions& options);
 
