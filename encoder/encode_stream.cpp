@@ -181,7 +181,9 @@ CodedLines linesFor(const EncodeInputs& given) {
   const tks_encode_options& options = given.options;
   if (given.heights == nullptr || options.picture_error != nullptr) return {};
   CodedLines lines = findRepeatedLines(*given.heights, given.image == nullptr ? 1 : 2);
-  const bool has_voids = given.heights->has_nodata != 0 || given.heights->sample == TKS_F32;
+  if (lines.repeats.none()) return lines;
+  const Result<std::vector<uint8_t>> valid = findVoids(*given.heights);
+  const bool has_voids = !valid.ok() || !valid->empty();
   if (options.psnr > 0 && (has_voids || lines.heaviest > 1.1)) return {};
   constexpr uint64_t kMostOfBudget = 8;
   if (given.budgeted() && lines.repeats.code.size() > options.bytes / kMostOfBudget) return {};

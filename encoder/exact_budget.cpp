@@ -13,6 +13,7 @@
 #include "encoder/exact_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "encoder/order_packets.hpp"
+#include "encoder/restored_heights.hpp"
 #include "encoder/views.hpp"
 #include "encoder/write_stream.hpp"
 #include "ratecontrol/allocation.hpp"
@@ -22,15 +23,18 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// The budget buys so much of a component, if there is one, that losslessness is in reach.
+/// The budget buys so much of a component, if there is one, that losslessness is in reach: all that
+/// there is of it, or nearly all that it shows.
 struct Nearly {
   bool heights, texture;
 };
 
 Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
   const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
-  return {!selection.heights || rmse[0] <= kNearlyExact,
-          !selection.texture || rmse[1] <= kNearlyExact};
+  const bool all = bytesOfPackets(selection.packets) <= inputs.options.bytes;
+  return {
+      !selection.heights || rmse[0] <= kNearlyExact || (all && canBeRestored(*selection.heights)),
+      !selection.texture || rmse[1] <= kNearlyExact};
 }
 
 /// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
@@ -69,6 +73,10 @@ constexpr double kSharedExactCut = 0.5;
 /// would need all of these.
 std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
                                              const HeightsCandidate& lossy, uint64_t room) {
+  if (canBeRestored(*lossy.coded)) {
+    HeightsCandidate restored = candidateOf(codeRestored(inputs, *lossy.coded));
+    if (restored.bytes() < room) return restored;
+  }
   if (!hasLosslessWay(*lossy.coded)) return {};
   if (canBeCorrected(*lossy.coded)) {
     HeightsCandidate corrected = candidateOf(codeCorrected(inputs, *lossy.coded, kExactCut));
@@ -150,7 +158,6 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
 /// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
 /// the lossy heights, which have a curve. Coefficients of a cut are those of the lossy heights.
 std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
-  if (!hasLosslessWay(*lossy.coded)) return {};
   std::vector<HeightsCandidate> ways;
   const auto add = [&](HeightsCandidate way) {
     if (way.bytes() >= inputs.options.bytes) return;
@@ -158,9 +165,10 @@ std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const Height
     if (way.coded->closing == 0 && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
     ways.push_back(std::move(way));
   };
+  if (canBeRestored(*lossy.coded)) add(candidateOf(codeRestored(inputs, *lossy.coded)));
   if (canBeCorrected(*lossy.coded))
     add(candidateOf(codeCorrected(inputs, *lossy.coded, kSharedExactCut)));
-  add(codeLossless(inputs, *lossy.coded));
+  if (hasLosslessWay(*lossy.coded)) add(codeLossless(inputs, *lossy.coded));
   return ways;
 }
 

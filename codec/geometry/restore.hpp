@@ -10,16 +10,16 @@
 
 namespace tetrakis::inline geometry {
 
-/// base + q * step as the nearest sample of its type; integers saturate at their type's range.
+/// base + q * step as the nearest finite sample of its type.
 template <class T>
 T restore(double base, double step, int32_t q) {
   const double value = base + static_cast<double>(q) * step;
+  constexpr auto kLow = static_cast<double>(std::numeric_limits<T>::lowest());
+  constexpr auto kHigh = static_cast<double>(std::numeric_limits<T>::max());
   if constexpr (std::is_floating_point_v<T>) {
-    return static_cast<T>(value);
+    return static_cast<T>(std::clamp(value, kLow, kHigh));
   } else {
-    const double low = static_cast<double>(std::numeric_limits<T>::min());
-    const double high = static_cast<double>(std::numeric_limits<T>::max());
-    return static_cast<T>(std::clamp(std::round(value), low, high));
+    return static_cast<T>(std::clamp(std::round(value), kLow, kHigh));
   }
 }
 

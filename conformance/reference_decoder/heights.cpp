@@ -19,7 +19,7 @@ int32_t stepOf(int32_t v, int f) {
   return f == 0 ? v : static_cast<int32_t>((v + (int64_t{1} << (f - 1))) >> f);
 }
 
-/// FORMAT 8, "Samples": the bits of one.
+/// The bits of the sample that a number becomes.
 uint32_t sampleOf(const GeometryHeader& header, double sample) {
   constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
   constexpr double kLargest[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
@@ -27,6 +27,14 @@ uint32_t sampleOf(const GeometryHeader& header, double sample) {
   const double clamped =
       std::clamp(std::round(sample), kLeast[header.sample], kLargest[header.sample]);
   return static_cast<uint32_t>(static_cast<int64_t>(clamped));
+}
+
+/// FORMAT 8, "Samples": the bits of a height, which is no infinite float.
+uint32_t heightSampleOf(const GeometryHeader& header, int32_t q) {
+  constexpr double kLargestFloat = 0x1.FFFFFEp127;
+  const double height = header.base + q * header.step;
+  if (header.sample != kF32) return sampleOf(header, height);
+  return sampleOf(header, std::clamp(height, -kLargestFloat, kLargestFloat));
 }
 
 /// FORMAT 8.1, "Order": the word of a sample, and back (it is its own inverse).
@@ -175,7 +183,7 @@ void correctSteps(const Layers& layers, std::span<const uint8_t> codeword, Surfa
 std::vector<uint32_t> samplesOf(const GeometryHeader& header, const Surface& surface) {
   std::vector<uint32_t> samples;
   for (const int32_t v : surface.plane.values)
-    samples.push_back(sampleOf(header, header.base + stepOf(v, surface.f) * header.step));
+    samples.push_back(heightSampleOf(header, stepOf(v, surface.f)));
   return samples;
 }
 
@@ -224,7 +232,7 @@ uint32_t nearValue(const GeometryHeader& header, uint32_t bits) {
     sample = static_cast<int32_t>(bits);
   const double steps = (sample - header.base) / header.step;
   const double v16 = std::isnan(steps) ? 0 : std::round(std::clamp(steps, -kMost, kMost) * 16);
-  return sampleOf(header, header.base + stepOf(static_cast<int32_t>(v16), 4) * header.step);
+  return heightSampleOf(header, stepOf(static_cast<int32_t>(v16), 4));
 }
 
 /// near: the samples that hints come from.
@@ -310,7 +318,7 @@ std::vector<uint32_t> storedSamples(const GeometryHeader& header, std::span<cons
       const bool known = exists && number < bytes.size();
       if (x % step == 0 && y % step == 0)
         samples.push_back(known ? orderOf(header, narrow(header, order))
-                                : sampleOf(header, header.base));
+                                : heightSampleOf(header, 0));
       number += exists;
     }
   }

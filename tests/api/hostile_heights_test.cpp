@@ -42,6 +42,26 @@ TEST(HostileHeights, AnyFiniteBitPatternsComeBack) {
   }
 }
 
+/// What is decoded of a part of them is as finite as they are.
+TEST(HostileHeights, PrefixesOfTheLargestFloatsAreFinite) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  std::vector<float> checkers;
+  for (uint32_t i = 0; i < 32 * 32; ++i) checkers.push_back((i + i / 32) % 2 ? kMost : -kMost);
+  const Raster raster = rasterOf(checkers, 32, TKS_F32);
+  for (const tks_encode_options& options : {lossless(), budget(400)}) {
+    const Bytes bytes = encode(&raster, nullptr, options);
+    const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+    for (size_t length = header; length <= bytes.size(); ++length) {
+      const std::vector<std::byte> decoded = Stream(Prefix(bytes).first(length)).heights();
+      for (size_t i = 0; i < checkers.size(); ++i) {
+        float value;
+        std::memcpy(&value, &decoded[4 * i], 4);
+        ASSERT_TRUE(std::isfinite(value)) << length;
+      }
+    }
+  }
+}
+
 TEST(HostileHeights, ZerosOfBothSignsAndSubnormals) {
   constexpr float kTiny = std::numeric_limits<float>::denorm_min();
   expectRestored(rasterOf<float>({0.0f, -0.0f, 0.0f, -0.0f}, 2, TKS_F32));

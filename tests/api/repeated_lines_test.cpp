@@ -64,6 +64,19 @@ TEST(RepeatedLines, ComeBackWithAllTypesAndRuns) {
   }
 }
 
+/// Of floats too, as long as none is void.
+TEST(RepeatedLines, ServePsnr) {
+  tks_encode_options options = lossless();
+  options.lossless = 0;
+  options.psnr = 60;
+  for (const tks_sample type : {TKS_U16, TKS_F32}) {
+    const Raster of = small(type), large = copied(of, linesOf(40, {4}), linesOf(33, {4}));
+    const Bytes stream = encode(&large, nullptr, options);
+    EXPECT_TRUE(repeats(stream)) << type;
+    EXPECT_LE(stream.size(), encode(&of, nullptr, options).size() * 11 / 10) << type;
+  }
+}
+
 /// A grid of copies may begin anywhere.
 TEST(RepeatedLines, TakeTheBytesOfTheSmallGrid) {
   const Raster of = small();

@@ -73,6 +73,41 @@ TEST(StreamRate, AmpleBudgetsKeepPrefixes) {
   }
 }
 
+/// The samples of a raster as floats, or as integers of all 32 bits: no steps show them.
+Raster onNoGrid(const Raster& raster, tks_sample type) {
+  Raster out{raster.width, raster.height, 1, type, {}};
+  const size_t count = size_t{raster.width} * raster.height;
+  out.data.resize(count * 4);
+  for (size_t i = 0; i < count; ++i) {
+    const double value = sampleAt(raster.data, raster.sample, i);
+    const auto real = static_cast<float>(std::sqrt(value + 2) / 7);
+    const auto wide = static_cast<int32_t>(value * 32768 - 1e9) + static_cast<int32_t>(i % 17);
+    std::memcpy(&out.data[4 * i], type == TKS_F32 ? static_cast<const void*>(&real) : &wide, 4);
+  }
+  return out;
+}
+
+/// Such heights come back too, and what restores them comes behind the lossy stream.
+TEST(StreamRate, AmpleBudgetsRestoreWhatIsOnNoGrid) {
+  for (const tks_sample type : {TKS_F32, TKS_I32}) {
+    const Raster heights = onNoGrid(terrain(), type);
+    const size_t least = encode(&heights, nullptr, lossless()).size();
+    const Bytes ample = encode(&heights, nullptr, budget(least * 5 / 4)),
+                lossy = encode(&heights, nullptr, budget(least / 2));
+    Stream stream(ample);
+    EXPECT_TRUE(stream.info().lossless) << type;
+    EXPECT_TRUE(stream.heights() == heights.data) << type;
+    const size_t header = static_cast<size_t>(stream.info().header_bytes);
+    const size_t lossy_header = static_cast<size_t>(Stream(lossy).info().header_bytes);
+    for (const size_t bytes : {300, 1500, 4000, 9000}) {
+      EXPECT_LE(
+          squaredError(heights, Stream(Prefix(ample).first(header + bytes)).heights()),
+          squaredError(heights, Stream(Prefix(lossy).first(lossy_header + bytes)).heights()) * 1.02)
+          << bytes;
+    }
+  }
+}
+
 /// Whole metres of a surface as smooth as it may be.
 Raster roundedHills(double height) {
   Raster hills = make({Pattern::kRidges, 120, 90, 1, TKS_I16});
