@@ -6,30 +6,45 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "codec/mesh/decimation.hpp"
 #include "codec/mesh/fitted_solver.hpp"
+#include "codec/mesh/masked_surface.hpp"
 
 namespace tetrakis::inline mesh {
 
 namespace {
 
-std::vector<int32_t> heightsOverPits(const WeightedSurface& surface) {
-  const std::span<const uint8_t> valid = surface.known;
-  std::vector<int32_t> heights(surface.view.heights.begin(), surface.view.heights.end());
+/// Finest levels that can be left out with so many valid samples left for each triangle. At a coast
+/// triangles are as small as samples are dense, so meshes want more samples here than elsewhere
+/// (budget_mesh.hpp).
+uint32_t spareLevels(const WeightedSurface& surface, uint32_t max_triangles) {
+  constexpr uint64_t kPerTriangle = 20;
+  if (!surface.view.weights.empty() || surface.known.empty()) return 0;
+  const auto known = static_cast<uint64_t>(
+      std::count_if(surface.known.begin(), surface.known.end(), [](uint8_t v) { return v != 0; }));
+  const uint32_t shorter = std::min(surface.view.width, surface.view.height) - 1;
+  uint32_t k = 0;
+  while (shorter >> (k + 1) > 0 && known >> (2 * (k + 1)) >= kPerTriangle * max_triangles) ++k;
+  return k;
+}
+
+/// Voids become pits.
+void dig(MaskedSurface& masked) {
+  std::vector<int32_t>& heights = masked.surface.heights;
   int32_t low = std::numeric_limits<int32_t>::max(), high = std::numeric_limits<int32_t>::min();
   for (size_t i = 0; i < heights.size(); ++i) {
-    if (!valid.empty() && !valid[i]) continue;
+    if (!masked.valid[i]) continue;
     low = std::min(low, heights[i]);
     high = std::max(high, heights[i]);
   }
   const int64_t depth = (int64_t{high} - low) / 4 + 1;
   const auto floor =
       static_cast<int32_t>(std::max<int64_t>(low - depth, std::numeric_limits<int32_t>::min()));
-  for (size_t i = 0; i < valid.size(); ++i) {
-    if (!valid[i]) heights[i] = low <= high ? floor : 0;
+  for (size_t i = 0; i < heights.size(); ++i) {
+    if (!masked.valid[i]) heights[i] = low <= high ? floor : 0;
   }
-  return heights;
 }
 
 /// Triangles of the mesh without a void corner.
@@ -60,6 +75,26 @@ size_t longestOnLand(const MeshSequence& sequence, std::span<const uint8_t> vali
   return low;
 }
 
+struct BesideVoids {
+  std::vector<VertexId> vertices;  ///< of the lattice of the whole surface as well
+  uint64_t triangles = 0;          ///< those in voids included
+};
+
+/// Among every 2^k-th sample: those beside them hardly show in a mesh of so few triangles, and
+/// decimation is what takes most of the time and memory.
+Result<BesideVoids> chosenBesideVoids(const WeightedSurface& surface, uint32_t max_triangles) {
+  MaskedSurface pits = maskedSurface(surface, spareLevels(surface, max_triangles));
+  dig(pits);
+  SurfaceView view = pits.surface.view();
+  view.weights = surface.view.weights;
+  const Result<MeshSequence> sequence = decimate(view);
+  if (!sequence.ok()) return sequence.status();
+  const size_t count = longestOnLand(*sequence, pits.valid, max_triangles);
+  std::vector<VertexId> vertices(sequence->order().begin(),
+                                 sequence->order().begin() + static_cast<ptrdiff_t>(count));
+  return BesideVoids{std::move(vertices), sequence->triangleCount(count)};
+}
+
 }  // namespace
 
 Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const WeightedSurface& surface,
@@ -67,13 +102,10 @@ Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const Weighte
                                            const std::function<Status(uint64_t)>& admits) {
   assert(surface.view.heights.size() == lattice.sampleCount());
   assert(surface.known.empty() || surface.known.size() == lattice.sampleCount());
-  const std::vector<int32_t> pits = heightsOverPits(surface);
-  const Result<MeshSequence> sequence =
-      decimate({lattice.width(), lattice.height(), pits, surface.view.weights});
-  if (!sequence.ok()) return sequence.status();
-  FittedVertices result{sequence->order(), {}};
-  result.vertices.resize(longestOnLand(*sequence, surface.known, max_triangles));
-  const Status admitted = admits(sequence->triangleCount(result.vertices.size()));
+  Result<BesideVoids> chosen = chosenBesideVoids(surface, max_triangles);
+  if (!chosen.ok()) return chosen.status();
+  FittedVertices result{std::move(chosen->vertices), {}};
+  const Status admitted = admits(chosen->triangles);
   if (!admitted.ok()) return admitted;
   FittedMoments fitted(lattice, surface);
   fitted.coarsen(result.vertices);

@@ -22,10 +22,11 @@ struct FittedVertices {
 /// The best mesh of at most max_triangles triangles outside the voids of a surface; triangles in
 /// voids are still part of it. To decimation voids are a pit whose floor lies a quarter of the
 /// range below the lowest height: the wall at the coast keeps vertices along it, where a triangle
-/// that reaches into the void would be lost as a whole, and the floor costs nothing. Heights are
-/// then fitted to the valid samples alone. surface: known samples are those that are valid; weights
-/// count in voids as well. admits: whether memory suffices for so many triangles, those in voids
-/// included; its error is returned.
+/// that reaches into the void would be lost as a whole, and the floor costs nothing. Of a
+/// surface without weights, meshes of few triangles are chosen among every 2^k-th sample. Heights
+/// are then fitted to all valid samples and to no others. surface: known samples are those that are
+/// valid; weights count in voids as well. admits: whether memory suffices for so many triangles,
+/// those in voids included; its error is returned.
 Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const WeightedSurface& surface,
                                            uint32_t max_triangles,
                                            const std::function<Status(uint64_t)>& admits);
