@@ -182,7 +182,9 @@ tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
     const tetrakis::StreamHeader& header = decoder->parsed.header;
     if (header.index.empty() && header.payload_bytes > 0)
-      return {TKS_USAGE, "The stream has no front index, which says what its packets are worth."};
+      return {
+          TKS_USAGE,
+          "The stream has no front index, which says what its packets are worth: encode with one."};
     if (!tetrakis::describes(header.index, decoder->packets.payload.heads))
       return tetrakis::wrongIndex();
     if (camera_count == 0) return {TKS_USAGE, "The cameras are missing."};

@@ -24,16 +24,23 @@ std::span<const uint8_t> firstOf(std::span<const uint8_t> bytes, uint64_t count)
   return bytes.first(static_cast<size_t>(std::min<uint64_t>(count, bytes.size())));
 }
 
+/// Corrections in single steps make samples exact: what a fraction is then beside its sample is an
+/// error of the cut, which surfaces and meshes need not show.
 void correctSteps(DecodedGeometry& geometry, const GeometryLayers& layers,
                   std::span<const uint8_t> codeword) {
   const std::vector<uint8_t> hints = activityHints(geometry);
-  const std::vector<int32_t> corrections =
+  const auto [corrections, decided] =
       decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid});
-  const uint32_t unit = layers.correction_step << geometry.fraction_bits;
+  const int fraction_bits = geometry.fraction_bits;
+  const uint32_t unit = layers.correction_step << fraction_bits;
   geometry.quiet_levels = 0;
-  for (size_t i = 0; i < corrections.size(); ++i) {
-    geometry.heights[i] = static_cast<int32_t>(static_cast<uint32_t>(geometry.heights[i]) +
-                                               static_cast<uint32_t>(corrections[i]) * unit);
+  for (size_t i = 0; i < decided; ++i) {
+    int32_t& height = geometry.heights[i];
+    height = static_cast<int32_t>(static_cast<uint32_t>(height) +
+                                  static_cast<uint32_t>(corrections[i]) * unit);
+    if (layers.correction_step > 1) continue;
+    const auto whole = static_cast<uint32_t>(wholeStep(height, fraction_bits));
+    height = static_cast<int32_t>(whole << fraction_bits);
   }
 }
 
@@ -200,8 +207,9 @@ DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& l
     return decoded;
   }
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(geometry), header);
-  addCorrections(decodeCorrections(taken.corrections, {hints, header.extent(), geometry.valid}),
-                 decoded.corrections);
+  addCorrections(
+      decodeCorrections(taken.corrections, {hints, header.extent(), geometry.valid}).values,
+      decoded.corrections);
   return decoded;
 }
 

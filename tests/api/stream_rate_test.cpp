@@ -135,6 +135,29 @@ TEST(StreamRate, LosslessIsTheShortestWayToTheLastBit) {
   }
 }
 
+/// Corrected samples are what surfaces and meshes pass through, as far as a prefix tells.
+TEST(StreamRate, SurfacesPassThroughCorrectedSamples) {
+  const Raster hills = roundedHills(90);
+  const Bytes whole = encode(&hills, nullptr, lossless());
+  const size_t samples = size_t{hills.width} * hills.height;
+  const auto exactly = [&](Prefix prefix) {
+    Stream stream(prefix);
+    std::vector<float> surface(samples);
+    EXPECT_EQ(tks_decode_surface(stream.get(), surface.data(), samples), TKS_OK);
+    size_t count = 0;
+    for (size_t i = 0; i < samples; ++i)
+      count += surface[i] == static_cast<float>(sampleAt(hills.data, TKS_I16, i));
+    return count;
+  };
+  EXPECT_EQ(exactly(whole), samples);
+  size_t last = 0;
+  for (const size_t eighths : {4, 6, 7, 8}) {
+    const size_t now = exactly(Prefix(whole).first(whole.size() * eighths / 8));
+    EXPECT_GT(now, last) << eighths;
+    last = now;
+  }
+}
+
 /// The smaller stream is a prefix of the larger one, behind the header.
 TEST(StreamRate, BudgetsShareOneOrder) {
   const Raster heights = terrain(), image = photograph();

@@ -164,6 +164,23 @@ TEST_F(CliFiles, AnEncoderDoesNotReplaceWhatItReads) {
   EXPECT_EQ(content("t.png"), texture);
 }
 
+TEST_F(CliFiles, CutsDoNotReplaceTheirStream) {
+  makeStream();
+  std::filesystem::create_symlink("a.tks", path("link.tks"));
+  const std::string stream = content("a.tks");
+  for (const char* verb :
+       {"truncate a.tks --bytes 500 -f -o ", "reorder a.tks --view low -f -o "}) {
+    for (const char* output : {"a.tks", "link.tks"}) {
+      const Outcome run = cli(std::string(verb) + output);
+      EXPECT_EQ(run.code, 1) << verb;
+      EXPECT_NE(run.err.find("would replace the input"), std::string::npos) << run.err;
+    }
+  }
+  EXPECT_EQ(content("a.tks"), stream);
+  EXPECT_NE(cli("encode h.tif --lossless -o z --report z").err.find("two outputs"),
+            std::string::npos);
+}
+
 TEST_F(CliFiles, TexturesAreWrittenInOtherFormatsAndRefusedWhereTheyDoNotFit) {
   makeStream();
   ASSERT_EQ(cli("decode a.tks --texture t.ppm").code, 0);

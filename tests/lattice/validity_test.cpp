@@ -120,8 +120,9 @@ TEST(Corrections, ComeBackAndPrefixesAgree) {
       }
       const CorrectionHints grid{hints, {40, 23}, valid};
       const auto codeword = encodeCorrections(corrections, grid);
-      ASSERT_EQ(decodeCorrections(codeword, grid), corrections);
-      const auto half = decodeCorrections(std::span(codeword).first(codeword.size() / 2), grid);
+      ASSERT_EQ(decodeCorrections(codeword, grid).values, corrections);
+      const auto half =
+          decodeCorrections(std::span(codeword).first(codeword.size() / 2), grid).values;
       const auto end = std::mismatch(half.begin(), half.end(), corrections.begin()).first;
       EXPECT_GT(end - half.begin(), 200) << "half of the bytes tell a good part";
       EXPECT_TRUE(std::all_of(end, half.end(), [](int32_t c) { return c == 0; }));

@@ -81,13 +81,14 @@ inline CLI::Validator finite() {
       "");
 }
 
-/// 0, 1, 2, … of up to 32 bits.
+/// 0, 1, 2, … below 2^32.
 inline CLI::Validator wholeNumber() {
   return CLI::Validator(
       [](const std::string& text) {
         uint32_t value = 0;
-        return CLI::detail::lexical_cast(text, value) ? std::string()
-                                                      : "'" + text + "' is not a whole number";
+        return CLI::detail::lexical_cast(text, value)
+                   ? std::string()
+                   : "'" + text + "' is no whole number below 2^32";
       },
       "");
 }
@@ -135,7 +136,8 @@ inline CLI::Option* addTriangles(CLI::App& app, uint32_t& triangles, const std::
             uint32_t count = 0;
             return CLI::detail::lexical_cast(text, count) && count > 0
                        ? std::string()
-                       : "'" + text + "' is not a number of triangles; write for example 5000";
+                       : "'" + text +
+                             "' is no number of triangles below 2^32; write for example 5000";
           },
           ""))
       ->type_name("N");

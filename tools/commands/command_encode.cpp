@@ -252,6 +252,10 @@ struct EncodeOutputs {
 Result<EncodeOutputs> planOutputs(const EncodeArguments& arguments) {
   const Status stay = checkInputsStay({arguments.height, arguments.texture}, arguments.output);
   if (!stay.ok()) return stay;
+  if (!arguments.report.empty()) {
+    const Status distinct = checkDistinct({arguments.output, arguments.report});
+    if (!distinct.ok()) return distinct;
+  }
   Result<Output> stream = Output::plan(arguments.output, arguments.force, ".tks");
   if (!stream.ok()) return stream.status();
   EncodeOutputs outputs{std::move(*stream), std::nullopt, std::nullopt};

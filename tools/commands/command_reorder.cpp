@@ -4,6 +4,7 @@
 
 #include "tools/commands/command.hpp"
 #include "tools/commands/output.hpp"
+#include "tools/commands/output_names.hpp"
 #include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::tools {
@@ -19,6 +20,8 @@ struct ReorderArguments {
 Status reorder(const ReorderArguments& arguments) {
   if (arguments.cameras.isDefault())
     return Status(TKS_USAGE, "nothing to serve: give --cameras or --view");
+  Status stays = checkInputsStay({arguments.source.path}, arguments.output);
+  if (!stays.ok()) return stays;
   Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
   if (!output.ok()) return output.status();
   Result<OpenStream> stream = openStream(arguments.source);

@@ -4,6 +4,7 @@
 
 #include "tools/commands/command.hpp"
 #include "tools/commands/output.hpp"
+#include "tools/commands/output_names.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -15,6 +16,8 @@ struct TruncateArguments {
 };
 
 Status truncate(const TruncateArguments& arguments) {
+  Status stays = checkInputsStay({arguments.source.path}, arguments.output);
+  if (!stays.ok()) return stays;
   Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
   if (!output.ok()) return output.status();
   const Result<OpenStream> stream = openStream(arguments.source);

@@ -22,11 +22,11 @@ class DecodingIo {
 
 }  // namespace
 
-std::vector<int32_t> decodeCorrections(std::span<const uint8_t> codeword,
-                                       const CorrectionHints& hints) {
-  std::vector<int32_t> corrections(hints.extent().samples(), 0);
+DecodedCorrections decodeCorrections(std::span<const uint8_t> codeword,
+                                     const CorrectionHints& hints) {
+  DecodedCorrections corrections{std::vector<int32_t>(hints.extent().samples(), 0)};
   DecodingIo io(codeword);
-  CorrectionPass<DecodingIo>(hints, io).run(corrections);
+  corrections.decided = CorrectionPass<DecodingIo>(hints, io).run(corrections.values);
   return corrections;
 }
 

@@ -2,6 +2,7 @@
 // Decodes the corrections of heights.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,10 +11,16 @@
 
 namespace tetrakis::inline corrections {
 
-/// Returns one integer for each sample, modulo 2^32, which is 0 where the sample is void and where
-/// the codeword ends early. codeword: any prefix of one that encodeCorrections() made. Safe on any
+/// One integer for each sample, modulo 2^32, which is 0 where the sample is void and where the
+/// codeword ends early: from sample `decided` on, row by row.
+struct DecodedCorrections {
+  std::vector<int32_t> values;
+  size_t decided = 0;
+};
+
+/// codeword: any prefix of one that encodeCorrections() made. Safe on any
 /// bytes.
-std::vector<int32_t> decodeCorrections(std::span<const uint8_t> codeword,
-                                       const CorrectionHints& hints);
+DecodedCorrections decodeCorrections(std::span<const uint8_t> codeword,
+                                     const CorrectionHints& hints);
 
 }  // namespace tetrakis::inline corrections

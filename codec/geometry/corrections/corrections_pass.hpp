@@ -45,7 +45,8 @@ class CorrectionPass {
   CorrectionPass(const CorrectionHints& hints, Io& io)
       : hints_(hints), io_(io), any_(size_t{kHints} * kQuiet), more_(size_t{kHints} * kNeighbour) {}
 
-  void run(std::span<int32_t> corrections) {
+  /// Returns how many samples, row by row, come before the first undecided one.
+  size_t run(std::span<int32_t> corrections) {
     // The row before and this one, with a margin on both sides.
     assert(corrections.size() == hints_.extent().samples());
     std::vector<Known> above(size_t{hints_.width} + 2), here(above);
@@ -55,12 +56,13 @@ class CorrectionPass {
         here[x + 1] = {};
         if (!hints_.valid[sample]) continue;
         const int32_t correction = code(sample, {here[x], above[x + 1], above[x], above[x + 2]});
-        if (io_.stopped()) return;
+        if (io_.stopped()) return sample;
         corrections[sample] = correction;
         here[x + 1] = Known(correction);
       }
       std::swap(above, here);
     }
+    return corrections.size();
   }
 
  private:
