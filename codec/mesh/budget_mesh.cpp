@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/mesh/fitted_heights.hpp"
+#include "codec/mesh/height_range.hpp"
 
 namespace tetrakis::inline mesh {
 
@@ -45,6 +46,7 @@ Result<BudgetMesh> fittedVertices(const CoarseSurface& surface, bool choose_coar
   const Result<Lattice> lattice = Lattice::make(fine.width, fine.height);
   if (!lattice.ok()) return lattice.status();
   FittedMesh fitted = fitMesh(*lattice, {fine, {}}, vertices);
+  keepWithinRange({fine, {}}, fitted.heights);
   return BudgetMesh{std::move(vertices), std::move(fitted.mesh), std::move(fitted.heights)};
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "codec/mesh/height_range.hpp"
 #include "codec/mesh/turned_edges.hpp"
 #include "codec/mesh/void_mesh.hpp"
 
@@ -29,7 +30,9 @@ Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& sur
                               uint32_t max_triangles,
                               const std::function<Status(uint64_t)>& admits) {
   Result<FittedMesh> mesh = latticeMesh(lattice, surface, max_triangles, admits);
-  if (mesh.ok()) turnEdges(surface, *mesh);
+  if (!mesh.ok()) return mesh;
+  turnEdges(surface, *mesh);
+  keepWithinRange(surface, mesh->heights);
   return mesh;
 }
 

@@ -10,6 +10,7 @@
 
 #include "codec/mesh/decimation.hpp"
 #include "codec/mesh/fitted_solver.hpp"
+#include "codec/mesh/height_range.hpp"
 #include "codec/mesh/masked_surface.hpp"
 
 namespace tetrakis::inline mesh {
@@ -112,6 +113,7 @@ Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const Weighte
   fitHeights(fitted);
   for (const uint32_t sample : meshOf(lattice, result.vertices).vertices)
     result.heights.push_back(fitted.height(sample));
+  keepWithinRange(surface, result.heights);
   return result;
 }
 

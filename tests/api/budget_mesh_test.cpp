@@ -87,6 +87,28 @@ TEST(BudgetMesh, IsAboutAsGoodAsOneChosenAmongAllSamples) {
 }
 
 /// Almost so where the last column or row is none of the level's.
+/// A fit overshoots at the foot of a cliff: not below the sea, nor above the land.
+TEST(BudgetMesh, StaysWithinTheRangeOfTheHeights) {
+  Raster cliffs = samples::make({Pattern::kRidges, 129, 90, 1, TKS_I16});
+  const std::vector<int32_t> ridges = heightsOf(cliffs);
+  std::vector<int32_t> sorted = ridges;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const int32_t sea = sorted[sorted.size() / 2];
+  auto* heights = reinterpret_cast<int16_t*>(cliffs.data.data());
+  for (const int32_t ridge : ridges) *heights++ = ridge > sea ? int16_t{900} : int16_t{0};
+  const Bytes bytes = encode(&cliffs, nullptr, lossless());
+  Stream stream(bytes);
+  for (const uint32_t triangles : {50u, 200u, 1000u, 5000u}) {
+    tks_mesh mesh = {};
+    ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, triangles, &mesh), TKS_OK);
+    for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+      EXPECT_GE(mesh.height[v], 0) << triangles;
+      EXPECT_LE(mesh.height[v], 900) << triangles;
+    }
+    tks_free_mesh(&mesh);
+  }
+}
+
 TEST(BudgetMesh, PlanesComeBackFromAnyLevel) {
   for (const auto& [width, height] : kSizes) {
     const Raster raster = samples::make({Pattern::kRamp, width, height, 1, TKS_U16, 1});
