@@ -2,7 +2,6 @@
 #include "codec/mesh/height_range.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace tetrakis::inline mesh {
@@ -15,8 +14,7 @@ void keepWithinRange(const WeightedSurface& surface, std::vector<double>& height
     high = std::max(high, surface.view.heights[i]);
   }
   if (low > high) return;
-  for (double& height : heights)
-    if (!std::isnan(height)) height = std::clamp<double>(height, low, high);
+  for (double& height : heights) height = std::clamp<double>(height, low, high);
 }
 
 }  // namespace tetrakis::inline mesh

@@ -9,7 +9,7 @@
 
 namespace tetrakis::inline mesh {
 
-/// Heights of vertices, none beyond those of the known samples; NaN stays.
+/// No height of a vertex stays beyond those of the known samples.
 void keepWithinRange(const WeightedSurface& surface, std::vector<double>& heights);
 
 }  // namespace tetrakis::inline mesh
