@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -101,9 +102,17 @@ class Band final : public GDALPamRasterBand {
     for (int top = y; top < y + height;) {
       const int bottom = std::min(y + height, (top / nBlockYSize + strip) * nBlockYSize);
       if (!cacheBlocks(x, top, width, bottom - top)) return CE_Failure;
+      const auto done = [&](int row) { return static_cast<double>(row - y) / height; };
+      const std::unique_ptr<void, decltype(&GDALDestroyScaledProgress)> part(
+          GDALCreateScaledProgress(done(top), done(bottom), extra->pfnProgress,
+                                   extra->pProgressData),
+          GDALDestroyScaledProgress);
+      GDALRasterIOExtraArg of_strip = *extra;
+      of_strip.pfnProgress = part ? GDALScaledProgress : nullptr;
+      of_strip.pProgressData = part.get();
       const CPLErr read = GDALPamRasterBand::IRasterIO(
           flag, x, top, width, bottom - top, static_cast<GByte*>(data) + (top - y) * line, width,
-          bottom - top, type, pixel, line, extra);
+          bottom - top, type, pixel, line, &of_strip);
       if (read != CE_None) return read;
       top = bottom;
     }

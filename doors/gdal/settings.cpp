@@ -128,10 +128,13 @@ uint32_t regions(Options& options) {
   return 0;
 }
 
-int indexKind(const Options& options) {
+int indexKind(Options& options) {
   const char* const given = options.text("INDEX");
-  if (given != nullptr && EQUAL(given, "WINDOWS")) return TKS_INDEX_WINDOWS;
-  return options.flag("INDEX") ? TKS_INDEX_PACKETS : TKS_INDEX_NONE;
+  if (given == nullptr || EQUAL(given, "NO")) return TKS_INDEX_NONE;
+  if (EQUAL(given, "YES")) return TKS_INDEX_PACKETS;
+  if (EQUAL(given, "WINDOWS")) return TKS_INDEX_WINDOWS;
+  options.refuse(std::string("INDEX=") + given + " is none of NO, YES and WINDOWS.");
+  return TKS_INDEX_NONE;
 }
 
 }  // namespace
