@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Encodes in the browser: the encoder is a module of its own, loaded when it is first used.
 import {assets} from '#encode_assets';
+import {abortable} from './abort.js';
 import {compile} from './compile.js';
 import {encodeWith} from './encoder.js';
 import {TksError} from './error.js';
-import {abortable} from './source.js';
 
 export {TksError};
 

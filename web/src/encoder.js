@@ -90,13 +90,8 @@ class Allocation {
   constructor(instance) {
     this.instance = instance;
   }
-  of(bytes) {
-    const address = this.instance.calls.malloc(Math.max(bytes, 1));
-    if (address === 0) throw new TksError('memory', `There is no memory for ${bytes} bytes more.`);
-    return address;
-  }
   array(array) {
-    const address = this.of(array.byteLength);
+    const address = this.instance.allocate(array.byteLength);
     const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
     this.instance.view(Uint8Array, address, bytes.length).set(bytes);
     return address;
@@ -129,7 +124,7 @@ export function encodeWith(module, input, progress) {
       Uint32Array.from(names('web_encode_texts'), (name) => memory.text(texts[name])));
     const data = memory.array(Uint32Array.from([input.heights, input.texture],
       (part) => (part ? memory.array(part.data) : 0)));
-    const out = memory.of(8 + MESSAGE_BYTES);
+    const out = instance.allocate(8 + MESSAGE_BYTES);
     const status = calls.web_encode(numbers, strings, data, out, out + 8, MESSAGE_BYTES);
     if (status !== 0) throw TksError.ofStatus(status, instance.text(out + 8));
     const [address, size] = instance.view(Uint32Array, out, 2);

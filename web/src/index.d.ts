@@ -12,6 +12,8 @@ export class TksError extends Error {
 export interface OpenOptions {
   /** Ends opening; later calls take signals of their own. */
   signal?: AbortSignal;
+  /** Of the requests to a URL, as fetch() takes them. */
+  request?: Pick<RequestInit, 'headers' | 'credentials'>;
   /** false: decode on this thread. A Worker or its URL: where bundlers do not find `tetrakis/worker`. */
   worker?: boolean | Worker | string | URL;
   /** Where bundlers do not find `tetrakis/tetrakis.wasm`: its URL, bytes, or compiled module. */
@@ -38,6 +40,7 @@ export interface View {
 export interface FrameOptions {
   /** Use no more than the first bytes that came: of the stream, or for views. Default: all. */
   bytes?: number;
+  /** Ends the call with its requests; what is being decoded ends at its next part. */
   signal?: AbortSignal;
   /** The mesh has at most so many. Default 20000. */
   triangles?: number;
@@ -57,6 +60,13 @@ export interface FrameOptions {
   /** The mip levels themselves, in place of `texels` and `samples`. */
   textureLevel?: number;
   surfaceLevel?: number;
+}
+
+export interface RefineOptions extends FrameOptions {
+  /** Of the first frame alone, which is to be soon: fewer triangles, texels. */
+  first?: FrameOptions;
+  /** Of a frame that the caller shows already: all that come have more bytes. */
+  after?: number;
 }
 
 export interface TerrainInfo {
@@ -144,9 +154,10 @@ export interface Terrain {
   load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles'>): Promise<number>;
   /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;
-  /** Frames of bytes that grow fourfold, from those that are there to `bytes`, or to what the view
-   * needs. */
-  refine(options?: FrameOptions): AsyncGenerator<Frame, void, void>;
+  /** Frames of bytes that grow, from those that are there to `bytes`, or to what the view needs. All
+   * these are fetched meanwhile: each frame takes what is here by then, but at least four times as
+   * many bytes as the one before it. To leave the loop ends the fetching. */
+  refine(options?: RefineOptions): AsyncGenerator<Frame, void, void>;
   /** Which bytes a window of samples or texels takes, [begin, end) each, of a stream with an index. */
   needed(options: {
     part?: 'heights' | 'texture'; window: {x: number; y: number; width: number; height: number};

@@ -1,111 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core of the package: opens streams and refines them. It knows no renderer.
-import {assets} from '#assets';
-import {compile} from './compile.js';
+import {abortable} from './abort.js';
+import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
-import {Decoder, groundScale} from './module.js';
-import {FIRST_BYTES, GROWTH} from './pace.js';
+import {groundScale} from './module.js';
+import {FIRST_BYTES, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
-import {abortable, sourceOf} from './source.js';
+import {sourceOf} from './source.js';
 
 export {TksError, groundScale};
 
-const MEMORY = 2 ** 30;
 /** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen that go out at a time. */
 const REQUEST_BYTES = 4096;
-
-/** A Decoder in a worker: the same calls, as promises. */
-class RemoteDecoder {
-  #worker;
-  #waiting = new Map();
-  #calls = 0;
-
-  constructor(worker, module, memory) {
-    this.#worker = worker;
-    worker.onmessage = ({data: {id, result, error}}) => {
-      if (!this.#waiting.has(id)) return;  // all were told of a failure or the end
-      const {resolve, reject} = this.#waiting.get(id);
-      this.#waiting.delete(id);
-      if (!error) return resolve(result);
-      reject(Object.assign(new TksError(error.code, error.message), {needed: error.needed}));
-    };
-    worker.onerror = (event) => {
-      event.preventDefault?.();
-      this.#failAll(new TksError('io', `The worker failed: ${event.message ?? 'it did not start'}.`));
-    };
-    this.#call({operation: 'start', module, memory}).catch(() => {});
-  }
-  #failAll(error) {
-    for (const {reject} of this.#waiting.values()) reject(error);
-    this.#waiting.clear();
-    this.failed = error;
-  }
-  #call(message) {
-    if (this.failed) return Promise.reject(this.failed);
-    return new Promise((resolve, reject) => {
-      const id = this.#calls++;
-      this.#waiting.set(id, {resolve, reject});
-      this.#worker.postMessage({...message, id});
-    });
-  }
-  put(place, chunk) {
-    return this.#call({operation: 'put', place, chunk});
-  }
-  decode(request) {
-    return this.#call({operation: 'decode', request});
-  }
-  plan(request) {
-    return this.#call({operation: 'plan', request});
-  }
-  needed(request) {
-    return this.#call({operation: 'needed', request});
-  }
-  dispose() {
-    this.#worker.terminate();
-    this.#failAll(new TksError('usage', 'This terrain is disposed.'));
-  }
-}
-
-class LocalDecoder {
-  #decoder;
-  constructor(module, memory) {
-    this.#decoder = new Decoder(module, memory);
-  }
-  get #open() {
-    if (!this.#decoder) throw new TksError('usage', 'This terrain is disposed.');
-    return this.#decoder;
-  }
-  async put(place, chunk) {
-    this.#open.put(place, chunk);
-  }
-  async decode(request) {
-    return this.#open.decode(request);
-  }
-  async plan(request) {
-    return this.#open.plan(request);
-  }
-  async needed(request) {
-    return this.#open.needed(request);
-  }
-  dispose() {
-    this.#decoder = null;
-  }
-}
-
-function makeDecoder(worker, module, memory) {
-  if (worker === false) return new LocalDecoder(module, memory);
-  let made = worker;
-  if (worker === undefined || worker === true) {
-    try {
-      made = assets.worker();
-    } catch {
-      made = null;  // pages may not start workers of another origin
-    }
-  } else if (typeof worker === 'string' || worker instanceof URL) {
-    made = new Worker(worker, {type: 'module'});
-  }
-  return made ? new RemoteDecoder(made, module, memory) : new LocalDecoder(module, memory);
-}
 
 const DEFAULTS = {
   triangles: 20000,
@@ -135,9 +41,10 @@ function plannedView(view) {
 /** A stream that is open. Made by open(). */
 class Terrain {
   #source;
-  #decoder;  // a promise: the first bytes are fetched while the module is compiled
+  #decoder;
   #held = new Held();
   #reading = Promise.resolve();
+  #awaited = new Set();  // {bytes, resolve}: who waits for so many
 
   constructor(source, decoder, requestBytes) {
     this.#source = source;
@@ -158,49 +65,80 @@ class Terrain {
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
     const seen = plannedView(view);
-    // One after another: each asks for what the ones before did not.
-    const step = async () => {
-      for (let before = -1; this.#held.bytes < bytes && this.#held.bytes > before; ) {
-        before = this.#held.bytes;
-        const isPlanned = seen && this.info?.hasIndex && !this.#source.sequential;
-        if (!isPlanned) {
-          await this.#fetchNext(bytes - before);
-          continue;
-        }
-        await this.#fetchPlanned(seen, bytes - before, triangles);
-        if (bytes - this.#held.bytes < this.requestBytes) return;  // not worth another request
-      }
-    };
-    const reading = (this.#reading = this.#reading.catch(() => {}).then(step));
-    await abortable(reading, signal);
+    if (this.#held.bytes < bytes) {
+      // One after another: each asks for what the ones before did not.
+      const reading = this.#reading.catch(() => {}).then(() =>
+        this.#read(bytes, {signal, view: seen, triangles}));
+      this.#reading = reading;
+      await abortable(this.#reached(bytes, reading), signal);
+    }
     return Math.min(bytes, this.#held.bytes);
   }
+  /** Resolves when so many bytes are here, whoever asked for them, or when `reading` ends. */
+  async #reached(bytes, reading) {
+    let waiting;
+    const here = new Promise((resolve) => (waiting = {bytes, resolve}));
+    if (this.#held.bytes < bytes) this.#awaited.add(waiting);
+    else waiting.resolve();
+    try {
+      await Promise.race([here, reading]);
+    } finally {
+      this.#awaited.delete(waiting);
+    }
+  }
+  async #read(bytes, {signal, view, triangles}) {
+    for (let before = -1; this.#held.bytes < bytes && this.#held.bytes > before; ) {
+      signal?.throwIfAborted();
+      before = this.#held.bytes;
+      const isPlanned = view && this.info?.hasIndex && !this.#source.sequential;
+      if (!isPlanned) {
+        await this.#fetchNext(bytes - before, signal);
+        continue;
+      }
+      await this.#fetchPlanned(view, bytes - before, triangles, signal);
+      if (bytes - this.#held.bytes < this.requestBytes) return;  // not worth another request
+    }
+  }
+  async #call(operation, argument, signal) {
+    await this.#decoder.ready;  // the first bytes are fetched meanwhile
+    return this.#decoder.call(operation, argument, signal);
+  }
   /** The first bytes that are missing. */
-  async #fetchNext(bytes) {
+  async #fetchNext(bytes, signal) {
     const size = Math.min(this.info?.streamBytes ?? Infinity, this.#source.size);
     const [gap] = this.#held.gaps(0, size);
     if (!gap) return;
     const [begin, end] = gap;
-    await this.#take(begin, await this.#source.next(begin, Math.min(end, begin + bytes)));
+    let place = begin;
+    await this.#source.next(begin, Math.min(end, begin + bytes), async (piece) => {
+      this.#take(place, piece);
+      place += piece.length;
+    }, signal);
   }
   /** Those that help a view most; none where nothing more does. */
-  async #fetchPlanned(view, bytes, triangles) {
+  async #fetchPlanned(view, bytes, triangles, signal) {
     const {requestBytes} = this;
-    const plan = await (await this.#decoder).plan({view, bytes, triangles, requestBytes});
+    const plan = await this.#call('plan', {view, bytes, triangles, requestBytes}, signal);
     const answers = requestsFor(plan, this.#source.size).map(([begin, end]) =>
-      ({begin, chunk: this.#source.scattered(begin, end)}));
-    await Promise.all(answers.map(({chunk}) => chunk));
-    for (const {begin, chunk} of answers) await this.#take(begin, await chunk);
+      ({begin, chunk: this.#source.scattered(begin, end, signal)}));
+    for (const {chunk} of answers) chunk.catch(() => {});  // the first failure is told
+    for (const {begin, chunk} of answers) this.#take(begin, await chunk);
     // A server that has just forgotten ranges sends all from its beginning.
-    if (this.#source.sequential) await this.#fetchNext(bytes);
+    if (this.#source.sequential) await this.#fetchNext(bytes, signal);
   }
-  /** Bytes from a place on. Those that are here already are left out. */
-  async #take(begin, chunk) {
-    const decoder = await this.#decoder;
+  /**
+   * Bytes from a place on. Those that are here already are left out. The decoder gets them in front
+   * of what it is asked for later; nobody waits for it, because it may be at work on a frame.
+   */
+  #take(begin, chunk) {
     for (const [b, e] of this.#held.gaps(begin, begin + chunk.length)) {
-      await decoder.put(b, chunk.slice(b - begin, e - begin));
+      const put = this.#call('put', {place: b, chunk: chunk.slice(b - begin, e - begin)});
+      put.catch(() => {});  // of a decoder that failed, and says so to all
     }
     this.#held.add(begin, begin + chunk.length);
+    for (const {bytes, resolve} of this.#awaited) {
+      if (this.#held.bytes >= bytes) resolve();
+    }
   }
 
   async decode({bytes = Infinity, signal, ...options} = {}) {
@@ -208,26 +146,48 @@ class Terrain {
     const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
     const {view, triangles} = {...DEFAULTS, ...options};
     const have = await this.load(wanted, {signal, view, triangles});
+    return this.#frame(have, {...options, signal});
+  }
+  /** Of the first so many bytes, which are here. */
+  async #frame(bytes, {signal, ...options}) {
+    const {view} = {...DEFAULTS, ...options};
     const cut = view?.clip ? (view.cut ? [...view.clip] : null) : view;
-    const request = {...DEFAULTS, ...options, view: null, cut, bytes: have};
-    return abortable((await this.#decoder).decode(request), signal);
+    return this.#call('decode', {...DEFAULTS, ...options, view: null, cut, bytes}, signal);
   }
 
-  async *refine({bytes = Infinity, signal, ...options} = {}) {
-    const limit = Math.min(bytes, this.info.streamBytes), {headerBytes} = this.info;
-    for (let wanted = Math.min(Math.max(this.#held.bytes, FIRST_BYTES), limit); ; ) {
-      const frame = await this.decode({...options, bytes: wanted, signal});
-      yield frame;
-      if (wanted === limit || wanted - frame.bytes > this.requestBytes) return;
-      wanted = headerBytes + GROWTH * Math.max(wanted - headerBytes, FIRST_BYTES);
-      if (2 * wanted > limit) wanted = limit;
+  /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
+  async *refine({bytes = Infinity, signal, first, after = 0, ...options} = {}) {
+    const {headerBytes, streamBytes} = this.info;
+    const limit = Math.min(Math.max(bytes, headerBytes), streamBytes);
+    let shown = after, beginning = null;
+    if (!after) {
+      shown = await this.load(Math.min(Math.max(this.#held.bytes, FIRST_BYTES), limit), {signal});
+      beginning = this.#frame(shown, {...options, ...first, signal});
+      beginning.catch(() => {});
+    }
+    const leave = new AbortController();
+    const ended = signal ? AbortSignal.any([signal, leave.signal]) : leave.signal;
+    const all = this.load(limit, {...options, signal: ended});
+    all.catch(() => {});
+    try {
+      if (beginning) yield await beginning;
+      if (first) shown = 0;  // not yet as it is asked for
+      for (;;) {
+        const wanted = headerBytes + GROWTH * Math.max(shown - headerBytes, FIRST_BYTES);
+        await abortable(this.#reached(2 * wanted > limit ? limit : wanted, all), signal);
+        const taken = nextBytes(shown, Math.min(this.#held.bytes, limit));
+        if (taken <= shown) return;
+        yield await this.#frame((shown = taken), {...options, signal});
+      }
+    } finally {
+      leave.abort();
     }
   }
 
   /** Which bytes a window of the heights or of the texture takes, as [begin, end). */
   async needed({part = 'heights', window}) {
     const request = {part: PARTS[part], window};
-    return (await (await this.#decoder).needed(request)).map(({begin, end}) => [begin, end]);
+    return (await this.#call('needed', request)).map(({begin, end}) => [begin, end]);
   }
 
   /** Reads the header, which may be longer than the first request: the second brings a picture. */
@@ -250,7 +210,7 @@ class Terrain {
 
   dispose() {
     this.#source.close();
-    this.#decoder.then((decoder) => decoder.dispose()).catch(() => {});
+    this.#decoder.dispose();
   }
   [Symbol.dispose ?? Symbol.for('Symbol.dispose')]() {
     this.dispose();
@@ -258,11 +218,10 @@ class Terrain {
 }
 
 export async function open(input, options = {}) {
-  const {signal, worker, wasm, memory = MEMORY, requestBytes = REQUEST_BYTES} = options;
+  const {signal, request, requestBytes = REQUEST_BYTES} = options;
   signal?.throwIfAborted();
-  const decoder = compile(assets, wasm).then((module) => makeDecoder(worker, module, memory));
-  decoder.catch(() => {});
-  const terrain = new Terrain(sourceOf(input), decoder, requestBytes);
+  const source = sourceOf(input, request);
+  const terrain = new Terrain(source, options.decoder ?? startDecoder(options), requestBytes);
   try {
     await terrain.begin(signal);
     return terrain;

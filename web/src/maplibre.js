@@ -2,10 +2,10 @@
 // MapLibre GL JS: a protocol (addProtocol) that cuts tiles of a map out of a stream, heights as
 // raster-dem tiles in the terrarium encoding and texels as raster tiles, and gives them anew after
 // each refinement.
-import {open} from './index.js';
+import {abortable} from './abort.js';
 import {Cutter} from './cut.js';
 import {TksError} from './error.js';
-import {abortable} from './source.js';
+import {open} from './index.js';
 
 const TILE = 256;
 const MOST_ZOOM = 22;

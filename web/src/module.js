@@ -10,6 +10,8 @@ export const SAMPLES = [
 const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
 export const MESSAGE_BYTES = 400;
+/** A module counts its memory by 32 bits: of more bytes malloc would see the lower bits only. */
+const ADDRESSES = 2 ** 32;
 
 /** A function with a vector in it: engines without SIMD refuse it. */
 const VECTOR_FUNCTION = new Uint8Array([
@@ -38,9 +40,12 @@ export class Instance {
     this.calls = new WebAssembly.Instance(module, importsOf(module, given)).exports;
     this.calls._initialize?.();
   }
-  /** Anew at each use: growing memory detaches the old buffer. */
+  /**
+   * Anew at each use: growing memory detaches the old buffer. Addresses above 2 GiB, which functions
+   * of the module give as negative numbers, are made whole here.
+   */
   view(Type, address, length) {
-    return new Type(this.calls.memory.buffer, address, length);
+    return new Type(this.calls.memory.buffer, address >>> 0, length);
   }
   copy(Type, address, length) {
     return this.view(Type, address, length).slice();
@@ -49,10 +54,15 @@ export class Instance {
     const bytes = this.view(Uint8Array, address);
     return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
   }
+  /** Memory to be freed. */
+  allocate(bytes) {
+    const address = bytes < ADDRESSES ? this.calls.malloc(Math.max(bytes, 1)) : 0;
+    if (address === 0) throw new TksError('memory', `There is no memory for ${bytes} bytes more.`);
+    return address;
+  }
   /** Calls `use` with memory that is freed afterwards. */
   with(bytes, use) {
-    const address = this.calls.malloc(Math.max(bytes, 1));
-    if (address === 0) throw new TksError('memory', `There is no memory for ${bytes} bytes more.`);
+    const address = this.allocate(bytes);
     try {
       return use(address);
     } finally {
@@ -81,8 +91,7 @@ class Opened {
     const needed = Opened.#headerBytes(instance, first(MOST_BEFORE_BODY));
     const header = first(needed);
     this.size = header.length;
-    this.#header = calls.malloc(Math.max(this.size, 1));
-    if (this.#header === 0) throw new TksError('memory', 'There is no memory for the header.');
+    this.#header = instance.allocate(this.size);
     instance.view(Uint8Array, this.#header, this.size).set(header);
     instance.with(4 + MESSAGE_BYTES, (out) => {
       const status = calls.web_open(this.#header, this.size, memory, out, out + 4, MESSAGE_BYTES);
@@ -282,15 +291,18 @@ export function groundScale(info) {
 /** Enough for shading, in the time of a first picture. */
 const NORMAL_SAMPLES = 1024;
 
-/** The parts of a frame that `request` asks for. */
-function partsOf(opened, info, request) {
+/** Makes the parts of a frame that `request` asks for, one at each step; returns them all. */
+function* partsOf(opened, info, request) {
   const parts = {};
   const textureLevel =
     request.textureLevel ??
     levelFor(info.textureWidth, info.textureHeight, request.texels, info.textureCoarsestLevel);
   const surfaceLevel =
     request.surfaceLevel ?? levelFor(info.width, info.height, request.samples, info.coarsestLevel);
-  if (request.mesh && info.hasHeights) parts.mesh = opened.mesh(request.triangles, request.cut);
+  if (request.mesh && info.hasHeights) {
+    parts.mesh = opened.mesh(request.triangles, request.cut);
+    yield;
+  }
   const shown = (level) => {
     opened.setLevels(Math.min(level, info.coarsestLevel), info.hasTexture ? textureLevel : 0);
     return opened.info();
@@ -300,11 +312,15 @@ function partsOf(opened, info, request) {
     return {level, width: at.width, height: at.height, spacingX: at.spacingX,
       spacingY: at.spacingY, geotransform: at.geotransform, data: opened.surface(at)};
   };
-  if (request.surface && info.hasHeights) parts.surface = surfaceAt(surfaceLevel);
+  if (request.surface && info.hasHeights) {
+    parts.surface = surfaceAt(surfaceLevel);
+    yield;
+  }
   if (request.normals && parts.mesh) {
     const level = levelFor(info.width, info.height, NORMAL_SAMPLES, info.coarsestLevel);
     const surface = parts.surface?.level === level ? parts.surface : surfaceAt(level);
     parts.mesh.normals = normalsOf(parts.mesh, info.width, level, surface, groundScale(info));
+    yield;
   }
   if (request.texture && info.hasTexture) {
     const at = shown(0);
@@ -312,6 +328,14 @@ function partsOf(opened, info, request) {
       geotransform: at.textureGeotransform, data: opened.rgba(at)};
   }
   return parts;
+}
+
+/** What steps return at their end. */
+function lastOf(steps) {
+  for (;;) {
+    const {done, value} = steps.next();
+    if (done) return value;
+  }
 }
 
 /**
@@ -330,13 +354,13 @@ export class Decoder {
   }
 
   /** Bytes that are not here yet, from a place of the stream on. All of its header comes first. */
-  put(place, bytes) {
-    this.#chunks.push({place, bytes, before: this.#length});
-    this.#length += bytes.length;
+  put({place, chunk}) {
+    this.#chunks.push({place, bytes: chunk, before: this.#length});
+    this.#length += chunk.length;
   }
   /** The same, of bytes that come in the order of the stream. */
   append(bytes) {
-    this.put(this.#length, bytes);
+    this.put({place: this.#length, chunk: bytes});
   }
 
   #first(size) {
@@ -370,11 +394,11 @@ export class Decoder {
     opened?.close();
   }
 
-  /** Calls `use` with the first `bytes` bytes that came, opened. */
-  opened(bytes, use) {
+  /** Takes the steps of `use`, a generator, with the first `bytes` bytes that came, opened. */
+  *#steps(bytes, use) {
     try {
       try {
-        return use(this.#openedTo(Math.min(bytes, this.#length)));
+        return yield* use(this.#openedTo(Math.min(bytes, this.#length)));
       } catch (error) {
         if (error instanceof TksError) this.#close();  // it may take no more bytes
         throw error;
@@ -386,17 +410,29 @@ export class Decoder {
         'or triangles.', {cause: error});
     }
   }
+  /** What `use` gives, called with the first `bytes` bytes that came, opened. */
+  opened(bytes, use) {
+    return lastOf(this.#steps(bytes, function* (opened) {
+      return use(opened);
+    }));
+  }
 
-  decode(request) {
-    return this.opened(request.bytes, (opened) => {
+  /** Makes a frame, a part of it at each step. Until it returns it no other call may be made, or it
+   * has to be given up. */
+  parts(request) {
+    return this.#steps(request.bytes, function* (opened) {
+      yield;
       const info = opened.info();
       return {
         bytes: opened.size,
         complete: opened.size >= info.streamBytes,
         info,
-        ...partsOf(opened, info, request),
+        ...(yield* partsOf(opened, info, request)),
       };
     });
+  }
+  decode(request) {
+    return lastOf(this.parts(request));
   }
 
   plan(request) {

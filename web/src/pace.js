@@ -4,7 +4,13 @@
 /** The first request: a picture of most terrains. */
 export const FIRST_BYTES = 4096;
 /**
- * How many times as long each following prefix is. A frame takes an inverse transform and a mesh
- * anew: with this growth they are few.
+ * How many times as long each following prefix is, at least. A frame takes an inverse transform and
+ * a mesh anew: with this growth they are few.
  */
 export const GROWTH = 4;
+/** So many bytes cost no more than the transform that a frame takes in any case. */
+const CHEAP_BYTES = 2 ** 18;
+
+/** How many of the `here` bytes the frame behind one of `shown` takes. */
+export const nextBytes = (shown, here) =>
+  Math.min(here, Math.max(CHEAP_BYTES, GROWTH ** 2 * shown));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where on Earth a raster lies: from longitude and latitude to its columns and rows, and back, for
 // the CRSs that web maps meet: degrees, web Mercator, UTM.
+import {drapedTransform, pixelsOf} from './drape.js';
 import {TksError} from './error.js';
 
 const RADIANS = Math.PI / 180;
@@ -83,15 +84,10 @@ export function projectionOf(crs) {
  * From (longitude, latitude) to columns and rows, where (0, 0) is the outer corner of the first
  * sample, and back.
  */
-export function gridOf([x0, a, b, y0, c, d], {forward, inverse}) {
-  const determinant = a * d - b * c;
+export function gridOf(transform, {forward, inverse}) {
+  const [x0, a, b, y0, c, d] = transform, pixels = pixelsOf(transform);
   return {
-    pixels(longitude, latitude) {
-      const [x, y] = forward(longitude, latitude);
-      return [
-        (d * (x - x0) - b * (y - y0)) / determinant, (a * (y - y0) - c * (x - x0)) / determinant,
-      ];
-    },
+    pixels: (longitude, latitude) => pixels(...forward(longitude, latitude)),
     degrees: (column, row) => inverse(x0 + a * column + b * row, y0 + c * column + d * row),
   };
 }
@@ -123,8 +119,8 @@ export const isPlaced = (info) => info.hasGeotransform || info.textureHasGeotran
 
 /**
  * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds}.
- * A texture without a place of its own covers the ground of the heights. `bounds`: west, south,
- * east, north of both parts in degrees, in place of what the stream says.
+ * A texture without a place of its own is draped over the heights. `bounds`: west, south, east, north
+ * of both parts in degrees, in place of what the stream says.
  */
 export function placeOf(info, part, bounds) {
   const isTexture = part === 'texture';
@@ -136,9 +132,7 @@ export function placeOf(info, part, bounds) {
   } else if (isTexture && info.textureHasGeotransform) {
     [transform, crs] = [info.textureGeotransform, info.textureCrs];
   } else if (info.hasGeotransform) {
-    const [x0, a, b, y0, c, d] = info.geotransform;
-    const across = info.width / width, down = info.height / height;
-    [transform, crs] = [[x0, a * across, b * down, y0, c * across, d * down], info.crs];
+    [transform, crs] = [isTexture ? drapedTransform(info) : info.geotransform, info.crs];
   } else {
     throw new TksError('unsupported', 'The stream does not say where it lies. Give `bounds`: ' +
       '[west, south, east, north] in degrees.');

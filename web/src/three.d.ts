@@ -35,8 +35,16 @@ export class TksTerrain extends Mesh {
 }
 
 export class TksLoader extends Loader<TksTerrain> {
-  setDecoderOptions(options: Pick<OpenOptions, 'worker' | 'wasm' | 'memory'>): this;
+  /** Ends what preload() started. */
+  setDecoderOptions(
+    options: Pick<OpenOptions, 'worker' | 'wasm' | 'memory' | 'requestBytes'>): this;
   setTerrainOptions(options: TerrainOptions): this;
+  /** Fetches the decoder and starts its worker, which the next terrain takes. */
+  preload(): this;
+  /** Ends what preload() started and nothing has taken. Terrains are disposed one by one. */
+  dispose(): this;
+  /** Ends what is being loaded. */
+  abort(): this;
   /** As load(), of bytes. */
   parse(buffer: ArrayBuffer, onLoad: (terrain: TksTerrain) => void,
     onError?: (error: unknown) => void): void;

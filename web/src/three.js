@@ -6,6 +6,8 @@ import {
   MathUtils, Matrix4, Mesh, MeshLambertMaterial, RGBAFormat, SRGBColorSpace, Vector3,
 } from 'three';
 
+import {startDecoder} from './decoders.js';
+import {drapeOf} from './drape.js';
 import {groundScale, open} from './index.js';
 import {FIRST_BYTES, GROWTH} from './pace.js';
 
@@ -19,14 +21,14 @@ function geometryOf(frame) {
   const scale = flat
     ? {x: info.textureWidth, y: info.textureHeight, height: 1}
     : groundScale(info);
+  const drape = drapeOf(flat ? {width, height} : info);
   const positions = new Float32Array(3 * grid.length), places = new Float32Array(2 * grid.length);
   for (let i = 0; i < grid.length; ++i) {
     const column = grid[i] % width, row = Math.floor(grid[i] / width);
     positions[3 * i] = (column - (width - 1) / 2) * scale.x;
     positions[3 * i + 1] = flat ? 0 : mesh.heights[i] * scale.height;
     positions[3 * i + 2] = (row - (height - 1) / 2) * scale.y;
-    places[2 * i] = column / (width - 1);
-    places[2 * i + 1] = row / (height - 1);
+    places.set(drape(column, row), 2 * i);
   }
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   geometry.setAttribute('uv', new BufferAttribute(places, 2));
@@ -217,15 +219,36 @@ export class TksTerrain extends Mesh {
 export class TksLoader extends Loader {
   #decoderOptions = {};
   #terrainOptions = {};
+  #spare = null;
+  #stop = new AbortController();
 
-  /** Those of open(): worker, wasm, memory. */
+  /** Those of open(): worker, wasm, memory, requestBytes. */
   setDecoderOptions(options) {
+    this.dispose();
     this.#decoderOptions = options;
     return this;
   }
   /** Those of TksTerrain: triangles, bytes, pixelError, material. */
   setTerrainOptions(options) {
     this.#terrainOptions = options;
+    return this;
+  }
+
+  /** Fetches the decoder and starts its worker, which the next terrain takes. */
+  preload() {
+    this.#spare ??= startDecoder(this.#decoderOptions);
+    return this;
+  }
+  /** Ends what preload() started and nothing has taken. Terrains are disposed one by one. */
+  dispose() {
+    this.#spare?.dispose();
+    this.#spare = null;
+    return this;
+  }
+  /** Ends what is being loaded. */
+  abort() {
+    this.#stop.abort();
+    this.#stop = new AbortController();
     return this;
   }
 
@@ -248,7 +271,11 @@ export class TksLoader extends Loader {
     return this.#load(buffer);
   }
   async #load(input) {
-    const terrain = await open(input, this.#decoderOptions);
+    const {requestHeader: headers, withCredentials} = this;
+    const request = {headers, credentials: withCredentials ? 'include' : 'same-origin'};
+    const options = {...this.#decoderOptions, request, signal: this.#stop.signal};
+    if (this.#spare) [options.decoder, this.#spare] = [this.#spare, null];
+    const terrain = await open(input, options);
     const object = new TksTerrain(terrain, this.#terrainOptions);
     try {
       await object.begin();

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes away from the page's thread. The page hands over the compiled module with the first
 // message, so that this file loads nothing.
-import {Decoder, buffersOf} from './module.js';
+import {buffersOf} from './module.js';
+import {Operations} from './operations.js';
 
-let decoder;
+let operations;
+const running = new Map();  // an AbortController for each call
 
-const operations = {
-  start: ({module, memory}) => {
-    decoder = new Decoder(module, memory);
-  },
-  put: ({place, chunk}) => decoder.put(place, chunk),
-  decode: ({request}) => decoder.decode(request),
-  plan: ({request}) => decoder.plan(request),
-  needed: ({request}) => decoder.needed(request),
-};
+async function answer({id, operation, argument}) {
+  const stop = new AbortController();
+  running.set(id, stop);
+  try {
+    const result = await operations.call(operation, argument, stop.signal);
+    self.postMessage({id, result}, operation === 'decode' ? buffersOf(result) : []);
+  } catch ({code, message, needed}) {
+    self.postMessage({id, error: {code: code ?? 'memory', message, needed}});
+  } finally {
+    running.delete(id);
+  }
+}
 
 self.onmessage = ({data}) => {
-  try {
-    const result = operations[data.operation](data);
-    self.postMessage({id: data.id, result}, data.operation === 'decode' ? buffersOf(result) : []);
-  } catch (error) {
-    const {code, message, needed} = error;
-    self.postMessage({id: data.id, error: {code: code ?? 'memory', message, needed}});
+  const {id, operation, argument} = data;
+  if (operation === 'stop') running.get(id)?.abort();
+  else if (operation !== 'start') answer(data);
+  else {
+    operations = new Operations(argument.module, argument.memory);
+    self.postMessage({id});
   }
 };

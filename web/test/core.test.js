@@ -178,7 +178,8 @@ test('what cannot be opened says why', async () => {
   });
   await withServer({headers: {'content-type': 'text/html'}}, ({url}) =>
     rejects(open(url + 'page.tks'), 'corrupt', /\(text\/html\) is not a Tetrakis stream/));
-  await rejects(open('http://127.0.0.1:9/closed.tks'), 'io', /cannot be fetched.*CORS/);
+  await rejects(open('http://127.0.0.1:9/closed.tks'), 'io',
+    /cannot be fetched: its server cannot be reached/);
   await rejects(open(new TextEncoder().encode('PK..')), 'corrupt', /not a Tetrakis stream/);
   await rejects(open(7), 'usage', /URL, bytes or a Blob/);
   const damaged = bytes.slice();
@@ -217,6 +218,160 @@ test('aborting: the reason comes back, and the terrain goes on', async () => {
     await assert.rejects(failing, reason);
     await new Promise((resolve) => setTimeout(resolve, 50));
     remote.dispose();
+  });
+});
+
+/** Resolves to false if the connection is cut before all of the answer went out. */
+const answered = (request) => Promise.race([request.ended,
+  new Promise((_, reject) => setTimeout(reject, 5000, new Error('the connection stays')).unref())]);
+const until = async (condition) => {
+  while (!condition()) await new Promise((resolve) => setTimeout(resolve, 5));
+};
+
+test('aborting ends requests on the network, and what is missing is asked for anew', async () => {
+  const reason = new Error('the user went away');
+  for (const noRanges of [false, true]) {
+    await withServer({noRanges, stall: 10}, async (server) => {
+      const stop = new AbortController();
+      const opening = open(server.url + 'whole.tks', {signal: stop.signal});
+      await until(() => server.requests.length === 1);
+      stop.abort(reason);
+      await assert.rejects(opening, reason);
+      assert.equal(await answered(server.requests[0]), false);
+    });
+    await withServer({noRanges, stall: 5000}, async (server) => {
+      const opened = new AbortController(), stop = new AbortController();
+      const terrain = await open(server.url + 'whole.tks', {signal: opened.signal});
+      opened.abort(reason);  // too late to end anything
+      const frame = terrain.decode({signal: stop.signal});
+      const waiting = terrain.decode();
+      await until(() => server.requests.length === (noRanges ? 1 : 2));
+      await new Promise((resolve) => setTimeout(resolve, 20));
+      server.faults.stall = Infinity;
+      stop.abort(reason);
+      await assert.rejects(frame, reason);
+      assert.equal(await answered(server.requests.at(noRanges ? 0 : 1)), false);
+      assert.deepEqual(await waiting, await (await open(bytes)).decode());
+      assert.equal(server.requests.length, noRanges ? 2 : 3);
+      terrain.dispose();
+    });
+  }
+});
+
+test('bytes come on while frames are made; who leaves ends their coming', async () => {
+  await withServer({}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    server.faults.stall = 6000;
+    for await (const frame of terrain.refine({first: {triangles: 50}, triangles: 2000})) {
+      assert.equal(frame.bytes, 4096);
+      assert.ok(frame.mesh.triangles.length <= 150);
+      await until(() => server.requests.length === 2);
+      break;
+    }
+    assert.equal(await answered(server.requests[1]), false);
+    terrain.dispose();
+  });
+  const terrain = await open(bytes), frames = [];
+  for await (const frame of terrain.refine({first: {triangles: 50}, triangles: 2000})) {
+    frames.push(frame);
+  }
+  // All was there behind the first picture: there is nothing to be shown between.
+  assert.deepEqual(frames.map(({bytes: here}) => here), [4096, bytes.length]);
+  assert.ok(frames[1].mesh.triangles.length > 3000);
+});
+
+test('on a slow link frames follow each other at fourfold bytes', async () => {
+  await withServer({most: 700}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    const shown = (await framesOf(terrain)).map((frame) => frame.bytes);
+    assert.equal(shown.at(-1), bytes.length);
+    for (const here of shown) {
+      const alone = await (await open(bytes)).decode({bytes: here});
+      assert.deepEqual((await terrain.decode({bytes: here})).texture, alone.texture);
+    }
+    terrain.dispose();
+  });
+});
+
+test('what a request needs beside its range goes with each', async () => {
+  await withServer({}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks', {request: {headers: {'X-Key': 'abc'}}});
+    await terrain.decode();
+    assert.deepEqual(server.requests.map(({headers}) => headers['x-key']), ['abc', 'abc']);
+    assert.deepEqual(server.requests.map(({range}) => range),
+      ['bytes=0-4095', `bytes=4096-${bytes.length - 1}`]);
+    terrain.dispose();
+  });
+});
+
+test('disposing ends requests on the network', async () => {
+  await withServer({noRanges: true, stall: 5000}, async (server) => {
+    const terrain = await open(server.url + 'whole.tks');
+    const frame = terrain.decode();
+    terrain.dispose();
+    await rejects(frame, 'usage', /is disposed/);
+    assert.equal(await answered(server.requests[0]), false);
+  });
+});
+
+test('aborted frames: the one that is being made ends at its next part, others do not begin', async (t) => {
+  const {Decoder} = await import('../src/module.js');
+  const terrain = await open(bytes), stop = new AbortController();
+  const {parts} = Decoder.prototype;
+  let made = 0;
+  t.mock.method(Decoder.prototype, 'parts', function* (request) {
+    const steps = parts.call(this, request);
+    for (let step = steps.next(); ; step = steps.next()) {
+      if (step.done) return step.value;
+      if (++made === 2) stop.abort();
+      yield;
+    }
+  });
+  const all = {surface: true, normals: true}, {signal} = stop;
+  const frames = Array.from({length: 5}, () => terrain.decode({...all, signal}));
+  for (const frame of frames) await assert.rejects(frame, {name: 'AbortError'});
+  const whole = await terrain.decode(all);
+  assert.equal(made, 2 + 4);  // opened, mesh, surface, normals; the texture ends it
+  assert.deepEqual(whole, await (await open(bytes)).decode(all));
+});
+
+test('addresses above 2 GiB', async () => {
+  const {Decoder} = await import('../src/module.js');
+  const module =
+    await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
+  const request = {bytes: bytes.length, mesh: true, normals: true, surface: true, texture: true,
+    triangles: 1000, texels: 4096, samples: 4096};
+  const low = new Decoder(module, 2 ** 30), high = new Decoder(module, 2 ** 30);
+  low.append(bytes);
+  high.append(bytes);
+  let above = 0;
+  high.opened(300, ({instance}) => {
+    instance.allocate(2 ** 31);  // nobody writes there, so that it takes no memory of the machine
+    const {malloc} = instance.calls;
+    instance.calls = {...instance.calls, malloc: (size) => {
+      const address = malloc(size);
+      above += address < 0;
+      return address;
+    }};
+  });
+  high.opened(299, () => {});  // begins anew
+  const cut = [1 / 24, 0, 0, -1, 0, 1 / 48, 0, -1, 0, 0, 0, 0, 0, 0, 0, 1];
+  for (const view of [null, cut]) {
+    assert.deepEqual(high.decode({...request, cut: view}), low.decode({...request, cut: view}));
+  }
+  assert.deepEqual(high.samples(bytes.length, 0), low.samples(bytes.length, 0));
+  assert.ok(above > 10, `${above} addresses`);
+  const errorOf = (decoder) => {
+    try {
+      return decoder.opened(bytes.length, (opened) => opened.setLevels(99, 0));
+    } catch ({code, message}) {
+      return {code, message};
+    }
+  };
+  assert.match(errorOf(high).message, /level/);
+  assert.deepEqual(errorOf(high), errorOf(low));
+  high.opened(bytes.length, ({instance}) => {
+    assert.throws(() => instance.with(2 ** 32 + 8, () => {}), {code: 'memory'});
   });
 });
 

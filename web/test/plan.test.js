@@ -127,6 +127,31 @@ test('two requests before the first picture; then what the view needs, and no mo
   });
 });
 
+test('a header longer than the first request takes a second one, which brings a picture', async () => {
+  for (const side of [129, 225]) {
+    const long = await encode({...terrainOf(side), bytes: 60000, index: true, regions: 16});
+    const {headerBytes} = (await open(long)).info;
+    assert.ok(headerBytes > 4096, `${headerBytes} bytes of ${side}²`);
+    await writeFile(join(folder, 'long.tks'), long);
+    await writeFile(join(folder, 'longer.tks'), long.subarray(0, headerBytes - 1));
+    for (const faults of [{}, {noRanges: true}, {most: 3000}]) {
+      await served(faults, async (url, server) => {
+        const terrain = await open(url.replace('a.tks', 'long.tks'));
+        if (!faults.most) assert.equal(server.requests.length, faults.noRanges ? 1 : 2);
+        assert.ok(terrain.loaded.bytes < headerBytes + 8192);
+        const asked = server.requests.length;
+        const {value: frame} = await terrain.refine({view: CORNER}).next();
+        assert.ok(frame.info.texturePsnr > 10 && frame.bytes > headerBytes, `${frame.bytes}`);
+        if (faults.noRanges) assert.equal(server.requests.length, asked);
+        assert.deepEqual((await terrain.decode()).texture, (await (await open(long)).decode()).texture);
+        await assert.rejects(open(url.replace('a.tks', 'longer.tks')),
+          {code: 'truncated', message: /ends after \d+ bytes, inside the header/});
+        terrain.dispose();
+      });
+    }
+  }
+});
+
 test('a limit of bytes is kept', async () => {
   const requestBytes = 1024, terrain = await open(bytes, {requestBytes});
   const limit = terrain.info.headerBytes + 9000;

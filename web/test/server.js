@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A static server for tests, with the faults that servers have.
+import {once} from 'node:events';
 import {createReadStream} from 'node:fs';
 import {stat} from 'node:fs/promises';
 import {createServer} from 'node:http';
@@ -13,13 +14,15 @@ const TYPES = {
 /**
  * Serves `folder`. Of `faults`: noRanges (200 and the whole file), etag (called for each answer),
  * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always),
- * most (the bytes of an answer to a range, at most).
+ * most (the bytes of an answer to a range, at most), stall (so many bytes of an answer go out, the
+ * others never do). A request's `ended` resolves to whether all of its answer went out.
  */
 export async function serve(folder, faults = {}) {
   const requests = [];
   const server = createServer(async (request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
-    const noted = {path, range: request.headers.range};
+    const {headers: asked} = request, noted = {path, range: asked.range, headers: asked};
+    noted.ended = once(response, 'close').then(() => response.writableFinished);
     requests.push(noted);
     const file = join(folder, path);
     const size = await stat(file).then((found) => (found.isFile() ? found.size : -1), () => -1);
@@ -28,12 +31,17 @@ export async function serve(folder, faults = {}) {
       response.writeHead(404, {'content-type': 'text/html'});
       return response.end('<!doctype html>nothing here');
     }
+    const send = (start, last) => {
+      const {stall = Infinity} = faults, end = Math.min(last, start + stall - 1);
+      if (end < start) return response.flushHeaders();
+      createReadStream(file, {start, end}).pipe(response, {end: end === last});
+    };
     const headers = {'content-type': TYPES[extname(path)] ?? 'text/plain', ...faults.headers};
     if (faults.etag) headers.etag = faults.etag(requests.length);
     const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? '');
     if (!range || faults.noRanges) {
       response.writeHead(200, {...headers, 'content-length': size});
-      return createReadStream(file).pipe(response);
+      return send(0, size - 1);
     }
     const start = Number(range[1]);
     const end = Math.min(Number(range[2]), size - 1, start + (faults.most ?? Infinity) - 1);
@@ -44,7 +52,7 @@ export async function serve(folder, faults = {}) {
     response.writeHead(206, {
       ...headers, 'content-length': end - start + 1, 'content-range': `bytes ${start}-${end}/${size}`,
     });
-    createReadStream(file, {start, end}).pipe(response);
+    send(start, end);
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
   return {

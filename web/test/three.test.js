@@ -6,6 +6,7 @@ import {test} from 'node:test';
 import {PerspectiveCamera} from 'three';
 
 import {TksLoader} from '../src/three.js';
+import {serve} from './server.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url);
 const bytesOf = async (name) => {
@@ -68,6 +69,49 @@ test('an image alone lies flat', async () => {
   assert.equal(object.geometry.index.count, 6);
   assert.equal(object.material.map.image.width, 50);
   object.dispose();
+});
+
+test('a decoder that was preloaded is taken once; dispose() ends one that was not', async (t) => {
+  const started = [];
+  const worker = () => {
+    const thread = {postMessage({id, operation}) {
+      started.push(operation);
+      queueMicrotask(() => thread.onmessage({data: {id, error: {code: 'io', message: operation}}}));
+    }, terminate: t.mock.fn()};
+    return thread;
+  };
+  const [first, second] = [worker(), worker()];
+  const loader = new TksLoader().setDecoderOptions({worker: first}).preload().preload();
+  while (started.length === 0) await new Promise((resolve) => setTimeout(resolve, 5));
+  assert.deepEqual(started, ['start']);
+  loader.setDecoderOptions({worker: second});
+  assert.equal(first.terminate.mock.callCount(), 1);
+  loader.preload();
+  await assert.rejects(loader.parseAsync(await bytesOf('rgb_50x37.tks')), {message: 'start'});
+  assert.equal(second.terminate.mock.callCount(), 1);
+  loader.dispose();
+  assert.equal(second.terminate.mock.callCount(), 1);  // taken, and ended with its terrain
+  const object = await new TksLoader().setDecoderOptions({worker: false}).preload()
+    .parseAsync(await bytesOf('rgb_50x37.tks'));
+  assert.equal(object.material.map.image.width, 50);
+  object.dispose();
+});
+
+test('requests are made as the loader says, and end when it is told so', async () => {
+  const server = await serve(vectors.pathname, {stall: 10});
+  try {
+    const loader = new TksLoader().setRequestHeader({'X-Key': 'abc'});
+    const loading = loader.loadAsync(server.url + 'rgb_50x37.tks');
+    while (server.requests.length === 0) await new Promise((resolve) => setTimeout(resolve, 5));
+    loader.abort();
+    await assert.rejects(loading, {name: 'AbortError'});
+    assert.equal(server.requests[0].headers['x-key'], 'abc');
+    assert.equal(await server.requests[0].ended, false);
+    server.faults.stall = Infinity;
+    (await loader.loadAsync(server.url + 'rgb_50x37.tks')).dispose();
+  } finally {
+    await server.close();
+  }
 });
 
 test('failures come through the callback', async () => {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decoders as the page calls them: in a worker, or on its own thread.
+import {assets} from '#assets';
+import {abortable} from './abort.js';
+import {compile} from './compile.js';
+import {TksError} from './error.js';
+import {Operations} from './operations.js';
+
+/** What one decoding may take. */
+const MEMORY = 2 ** 30;
+
+const disposed = () => new TksError('usage', 'This terrain is disposed.');
+
+/** Operations in a worker: the same calls. */
+class RemoteDecoder {
+  #worker;
+  #waiting = new Map();
+  #calls = 0;
+
+  constructor(worker) {
+    this.#worker = worker;
+    worker.onmessage = ({data: {id, result, error}}) => {
+      if (!this.#waiting.has(id)) return;  // all were told of a failure or the end
+      const {resolve, reject} = this.#waiting.get(id);
+      this.#waiting.delete(id);
+      if (!error) return resolve(result);
+      reject(Object.assign(new TksError(error.code, error.message), {needed: error.needed}));
+    };
+    worker.onerror = (event) => {
+      event.preventDefault?.();
+      this.#failAll(new TksError('io', `The worker failed: ${event.message ?? 'it did not start'}.`));
+    };
+  }
+  #failAll(error) {
+    for (const {reject} of this.#waiting.values()) reject(error);
+    this.#waiting.clear();
+    this.failed = error;
+  }
+  start(module, memory) {
+    return this.call('start', {module, memory});
+  }
+  async call(operation, argument, signal) {
+    signal?.throwIfAborted();
+    if (this.failed) throw this.failed;
+    const id = this.#calls++;
+    const answer = new Promise((resolve, reject) => {
+      this.#waiting.set(id, {resolve, reject});
+      this.#worker.postMessage({id, operation, argument});
+    });
+    return abortable(answer, signal, () => this.#worker.postMessage({id, operation: 'stop'}));
+  }
+  dispose() {
+    this.#worker.terminate();
+    this.#failAll(disposed());
+  }
+}
+
+class LocalDecoder {
+  #operations;
+  #end = new AbortController();
+  async start(module, memory) {
+    this.#operations = new Operations(module, memory);
+  }
+  async call(operation, argument, signal) {
+    const end = this.#end.signal;
+    end.throwIfAborted();
+    const either = signal ? AbortSignal.any([signal, end]) : end;
+    return abortable(this.#operations.call(operation, argument, either), either);
+  }
+  dispose() {
+    this.#end.abort(disposed());
+    this.#operations = null;
+  }
+}
+
+function workerOf(worker) {
+  if (worker === false) return null;
+  if (typeof worker === 'string' || worker instanceof URL) return new Worker(worker, {type: 'module'});
+  if (worker !== undefined && worker !== true) return worker;
+  try {
+    return assets.worker();
+  } catch {
+    return null;  // pages may not start workers of another origin
+  }
+}
+
+/** A decoder whose thread starts while its module is fetched: `ready` resolves when both are there. */
+export function startDecoder({worker, wasm, memory = MEMORY} = {}) {
+  const thread = workerOf(worker);
+  const decoder = thread ? new RemoteDecoder(thread) : new LocalDecoder();
+  decoder.ready = compile(assets, wasm).then((module) => decoder.start(module, memory));
+  decoder.ready.catch(() => {});
+  return decoder;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The calls of one decoder, one after another, on whichever thread. Between them and between the
+// parts of a frame messages come through, and a call whose signal has aborted goes no further.
+import {Decoder} from './module.js';
+
+const messages = () => new Promise((resolve) => setTimeout(resolve));
+
+export class Operations {
+  #decoder;
+  #last = Promise.resolve();
+
+  constructor(module, memory) {
+    this.#decoder = new Decoder(module, memory);
+  }
+
+  /** Resolves to what this method of Decoder gives. */
+  call(method, argument, signal) {
+    const result = this.#last.then(() => this.#run(method, argument, signal));
+    this.#last = result.catch(() => {});
+    return result;
+  }
+  async #run(method, argument, signal) {
+    signal?.throwIfAborted();
+    if (method !== 'decode') return this.#decoder[method](argument);
+    const parts = this.#decoder.parts(argument);
+    for (;;) {
+      const {done, value} = parts.next();
+      if (done) return value;
+      await messages();
+      signal?.throwIfAborted();
+    }
+  }
+}

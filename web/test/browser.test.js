@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The core on a page of headless Chromium: what only a browser refuses, and its worker.
+import assert from 'node:assert/strict';
+import {cp, mkdtemp, rm} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {chromium} from 'playwright-core';
+
+import {serve} from './server.js';
+
+const web = new URL('..', import.meta.url).pathname;
+const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
+const NAME = 'joint_budget_97x97_128x128.tks';
+let browser, folder, site;
+
+before(async () => {
+  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
+  await cp(vectors + NAME, join(folder, 'a.tks'));
+  site = await serve(web);
+});
+after(async () => {
+  await browser.close();
+  await site.close();
+  await rm(folder, {recursive: true});
+});
+
+/** Calls `use` with a page of the site, and a server of another origin with these faults. */
+async function withPage(faults, use) {
+  const server = await serve(folder, faults), page = await browser.newPage();
+  try {
+    await page.goto(site.url + 'test/core.html');
+    await use(page, server);
+  } finally {
+    await page.close();
+    await server.close();
+  }
+}
+
+/** What open() on the page says of an address. */
+const refusal = (page, url) => page.evaluate(async (address) => {
+  const {TksError, open} = await import('/src/index.js');
+  const error = await open(address).then(() => null, (thrown) => thrown);
+  return error && {code: error.code, message: error.message, known: error instanceof TksError};
+}, url);
+
+test('a server of another origin that lets no page read it is told from one that is away', async () => {
+  const open = {headers: {'access-control-allow-origin': '*'}};
+  await withPage({}, async (page, server) => {
+    const refused = await refusal(page, server.url + 'a.tks');
+    assert.equal(refused.known, true);
+    assert.equal(refused.code, 'io');
+    assert.match(refused.message, /a\.tks cannot be read: its server answers, but does not allow/);
+    assert.ok(refused.message.includes(`pages of ${new URL(site.url).origin} `), refused.message);
+    assert.match(refused.message, /Access-Control-Allow-Origin/);
+    const away = await refusal(page, 'http://127.0.0.1:9/a.tks');
+    assert.match(away.message, /cannot be fetched: its server cannot be reached/);
+  });
+  await withPage(open, async (page, server) =>
+    assert.equal(await refusal(page, server.url + 'a.tks'), null));
+});
+
+test('of another origin, without the headers that only some servers show, all comes', async () => {
+  const headers = {'access-control-allow-origin': '*'};
+  for (const faults of [{headers}, {headers, noRanges: true}]) {
+    await withPage(faults, async (page, server) => {
+      const got = await page.evaluate(async (address) => {
+        const {open} = await import('/src/index.js');
+        const terrain = await open(address), frame = await terrain.decode();
+        return {complete: frame.complete, requests: terrain.loaded.requests};
+      }, server.url + 'a.tks');
+      assert.deepEqual(got, {complete: true, requests: faults.noRanges ? 1 : 2});
+    });
+  }
+});
+
+test('aborting ends the request and what its worker was asked for', async () => {
+  const headers = {'access-control-allow-origin': '*'};
+  await withPage({headers}, async (page, server) => {
+    await page.evaluate(async (address) => {
+      const {open} = await import('/src/index.js');
+      window.terrain = await open(address);
+    }, server.url + 'a.tks');
+    server.faults.stall = 100;
+    await page.evaluate(() => {
+      window.stop = new AbortController();
+      window.frame = window.terrain.decode({signal: window.stop.signal})
+        .catch((error) => error.name);
+    });
+    while (server.requests.length < 2) await page.waitForTimeout(10);
+    assert.equal(await page.evaluate(() => (window.stop.abort(), window.frame)), 'AbortError');
+    assert.equal(await server.requests.at(-1).ended, false);
+    server.faults.stall = Infinity;
+    // A hundred frames, of which none is wanted any more, do not keep the next one waiting.
+    const {one, next} = await page.evaluate(async () => {
+      const {terrain} = window, request = {surface: true, normals: true, triangles: 1e5};
+      await terrain.decode(request);
+      const timed = async () => {
+        const begin = performance.now();
+        await terrain.decode(request);
+        return performance.now() - begin;
+      };
+      const alone = Math.max(await timed(), await timed());
+      const {signal} = (window.stop = new AbortController());
+      const frames = Array.from({length: 100}, () => terrain.decode({...request, signal}));
+      const ends = Promise.allSettled(frames);
+      await Promise.resolve();
+      window.stop.abort();
+      const after = await timed();
+      if ((await ends).some(({status}) => status !== 'rejected')) throw new Error('a frame came');
+      return {one: alone, next: after};
+    });
+    assert.ok(next < 20 * one, `${next} ms, ${one} ms alone`);
+  });
+});
