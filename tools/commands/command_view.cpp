@@ -23,9 +23,11 @@ struct ViewerFile {
   const char* name;
   const char* type;
 };
-constexpr std::array<ViewerFile, 8> kViewerFiles = {
+constexpr std::array<ViewerFile, 10> kViewerFiles = {
     {{"index.html", "text/html; charset=utf-8"},
      {"style.css", "text/css; charset=utf-8"},
+     {"start.js", "text/javascript; charset=utf-8"},
+     {"chunk.js", "text/javascript; charset=utf-8"},
      {"viewer.js", "text/javascript; charset=utf-8"},
      {"worker.js", "text/javascript; charset=utf-8"},
      {"encode_worker.js", "text/javascript; charset=utf-8"},

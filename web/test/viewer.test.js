@@ -146,6 +146,23 @@ test('files that cannot be shown say why, and others can be opened', async () =>
   }
 });
 
+test('a server that lets no other page read its files is named on the page', async () => {
+  const other = await serve(folder);
+  try {
+    await withPage('?tks=' + encodeURIComponent(other.url + 'whole.tks'), async (page, server) => {
+      const said = await page.getByRole('alert').textContent();
+      assert.ok(said.startsWith(other.url), said);
+      assert.match(said, /its server answers, but does not allow pages of/);
+      assert.ok(said.includes(new URL(server.url).origin), said);
+      await page.locator('#file').setInputFiles(join(folder, 'whole.tks'));
+      await page.waitForFunction((size) => document.body.dataset.bytes === size, String(bytes.length));
+      assert.equal(await page.getByRole('alert').isVisible(), false);
+    });
+  } finally {
+    await other.close();
+  }
+});
+
 test('a file that is cut short is shown, with a note', async () => {
   await withPage('?tks=short.tks', async (page) => {
     assert.match(await page.getByRole('alert').textContent(), /cut short: 3.0 kB of 12 kB/);

@@ -19,8 +19,11 @@ const bundle = (names, options) => build({
   legalComments: 'linked',
   ...options,
 });
-// What reads GeoTIFFs is as large as all the rest, and loaded when such a file is opened.
-await bundle(['viewer/viewer', 'src/worker', 'src/encode_worker'], {external: ['./read_files.js']});
+// What the first script shares with what draws is a file of its own (chunk.js). What reads GeoTIFFs is
+// as large as all the rest, and loaded when such a file is opened.
+await bundle(['viewer/start', 'viewer/viewer'],
+  {splitting: true, chunkNames: '[name]', external: ['./read_files.js']});
+await bundle(['src/worker', 'src/encode_worker']);
 await bundle(['viewer/read_files'], {platform: 'browser'});
 for (const name of ['index.html', 'style.css']) await copyFile(`${web}viewer/${name}`, out + name);
 for (const name of ['tetrakis.wasm', 'tetrakis-encode.wasm']) {

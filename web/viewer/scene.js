@@ -111,6 +111,14 @@ export class Picture {
     this.draw();
   }
 
+  /** From a place in metres around the middle of the terrain, towards another. */
+  look(eye, target) {
+    this.camera.position.set(...eye);
+    this.orbit.target.set(...target);
+    this.orbit.update();
+    this.draw();
+  }
+
   /** Without light a texture is seen as it is. */
   setShaded(shaded) {
     this.#ambient.intensity = Math.PI * (shaded ? 0.7 : 1);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page: opens a stream (?tks=URL, a drop, a file), refines it, and lets its bytes and triangles be
-// chosen.
+// The page: opens a stream (of start.js, a drop, a file), refines it, and lets its bytes and triangles
+// be chosen.
 import {encode} from '../src/encode.js';
 import {open} from '../src/index.js';
-import {FIRST_BYTES, GROWTH} from '../src/pace.js';
-import {TksTerrain, textureOf} from '../src/three.js';
+import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
+import {decoder, encoder} from './decoder.js';
 import {FetchMap} from './fetch_map.js';
 import {Picture} from './scene.js';
 import {tint} from './tint.js';
@@ -16,17 +16,13 @@ const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
 
 const picture = new Picture($('picture'));
 const map = new FetchMap($('fetched'), $('ground'));
-const wasm = new URL('tetrakis.wasm', document.baseURI);
-const worker = new URL('worker.js', document.baseURI);
-const encoder = {
-  wasm: new URL('tetrakis-encode.wasm', document.baseURI),
-  worker: new URL('encode_worker.js', document.baseURI),
-};
 /** What files are coded into: so many bits for each height and texel. */
 const BITS = 1, LEAST_BYTES = 32768;
 
 let terrain = null, object = null;
-let wanted = {}, shown = {};
+let wanted = {};
+/** Bytes and triangles of the frame that is shown, and whether it has all texels. */
+let shown = {};
 let opening = new AbortController();
 let pumping = false;
 
@@ -75,20 +71,14 @@ function readOut(frame, triangles) {
   map.draw();
 }
 
-/** The next prefix on the way: what is here already at once, else fourfold. */
-function nextBytes() {
-  const here = Math.max(terrain.loaded.bytes, FIRST_BYTES);
-  if (!shown.bytes) return Math.min(wanted.bytes, here);
-  if (wanted.bytes <= here) return wanted.bytes;
-  return Math.min(wanted.bytes, Math.max(GROWTH * Math.min(shown.bytes, here), here));
-}
-
-function show(frame, request) {
+function show(frame) {
   const first = object.frame === null;
   object.show(frame);
   if (frame.surface && $('textured').checked) object.setMap(textureOf(tint(frame.surface)));
-  if (first) picture.home();
-  shown = {bytes: request.bytes, triangles: request.triangles};
+  if (first) {
+    picture.home();
+    if (place('eye') && place('target')) picture.look(place('eye'), place('target'));
+  }
   readOut(frame, frame.mesh ? frame.mesh.triangles.length / 3 : 2);
   document.body.dataset.bytes = frame.bytes;
   picture.draw();
@@ -97,36 +87,75 @@ function show(frame, request) {
 /** Of streams with an index bytes come for what is looked at. */
 const isPlanned = () => terrain.info.hasIndex && object.frame !== null;
 
-/** Decodes until what is shown is what is wanted, or all that this view needs. */
+/** What frames are made of, but for bytes. */
+function frameOptions(triangles) {
+  return {
+    triangles, normals: true, surface: !terrain.info.hasTexture, samples: 1024,
+    texels: Math.min(4096, picture.renderer.capabilities.maxTextureSize), signal: opening.signal,
+  };
+}
+
+const isShown = () => shown.isWhole && shown.bytes === wanted.bytes &&
+  shown.triangles === wanted.triangles;
+
+/** Shows what opening brought, roughly; other bytes come meanwhile. */
+async function drawFirst(current) {
+  const {info} = current, {texels} = FIRST_FRAME;
+  const bytes = Math.min(wanted.bytes, current.loaded.bytes);
+  const triangles = Math.min(wanted.triangles, FIRST_FRAME.triangles);
+  const options = frameOptions(triangles);
+  if (!info.hasIndex) current.load(wanted.bytes, options).catch(() => {});
+  const frame = await current.decode({...options, texels, bytes});
+  if (current !== terrain) return;
+  show(frame);
+  const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
+  shown = {bytes, triangles, isWhole};
+}
+
+/** Frames of more bytes, until others are wanted. */
+async function refine(current) {
+  const goal = wanted, view = isPlanned() ? object.viewOf(picture.camera, picture.pixels) : null;
+  const options = {...frameOptions(goal.triangles), bytes: goal.bytes, after: shown.bytes, view};
+  for await (const frame of current.refine(options)) {
+    if (current !== terrain) return;
+    show(frame);
+    shown = {bytes: frame.bytes, triangles: goal.triangles, isWhole: true};
+    if (goal !== wanted) return;
+  }
+  const {loaded, truncated, info} = current;
+  if (truncated && goal.bytes > loaded.bytes) {
+    goal.bytes = loaded.bytes;
+    tell(`The file is cut short: ${formatBytes(loaded.bytes)} of ` +
+      `${formatBytes(info.streamBytes)} are there, and shown.`, true);
+  }
+  shown.bytes = goal.bytes;  // this view needs no more
+}
+
+/** One frame of bytes that are here. */
+async function redraw(current) {
+  const {bytes, triangles} = wanted, here = Math.min(bytes, current.loaded.bytes);
+  const kept = bytes === shown.bytes && shown.isWhole ? {texture: false, surface: false} : {};
+  const frame = await current.decode({...frameOptions(triangles), bytes: here, ...kept});
+  if (current !== terrain) return;
+  show(frame);
+  shown = {bytes, triangles, isWhole: true};
+}
+
+/** Draws until what is shown is what is wanted, or all that this view needs. */
 async function pump() {
   if (pumping || !terrain) return;
   pumping = true;
-  const current = terrain;
+  const current = terrain, {signal} = opening;
   document.body.dataset.state = 'busy';
   try {
-    while (current === terrain &&
-        (shown.bytes !== wanted.bytes || shown.triangles !== wanted.triangles)) {
-      const {info} = terrain, request = {bytes: nextBytes(), triangles: wanted.triangles};
-      const otherBytes = request.bytes !== shown.bytes;
-      const view = isPlanned() ? object.viewOf(picture.camera, picture.pixels) : null;
-      const frame = await current.decode({
-        ...request, view, normals: true, signal: opening.signal,
-        texture: otherBytes, surface: otherBytes && !info.hasTexture,
-        texels: Math.min(4096, picture.renderer.capabilities.maxTextureSize), samples: 1024,
-      });
-      if (current !== terrain) return;
-      if (current.truncated && request.bytes > frame.bytes) {
-        wanted.bytes = request.bytes = frame.bytes;
-        tell(`The file is cut short: ${formatBytes(frame.bytes)} of ` +
-          `${formatBytes(info.streamBytes)} are there, and shown.`, true);
-      }
-      // This view needs no more. Frames may lack what is not worth a request.
-      if (view && request.bytes - frame.bytes > current.requestBytes) request.bytes = wanted.bytes;
-      show(frame, request);
+    while (current === terrain && !isShown()) {
+      if (!shown.bytes) await drawFirst(current);
+      else if (wanted.bytes > shown.bytes) await refine(current);
+      else await redraw(current);
     }
     document.body.dataset.state = 'done';
   } catch (error) {
-    if (current === terrain) fail(error);
+    if (current === terrain && !signal.aborted) fail(error);
   } finally {
     pumping = false;
     if (current !== terrain) pump();
@@ -171,9 +200,10 @@ function prepareControls(info) {
   $('size').textContent = sizes.join(' · ');
 }
 
-async function openInput(input, name) {
+/** `asked`: {stop, terrain} of an open() that is under way already. */
+async function openInput(input, name, asked) {
   opening.abort();
-  opening = new AbortController();
+  opening = asked?.stop ?? new AbortController();
   const {signal} = opening;
   tell('');
   $('welcome').hidden = $('save').hidden = true;
@@ -181,7 +211,7 @@ async function openInput(input, name) {
   $('size').textContent = 'opening …';
   document.body.dataset.state = 'busy';
   try {
-    const opened = await open(input, {signal, wasm, worker});
+    const opened = await (asked?.terrain ?? open(input, {...decoder, signal}));
     if (signal.aborted) return opened.dispose();
     terrain = opened;
     map.show(terrain);
@@ -245,6 +275,12 @@ async function openFiles(files) {
   else openSources(files);
 }
 
+/** Three numbers of the address. */
+function place(name) {
+  const numbers = (new URLSearchParams(location.search).get(name) ?? '').split(',').map(Number);
+  return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
+}
+
 const exaggeration = () => 10 ** ($('exaggeration').value / 20);
 
 function listen() {
@@ -284,7 +320,8 @@ function listen() {
   });
   $('address').addEventListener('submit', (event) => {
     event.preventDefault();
-    openUrl(new FormData(event.target).get('url'));
+    const address = new FormData(event.target).get('url');
+    openInput(address, nameOf(address));
   });
   addEventListener('dragover', (event) => {
     event.preventDefault();
@@ -300,14 +337,21 @@ function listen() {
   });
 }
 
-function openUrl(url) {
-  const resolved = new URL(url, document.baseURI);
-  openInput(resolved, decodeURIComponent(resolved.pathname.split('/').pop()));
+/** The last part of an address. */
+function nameOf(address) {
+  const [path] = String(address).split(/[?#]/), name = path.split('/').pop();
+  try {
+    return decodeURIComponent(name);
+  } catch {
+    return name;  // with a stray %
+  }
 }
 
-picture.onrest = replan;
-listen();
-if (matchMedia('(max-width: 640px)').matches) $('fold').click();
-const address = new URLSearchParams(location.search).get('tks');
-if (address) openUrl(address);
-else $('welcome').hidden = false;
+/** Takes over what the page has asked for already: {address, stop, terrain}, or nothing. */
+export function begin(asked) {
+  picture.onrest = replan;
+  listen();
+  if (matchMedia('(max-width: 640px)').matches) $('fold').click();
+  if (asked) openInput(asked.address, nameOf(asked.address), asked);
+  else $('welcome').hidden = false;
+}

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where this page finds its decoder.
+
+const beside = (name) => new URL(name, document.baseURI);
+export const decoder = {wasm: beside('tetrakis.wasm'), worker: beside('worker.js')};
+export const encoder = {wasm: beside('tetrakis-encode.wasm'), worker: beside('encode_worker.js')};
