@@ -163,6 +163,27 @@ TEST_F(CliMeasure, MaxErrorHoldsInTheUnitAsked) {
   }
 }
 
+TEST_F(CliMeasure, PicturesOfAllCameras) {
+  makeInputs(65);
+  ASSERT_EQ(cli("encode height.tif --texture texture.png --lossless -o whole.tks").code, 0);
+  const std::string compare = "compare whole.tks --height height.tif --texture texture.png ";
+  const auto outcome = cli(compare + "--view all --pictures seen");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const std::string camera : {"1", "2", "3"}) {
+    const std::string picture = content("seen/picture-" + camera + ".png");
+    EXPECT_GT(picture.size(), 1000u);
+    EXPECT_EQ(picture, content("seen/original-" + camera + ".png"));
+  }
+  EXPECT_NE(content("seen/picture-1.png"), content("seen/picture-3.png"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("seen")), {}), 6);
+  EXPECT_EQ(cli(compare + "--pictures seen").code, 2);
+  EXPECT_EQ(cli(compare + "--bytes 2k --pictures seen -f").code, 0);
+  EXPECT_NE(content("seen/picture-1.png"), content("seen/original-1.png"));
+  // What cannot be measured leaves no folder behind.
+  EXPECT_EQ(cli("compare whole.tks --height texture.png --pictures none").code, 7);
+  EXPECT_FALSE(names().contains("none"));
+}
+
 TEST_F(CliMeasure, OtherReferencesFail) {
   makeStream();
   ASSERT_TRUE(tools::writeHeights(path("larger.tif"), hills(18)).ok());

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include "tools/commands/camera_pictures.hpp"
 #include "tools/commands/command.hpp"
 #include "tools/commands/json.hpp"
 #include "tools/files/text.hpp"
@@ -18,7 +20,8 @@ struct CompareArguments {
   std::string height, texture;
   uint32_t triangles = 0;
   CameraChoice cameras;
-  bool json = false;
+  std::string pictures;
+  bool json = false, force = false;
 };
 
 bool isExact(double psnr) {
@@ -81,11 +84,12 @@ Result<Reference> readReference(const CompareArguments& arguments, const tks_inf
   return reference;
 }
 
-/// Screen figures need a renderer. Cameras that were asked for must be drawn; the default view is
-/// left out with a note on a machine that cannot draw.
-Status look(Comparer& comparer, const CameraChoice& cameras, bool quiet) {
-  const Status status = comparer.look(cameras);
-  if (status.ok() || status.code() != TKS_UNSUPPORTED || !cameras.isDefault()) return status;
+/// Screen figures need a renderer. Cameras and pictures that were asked for must be drawn; the
+/// default view is left out with a note on a machine that cannot draw.
+Status look(Comparer& comparer, const CompareArguments& arguments, bool quiet) {
+  const Status status = comparer.look(arguments.cameras);
+  const bool asked = !arguments.cameras.isDefault() || !arguments.pictures.empty();
+  if (status.ok() || status.code() != TKS_UNSUPPORTED || asked) return status;
   tellNote("no screen figures: " + status.message(), quiet);
   return Status();
 }
@@ -119,10 +123,21 @@ Status compare(const CompareArguments& arguments, bool quiet) {
   if (!reference.ok()) return reference.status();
   Result<Comparer> comparer = Comparer::create(*reference, info);
   if (!comparer.ok()) return comparer.status();
-  if (Status status = look(*comparer, arguments.cameras, quiet); !status.ok()) return status;
+  if (Status status = look(*comparer, arguments, quiet); !status.ok()) return status;
+  std::optional<CameraPictures> pictures;
+  if (!arguments.pictures.empty()) {
+    Result<CameraPictures> planned =
+        CameraPictures::plan(arguments.pictures, comparer->cameras().size(), arguments.force);
+    if (!planned.ok()) return planned.status();
+    pictures = std::move(*planned);
+  }
   const Result<Measurement> measurement =
       comparer->measure(octets(stream->bytes), arguments.triangles);
   if (!measurement.ok()) return measurement.status();
+  if (pictures)
+    if (Status status = pictures->write(measurement->pictures, comparer->referencePictures());
+        !status.ok())
+      return status;
   tellNote(coarsestNote(measurement->triangles.value_or(0), arguments.triangles), quiet);
   const Json json = measurementJson(*measurement, comparer->cameras());
   if (Status status = print(arguments.json ? dump(json) : table(legible(json))); !status.ok())
@@ -142,7 +157,10 @@ void addCompare(CLI::App& app, CommandLine& line) {
   addTriangles(verb, arguments->triangles, "Judge the mesh of at most so many triangles")
       ->needs(height);
   addCameraOptions(verb, arguments->cameras);
+  verb.add_option("--pictures", arguments->pictures, "Also write what the cameras see into DIR")
+      ->type_name("DIR");
   verb.add_flag("--json", arguments->json, "JSON instead of a table");
+  addForce(verb, arguments->force);
   verb.callback([arguments, &line] {
     line.action = [arguments, &line] { return compare(*arguments, line.quiet); };
   });

@@ -301,6 +301,15 @@ class GlesRenderer final : public Renderer {
 
 }  // namespace
 
+ImageFile imageOf(const Picture& picture) {
+  ImageFile image{picture.width, picture.height, 3, TKS_U8, {}};
+  image.data.reserve(picture.rgba.size() / 4 * 3);
+  for (size_t i = 0; i < picture.rgba.size(); i += 4)
+    for (size_t channel = 0; channel < 3; ++channel)
+      image.data.push_back(std::byte{picture.rgba[i + channel]});
+  return image;
+}
+
 Result<std::unique_ptr<Renderer>> Renderer::create() {
   Result<EglContext> context = EglContext::create();
   if (!context.ok()) return context.status();

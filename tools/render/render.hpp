@@ -26,6 +26,9 @@ struct Picture {
   std::vector<uint8_t> rgba;
 };
 
+/// The terrain before its sky, without the alpha.
+ImageFile imageOf(const Picture& picture);
+
 /// Owns one EGL context. Not thread safe; create and use it on one thread.
 class Renderer {
  public:

@@ -80,17 +80,8 @@ std::string figuresTable(const std::vector<ReportRow>& rows) {
   return html + "</table></div>\n";
 }
 
-ImageFile withoutAlpha(const Picture& picture) {
-  ImageFile image{picture.width, picture.height, 3, TKS_U8, {}};
-  image.data.reserve(picture.rgba.size() / 4 * 3);
-  for (size_t i = 0; i < picture.rgba.size(); i += 4)
-    for (size_t channel = 0; channel < 3; ++channel)
-      image.data.push_back(std::byte{picture.rgba[i + channel]});
-  return image;
-}
-
 Result<std::string> figure(const Picture& picture, const std::string& caption) {
-  const Result<std::vector<std::byte>> jpeg = encodeJpeg(withoutAlpha(picture), kJpegQuality);
+  const Result<std::vector<std::byte>> jpeg = encodeJpeg(imageOf(picture), kJpegQuality);
   if (!jpeg.ok()) return jpeg.status();
   const auto formats = pictureFormats();
   if (!formats.ok()) return formats.status();

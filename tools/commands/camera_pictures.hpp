@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What cameras see, as PNGs in a folder: picture-1.png and, of the original, original-1.png, and so
+// on in the order of the cameras.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+#include "tools/commands/output.hpp"
+#include "tools/render/render.hpp"
+
+namespace tetrakis::tools {
+
+class CameraPictures {
+ public:
+  /// Plans the files of so many cameras; the folder is made if it is missing.
+  static Result<CameraPictures> plan(const std::string& folder, size_t cameras, bool force);
+
+  /// Writes all of them or none.
+  Status write(const std::vector<Picture>& pictures, const std::vector<Picture>& originals);
+
+ private:
+  explicit CameraPictures(OutputFolder folder) : folder_(std::move(folder)) {}
+
+  OutputFolder folder_;
+  std::vector<Output> pictures_, originals_;
+};
+
+}  // namespace tetrakis::tools
