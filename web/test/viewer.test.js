@@ -172,7 +172,7 @@ test('a file that is cut short is shown, with a note', async () => {
 
 test('a drop opens', async () => {
   await withPage('', async (page) => {
-    assert.ok(await page.locator('#welcome').isVisible());
+    await page.locator('#welcome').waitFor();
     await page.evaluate((data) => {
       const transfer = new DataTransfer();
       transfer.items.add(new File([new Uint8Array(data)], 'dropped.tks'));
