@@ -15,8 +15,9 @@ const EARLY = {
     `<link rel="preload" as="fetch" crossorigin href="/draco/draco_${name}">`),
 };
 
-const pageOf = (method) => `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
-<style>body { margin: 0 }</style>${(EARLY[method] ?? []).join('')}
+/** `early`: what the browser is told to fetch at once. */
+const pageOf = (method, early) => `<!doctype html><meta charset="utf-8">
+<link rel="icon" href="data:,"><style>body { margin: 0 }</style>${early.join('')}
 <body></body><script type="module" src="/${method}.js"></script>`;
 
 /** The part of `body` that a Range header asks for. */
@@ -32,18 +33,22 @@ export class Site {
   code = 0;
 
   static async open(web) {
-    const site = new Site(), require = createRequire(web + 'package.json');
-    const {outputFiles} = await require('esbuild').build({
-      entryPoints: [
-        ...METHODS.map((name) => new URL(`web_arrival_page/${name}.js`, import.meta.url).pathname),
-        {in: web + 'src/worker.js', out: 'worker'},
-      ].map((entry) => (typeof entry === 'string'
-        ? {in: entry, out: entry.split('/').at(-1).replace('.js', '')} : entry)),
-      bundle: true, minify: true, format: 'esm', outdir: '/', write: false, logLevel: 'error',
-      nodePaths: [web + 'node_modules'],
-    });
-    for (const {path, contents} of outputFiles) site.#code(path, contents);
-    for (const method of METHODS) site.#code(`/${method}.html`, pageOf(method));
+    const site = new Site();
+    const {build} = createRequire(web + 'package.json')('esbuild');
+    const bundled = async (names, options) => (await build({
+      entryPoints: names.map((name) =>
+        new URL(`web_arrival_page/${name}.js`, import.meta.url).pathname),
+      bundle: true, minify: true, format: 'esm', target: 'es2022', outdir: '/', write: false,
+      logLevel: 'error', nodePaths: [web + 'node_modules'], ...options,
+    })).outputFiles;
+    // What draws a stream is loaded while the stream is.
+    const parted = await bundled(['tks', 'tks_scene'], {splitting: true, chunkNames: '[name]'});
+    const whole = await bundled(METHODS.filter((name) => name !== 'tks'), {});
+    const worker = await bundled([], {entryPoints: [web + 'src/worker.js']});
+    for (const {path, contents} of [...parted, ...whole, ...worker]) site.#code(path, contents);
+    const early = Object.fromEntries(METHODS.map((name) => [name, EARLY[name] ?? []]));
+    early.tks = [...early.tks, ...parted.map(({path}) => `<link rel="modulepreload" href="${path}">`)];
+    for (const method of METHODS) site.#code(`/${method}.html`, pageOf(method, early[method]));
     site.#code('/tetrakis.wasm', readFileSync(web + 'dist/tetrakis.wasm'));
     const draco = web + 'node_modules/three/examples/jsm/libs/draco/gltf/';
     for (const name of ['draco_wasm_wrapper.js', 'draco_decoder.wasm']) {

@@ -76,8 +76,11 @@ function psnr(got, wanted) {
  */
 export async function measure(arrive) {
   try {
+    const arriving = arrive(), first = arriving.next();  // asked for before a context is made
+    first.catch(() => {});
     const picture = new Picture(), marks = [];
-    for await (const {bytes, rounds, show} of arrive()) {
+    for (let next = await first; !next.done; next = await arriving.next()) {
+      const {bytes, rounds, show} = next.value;
       picture.object = await show();
       await picture.draw();
       marks.push({ms: performance.now(), bytes, rounds, show});

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a stream, refined as its bytes come.
+import {FIRST_FRAME, TksTerrain} from '../../../web/src/three.js';
+import {material, measure, query} from './scene.js';
+
+const OPTIONS = {triangles: Number(query.triangles)};
+
+export const refine = (opening) => measure(async function* () {
+  const terrain = await opening;
+  const object = new TksTerrain(terrain, {material: material()});
+  const shown = (frame) => {
+    object.show(frame);
+    return object;
+  };
+  const mark = (frame, options) => {
+    let first = frame;  // drawn again later, decoded anew: the frames themselves would fill memory
+    const {bytes} = frame;
+    // Behind the first request there is one for the rest, which is under way meanwhile.
+    const rounds = bytes > FIRST_FRAME.bytes ? terrain.loaded.requests : 1;
+    return {bytes, rounds, show: async () => {
+      const drawn = shown(first ?? (await terrain.decode({...options, bytes})));
+      first = null;
+      return drawn;
+    }};
+  };
+  const {triangles, texels} = FIRST_FRAME, first = {triangles, texels};
+  let options = {...OPTIONS, ...first};
+  for await (const frame of terrain.refine({...OPTIONS, first})) {
+    yield mark(frame, options);
+    options = OPTIONS;
+  }
+});
