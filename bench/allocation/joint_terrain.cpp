@@ -45,11 +45,11 @@ Result<EncodedTerrain> encodeTerrain(const tools::Reference& original,
   options.bytes = request.bytes;
   options.regions = 1;
   options.triangles = request.triangles;
+  const tools::PlacedFrame frame = tools::frameOf(*original.heights);
   const auto cameras = tools::chooseCameras(
-      {"", request.view},
-      tools::boundsOf(tools::heightsOf(*original.heights), tools::frameOf(*original.heights)));
+      {"", request.view}, tools::boundsOf(tools::heightsOf(*original.heights), frame));
   if (!cameras.ok()) return cameras.status();
-  const std::vector<tks_camera> those = tools::toldCameras(*cameras);
+  const std::vector<tks_camera> those = tools::toldCameras(*cameras, frame.axes);
   if (request.knows != Knows::kNothing) {
     options.cameras = those.data();
     options.camera_count = static_cast<uint32_t>(those.size());

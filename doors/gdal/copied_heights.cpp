@@ -275,10 +275,20 @@ void groundSpacing(const OGRSpatialReference* system, tks_heights& heights) {
   heights.spacing_y = y;
 }
 
+/// A scale of 0 would make all heights one.
+double scaleOf(const std::string& name, GDALRasterBand& band) {
+  const double scale = band.GetScale();
+  if (scale != 0 && std::isfinite(scale)) return scale;
+  CPLError(CE_Warning, CPLE_AppDefined, "%s: A scale of %g is none and is left out.", name.c_str(),
+           scale);
+  return 1;
+}
+
 /// What the dataset says of its band, but for voids.
-void takeFacts(GDALDataset& dataset, GDALRasterBand& band, CopiedHeights& copy) {
+void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& copy) {
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
   tks_heights& heights = copy.heights;
-  heights.scale = band.GetScale();
+  heights.scale = scaleOf(name, band);
   heights.offset = band.GetOffset();
   copy.unit = band.GetUnitType() != nullptr ? band.GetUnitType() : "";
   copy.description = band.GetDescription();
@@ -333,7 +343,7 @@ std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset&
   if (!readSamples(name, band, strict, *copy, progress)) return nullptr;
   takeNodata(band, *copy);
   if (!applyMask(name, band, *copy)) return nullptr;
-  takeFacts(dataset, band, *copy);
+  takeFacts(name, dataset, *copy);
   heights.data = copy->samples.data();
   return copy;
 }

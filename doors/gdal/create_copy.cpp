@@ -103,10 +103,15 @@ bool encode(const std::string& name, const Parts& parts, CopySettings settings, 
   return false;
 }
 
+/// Whether it is there to be opened: /vsistdout/ has passed on what was written.
+bool isFile(const std::string& name) {
+  VSIStatBufL stat;
+  return VSIStatL(name.c_str(), &stat) == 0 && VSI_ISREG(stat.st_mode);
+}
+
 /// What was written of a stream; what is no file of its own, such as /dev/full, stays.
 void discard(const std::string& name) {
-  VSIStatBufL stat;
-  if (VSIStatL(name.c_str(), &stat) == 0 && VSI_ISREG(stat.st_mode)) VSIUnlink(name.c_str());
+  if (isFile(name)) VSIUnlink(name.c_str());
 }
 
 bool write(const std::string& name, const tks_buffer& stream) {
@@ -152,6 +157,16 @@ GDALDataset* openCopy(const std::string& name, GDALDataset& source, double round
   return copy;
 }
 
+/// A stream that has gone where it cannot be read again, out of memory. Nothing goes beside it.
+GDALDataset* openPassedOn(const tks_buffer& stream) {
+  const std::string name = CPLSPrintf("/vsimem/tetrakis-%p.tks", static_cast<void*>(stream.data));
+  if (!write(name, stream)) return nullptr;
+  GDALOpenInfo info(name.c_str(), GA_ReadOnly);
+  GDALDataset* const copy = Dataset::Open(&info);
+  VSIUnlink(name.c_str());  // it stays as long as it is open
+  return copy;
+}
+
 GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
                     const CopySettings& settings, const Progress& progress) {
   Stream stream;
@@ -169,7 +184,7 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
     CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
     return nullptr;
   }
-  return openCopy(name, source, rounding);
+  return isFile(name) ? openCopy(name, source, rounding) : openPassedOn(stream.buffer);
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ GDALColorInterp colourOf(uint32_t channels, uint32_t channel) {
   return kColours[channel];
 }
 
-/// Heights that are void come back as this.
-std::optional<double> nodataOf(const tks_info& info) {
+/// Heights that are void come back as this, which need not be declared.
+std::optional<double> voidValueOf(const tks_info& info) {
   if (info.has_nodata) return info.nodata;
   if (info.has_voids) return std::numeric_limits<double>::quiet_NaN();
   return std::nullopt;
@@ -89,8 +89,8 @@ GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   if (!component) return nullptr;
   source->choose(*component);
   const bool heights = *component == TKS_PART_HEIGHTS;
-  const std::optional<double> nodata = heights ? nodataOf(facts) : std::nullopt;
-  std::unique_ptr<Dataset> dataset(new Dataset(source, nodata, 0));
+  const std::optional<double> voids = heights ? voidValueOf(facts) : std::nullopt;
+  std::unique_ptr<Dataset> dataset(new Dataset(source, voids, 0));
   dataset->takeFacts(facts, heights);
   dataset->takePlace(facts, heights);
   dataset->addOverviews();
@@ -104,8 +104,8 @@ GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   return dataset.release();
 }
 
-Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> nodata, uint32_t level)
-    : source_(std::move(source)), nodata_(nodata), level_(level) {
+Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_value, uint32_t level)
+    : source_(std::move(source)), void_value_(void_value), level_(level) {
   nRasterXSize = static_cast<int>(source_->width(level));
   nRasterYSize = static_cast<int>(source_->height(level));
   if (level > 0) nPamFlags |= GPF_NOSAVE;
@@ -113,9 +113,9 @@ Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> nodata, u
   const bool heights = source_->part() == TKS_PART_HEIGHTS;
   for (uint32_t channel = 0; channel < source_->channels(); ++channel) {
     BandFacts facts;
-    facts.nodata = nodata;
     facts.colour = colourOf(source_->channels(), channel);
     if (heights) {
+      if (info.has_nodata) facts.nodata = info.nodata;
       facts.scale = info.scale;
       facts.offset = info.offset;
       facts.unit = info.unit;
@@ -160,7 +160,7 @@ void Dataset::takePlace(const tks_info& info, bool heights) {
 void Dataset::addOverviews() {
   for (uint32_t level = 1; level <= source_->coarsestLevel() + 1 && level < 31; ++level) {
     if (std::max(source_->width(level - 1), source_->height(level - 1)) <= kOverviewEnds) return;
-    overviews_.emplace_back(new Dataset(source_, nodata_, level));
+    overviews_.emplace_back(new Dataset(source_, void_value_, level));
   }
 }
 
@@ -228,8 +228,8 @@ bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
                   window.width * pixel);
       return true;
     }
-    const FinerLevel finer{pixels, area, width, height, source_->sample(), source_->channels(),
-                           nodata_};
+    const FinerLevel finer{pixels,     area, width, height, source_->sample(), source_->channels(),
+                           void_value_};
     makeOverview(finer, level_, window, out.data());
     return true;
   } catch (const std::bad_alloc&) {

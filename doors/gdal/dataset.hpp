@@ -38,7 +38,7 @@ class Dataset final : public GDALPamDataset {
                          CSLConstList options) override;
 
  private:
-  Dataset(std::shared_ptr<Source> source, std::optional<double> nodata, uint32_t level);
+  Dataset(std::shared_ptr<Source> source, std::optional<double> void_value, uint32_t level);
 
   void takePlace(const tks_info& info, bool heights);
   void takeFacts(const tks_info& info, bool heights);
@@ -46,7 +46,7 @@ class Dataset final : public GDALPamDataset {
   void listSubdatasets();
 
   std::shared_ptr<Source> source_;
-  std::optional<double> nodata_;
+  std::optional<double> void_value_;
   uint32_t level_;  ///< 0: the raster itself; else its overview of that number
   std::optional<std::array<double, 6>> transform_;
   SpatialReference crs_;

@@ -194,6 +194,50 @@ TEST_F(CliTiles, WhatHasNoPlaceOnAGlobeIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(path("t")));
 }
 
+TEST_F(CliTiles, GroundStaysInSight) {
+  // The second is thinner than cells of all but the deepest levels.
+  for (const auto& [width, height] : {std::pair(130U, 110U), {3U, 700U}}) {
+    encode(ramp(width, height, 7.31, 46.2));
+    ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles -f -o t").code, 0);
+    const json tileset = json::parse(content("t/tileset.json"));
+    constexpr double kMetres = 0.001 * 77000;  // from west to east, at least
+    for (const json& error : {tileset["geometricError"], tileset["root"]["geometricError"]})
+      EXPECT_GE(error.get<double>(), kMetres * std::hypot(width, height));
+    ASSERT_TRUE(tileset["root"].contains("children"));
+    std::vector<json> tiles = tileset["root"]["children"];
+    size_t contents = 0;
+    while (!tiles.empty()) {
+      const json tile = tiles.back();
+      tiles.pop_back();
+      ASSERT_TRUE(tile.contains("content"));
+      ++contents;
+      for (const json& child : tile.value("children", json::array())) {
+        EXPECT_LT(child["geometricError"], tile["geometricError"]);
+        tiles.push_back(child);
+      }
+    }
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path("t")))
+      files += entry.path().extension() == ".glb";
+    EXPECT_EQ(contents, files);
+  }
+}
+
+TEST_F(CliTiles, VoidsAreNoGround) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  tools::HeightFile file = ramp(40, 30, 7.31, 46.2);
+  for (size_t i = 0; i < 40 * 30; ++i) std::memcpy(&file.data[4 * i], &none, 4);
+  for (const char* format : {"quantized-mesh", "3dtiles"}) {
+    encode(file);
+    for (const char* bytes : {"", "--bytes 150 "}) {
+      const Outcome run = cli("tiles s.tks " + std::string(bytes) + "-o t --format " + format);
+      EXPECT_EQ(run.code, 1);
+      EXPECT_NE(run.err.find("there is no ground"), std::string::npos) << run.err;
+    }
+    EXPECT_EQ(names(), (std::set<std::string>{"h.tif", "s.tks"}));
+  }
+}
+
 TEST_F(CliTiles, FoldersAppearWholeAndAreNotOverwritten) {
   encode(ramp(9, 9, 7, 46));
   ASSERT_EQ(cli("-q tiles s.tks -o t/").code, 0);

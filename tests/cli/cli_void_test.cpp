@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Voids through the command line: what a file declares, what --nodata says, and what comes back.
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <span>
 
 #include "tests/cli/cli_fixture.hpp"
 #include "tests/support/tiny_tiff.hpp"
@@ -30,6 +33,40 @@ TEST_F(CliVoids, DeclaredNodataComesBackDeclared) {
   ASSERT_TRUE(decoded.ok());
   EXPECT_TRUE(sameBytes(decoded->data, heights.data));
   EXPECT_EQ(decoded->nodata, 65535);
+}
+
+/// A mask in the file leaves samples out of floats as well, and then NaN has to be declared.
+TEST_F(CliVoids, UndeclaredNanStaysUndeclared) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> samples{1, 2, 3, 4, kNone, 6, kNone, 8};
+  const auto bytes = std::as_bytes(std::span(samples));
+  tools::HeightFile heights;
+  heights.width = 4;
+  heights.height = 2;
+  heights.sample = TKS_F32;
+  heights.data.assign(bytes.begin(), bytes.end());
+  for (const bool declared : {false, true}) {
+    heights.nodata = declared ? std::optional(double{kNone}) : std::nullopt;
+    ASSERT_TRUE(tools::writeHeights(path("v.tif"), heights).ok());
+    ASSERT_EQ(cli("-q encode v.tif --lossless -f -o v.tks").code, 0);
+    ASSERT_EQ(cli("-q decode v.tks -f --height w.tif").code, 0);
+    const auto decoded = tools::readHeights(path("w.tif"));
+    ASSERT_TRUE(decoded.ok());
+    EXPECT_TRUE(sameBytes(decoded->data, heights.data));
+    EXPECT_EQ(decoded->nodata.has_value(), declared);
+  }
+  TinyTiff tiff(32, 32, 1, 32, std::vector<uint8_t>(32 * 32 * 4, 0x40));  // 3.0039
+  tiff.shorts(TinyTiff::kSampleFormat, {3});
+  TinyTiff mask(32, 32, 1, 1, std::vector<uint8_t>(32 * 4, 0xF0));
+  mask.longs(TinyTiff::kSubfileType, {4});
+  tiff.addPage(mask);
+  const std::vector<uint8_t> file = tiff.bytes();
+  write("masked.tif", {file.begin(), file.end()});
+  ASSERT_EQ(cli("-q encode masked.tif --lossless -f -o v.tks").code, 0);
+  ASSERT_EQ(cli("-q decode v.tks -f --height w.tif").code, 0);
+  const auto masked = tools::readHeights(path("w.tif"));
+  ASSERT_TRUE(masked.ok() && masked->nodata);
+  EXPECT_TRUE(std::isnan(*masked->nodata));
 }
 
 /// The text of a nodata value and the samples seldom agree to the last bit.

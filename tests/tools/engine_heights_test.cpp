@@ -79,6 +79,39 @@ TEST(EngineHeights, VoidsLieAtTheBottomAndFlatGroundIsZero) {
   EXPECT_EQ(engineHeights({empty, 2, 2, 1, 1, 1}, {Engine::kUnity, 33}).status().code(), TKS_USAGE);
 }
 
+TEST(EngineHeights, TheFirstSampleIsTheNorthWesternOne) {
+  const std::vector<float> north_up{0, 1, 2, 3, 4, 9};  // two rows of three
+  const EngineHeights wanted = heightsOf(north_up, 3, {Engine::kUnity, 33});
+  EXPECT_FALSE(wanted.turned || wanted.askew);
+  struct Case {
+    std::vector<float> heights;
+    uint32_t width;
+    GroundAxes axes;
+  };
+  const std::vector<Case> cases{
+      {{3, 4, 9, 0, 1, 2}, 3, {{1, 0}, {0, -1}}},
+      {{2, 1, 0, 9, 4, 3}, 3, {{-1, 0}, {0, 1}}},
+      {{9, 4, 3, 2, 1, 0}, 3, {{-1, 0}, {0, -1}}},
+      {{0, 3, 1, 4, 2, 9}, 2, {{0, 1}, {1, 0}}},
+      {{3, 0, 4, 1, 9, 2}, 2, {{0, -1}, {1, 0}}},
+      {{2, 9, 1, 4, 0, 3}, 2, {{0, 1}, {-1, 0}}},
+      {{9, 2, 4, 1, 3, 0}, 2, {{0, -1}, {-1, 0}}},
+      {{3, 4, 9, 0, 1, 2}, 3, {{0.8, 0.6}, {0.6, -0.8}}},
+  };
+  for (const auto& [heights, width, axes] : cases) {
+    const bool transposed = width == 2;
+    const auto out = engineHeights(
+        {heights, width, 6 / width, transposed ? 20.0 : 10.0, transposed ? 10.0 : 20.0, 0.5, axes},
+        {Engine::kUnity, 33});
+    ASSERT_TRUE(out.ok());
+    EXPECT_EQ(out->samples, wanted.samples);
+    EXPECT_EQ(out->width, wanted.width);
+    EXPECT_EQ(out->length, wanted.length);
+    EXPECT_TRUE(out->turned);
+    EXPECT_EQ(out->askew, axes.along[0] == 0.8);
+  }
+}
+
 TEST_F(ScratchFolder, EngineFilesAreLittleEndianOrPng) {
   const EngineHeights out = heightsOf({0, 1, 2, 4}, 2, {Engine::kUnreal, 127});
   ASSERT_TRUE(writeEngineHeights(path("a.raw"), out).ok());

@@ -287,6 +287,13 @@ TEST_F(GeoTiff, BrokenTagsCountAsMissing) {
   tiff.ascii(kGdalMetadata, "<GDALMetadata><Item sample=\"0\" role=\"scale\">0</Item><Item");
   tiff.ascii(kGdalNodata, "none");
   expectPlain("metadata that does not parse");
+  tiff.ascii(kGdalMetadata,
+             "<GDALMetadata><Item sample=\"0\" role=\"scale\">0</Item></GDALMetadata>");
+  Notes told;
+  EXPECT_EQ(readHeights(save("a.tif", tiff.bytes()), {}, &told)->scale, 1);
+  ASSERT_FALSE(told.empty());
+  EXPECT_NE(told[0].text.find("scale '0' is none"), std::string::npos) << told[0].text;
+  EXPECT_EQ(told[0].option, "--scale");
   tiff.ascii(kGdalMetadata, "<GDALMetadata><Item role=\"offset\">inf</Item></GDALMetadata>");
   tiff.ascii(kGdalNodata, "");
   expectPlain("metadata that is no number");

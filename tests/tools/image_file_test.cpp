@@ -197,6 +197,50 @@ TEST_F(ScratchFolder, PalettesAreExpandedAndTold) {
   EXPECT_NE(note.find("palette"), std::string::npos);
 }
 
+TEST_F(ScratchFolder, PalettesOfFewBitsAreExpanded) {
+  struct Depth {
+    uint16_t bits;
+    std::vector<uint8_t> rows;  ///< each begins a byte
+  };
+  // Three pixels a row: the places 1, 0, 1 and 0, 1, 1.
+  for (const auto& [bits, rows] :
+       {Depth{1, {0xA0, 0x60}}, Depth{2, {0x44, 0x14}}, Depth{4, {0x10, 0x10, 0x01, 0x10}}}) {
+    TinyTiff tiff(3, 2, 1, bits, rows);
+    tiff.shorts(TinyTiff::kPhotometric, {3});
+    const size_t places = size_t{1} << bits;
+    std::vector<uint16_t> colours(3 * places);
+    for (size_t channel = 0; channel < 3; ++channel) {
+      colours[places * channel] = uint16_t(257 * 10 * (channel + 1));
+      colours[places * channel + 1] = uint16_t(257 * 10 * (channel + 4));
+    }
+    tiff.shorts(TinyTiff::kColorMap, colours);
+    std::string note;
+    expectPixels(readImage(save("a.tif", tiff.bytes()), &note),
+                 {40, 50, 60, 10, 20, 30, 40, 50, 60, 10, 20, 30, 40, 50, 60, 40, 50, 60});
+    EXPECT_NE(note.find("palette"), std::string::npos) << bits;
+    const Status heights = readHeights(path("a.tif")).status();
+    EXPECT_NE(heights.message().find("palette"), std::string::npos) << heights.message();
+  }
+}
+
+TEST_F(ScratchFolder, SamplesThatNothingHasAreNamed) {
+  struct Case {
+    uint16_t format, bits;
+    const char* word;
+  };
+  for (const auto& [format, bits, word] :
+       {Case{1, 64, "64 bits"}, Case{2, 64, "64 bits"}, Case{5, 32, "complex"},
+        Case{6, 64, "complex"}, Case{6, 128, "complex"}}) {
+    TinyTiff tiff(2, 1, 1, bits, std::vector<uint8_t>(bits / 4));
+    tiff.shorts(TinyTiff::kSampleFormat, {format});
+    const std::string name = save("a.tif", tiff.bytes());
+    for (const Status& status : {readImage(name).status(), readHeights(name).status()}) {
+      EXPECT_EQ(status.code(), TKS_USAGE);
+      EXPECT_NE(status.message().find(word), std::string::npos) << status.message();
+    }
+  }
+}
+
 /// Two pixels, blue and red, with colours of 24 bits and with a palette (Windows 3 headers).
 TEST_F(ScratchFolder, OnlyBitmapsWithAPaletteAreSaidToHaveOne) {
   const auto bitmap = [](uint8_t bits, std::vector<uint8_t> behind) {

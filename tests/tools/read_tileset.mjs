@@ -46,6 +46,7 @@ async function walk(tile, parent) {
   if (parent) {
     inside(region, parent.boundingVolume.region);
     assert(tile.geometricError < parent.geometricError);
+    assert(tile.content, 'only the root is empty');
   }
   if (tile.content) {
     const bytes = readFileSync(join(root, tile.content.uri));

@@ -197,6 +197,13 @@ class Decoding {
     if (!heights.ok()) return heights.status();
     if (heights->voids > 0)
       tellNote(std::to_string(heights->voids) + " void samples have the lowest height", quiet_);
+    if (heights->askew)
+      tellNote("the raster lies askew: " + height_->name() + " has north only about at its top",
+               quiet_);
+    if (heights->turned && texture_)
+      tellNote(height_->name() + " has north at its top, which " + texture_->name() +
+                   " has not: turn that alike",
+               quiet_);
     if (arguments_.json) {
       engine_json_ = engineJson(*heights);
     } else if (!quiet_) {

@@ -183,7 +183,8 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   if (!options.ok()) return options.status();
   const Result<std::vector<Camera>> cameras = wantedCameras(arguments, inputs);
   if (!cameras.ok()) return cameras.status();
-  const std::vector<tks_camera> told = toldCameras(*cameras);
+  const GroundAxes axes = inputs.heights ? frameOf(*inputs.heights).axes : GroundAxes();
+  const std::vector<tks_camera> told = toldCameras(*cameras, axes);
   options->cameras = told.data();
   options->camera_count = static_cast<uint32_t>(told.size());
   Result<std::optional<PictureJudge>> judge = wantedJudge(arguments, inputs, *cameras);

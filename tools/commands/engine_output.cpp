@@ -37,7 +37,7 @@ Result<EngineHeights> decodeEngineHeights(Decoder& decoder, const EngineSize& si
   uint32_t level = 0;
   while (level < info.coarsest_level && (longest - 1) >> (level + 1) >= size.side - 1) ++level;
   if (const Status set = decoder.setLevels(level, 0); !set.ok()) return set;
-  const GroundFrame frame = frameOf(info);
+  const PlacedFrame frame = frameOf(info);
   const uint64_t bytes = uint64_t{info.width} * info.height * sizeof(float) +
                          uint64_t{size.side} * size.side * 2 * sizeof(uint16_t);
   const auto fits = decoder.checkMemory(TKS_PART_HEIGHTS, nullptr, 0, bytes + copies);
@@ -46,7 +46,7 @@ Result<EngineHeights> decodeEngineHeights(Decoder& decoder, const EngineSize& si
   if (!surface) return surface.status();
   if (const Status set = decoder.setLevels(0, 0); !set.ok()) return set;
   return engineHeights({*surface, frame.width, frame.height, frame.spacing_x, frame.spacing_y,
-                        frame.metres_per_unit},
+                        frame.metres_per_unit, frame.axes},
                        size);
 }
 

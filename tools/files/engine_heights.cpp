@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "tools/files/little_endian.hpp"
 #include "tools/files/pictures/png.hpp"
@@ -47,6 +48,56 @@ std::vector<Taps> tapsOf(uint32_t side, uint32_t samples) {
                       ((-3 * t + 4) * t + 1) * t / 2, (t - 1) * t * t / 2};
   }
   return taps;
+}
+
+/// Which row and column of the ground a row and a column of the square are.
+struct QuarterTurn {
+  bool transposed, rows_back, columns_back;
+
+  explicit QuarterTurn(const GroundAxes& axes)
+      : transposed(std::abs(axes.along[1]) + std::abs(axes.down[0]) >
+                   std::abs(axes.along[0]) + std::abs(axes.down[1])),
+        rows_back(axes.down[transposed ? 0 : 1] < 0),
+        columns_back(axes.along[transposed ? 1 : 0] < 0) {}
+
+  bool none() const { return !transposed && !rows_back && !columns_back; }
+};
+
+bool isAskew(const GroundAxes& axes) {
+  constexpr double kSlack = 1e-6;
+  const auto leans = [](const std::array<double, 2>& axis) {
+    return std::min(std::abs(axis[0]), std::abs(axis[1])) > kSlack;
+  };
+  return leans(axes.along) || leans(axes.down);
+}
+
+/// The samples of a square, row by row.
+std::vector<uint16_t> resampled(const EngineGround& ground, uint32_t side, const QuarterTurn& turn,
+                                const std::array<double, 2>& range) {
+  const auto [low, high] = range;
+  const double unit = high > low ? 65535 / (high - low) : 0;
+  std::vector<Taps> columns = tapsOf(side, ground.width), rows = tapsOf(side, ground.height);
+  if (turn.columns_back) std::reverse(columns.begin(), columns.end());
+  if (turn.rows_back) std::reverse(rows.begin(), rows.end());
+  std::vector<uint16_t> samples;
+  samples.reserve(size_t{side} * side);
+  for (uint32_t i = 0; i < side; ++i) {
+    for (uint32_t j = 0; j < side; ++j) {
+      const Taps& row = rows[turn.transposed ? j : i];
+      const Taps& column = columns[turn.transposed ? i : j];
+      double sum = 0;
+      for (size_t y = 0; y < 4; ++y) {
+        const float* const line = &ground.heights[row.at[y] * ground.width];
+        for (size_t x = 0; x < 4; ++x) {
+          const double height = line[column.at[x]];
+          sum += row.weight[y] * column.weight[x] * (std::isnan(height) ? low : height);
+        }
+      }
+      samples.push_back(
+          static_cast<uint16_t>(std::lround((std::clamp(sum, low, high) - low) * unit)));
+    }
+  }
+  return samples;
 }
 
 }  // namespace
@@ -98,23 +149,11 @@ Result<EngineHeights> engineHeights(const EngineGround& ground, const EngineSize
   out.highest = high * ground.metres_per_unit;
   out.width = (ground.width - 1) * ground.spacing_x;
   out.length = (ground.height - 1) * ground.spacing_y;
-  const double unit = high > low ? 65535 / (high - low) : 0;
-  const std::vector<Taps> columns = tapsOf(size.side, ground.width);
-  out.samples.reserve(size_t{size.side} * size.side);
-  for (const Taps& row : tapsOf(size.side, ground.height)) {
-    for (const Taps& column : columns) {
-      double sum = 0;
-      for (size_t y = 0; y < 4; ++y) {
-        const float* const line = &ground.heights[row.at[y] * ground.width];
-        for (size_t x = 0; x < 4; ++x) {
-          const double height = line[column.at[x]];
-          sum += row.weight[y] * column.weight[x] * (std::isnan(height) ? low : height);
-        }
-      }
-      out.samples.push_back(
-          static_cast<uint16_t>(std::lround((std::clamp(sum, low, high) - low) * unit)));
-    }
-  }
+  const QuarterTurn turn(ground.axes);
+  if (turn.transposed) std::swap(out.width, out.length);
+  out.samples = resampled(ground, size.side, turn, {low, high});
+  out.turned = !turn.none();
+  out.askew = isAskew(ground.axes);
   return out;
 }
 

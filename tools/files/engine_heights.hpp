@@ -10,6 +10,7 @@
 
 #include "base/status.hpp"
 #include "tools/files/files.hpp"
+#include "tools/files/place/ground_axes.hpp"
 
 namespace tetrakis::tools {
 
@@ -36,6 +37,7 @@ struct EngineGround {
   uint32_t width = 0, height = 0;
   double spacing_x = 0, spacing_y = 0;  ///< metres
   double metres_per_unit = 1;           ///< of the heights
+  GroundAxes axes{};
 };
 
 struct EngineHeights {
@@ -44,10 +46,13 @@ struct EngineHeights {
   double lowest = 0, highest = 0;  ///< metres
   double width = 0, length = 0;    ///< metres from the first sample to the last
   size_t voids = 0;                ///< samples of the ground without a height: the lowest
+  bool turned = false;             ///< the first sample is another one than that of the ground
+  bool askew = false;              ///< rows run neither north and south nor east and west
 };
 
-/// The ground from corner to corner by cubic interpolation (Keys 1981), within its range. TKS_USAGE
-/// if all is void.
+/// The ground from corner to corner by cubic interpolation (Keys 1981), within its range. Engines
+/// know no geotransform: the first row becomes the northern one, and its first sample the western
+/// one, or those that are nearest to that where the ground lies askew. TKS_USAGE if all is void.
 Result<EngineHeights> engineHeights(const EngineGround& ground, const EngineSize& size);
 
 /// .png, or 16-bit samples alone. Writes to `path` directly.

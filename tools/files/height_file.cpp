@@ -43,9 +43,10 @@ PictureSample storedAs(tks_sample sample) {
 
 Result<tks_sample> heightSampleOf(const Raster& raster) {
   const PictureShape& shape = raster.shape;
-  if (shape.channels != 1 || raster.palette) {
-    const int channels = raster.palette ? 3 : shape.channels;
-    return Status(TKS_USAGE, raster.name + " has " + std::to_string(channels) +
+  if (raster.palette)
+    return Status(TKS_USAGE, raster.name + " has a palette: heights are no colours");
+  if (shape.channels != 1) {
+    return Status(TKS_USAGE, raster.name + " has " + std::to_string(shape.channels) +
                                  " channels: heights are one channel");
   }
   if (raster.white_is_zero) {

@@ -85,11 +85,7 @@ Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_windo
   file.registration = info.registration;
   file.geo_keys = info.geo_keys;
   if (info.has_geotransform) file.geotransform = placedAt(info.geotransform, window);
-  if (info.has_nodata) {
-    file.nodata = info.nodata;
-  } else if (info.has_voids) {
-    file.nodata = std::numeric_limits<double>::quiet_NaN();
-  }
+  if (info.has_nodata) file.nodata = info.nodata;
   return file;
 }
 

@@ -189,12 +189,11 @@ Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& n
   if (std::find(mask.begin(), mask.end(), 0) == mask.end()) return {};
   std::optional<double> value =
       heights.nodata ? asSample(*heights.nodata, heights.sample) : std::nullopt;
-  if (!value && heights.sample == TKS_F32) value = std::numeric_limits<double>::quiet_NaN();
   if (!value) {
     value = visitSamples(std::as_const(heights), [&mask](auto samples) {
       using T = std::remove_cvref_t<decltype(samples[0])>;
       if constexpr (std::is_integral_v<T>) return freeValue<T>(samples, mask);
-      return std::optional<double>();
+      return std::optional(std::numeric_limits<double>::quiet_NaN());
     });
     if (!value) {
       return {TKS_USAGE,
@@ -202,7 +201,9 @@ Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& n
               "bits"};
     }
     heights.nodata = value;
-    notes.push_back({"its mask is read as the nodata value " + textOf(*value, heights.sample), ""});
+    if (heights.sample != TKS_F32)
+      notes.push_back(
+          {"its mask is read as the nodata value " + textOf(*value, heights.sample), ""});
   }
   visitSamples(heights, [&mask, &value](auto samples) {
     using T = std::remove_reference_t<decltype(samples[0])>;

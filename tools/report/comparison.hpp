@@ -69,7 +69,7 @@ class Comparer {
   Status drawAndScore(MeshFile& mesh, const ImageFile* texture, Measurement& result);
 
   const Reference* reference_;
-  GroundFrame frame_;
+  PlacedFrame frame_;
   Surface surface_;  ///< reference heights in the unit of the stream, or a flat 2 x 2 stand-in
   std::unique_ptr<Renderer> renderer_;
   CameraChoice choice_;

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "base/length_unit.hpp"
+#include "ground/vec3.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -23,14 +25,23 @@ void appendSamples(std::span<const std::byte> data, std::vector<double>& values)
   }
 }
 
-void appendVertex(const GroundFrame& frame, uint32_t grid_index, double height, MeshFile& mesh) {
+void appendVertex(const PlacedFrame& frame, uint32_t grid_index, double height, MeshFile& mesh) {
   const double column = grid_index % frame.width, row = grid_index / frame.width;
   const double last_column = frame.width - 1.0, last_row = frame.height - 1.0;
-  mesh.positions.push_back(static_cast<float>((column - last_column / 2) * frame.spacing_x));
+  const auto [east, south] = frame.axes.placed((column - last_column / 2) * frame.spacing_x,
+                                               (row - last_row / 2) * frame.spacing_y);
+  mesh.positions.push_back(static_cast<float>(east));
   mesh.positions.push_back(static_cast<float>(height * frame.metres_per_unit));
-  mesh.positions.push_back(static_cast<float>((row - last_row / 2) * frame.spacing_y));
+  mesh.positions.push_back(static_cast<float>(south));
   mesh.texcoords.push_back(static_cast<float>(column / last_column));
   mesh.texcoords.push_back(static_cast<float>(row / last_row));
+}
+
+/// Triangles of a mirrored raster run clockwise on the ground.
+void turnTriangles(const GroundAxes& axes, MeshFile& mesh) {
+  if (!axes.mirrored()) return;
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3)
+    std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
 }
 
 /// Unless a corner is void.
@@ -72,18 +83,24 @@ void rasterizeTriangle(const Corner& a, const Corner& b, const Corner& c, Surfac
 
 }  // namespace
 
-GroundFrame frameOf(const HeightFile& heights) {
-  return knownFrame({heights.width, heights.height, heights.spacing_x, heights.spacing_y,
-                     metresPerUnit(heights.unit).value_or(1)});
+PlacedFrame frameOf(const HeightFile& heights) {
+  PlacedFrame frame = knownFrame({heights.width, heights.height, heights.spacing_x,
+                                  heights.spacing_y, metresPerUnit(heights.unit).value_or(1)});
+  if (heights.geotransform)
+    frame.axes = groundAxes(*heights.geotransform, heights.width, heights.height, heights.crs);
+  return frame;
 }
 
-GroundFrame frameOf(const tks_info& info) {
-  return knownFrame({info.width, info.height, info.spacing_x, info.spacing_y,
-                     metresPerUnit(info.unit).value_or(1)});
+PlacedFrame frameOf(const tks_info& info) {
+  PlacedFrame frame = knownFrame({info.width, info.height, info.spacing_x, info.spacing_y,
+                                  metresPerUnit(info.unit).value_or(1)});
+  if (info.has_geotransform)
+    frame.axes = groundAxes(std::to_array(info.geotransform), info.width, info.height, info.crs);
+  return frame;
 }
 
-GroundFrame frameOf(const ImageFile& image) {
-  return {2, 2, static_cast<double>(image.width), static_cast<double>(image.height), 1};
+PlacedFrame frameOf(const ImageFile& image) {
+  return GroundFrame{2, 2, static_cast<double>(image.width), static_cast<double>(image.height), 1};
 }
 
 Surface samplesOf(uint32_t width, uint32_t height, tks_sample sample,
@@ -139,7 +156,7 @@ Surface rasterize(const Mesh& mesh, uint32_t width, uint32_t height) {
   return surface;
 }
 
-MeshFile fullGrid(const Surface& heights, const GroundFrame& frame) {
+MeshFile fullGrid(const Surface& heights, const PlacedFrame& frame) {
   MeshFile mesh;
   const uint32_t w = heights.width, h = heights.height;
   mesh.positions.reserve(heights.values.size() * 3);
@@ -162,20 +179,22 @@ MeshFile fullGrid(const Surface& heights, const GroundFrame& frame) {
         appendTriangle(heights, {ne, sw, se}, mesh);
       }
     }
+  turnTriangles(frame.axes, mesh);
   return mesh;
 }
 
-MeshFile placeMesh(const Mesh& mesh, const GroundFrame& frame) {
+MeshFile placeMesh(const Mesh& mesh, const PlacedFrame& frame) {
   MeshFile placed;
   placed.positions.reserve(size_t{3} * mesh.vertexCount());
   placed.texcoords.reserve(size_t{2} * mesh.vertexCount());
   for (uint32_t v = 0; v < mesh.vertexCount(); ++v)
     appendVertex(frame, mesh.gridIndices()[v], mesh.heights()[v], placed);
   placed.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+  turnTriangles(frame.axes, placed);
   return placed;
 }
 
-Bounds boundsOf(const Surface& heights, const GroundFrame& frame) {
+Bounds boundsOf(const Surface& heights, const PlacedFrame& frame) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double height : heights.values) {
     if (std::isnan(height)) continue;
@@ -183,19 +202,29 @@ Bounds boundsOf(const Surface& heights, const GroundFrame& frame) {
     high = std::max(high, height);
   }
   if (low > high) low = high = 0;
-  const double x = (frame.width - 1.0) * frame.spacing_x / 2;
-  const double z = (frame.height - 1.0) * frame.spacing_y / 2;
+  const double along = (frame.width - 1.0) * frame.spacing_x / 2;
+  const double down = (frame.height - 1.0) * frame.spacing_y / 2;
+  const auto reach = [&](size_t k) {
+    return std::abs(frame.axes.along[k]) * along + std::abs(frame.axes.down[k]) * down;
+  };
+  const double x = reach(0), z = reach(1);
   return {{-x, low * frame.metres_per_unit, -z}, {x, high * frame.metres_per_unit, z}};
 }
 
-std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras) {
+std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras, const GroundAxes& axes) {
+  const auto tell = [&axes](const Vec3& from, double* to) {
+    const auto [along, down] = axes.unplaced(from[0], from[2]);
+    to[0] = along;
+    to[1] = from[1];
+    to[2] = down;
+  };
   std::vector<tks_camera> told;
   for (const Camera& camera : cameras) {
     tks_camera& c = told.emplace_back();
     c.name = camera.name.c_str();
-    std::copy(camera.eye.begin(), camera.eye.end(), c.eye);
-    std::copy(camera.target.begin(), camera.target.end(), c.target);
-    std::copy(camera.up.begin(), camera.up.end(), c.up);
+    tell(camera.eye, c.eye);
+    tell(camera.target, c.target);
+    tell(camera.up, c.up);
     c.fov_y = camera.fov_y;
     c.width = camera.width;
     c.height = camera.height;

@@ -11,6 +11,7 @@
 #include "ground/frame.hpp"
 #include "tetrakis/tetrakis.hpp"
 #include "tools/files/files.hpp"
+#include "tools/files/place/ground_axes.hpp"
 #include "tools/render/render.hpp"
 
 namespace tetrakis::tools {
@@ -21,12 +22,23 @@ struct Surface {
   std::vector<double> values;
 };
 
-/// The frame of a height field (knownFrame()); a unit that is no length counts as metres.
-GroundFrame frameOf(const HeightFile& heights);
-GroundFrame frameOf(const tks_info& info);
+/// A frame that also knows which way the raster lies: x is east and z is south whatever way its rows
+/// and columns run.
+struct PlacedFrame : GroundFrame {
+  PlacedFrame() = default;
+  PlacedFrame(const GroundFrame& frame) : GroundFrame(frame) {}
+  PlacedFrame(const GroundFrame& frame, const GroundAxes& lies) : GroundFrame(frame), axes(lies) {}
+
+  GroundAxes axes;
+};
+
+/// The frame of a height field (knownFrame()); a unit that is no length counts as metres, and a
+/// raster without a geotransform begins in the north-west.
+PlacedFrame frameOf(const HeightFile& heights);
+PlacedFrame frameOf(const tks_info& info);
 
 /// The frame of a texture without heights: a flat rectangle of one metre a texel, 2 x 2 samples.
-GroundFrame frameOf(const ImageFile& image);
+PlacedFrame frameOf(const ImageFile& image);
 
 /// `width` x `height` samples of any type as doubles, exactly.
 Surface samplesOf(uint32_t width, uint32_t height, tks_sample sample,
@@ -42,13 +54,13 @@ Surface rasterize(const Mesh& mesh, uint32_t width, uint32_t height);
 
 /// Every sample a vertex, every cell two triangles with the diagonals of the tetrakis tiling, but
 /// for triangles that touch a void (NaN).
-MeshFile fullGrid(const Surface& heights, const GroundFrame& frame);
+MeshFile fullGrid(const Surface& heights, const PlacedFrame& frame);
 
 /// A decoded mesh in space, texture coordinates (column / (width - 1), row / (height - 1)).
-MeshFile placeMesh(const Mesh& mesh, const GroundFrame& frame);
+MeshFile placeMesh(const Mesh& mesh, const PlacedFrame& frame);
 
 /// Bounds of the placed surface, voids left out.
-Bounds boundsOf(const Surface& heights, const GroundFrame& frame);
+Bounds boundsOf(const Surface& heights, const PlacedFrame& frame);
 
 /// The cameras of --cameras FILE or --view NAME; both empty: the oblique view.
 struct CameraChoice {
@@ -56,8 +68,9 @@ struct CameraChoice {
   std::string view;
   bool isDefault() const { return file.empty() && view.empty(); }
 };
-/// As encoders are told of them; the names are those of `cameras`, which outlive the result.
-std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras);
+/// As encoders are told of them, whose x runs along rows and z down columns: exactly, where these
+/// are perpendicular. The names are those of `cameras`, which outlive the result.
+std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras, const GroundAxes& axes);
 
 Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds);
 

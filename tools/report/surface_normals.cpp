@@ -16,14 +16,17 @@ constexpr uint64_t kMaxNormalSamples = uint64_t{1} << 24;
 /// Heights in units of the stream, NaN where void.
 class Slopes {
  public:
-  Slopes(std::vector<float> heights, const GroundFrame& frame)
+  Slopes(std::vector<float> heights, const PlacedFrame& frame)
       : heights_(std::move(heights)), frame_(frame) {}
+
+  const GroundAxes& axes() const { return frame_.axes; }
 
   /// East, up, south.
   std::array<double, 3> normalAt(uint32_t column, uint32_t row) const {
     const size_t at = size_t{row} * frame_.width + column;
-    const double x = slope(at, column, frame_.width, 1) / frame_.spacing_x;
-    const double z = slope(at, row, frame_.height, frame_.width) / frame_.spacing_y;
+    const auto [x, z] =
+        frame_.axes.placedSlope(slope(at, column, frame_.width, 1) / frame_.spacing_x,
+                                slope(at, row, frame_.height, frame_.width) / frame_.spacing_y);
     const double length = std::hypot(x, 1, z);
     if (!std::isfinite(length)) return {0, 1, 0};
     return {-x / length, 1 / length, -z / length};
@@ -42,7 +45,7 @@ class Slopes {
   }
 
   std::vector<float> heights_;
-  GroundFrame frame_;
+  PlacedFrame frame_;
 };
 
 Result<Slopes> slopesOf(Decoder& decoder, uint64_t copies) {
@@ -98,10 +101,15 @@ Result<ImageFile> normalMap(Decoder& decoder, uint64_t copies) {
   if (!slopes.ok()) return slopes.status();
   ImageFile map{info.width, info.height, 3, TKS_U8, {}};
   map.data.reserve(3 * texels);
+  // Renderers take up to be perpendicular to right, on the side where rows are smaller.
+  const std::array<double, 2>& right = slopes->axes().along;
+  const double side = slopes->axes().mirrored() ? -1 : 1;
+  const std::array<double, 2> up{right[1] * side, -right[0] * side};
   for (uint32_t row = 0; row < info.height; ++row) {
     for (uint32_t column = 0; column < info.width; ++column) {
-      const std::array<double, 3> normal = slopes->normalAt(column, row);
-      map.data.insert(map.data.end(), {asByte(normal[0]), asByte(-normal[2]), asByte(normal[1])});
+      const auto [east, height, south] = slopes->normalAt(column, row);
+      map.data.insert(map.data.end(), {asByte(east * right[0] + south * right[1]),
+                                       asByte(east * up[0] + south * up[1]), asByte(height)});
     }
   }
   return map;

@@ -21,8 +21,8 @@ uint32_t normalLevel(const tks_info& whole);
 Result<std::vector<float>> surfaceNormals(Decoder& decoder, std::span<const uint32_t> samples);
 
 /// The normals of all samples of the level that is set, in the tangent space of flat ground as glTF
-/// has it: red east, green north (up in the picture), blue up; 8 bits, -1 to 1 as 0 to 255. copies:
-/// bytes that have to fit beside.
+/// has it: red along rows (east, where the first row is the northern one), green up in the picture
+/// (north), blue up; 8 bits, -1 to 1 as 0 to 255. copies: bytes that have to fit beside.
 Result<ImageFile> normalMap(Decoder& decoder, uint64_t copies);
 
 }  // namespace tetrakis::tools

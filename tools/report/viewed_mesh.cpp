@@ -42,7 +42,7 @@ Status checkSight(Decoder& decoder, const std::vector<Camera>& cameras) {
 
 }  // namespace
 
-std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame) {
+std::array<double, 16> clipOf(const Camera& camera, const PlacedFrame& frame) {
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
   const double tan_y = std::tan(camera.fov_y * std::numbers::pi / 360);
   const double tan_x = tan_y * camera.width / camera.height;
@@ -51,7 +51,9 @@ std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame) {
   const Vec3 rows[4] = {scale(axes.right, 1 / tan_x), scale(axes.up, 1 / tan_y), {}, axes.forward};
   std::array<double, 16> clip;
   for (size_t i = 0; i < 4; ++i) {
-    const auto& [x, y, z] = rows[i];
+    const auto& [east, y, south] = rows[i];
+    const double x = east * frame.axes.along[0] + south * frame.axes.along[1];
+    const double z = east * frame.axes.down[0] + south * frame.axes.down[1];
     clip[4 * i] = x * frame.spacing_x;
     clip[4 * i + 1] = z * frame.spacing_y;
     clip[4 * i + 2] = y * frame.metres_per_unit;
@@ -75,7 +77,7 @@ Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice
   return std::move(*mesh);
 }
 
-tks_screen_camera meshCamera(const Camera& camera, const GroundFrame& frame) {
+tks_screen_camera meshCamera(const Camera& camera, const PlacedFrame& frame) {
   tks_screen_camera result = makeScreenCamera();
   result.width = camera.width;
   result.height = camera.height;

@@ -11,7 +11,7 @@
 namespace tetrakis::tools {
 
 /// Clip coordinates of (column, row, height, 1) for tks_view_mesh: row by row, the third row zero.
-std::array<double, 16> clipOf(const Camera& camera, const GroundFrame& frame);
+std::array<double, 16> clipOf(const Camera& camera, const PlacedFrame& frame);
 
 /// The chosen cameras, over the decoded surface.
 Result<std::vector<Camera>> camerasOver(Decoder& decoder, const CameraChoice& choice);
@@ -21,7 +21,7 @@ Result<std::vector<Camera>> camerasOver(Decoder& decoder, const CameraChoice& ch
 Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice);
 
 /// The camera for tks_decode_screen_mesh, over the heights of this frame.
-tks_screen_camera meshCamera(const Camera& camera, const GroundFrame& frame);
+tks_screen_camera meshCamera(const Camera& camera, const PlacedFrame& frame);
 
 /// The mesh of at most `triangles` > 0 triangles that is best for the chosen cameras; nothing
 /// chosen: for a map. texture: what covers the ground, or null. TKS_USAGE with the name of a camera

@@ -2,6 +2,8 @@
 // Where the samples of a stream lie in longitude and latitude.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -19,6 +21,10 @@ struct LevelSurface {
   std::vector<float> heights;
   uint32_t width = 0, height = 0;
   uint32_t level = 0;  ///< sample (x, y) lies on sample (x 2^level, y 2^level) of level 0
+
+  bool allVoid() const {
+    return std::all_of(heights.begin(), heights.end(), [](float h) { return std::isnan(h); });
+  }
 };
 
 /// Not thread safe.

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tools/files/meshes/mesh_writers.hpp"
+#include "tools/files/place/earth.hpp"
 #include "tools/tiles/placed_mesh.hpp"
 
 namespace tetrakis::tools {
@@ -79,6 +80,21 @@ json volumeOf(const GeographicBounds& b, double lowest, double highest) {
             highest}}};
 }
 
+/// How far the ground reaches, in metres: what is missing where nothing is shown.
+double extentOf(const GeographicBounds& b) {
+  const MetresPerDegree metres = metresPerDegree((b.south + b.north) / 2);
+  return std::hypot((b.east - b.west) * metres.east, (b.north - b.south) * metres.north);
+}
+
+/// A tile without ground of its own shows nothing, from however near: those below it take its place.
+void adopt(json& children, json tile) {
+  if (tile.contains("content")) {
+    children.push_back(std::move(tile));
+  } else {
+    for (json& child : tile["children"]) children.push_back(std::move(child));
+  }
+}
+
 }  // namespace
 
 TileMesh groundOf(const TileMesh& mesh) {
@@ -123,7 +139,7 @@ Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& ground,
       if (child == below_.end()) continue;
       node.lowest = std::min(node.lowest, child->second.lowest);
       node.highest = std::max(node.highest, child->second.highest);
-      children.push_back(std::move(child->second.tile));
+      adopt(children, std::move(child->second.tile));
       below_.erase(child);
     }
   }
@@ -155,15 +171,17 @@ json GroundTileset::document() const {
     const Node& node = item.second;
     lowest = children.empty() ? node.lowest : std::min(lowest, node.lowest);
     highest = children.empty() ? node.highest : std::max(highest, node.highest);
-    children.push_back(node.tile);
+    adopt(children, node.tile);
   }
-  // Nothing is nothing at 16 times the error of the first tiles.
+  // The root has no mesh. Until all of the ground is smaller than the error that a viewer allows,
+  // it has to show those below.
+  const double error = std::max(extentOf(bounds_), 2 * error_);
   json root{{"boundingVolume", volumeOf(bounds_, lowest, highest)},
-            {"geometricError", 16 * error_},
+            {"geometricError", error},
             {"refine", "REPLACE"}};
   if (!children.empty()) root["children"] = std::move(children);
   return {{"asset", {{"version", "1.1"}, {"generator", "Tetrakis"}}},
-          {"geometricError", 16 * error_},
+          {"geometricError", error},
           {"root", root}};
 }
 

@@ -32,7 +32,7 @@ class GroundTileset {
   explicit GroundTileset(const GeographicBounds& bounds) : bounds_(bounds) {}
 
   /// Tiles come level by level, from the deepest up. Returns the tile's GLB; no bytes: it has no
-  /// ground, and none of the tiles below is lost by that. texture: its outer texels lie on the
+  /// ground, and the tiles below it become those of the tile above. texture: its outer texels lie on the
   /// edges of the tile; null: none.
   Result<std::vector<std::byte>> add(const TileMesh& ground, const GeographicTile& tile,
                                      const TileErrors& errors, const ImageFile* texture);
@@ -52,7 +52,7 @@ class GroundTileset {
 
   GeographicBounds bounds_;
   uint32_t level_ = 0;
-  double error_ = 0;     ///< of the level
+  double error_ = 0;     ///< that viewers go by on the level
   Level nodes_, below_;  ///< of the level, and those that no tile of it has taken yet
 };
 

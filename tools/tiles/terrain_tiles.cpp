@@ -47,6 +47,10 @@ json rangeJson(const TileRange& range) {
   return ranges;
 }
 
+Status noGround() {
+  return {TKS_USAGE, "the heights are void: there is no ground to make tiles of"};
+}
+
 /// Writes level by level, from the deepest up.
 class TileWriter {
  public:
@@ -78,6 +82,7 @@ class TileWriter {
   Result<TileSetSize> write(const std::function<void(double)>& progress) {
     for (uint32_t level = written_.deepest + 1; level-- > written_.first;) {
       if (Status status = decodeFor(level); !status.ok()) return status;
+      if (level == written_.deepest && surface_.allVoid()) return noGround();
       TerrainLevel terrain(ground_, surface_, metres_, ranges_[level]);
       if (level == written_.deepest) heights_ = rangeOf(surface_);
       terrain.chooseVertices(levelError(level) / 2, meshes());
@@ -89,6 +94,7 @@ class TileWriter {
       if (Status status = writeLevel(terrain); !status.ok()) return status;
       progress(1 - std::ldexp(1, -2 * static_cast<int>(written_.deepest + 1 - level)));
     }
+    if (written_.tiles == 0) return noGround();
     const json document = meshes() ? tileset_.document() : layer();
     const std::string text = document.dump(2) + "\n";
     const char* const name = meshes() ? "tileset.json" : "layer.json";

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """CreateCopy: every type and creation option, places and reference systems, what is refused."""
 
+import os
 import resource
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -302,6 +304,34 @@ def test_nodata_of_floats(tmp_path, nodata):
     np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray() == 0, void)
 
 
+@pytest.mark.parametrize("dtype", ["f4", "f8"])
+def test_nan_without_nodata_stays_undeclared(tmp_path, dtype):
+    """As GDAL copies it. Overviews leave it out of their means all the same."""
+    heights = terrain(600, 700).astype(dtype)
+    heights[30:91, 50:201] = np.nan
+    band = first_band(copy(heights, tmp_path / "a.tks"))
+    np.testing.assert_array_equal(band.ReadAsArray(), heights)
+    assert band.GetNoDataValue() is None and band.GetMaskFlags() == gdal.GMF_ALL_VALID
+    coarse = band.GetOverview(0).ReadAsArray()
+    np.testing.assert_array_equal(np.isnan(coarse), np.isnan(heights).reshape(300, 2, 350, 2)
+                                  .all(axis=(1, 3)))
+    declared = first_band(copy(memory(heights, nodata=np.nan), tmp_path / "b.tks"))
+    assert np.isnan(declared.GetNoDataValue())
+
+
+def test_a_scale_of_0_is_none(tmp_path):
+    heights = terrain(20, 30, "i2")
+    heard = []
+    gdal.PushErrorHandler(lambda *error: heard.append(error[2]))
+    try:
+        dataset = copy(memory(heights, scale=0, offset=7), tmp_path / "a.tks")
+    finally:
+        gdal.PopErrorHandler()
+    assert [text for text in heard if "scale of 0 is none" in text]
+    np.testing.assert_array_equal(dataset.ReadAsArray(), heights)
+    assert (dataset.GetRasterBand(1).GetScale(), dataset.GetRasterBand(1).GetOffset()) == (1, 7)
+
+
 @pytest.mark.parametrize("dtype", ["u1", "i2", "u2", "f4"])
 def test_masks_become_nodata(tmp_path, dtype):
     heights = terrain(30, 40, dtype) // 2 + 1
@@ -438,6 +468,26 @@ def test_virtual_files():
     np.testing.assert_array_equal(copy(heights, "/vsimem/a.tks").ReadAsArray(), heights)
     np.testing.assert_array_equal(gdal.Open('TKS:"/vsimem/a.tks":heights').ReadAsArray(), heights)
     gdal.Unlink("/vsimem/a.tks")
+
+
+def test_streams_that_are_passed_on(tmp_path):
+    """What goes to /vsistdout/ cannot be opened again."""
+    source, name = str(tmp_path / "a.tif"), tmp_path / "a.tks"
+    gdal.GetDriverByName("GTiff").CreateCopy(source, memory(terrain(60, 80, "i2"), nodata=0))
+    translate = ["gdal_translate", "-q", "-of", "TKS", source]
+    subprocess.run([*translate, str(name)], check=True)
+    written = subprocess.run([*translate, "/vsistdout/"], check=True, capture_output=True)
+    assert written.stdout == name.read_bytes() and written.stderr == b""
+    # Who copies gets a dataset all the same, and nothing stays behind.
+    script = (
+        "from osgeo import gdal; import sys; source = gdal.Open(sys.argv[1]);"
+        "copy = gdal.GetDriverByName('TKS').CreateCopy('/vsistdout/', source);"
+        "assert (copy.ReadAsArray() == source.ReadAsArray()).all();"
+        "assert not gdal.ReadDir('/vsimem/')"
+    )
+    done = subprocess.run([sys.executable, "-c", script, source], check=True, capture_output=True)
+    assert done.stdout == name.read_bytes()
+    assert set(os.listdir(tmp_path)) == {"a.tif", "a.tks"}
 
 
 @pytest.mark.parametrize("stop", [0.0, 0.05, 0.3, 0.9, 1.0])

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The functions that imagecodecs' codecs have, and the codecs of numcodecs and Zarr."""
 
-import asyncio
+import dataclasses
 import importlib
+import pickle
 import sys
 import types
 from concurrent.futures import ThreadPoolExecutor
@@ -10,6 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from conftest import SAMPLES, photograph, terrain
+from zarr_3 import Array, install
 
 import tetrakis
 
@@ -63,6 +65,7 @@ def test_numcodecs_configuration(codec):
 
     lossy = codec(max_error=0.25, nodata=-9999)
     assert numcodecs.get_codec(lossy.get_config()) == lossy
+    assert pickle.loads(pickle.dumps(lossy)) == lossy
     chunk = terrain(40, 40)
     chunk[3:9, 5:9] = -9999
     decoded = lossy.decode(lossy.encode(chunk))
@@ -96,36 +99,44 @@ def test_zarr_2_arrays(codec):
 
 @pytest.fixture
 def zarr_3(monkeypatch):
-    """tetrakis.zarr over Zarr 3, or over a stand-in of the one class that it takes from there:
-    Debian 12 has Zarr 2."""
-    try:
-        importlib.import_module("zarr.abc.codec")
-    except ImportError:
-        stand_in = types.ModuleType("zarr.abc.codec")
-        stand_in.ArrayBytesCodec = type("ArrayBytesCodec", (), {})
-        for name in ("zarr", "zarr.abc"):
-            monkeypatch.setitem(sys.modules, name, types.ModuleType(name))
-        monkeypatch.setitem(sys.modules, "zarr.abc.codec", stand_in)
+    """tetrakis.zarr over the interface of Zarr 3 (zarr_3.py)."""
+    install(monkeypatch)
     monkeypatch.delitem(sys.modules, "tetrakis.zarr", raising=False)
     return importlib.import_module("tetrakis.zarr")
 
 
-class Held:
-    """What Zarr 3 hands to a codec, as far as it is looked at: a Buffer or an NDBuffer."""
+@pytest.mark.parametrize("dtype", SAMPLES)
+def test_zarr_3_arrays(zarr_3, dtype):
+    heights = terrain(70, 40, dtype)
+    heights[:32, :16] = 0
+    array, store = Array.create(heights, (32, 16), zarr_3.TetrakisCodec())
+    np.testing.assert_array_equal(array.read(), heights)
+    assert "c/0/0" not in store and tetrakis.tks_check(store["c/2/2"])
+    np.testing.assert_array_equal(Array(store).read(), heights)
 
-    def __init__(self, held):
-        self.to_bytes = self.as_ndarray_like = lambda: held
+
+@pytest.mark.parametrize("layers, chunks", [(terrain()[None], (1, 20, 30)),
+                                            (photograph(40, 48), (32, 32, 3)),
+                                            (photograph(40, 48, 1)[..., None], (32, 32, 1))])
+def test_zarr_3_axes(zarr_3, layers, chunks):
+    array, _ = Array.create(layers, chunks, zarr_3.TetrakisCodec())
+    np.testing.assert_array_equal(array.read(), layers)
 
 
-@pytest.mark.parametrize("chunk", [terrain(32, 33), photograph(32, 32), terrain()[None]])
-def test_zarr_3_chunks_come_back(zarr_3, chunk):
-    buffers = types.SimpleNamespace(from_bytes=Held, from_ndarray_like=Held)
-    prototype = types.SimpleNamespace(buffer=buffers, nd_buffer=buffers)
-    spec = types.SimpleNamespace(prototype=prototype, shape=chunk.shape)
-    codec = zarr_3.TetrakisCodec()
-    stream = asyncio.run(codec._encode_single(Held(chunk), spec))
-    decoded = asyncio.run(codec._decode_single(stream, spec)).as_ndarray_like()
-    np.testing.assert_array_equal(decoded, chunk)
+def test_zarr_3_lossy_and_refused(zarr_3):
+    heights = terrain(70, 40)
+    array, _ = Array.create(heights, (32, 16), zarr_3.TetrakisCodec(max_error=0.25))
+    assert 0 < np.abs(array.read() - heights).max() <= 0.25
+    with pytest.raises(tetrakis.TksUsageError, match="neither"):
+        Array.create(np.ones(9, "f4"), (4,), zarr_3.TetrakisCodec())
+    wrapped = types.SimpleNamespace(to_native_dtype=lambda: np.dtype("f8"))  # Zarr 3.1
+    for dtype in (np.dtype("f8"), np.dtype("c8"), wrapped):
+        with pytest.raises(tetrakis.TksUsageError, match="A chunk of type"):
+            zarr_3.TetrakisCodec().validate(shape=(8, 9), dtype=dtype, chunk_grid=(4, 4))
+    with pytest.raises(NotImplementedError):
+        zarr_3.TetrakisCodec().compute_encoded_size(4096, None)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        zarr_3.TetrakisCodec().bytes = 5
 
 
 def test_zarr_3_configuration(zarr_3):

@@ -46,6 +46,43 @@ def test_prefixes_can_be_taken_in_four_ways(stream, tmp_path):
         tetrakis.truncate(stream, 10)
 
 
+class ShortReads(io.RawIOBase):
+    """Gives 100 bytes at most, as a pipe or a socket may."""
+
+    def __init__(self, data):
+        self._rest = data
+
+    def readable(self):
+        return True
+
+    def readinto(self, buffer):
+        part = self._rest[: min(100, len(buffer))]
+        buffer[: len(part)] = part
+        self._rest = self._rest[len(part) :]
+        return len(part)
+
+
+def test_files_that_give_less_than_they_are_asked_for(stream):
+    for count in (2000, None, len(stream) + 9):
+        wanted = tetrakis.open(stream, bytes=count).info
+        assert tetrakis.open(ShortReads(stream), bytes=count).info == wanted
+    spread = memoryview(np.repeat(np.frombuffer(stream, "u1"), 2))[::2]
+    assert tetrakis.open(spread).info == tetrakis.open(stream).info
+    closed = io.BytesIO(stream)
+    closed.close()
+    with pytest.raises(ValueError, match="closed"):
+        tetrakis.open(closed)
+
+
+def test_what_is_open_goes_to_other_processes(stream):
+    opened = pickle.loads(pickle.dumps(tetrakis.open(stream)))
+    np.testing.assert_array_equal(opened.heights(), tetrakis.open(stream).heights())
+    with pytest.raises(tetrakis.TksCorruptError) as caught:
+        tetrakis.open(b"GIF89a, or so")
+    sent = pickle.loads(pickle.dumps(caught.value))
+    assert sent.code == caught.value.code and str(sent) == str(caught.value)
+
+
 def test_more_bytes_are_nearer(stream, heights):
     opened = tetrakis.open(stream)
     errors = [np.mean((opened.surface(bytes=n) - heights) ** 2) for n in (300, 1000, 2000, 4000)]
@@ -155,10 +192,12 @@ def test_meshes(stream, heights):
 
 
 def test_meshes_of_flipped_grids_face_up(heights):
-    south_up = tetrakis.encode(heights, psnr=30, geotransform=(0, 10, 0, 0, 0, 10))
+    place = (0, 10, 0, 0, 0, 10)
+    south_up = tetrakis.encode(heights, psnr=30, geotransform=place, spacing=10)
     with tetrakis.open(south_up) as opened:
-        assert faces_up(opened.mesh(100, coordinates="crs"))
-        assert faces_up(opened.mesh(100))
+        ground, local = opened.mesh(100, coordinates="crs"), opened.mesh(100)
+        assert faces_up(ground) and faces_up(local)
+        np.testing.assert_allclose(ground.vertices - local.vertices, [[5, 5, 0]] * len(local[0]))
 
 
 def test_textures_with_a_place_of_their_own_meet_the_mesh(heights, texture):

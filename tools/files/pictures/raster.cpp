@@ -15,6 +15,7 @@
 #include "tools/files/pictures/plain_tiff.hpp"
 #include "tools/files/pictures/png.hpp"
 #include "tools/files/pictures/stored_form.hpp"
+#include "tools/files/pictures/tiff.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -71,6 +72,8 @@ Result<Raster> openUnguarded(const std::string& path) {
   raster.reader = openPlainTiff(raster.file.path());
   raster.plain = raster.reader != nullptr;
   if (!raster.plain) {
+    const Status taken = checkTiffSamples(raster.file.path(), raster.name);
+    if (!taken.ok()) return taken;
     auto reader = openByOpenImageIo(raster.file.path());
     if (!reader.ok()) return unreadable(raster.name, reader.status().message());
     raster.reader = std::move(*reader);

@@ -25,9 +25,8 @@ Status noteTiff(Raster& raster) {
   if (!form->whole || (form->sparse && !raster.plain))
     return {TKS_IO, "cannot read " + raster.name + ": a part of its samples is missing"};
   // OpenImageIO takes a missing BitsPerSample for 8, where TIFF means 1, and reads past the rows.
-  if (form->bits != raster.stored_bits) {
+  if (!form->states_bits)
     return {TKS_USAGE, raster.name + " does not state its bits per sample: convert it to 8 bits"};
-  }
   raster.white_is_zero =
       raster.reader->has(kPhotometric) && raster.reader->number(kPhotometric) == 0;
   // OpenImageIO inverts these up to 8 bits, alpha too, and leaves them alone above.

@@ -74,7 +74,7 @@ class TiffFile {
 
 /// What the first directory says of its samples.
 struct TiffForm {
-  int bits = 1;         ///< per sample, with TIFF's default where the tag is missing
+  bool states_bits = false;  ///< per sample; TIFF's default is 1
   bool whole = true;    ///< all strips or tiles lie inside the file, but for those that are missing
   bool sparse = false;  ///< some, not all, are missing
   bool associated_alpha = false;
@@ -82,6 +82,10 @@ struct TiffForm {
   bool further_pages = false;  ///< other than that, and smaller versions of the first (overviews)
 };
 Result<TiffForm> tiffForm(const std::string& path);
+
+/// TKS_USAGE for samples that neither heights nor textures have: complex numbers, integers of 64
+/// bits. `path` need be no TIFF.
+Status checkTiffSamples(const std::string& path, const std::string& name);
 
 /// Whether the file leaves out a strip or tile, as GDAL's sparse files do: a void without bytes.
 bool isMissing(TIFF* tiff, uint32_t strip_or_tile);

@@ -74,13 +74,29 @@ Result<TiffForm> tiffForm(const std::string& path) {
   TIFF* const tiff = file->get();
   std::error_code unknown_size;
   const uint64_t bytes = std::filesystem::file_size(path, unknown_size);
-  uint16_t bits = 1;
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
-  TiffForm form{bits};
+  uint16_t bits = 0;
+  TiffForm form;
+  form.states_bits = TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits) != 0;
   form.associated_alpha = associatedAlpha(tiff);
   noteBlocks(tiff, unknown_size ? UINT64_MAX : bytes, form);
   notePages(tiff, form);
   return form;
+}
+
+Status checkTiffSamples(const std::string& path, const std::string& name) {
+  const auto file = TiffFile::open(path, "r");
+  if (!file.ok()) return {};
+  uint16_t format = SAMPLEFORMAT_UINT, bits = 1;
+  TIFFGetFieldDefaulted(file->get(), TIFFTAG_SAMPLEFORMAT, &format);
+  TIFFGetFieldDefaulted(file->get(), TIFFTAG_BITSPERSAMPLE, &bits);
+  if (format == SAMPLEFORMAT_COMPLEXINT || format == SAMPLEFORMAT_COMPLEXIEEEFP)
+    return {TKS_USAGE, name + " holds complex numbers: heights and textures are real ones"};
+  if (format != SAMPLEFORMAT_IEEEFP && bits == 64) {
+    return {TKS_USAGE, name +
+                           " holds integers of 64 bits: convert it to 32 bits (gdal_translate "
+                           "-ot Int32)"};
+  }
+  return {};
 }
 
 }  // namespace tetrakis::tools

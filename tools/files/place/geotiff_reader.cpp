@@ -135,7 +135,7 @@ std::optional<double> nodataIn(const std::string& text, Notes& notes) {
 }
 
 /// <GDALMetadata><Item sample="0" role="ROLE">value</Item></GDALMetadata>
-void setGdalMetadata(HeightFile& heights, const std::string& xml) {
+void setGdalMetadata(HeightFile& heights, const std::string& xml, Notes& notes) {
   pugi::xml_document document;
   if (!document.load_string(xml.c_str())) return;
   for (const pugi::xml_node item : document.child("GDALMetadata").children("Item")) {
@@ -144,6 +144,9 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml) {
     const std::string text = item.text().get();
     const double value = number(text).value_or(std::numeric_limits<double>::quiet_NaN());
     if (role == "scale" && std::isfinite(value) && value != 0) heights.scale = value;
+    if (role == "scale" && heights.scale != value)
+      notes.push_back(
+          {"its scale " + quoted(text) + " is none and is not used: give --scale", "--scale"});
     if (role == "offset" && std::isfinite(value)) heights.offset = value;
     if (role == "unittype") heights.unit = canonicalUnit(text);
     if (role == "description") heights.description = text;
@@ -161,7 +164,7 @@ Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
   setSpacing(heights, keys, transform, notes);
   setPlace(heights, keys, transform);
   setVerticalDatum(heights, keys);
-  setGdalMetadata(heights, tagText(tiff, kGdalMetadataTag));
+  setGdalMetadata(heights, tagText(tiff, kGdalMetadataTag), notes);
   setUnit(heights, keys, notes);
   keepKeys(heights, keys);
   heights.nodata = nodataIn(tagText(tiff, kGdalNodataTag), notes);

@@ -8,6 +8,7 @@ from typing import Any, Dict, Optional
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _values as values
 from ._errors import TksUsageError
 from ._stream import BytesLike
 from ._tks import tks_decode, tks_encode
@@ -22,6 +23,10 @@ def configuration(
     """The options that are set, as they are written in the metadata of an array."""
     options = dict(bytes=bytes, psnr=psnr, max_error=max_error, nodata=nodata)
     return {name: value for name, value in options.items() if value is not None}
+
+
+def check_type(dtype: np.dtype) -> None:
+    values.samples(np.empty((0, 0), dtype), "A chunk")
 
 
 def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> bytes:

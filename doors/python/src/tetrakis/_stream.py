@@ -79,18 +79,29 @@ def _read(source: Any, limit: Optional[int]) -> builtins.bytes:
         with builtins.open(source, "rb") as file:
             return file.read(count)
     if hasattr(source, "read"):
-        data = source.read(count)
-        if not isinstance(data, builtins.bytes):
-            raise TksUsageError("The file must be open for reading bytes (mode 'rb').")
-        return data
+        return _read_file(source, count)
     if isinstance(source, builtins.bytes):
         return source if count < 0 else source[:count]
     try:
-        view = memoryview(source).cast("B")
+        data = memoryview(source).tobytes()
     except TypeError:
         kind = type(source).__name__
         raise TksUsageError(f"A stream is a path, bytes or a file, not {kind}.") from None
-    return builtins.bytes(view if count < 0 else view[:count])
+    return data if count < 0 else data[:count]
+
+
+def _read_file(source: Any, count: int) -> builtins.bytes:
+    """Files without a buffer may give less than they are asked for."""
+    parts = []
+    while count != 0:
+        part = source.read(count)
+        if not isinstance(part, builtins.bytes):
+            raise TksUsageError("The file must be open for reading bytes (mode 'rb').")
+        if not part:
+            break
+        parts.append(part)
+        count -= len(part) if count > 0 else 0
+    return b"".join(parts)
 
 
 class Stream:
@@ -229,7 +240,8 @@ class Stream:
             camera with it may see.
         bytes: of a prefix of so many bytes.
         coordinates: of the vertices. "local": x = column * spacing, y = -row * spacing in metres,
-            or in samples where the spacing is unknown. "crs": x and y by `info.geotransform`, at
+            or in samples where the spacing is unknown; y = row * spacing where the geotransform is
+            that of a mirrored raster, such as one whose first row is the southern one. "crs": x and y by `info.geotransform`, at
             the middle of samples, in units of the CRS. The third is the height in `info.unit`.
 
         Few triangles of a large stream decode only the levels that they can show. No triangle
@@ -301,12 +313,13 @@ def _ground(
     info: Info, columns: NDArray[Any], rows: NDArray[Any], transform: Optional[GeoTransform]
 ) -> Tuple[NDArray[Any], NDArray[Any], bool]:
     """x, y, and whether they lie as in a mirror: rows usually run against y."""
+    t = info.geotransform
+    mirrored = t is not None and t[1] * t[5] - t[2] * t[4] > 0
     if transform is None:
         spacing_x, spacing_y = info.spacing or (1.0, 1.0)
-        return columns * spacing_x, 0.0 - rows * spacing_y, False
-    t = transform
-    x, y = _at(t, columns + 0.5, rows + 0.5)
-    return x, y, t[1] * t[5] - t[2] * t[4] > 0
+        y = rows * spacing_y
+        return columns * spacing_x, y if mirrored else 0.0 - y, mirrored
+    return (*_at(transform, columns + 0.5, rows + 0.5), mirrored)
 
 
 def _uv(info: Info, columns: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:

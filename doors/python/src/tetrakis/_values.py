@@ -46,7 +46,10 @@ def text(value: Optional[str], what: str) -> Optional[bytes]:
         return None
     if not isinstance(value, str) or "\0" in value:
         raise TksUsageError(f"{what} must be text without NUL characters, not {value!r}.")
-    return value.encode()
+    try:
+        return value.encode()
+    except UnicodeEncodeError:
+        raise TksUsageError(f"{what} {value!r} is no text of Unicode.") from None
 
 
 def crs(value: Optional[str], what: str) -> Optional[bytes]:
@@ -101,7 +104,7 @@ def samples(array: NDArray[Any], what: str, allowed: Sequence[np.dtype] = SAMPLE
             f"{what} of type {array.dtype} cannot be coded; the types are {names}. "
             "Convert with astype() to one that holds your values."
         )
-    return np.ascontiguousarray(array, native)
+    return np.asarray(array, native, order="C")
 
 
 def output(out: Optional[NDArray[Any]], shape: Tuple[int, ...], dtype: np.dtype) -> NDArray[Any]:

@@ -43,6 +43,11 @@ class TetrakisCodec(ArrayBytesCodec):
     def to_dict(self) -> Dict[str, Any]:
         return {"name": NAME, "configuration": self._options()}
 
+    def validate(self, *, shape: Any, dtype: Any, chunk_grid: Any) -> None:
+        """Refuses types before an array is made of them; Zarr 3.1 wraps those of NumPy."""
+        native = dtype.to_native_dtype() if hasattr(dtype, "to_native_dtype") else dtype
+        _chunk.check_type(np.dtype(native))
+
     def compute_encoded_size(self, input_byte_length: int, chunk_spec: Any) -> int:
         raise NotImplementedError("The size of a stream is not known before it is coded.")
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/files/place/ground_axes.hpp"
+
+#include <cmath>
+
+#include "tools/files/place/crs_units.hpp"
+#include "tools/files/place/earth.hpp"
+
+namespace tetrakis::tools {
+
+GroundAxes groundAxes(const GeoTransform& t, uint32_t width, uint32_t height,
+                      const std::string& crs) {
+  MetresPerDegree metres{1, 1};
+  if (!crs.empty() && isInDegrees(crs))
+    metres = metresPerDegree(t[3] + width / 2.0 * t[4] + height / 2.0 * t[5]);
+  const auto direction = [&metres](double east, double north) {
+    const double x = east * metres.east, y = north * metres.north, length = std::hypot(x, y);
+    return std::array<double, 2>{x / length, -y / length};
+  };
+  const GroundAxes axes{direction(t[1], t[4]), direction(t[2], t[5])};
+  constexpr double kLeastSine = 1e-6;  // of the angle between rows and columns
+  const double sine = axes.along[0] * axes.down[1] - axes.along[1] * axes.down[0];
+  return std::abs(sine) >= kLeastSine ? axes : GroundAxes();
+}
+
+}  // namespace tetrakis::tools
