@@ -166,9 +166,10 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options) {
   const HeightSteps& steps = of->steps;
-  FlatChoice choice = chooseFlatAreas(
-      {steps.steps, extentOf(*of->samples), steps.valid},
-      {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads});
+  FlatChoice choice =
+      chooseFlatAreas({steps.steps, extentOf(*of->samples), steps.valid},
+                      {steps.range_bits, target.purpose, target.bytes, target.mean_square,
+                       options.threads, target.purpose == Purpose::kLossy});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*of, std::move(choice), options.priorities);
   std::vector<EncodedTrack> coefficients =

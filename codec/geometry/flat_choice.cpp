@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plane is transformed as it is, and with areas held; what its coefficients cost
 // (wavelet/plane_cost.hpp) decides, with the bytes of the areas: at the step of the target, and at
-// coarser ones, because every prefix pays for the areas first. Large areas are tried before smaller
-// ones are added.
+// coarser ones, because every prefix pays for the areas first. Large areas are tried first; then
+// smaller ones are added, or shapes are simplified, whichever gains.
 #include "codec/geometry/flat_choice.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -22,13 +23,19 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-/// Least samples of the areas that are tried, one after the other.
-constexpr std::array<uint32_t, 4> kLeastSamples = {4096, 512, 64, 8};
+/// What is tried, from the shapes of the fewest bytes to the most water.
+constexpr uint32_t kLeastSamples = 8;
+constexpr std::array<FlatShape, 8> kShapes = {
+    {{4096, 32}, {4096, 16}, {4096, 8}, {4096, 4}, {4096}, {512}, {64}, {kLeastSamples}}};
+constexpr size_t kLargeAreas = 4;
 /// Nothing is tried where areas of kPond samples cover less than that share of the plane.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
 /// Estimates of bits are no better than that; those from tiles, which miss coarse levels, worse.
 constexpr double kClearlyOfPlane = 0.99, kClearlyOfTiles = 0.98;
+/// What it is worth, as a share of the bytes, that all samples are flat and stay so: squared errors
+/// do not tell that a sea with waves looks wrong.
+constexpr double kWorthOfFlatness = 0.1;
 
 /// A tile, copied from the plane.
 struct Tile {
@@ -161,11 +168,11 @@ class FlatTrials {
     const FlatChoice plain = {{}, wavelet_};
     const uint64_t samples = heights_.extent().samples();
     if (finder_.samplesOf(kPond, whole()) * kLeastShare < samples) return plain;
-    for (const SampledTile& tile : sampleTiles(finder_, kPond, kLeastSamples.back()))
+    for (const SampledTile& tile : sampleTiles(finder_, kPond, kLeastSamples))
       tiles_.emplace_back(heights_, tile);
-    const uint32_t least = leastThatPays();
-    if (least == 0) return plain;
-    FlatLayer flat{finder_.areas(least, whole()), {}};
+    const std::optional<FlatShape> shape = shapeThatPays();
+    if (!shape) return plain;
+    FlatLayer flat{finder_.areas(*shape, whole()), {}};
     if (flat.areas.empty()) return plain;  // there are too many
     flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), heights_.valid);
     if (flat.codeword.size() >= purpose_.bytes) return plain;
@@ -175,37 +182,66 @@ class FlatTrials {
  private:
   Window whole() const { return {0, 0, heights_.width, heights_.height}; }
 
-  /// The least samples of the areas that pay best; 0: none does.
-  uint32_t leastThatPays() {
+  /// A price is the ratio of bytes, less what flatness is worth; it is infinite without areas.
+  static constexpr double kNoAreas = std::numeric_limits<double>::infinity();
+
+  struct Trial {
+    FlatShape shape;
+    double price = kNoAreas;
+  };
+
+  /// The shape that pays best; nothing: none does. Smaller areas are added if simpler shapes do not
+  /// gain.
+  std::optional<FlatShape> shapeThatPays() {
     const TriedPlane plain(tiles_, std::vector<FlatAreas>(tiles_.size()), wavelet_,
                            purpose_.threads);
     const ComparedSteps steps(plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
                               static_cast<double>(heights_.extent().samples()));
-    uint32_t best = 0;
-    double best_ratio = tiles_.size() > 1 ? kClearlyOfTiles : kClearlyOfPlane;
-    double before = std::numeric_limits<double>::infinity();
-    size_t count_before = 0;
-    for (const uint32_t least : kLeastSamples) {
-      size_t count = 0;
-      std::vector<FlatAreas> areas;
-      for (const Tile& tile : tiles_) {
-        areas.push_back(finder_.areas(least, tile.place.window));
-        count += areas.back().heights.size();
-      }
-      if (count == count_before) continue;
-      count_before = count;
-      const double ratio = ratioOf(areas, least, steps);
-      if (ratio < best_ratio) {
-        best_ratio = ratio;
-        best = least;
-      }
-      if (ratio > before) break;
-      before = ratio;
+    const Trial large = {kShapes[kLargeAreas], priceOf(kShapes[kLargeAreas], steps)};
+    Trial best = large;
+    if (purpose_.seen) best = tryAll(large, {kShapes.rend() - kLargeAreas, kShapes.rend()}, steps);
+    if (best.price == large.price || large.price == kNoAreas) {
+      const Trial fine = tryAll(large, {kShapes.begin() + kLargeAreas + 1, kShapes.end()}, steps);
+      if (fine.price < best.price) best = fine;
+    }
+    const double clearly = tiles_.size() > 1 ? kClearlyOfTiles : kClearlyOfPlane;
+    if (best.price >= clearly) return {};
+    return best.shape;
+  }
+
+  /// The best of them all, which are tried until prices rise.
+  Trial tryAll(const Trial& first, std::vector<FlatShape> shapes, const ComparedSteps& steps) {
+    Trial best = first;
+    double before = first.price;
+    for (const FlatShape& shape : shapes) {
+      const double price = priceOf(shape, steps);
+      if (price < best.price) best = {shape, price};
+      if (price > before) break;
+      before = price;
     }
     return best;
   }
 
-  double ratioOf(const std::vector<FlatAreas>& areas, uint32_t least, const ComparedSteps& steps) {
+  double priceOf(const FlatShape& shape, const ComparedSteps& steps) {
+    std::vector<FlatAreas> areas;
+    double held = 0;
+    for (const Tile& tile : tiles_) {
+      areas.push_back(finder_.areas(shape, tile.place.window));
+      const std::vector<uint16_t>& numbers = areas.back().numbers;
+      held += tile.place.stands_for *
+              static_cast<double>(
+                  std::count_if(numbers.begin(), numbers.end(), [](uint16_t n) { return n != 0; }));
+    }
+    if (held == 0) return kNoAreas;
+    const auto known = price_of_held_.find(held);  // the same areas
+    if (known != price_of_held_.end()) return known->second;
+    const double share = held / static_cast<double>(heights_.extent().samples());
+    const double worth = purpose_.seen ? kWorthOfFlatness * share : 0;
+    return price_of_held_[held] = ratioOf(areas, shape, steps) - worth;
+  }
+
+  double ratioOf(const std::vector<FlatAreas>& areas, const FlatShape& shape,
+                 const ComparedSteps& steps) {
     constexpr double kHeaderBits = 64;  // what the header says of them
     double bits = kHeaderBits;
     for (size_t i = 0; i < tiles_.size(); ++i) {
@@ -214,7 +250,7 @@ class FlatTrials {
       bits += tile.place.stands_for * 8 *
               static_cast<double>(encodeFlatAreas(areas[i], tile.extent(), tile.valid).size());
     }
-    if (!beside_) beside_ = waveletBeside(finder_.areas(least, whole()));
+    if (!beside_) beside_ = waveletBeside(finder_.areas(shape, whole()));
     return steps.ratio(TriedPlane(tiles_, areas, *beside_, purpose_.threads), bits);
   }
 
@@ -230,6 +266,7 @@ class FlatTrials {
   const HeightPurpose& purpose_;
   FlatFinder finder_;
   std::vector<Tile> tiles_;
+  std::map<double, double> price_of_held_;
   WaveletHeader wavelet_;                ///< of the plane as it is
   std::optional<WaveletHeader> beside_;  ///< that suits what the first areas leave
 };

@@ -129,6 +129,25 @@ TEST_F(CliUsage, TinyStepsAreReportedAsTheyAre) {
   EXPECT_NE(run.err.find("A step of 1e-30 divides"), std::string::npos) << run.err;
 }
 
+TEST_F(CliUsage, FilesOfHeightsAreNoTextures) {
+  makeInputs();
+  for (const char* name : {"N46E007.hgt", "a.raw:3x3:u8", "a.raw"}) {
+    const Outcome run = cli("encode height.tif --lossless -o b.tks --texture " + std::string(name));
+    EXPECT_EQ(run.code, 1);
+    EXPECT_NE(run.err.find("is a file of heights"), std::string::npos) << run.err;
+  }
+}
+
+TEST_F(CliUsage, BoundsThatLeaveNoRoomAreTold) {
+  makeInputs();
+  const std::string told = "--max-error 1e-300 leaves no room";
+  const Outcome tight = cli("encode height.tif --max-error 1e-300 -o b.tks");
+  EXPECT_NE(tight.err.find(told), std::string::npos) << tight.err;
+  EXPECT_EQ(cli("encode height.tif --max-error 1e-300 -o c.tks -q").err, "");
+  const Outcome wide = cli("encode height.tif --max-error 20 -o d.tks");
+  EXPECT_EQ(wide.err.find("no room"), std::string::npos) << wide.err;
+}
+
 TEST_F(CliUsage, PartsOfTheSummaryAddUp) {
   makeInputs();
   const Outcome run = cli("encode height.tif --texture texture.png --bytes 2k -o b.tks");

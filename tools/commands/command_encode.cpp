@@ -218,11 +218,16 @@ Status checkMemory(const Reference& inputs) {
   return checkMemoryFor("encoding so many samples", bytes);
 }
 
+/// A bound may be so small that nothing but every bit keeps it.
+std::string boundNote(const EncodeArguments& arguments, const tks_info& info) {
+  return arguments.max_error.empty() || info.lossless == 0
+             ? ""
+             : "--max-error " + arguments.max_error +
+                   " leaves no room for errors: the stream restores every bit";
+}
+
 /// One line about what was written.
-Result<std::string> summary(const std::string& name, std::span<const uint8_t> stream) {
-  const Result<Decoder> decoder = openDecoder(stream);
-  if (!decoder) return decoder.status();
-  const tks_info& info = decoder->info();
+std::string summary(const std::string& name, const tks_info& info) {
   const uint64_t heads =
       info.stream_bytes - info.header_bytes - info.geometry_bytes - info.texture_bytes;
   return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
@@ -290,9 +295,11 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (outputs->report) all.push_back(&*outputs->report);
   if (Status status = Output::commitAll(std::move(all)); !status.ok()) return status;
   if (quiet) return Status();
-  const Result<std::string> line = summary(arguments.output, bytes);
-  if (line.ok()) std::fprintf(stderr, "%s\n", line->c_str());
-  return line.status();
+  const Result<Decoder> decoder = openDecoder(bytes);
+  if (!decoder) return decoder.status();
+  tellNote(boundNote(arguments, decoder->info()), quiet);
+  std::fprintf(stderr, "%s\n", summary(arguments.output, decoder->info()).c_str());
+  return Status();
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ namespace {
 constexpr const char* kEveryVerb =
     "Every verb:\n"
     "  -q,--quiet                      No progress bar, no notes, no summary\n"
-    "  --max-memory SIZE               Most memory to take (default: 3/4 of what there is)\n\n";
+    "  --max-memory SIZE               Most memory to take (0, the default: 3/4 of what there "
+    "is)\n\n";
 
 constexpr const char* kHelpOfVerbs = "tetrakis help VERB shows the options of a verb.\n\n";
 
@@ -46,7 +47,7 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   app.fallthrough();
   app.add_flag("-q,--quiet", line.quiet, "No progress bar, no notes (any verb)");
   addSize(app, "--max-memory", line.max_memory,
-          "Most memory to take (any verb; default: 3/4 of what there is)");
+          "Most memory to take (any verb; 0, the default: 3/4 of what there is)");
   addEncode(app, line);
   addDecode(app, line);
   addTruncate(app, line);

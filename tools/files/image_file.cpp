@@ -9,6 +9,7 @@
 #include "tools/files/pictures/raster.hpp"
 #include "tools/files/pictures/tiff.hpp"
 #include "tools/files/place/world_file.hpp"
+#include "tools/files/plain_heights.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -88,9 +89,17 @@ Result<Georeference> placeOf(const Raster& raster, const std::string& path, Note
   return place;
 }
 
+/// What heights alone are kept in is told by its name.
+bool isNamedAsHeights(const std::string& path) {
+  const std::string format = formatOf(path, "");
+  return format == "hgt" || format == "raw" || parseRawName(path);
+}
+
 }  // namespace
 
 Result<ImageFile> readImage(const std::string& path, std::string* note) {
+  if (isNamedAsHeights(path))
+    return Status(TKS_USAGE, quoted(path) + " is a file of heights: a texture is a picture");
   auto raster = openRaster(path);
   if (!raster.ok()) return raster.status();
   const PictureShape& shape = raster->shape;

@@ -8,6 +8,7 @@
 #include "bitstream/coder/decision_encoding.hpp"
 #include "bitstream/stream/header.hpp"
 #include "codec/geometry/flat/flat_pass.hpp"
+#include "codec/geometry/flat/opening.hpp"
 
 namespace tetrakis::inline flat {
 
@@ -33,9 +34,8 @@ uint64_t FlatFinder::samplesOf(uint32_t least, const Window& window) const {
   return sum;
 }
 
-FlatAreas FlatFinder::areas(uint32_t least, const Window& window) const {
-  assert(least > 0 && window.isInside(extent()));
-  if (none()) return {};
+/// 1 for samples of areas of at least so many, but where two areas touch.
+std::vector<uint8_t> FlatFinder::marked(uint32_t least, const Window& window) const {
   std::vector<uint8_t> flat;
   flat.reserve(window.extent().samples());
   const std::span<const int32_t> values = heights_.values();
@@ -54,10 +54,19 @@ FlatAreas FlatFinder::areas(uint32_t least, const Window& window) const {
       if (y > 0) part(i, i - window.width, k - heights_.width);
     }
   }
+  return flat;
+}
+
+FlatAreas FlatFinder::areas(const FlatShape& shape, const Window& window) const {
+  assert(shape.least > 0 && window.isInside(extent()));
+  if (none()) return {};
+  std::vector<uint8_t> flat = marked(shape.least, window);
+  if (shape.reach > 0) openMask(flat, window.extent(), shape.reach);
   NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, window.extent()));
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
-  const std::vector<int32_t> shown = cut(values, extent(), {0, window});
+  const std::vector<int32_t> shown =
+      cut(std::span<const int32_t>(heights_.values()), extent(), {0, window});
   for (size_t i = 0; i < shown.size(); ++i) {
     if (areas.numbers[i] != 0) areas.heights[areas.numbers[i] - 1u] = shown[i];
   }

@@ -10,6 +10,12 @@
 
 namespace tetrakis::inline flat {
 
+/// Which samples of areas are wanted.
+struct FlatShape {
+  uint32_t least;      ///< samples of an area, at least
+  uint32_t reach = 0;  ///< > 0: opened by squares of that reach (codec/geometry/flat/opening.hpp)
+};
+
 /// The areas of one height in a plane, of any size.
 class FlatFinder {
  public:
@@ -21,11 +27,12 @@ class FlatFinder {
   /// Samples in a window of areas of at least so many.
   uint64_t samplesOf(uint32_t least, const Window& window) const;
 
-  /// What a window shows of the areas of at least so many samples, without the samples that touch
-  /// larger ones of another height. None if it shows no such area, or too many.
-  FlatAreas areas(uint32_t least, const Window& window) const;
+  /// What a window shows of areas of that shape, without the samples that touch larger ones of
+  /// another height. None if it shows no such area, or too many.
+  FlatAreas areas(const FlatShape& shape, const Window& window) const;
 
  private:
+  std::vector<uint8_t> marked(uint32_t least, const Window& window) const;
   bool none() const { return first_.empty(); }
   uint32_t sizeAt(size_t sample) const { return sizes_[first_[sample]]; }
 

@@ -5,7 +5,9 @@
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_tiles.hpp"
+#include "codec/geometry/flat/opening.hpp"
 #include "codec/geometry/flat_choice.hpp"
+#include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
@@ -73,14 +75,14 @@ TEST(FlatAreas, AreFoundAndNeverTouchOthersOfAnotherHeight) {
   const FlatFinder finder({heights, size.extent(), valid});
   const Window whole{0, 0, size.width, size.height};
   for (const uint32_t least : {1u, 8u, 64u}) {
-    const FlatAreas areas = finder.areas(least, whole);
+    const FlatAreas areas = finder.areas({least}, whole);
     for (size_t i = 0; i < areas.numbers.size(); ++i) {
       if (areas.numbers[i] == 0) continue;
       ASSERT_TRUE(valid[i]);
       ASSERT_EQ(areas.heights[areas.numbers[i] - 1u], heights[i]);
     }
   }
-  EXPECT_TRUE(finder.areas(10000, whole).empty());
+  EXPECT_TRUE(finder.areas({10000}, whole).empty());
 }
 
 TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
@@ -126,6 +128,68 @@ TEST(FlatAreas, TilesStandForAPlane) {
   EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
   EXPECT_EQ(chooseFlatAreas({ponds, size.extent()}, purpose).flat.areas.heights,
             std::vector<int32_t>(count, 4017));
+}
+
+/// A mark stays if a square covers it that holds no sample of the plane without a mark.
+bool staysOpen(const std::vector<uint8_t>& marks, const Size& size, int x, int y, int reach) {
+  const auto holds = [&](int cx, int cy) {
+    for (int j = std::max(cy - reach, 0); j <= std::min<int>(cy + reach, size.height - 1); ++j) {
+      for (int i = std::max(cx - reach, 0); i <= std::min<int>(cx + reach, size.width - 1); ++i)
+        if (!marks[size_t(j) * size.width + size_t(i)]) return false;
+    }
+    return true;
+  };
+  for (int cy = std::max(y - reach, 0); cy <= std::min<int>(y + reach, size.height - 1); ++cy) {
+    for (int cx = std::max(x - reach, 0); cx <= std::min<int>(x + reach, size.width - 1); ++cx)
+      if (holds(cx, cy)) return true;
+  }
+  return false;
+}
+
+TEST(FlatAreas, OpenedMasksAreWhatSquaresCover) {
+  for (const Size& size : kSizes) {
+    for (const VoidShape shape : kVoidShapes) {
+      const std::vector<uint8_t> marks = validity(shape, size.width, size.height);
+      for (const int reach : {1, 2, 5}) {
+        std::vector<uint8_t> opened = marks;
+        openMask(opened, size.extent(), static_cast<uint32_t>(reach));
+        for (size_t i = 0; i < marks.size(); ++i) {
+          const int x = static_cast<int>(i % size.width), y = static_cast<int>(i / size.width);
+          ASSERT_EQ(opened[i] != 0, staysOpen(marks, size, x, y, reach))
+              << size << ", " << shape << ", reach " << reach << ", " << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
+/// Half a plane of water in few bytes: the shape that is sent is simpler than the shore, most of the
+/// water is of it, and all of it is water.
+TEST(FlatAreas, AreSimplerWhereBytesAreFew) {
+  const Size size{300, 280};
+  Plane coast(size.count());
+  for (uint32_t y = 0; y < size.height; ++y) {
+    for (uint32_t x = 0; x < size.width; ++x)
+      coast[size_t{y} * size.width + x] = static_cast<int32_t>(samples::ridges(x, y, 5) / 32);
+  }
+  Plane sorted = coast;
+  const auto middle = sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  for (int32_t& height : coast) height = std::max(height - *middle, 0);
+  const double water = 0.5 * static_cast<double>(size.count());
+  const PlaneView<const int32_t> plane(coast, size.extent());
+  const std::vector<uint8_t> whole = encodeFlatAreas(
+      FlatFinder(plane).areas({64}, {0, 0, size.width, size.height}), size.extent(), {});
+  const FlatLayer few = chooseFlatAreas(plane, {11, Purpose::kLossy, 2500, 0, 1, true}).flat;
+  EXPECT_LT(2 * few.codeword.size(), whole.size());
+  double held = 0;
+  for (size_t i = 0; i < coast.size(); ++i) {
+    const uint16_t number = few.areas.empty() ? 0 : few.areas.numbers[i];
+    if (number == 0) continue;
+    ++held;
+    ASSERT_EQ(coast[i], few.areas.heights[number - 1u]);
+  }
+  EXPECT_GT(held, 0.5 * water);
 }
 
 }  // namespace
