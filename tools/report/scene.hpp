@@ -22,8 +22,8 @@ struct Surface {
   std::vector<double> values;
 };
 
-/// A frame that also knows which way the raster lies: x is east and z is south whatever way its rows
-/// and columns run.
+/// A frame that also knows which way the raster lies: x is east and z is south whatever way its
+/// rows and columns run.
 struct PlacedFrame : GroundFrame {
   PlacedFrame() = default;
   PlacedFrame(const GroundFrame& frame) : GroundFrame(frame) {}

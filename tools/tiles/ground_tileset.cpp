@@ -86,7 +86,8 @@ double extentOf(const GeographicBounds& b) {
   return std::hypot((b.east - b.west) * metres.east, (b.north - b.south) * metres.north);
 }
 
-/// A tile without ground of its own shows nothing, from however near: those below it take its place.
+/// A tile without ground of its own shows nothing, from however near: those below it take its
+/// place.
 void adopt(json& children, json tile) {
   if (tile.contains("content")) {
     children.push_back(std::move(tile));

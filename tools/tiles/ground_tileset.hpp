@@ -32,8 +32,8 @@ class GroundTileset {
   explicit GroundTileset(const GeographicBounds& bounds) : bounds_(bounds) {}
 
   /// Tiles come level by level, from the deepest up. Returns the tile's GLB; no bytes: it has no
-  /// ground, and the tiles below it become those of the tile above. texture: its outer texels lie on the
-  /// edges of the tile; null: none.
+  /// ground, and the tiles below it become those of the tile above. texture: its outer texels lie
+  /// on the edges of the tile; null: none.
   Result<std::vector<std::byte>> add(const TileMesh& ground, const GeographicTile& tile,
                                      const TileErrors& errors, const ImageFile* texture);
 

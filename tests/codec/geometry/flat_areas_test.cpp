@@ -163,8 +163,8 @@ TEST(FlatAreas, OpenedMasksAreWhatSquaresCover) {
   }
 }
 
-/// Half a plane of water in few bytes: the shape that is sent is simpler than the shore, most of the
-/// water is of it, and all of it is water.
+/// Half a plane of water in few bytes: the shape that is sent is simpler than the shore, most of
+/// the water is of it, and all of it is water.
 TEST(FlatAreas, AreSimplerWhereBytesAreFew) {
   const Size size{300, 280};
   Plane coast(size.count());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which way the rows and columns of a raster run on the ground. Most begin in the north-west; others
-// are south-up (their first row is the southern one), turned or sheared.
+// Which way the rows and columns of a raster run on the ground. Most begin in the north-west;
+// others are south-up (their first row is the southern one), turned or sheared.
 #pragma once
 
 #include <array>
