@@ -217,13 +217,15 @@ def test_masks(tmp_path):
     assert plain.GetMaskFlags() == gdal.GMF_ALL_VALID and plain.GetNoDataValue() is None
 
 
-def test_nan_is_void(tmp_path):
+def test_nan_comes_back_undeclared(tmp_path):
     heights = terrain(40, 50)
     heights[3:8, 11:30] = np.nan
     band = first_band(copy(heights, tmp_path / "a.tks"))
-    assert np.isnan(band.GetNoDataValue())
+    assert band.GetNoDataValue() is None and band.GetMaskFlags() == gdal.GMF_ALL_VALID
     np.testing.assert_array_equal(band.ReadAsArray(), heights)
-    np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray() == 0, np.isnan(heights))
+    declared = first_band(copy(memory(heights, nodata=np.nan), tmp_path / "b.tks"))
+    assert np.isnan(declared.GetNoDataValue())
+    np.testing.assert_array_equal(declared.GetMaskBand().ReadAsArray() == 0, np.isnan(heights))
 
 
 def test_statistics_go_beside(tmp_path):
