@@ -176,8 +176,8 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
       codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));
   if (layers.wavelet.fraction_bits == 0) {
     const PlaneView<const int32_t> plane(of->steps.steps, extentOf(*of->samples), of->steps.valid);
-    const double missing = roundedBits(plane, layers.wavelet) * of->counted();
-    layers.wavelet.rounded_bytes = roundedBytes(coefficients, missing);
+    const double squares = roundedSquares(plane, layers.flat.areas.held(), layers.wavelet);
+    layers.wavelet.rounded_bytes = roundedBytes(coefficients, squares);
   }
   return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
 }

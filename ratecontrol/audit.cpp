@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -22,7 +23,7 @@ constexpr uint64_t kDecodedSamples = uint64_t{1} << 23;
 /// The points that improve on all before them, and what dips between.
 class Records {
  public:
-  void add(const RatePoint& point, double dip = kSparseDip) {
+  void add(const RatePoint& point, double dip) {
     if (points_.empty() || point.distortion < points_.back().distortion) {
       points_.push_back({point.bytes, point.distortion, dips_ || point.dips, point.beyond});
       dips_ = false;
@@ -89,7 +90,7 @@ std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScop
                                       const Measure& measure) {
   const MeasuringPlan plan(track.points, scope);
   Records records;
-  records.add({0, measure(0)});
+  records.add({0, measure(0)}, kDip);
   for (size_t i = 1; i < track.points.size() && !records.exact(); ++i) {
     const RatePoint &a = track.points[i - 1], &b = track.points[i];
     assert(a.bytes < b.bytes);
@@ -102,9 +103,10 @@ std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScop
   return records.take();
 }
 
+/// Of estimates: where one rises above those before it, nobody has seen a prefix dip.
 std::vector<RatePoint> falling(std::span<const RatePoint> points) {
   Records records;
-  for (const RatePoint& point : points) records.add(point);
+  for (const RatePoint& point : points) records.add(point, std::numeric_limits<double>::infinity());
   return records.take();
 }
 

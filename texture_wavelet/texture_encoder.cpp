@@ -212,15 +212,14 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   header.alpha_bytes = mask.size();
   header.overlay_bytes = overlay.size();
   const uint64_t counted = countedSamples(texels, source.counted(hidden));
-  double missing = 0;  // by the first component, which holds most of the bits
-  if (wavelet.fraction_bits == 0) {
-    missing = roundedBits({planes.front(), texels.extent(), coded}, wavelet) *
-              static_cast<double>(texels.extent().samples() * planes.size());
-  }
+  double squares = 0;  // by the first component, which holds most of the bits
+  if (wavelet.fraction_bits == 0)
+    squares = static_cast<double>(planes.size()) *
+              roundedSquares({planes.front(), texels.extent(), coded}, {}, wavelet);
   encoded.tracks = encodePlanes(header, colour, coded, untilReached(options, counted), planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   if (wavelet.fraction_bits == 0)
-    header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, missing);
+    header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, squares);
   prependOpening(texels, overlay, mask, encoded.tracks.front());
   return encoded;
 }

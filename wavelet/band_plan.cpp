@@ -143,4 +143,16 @@ std::vector<int32_t> PlaneLayout::gather(std::span<const int32_t> plane,
   return values;
 }
 
+void clearAbsent(const BandPlan& band, std::span<int32_t> values) {
+  if (band.absent.empty()) return;
+  const BandShape& shape = band.shape;
+  for (uint32_t row = 0; row < shape.rows; ++row) {
+    for (uint32_t x = 0; x < shape.words(); ++x) {
+      uint32_t absent = band.absent[shape.word(row, x)];
+      for (; absent != 0; absent &= absent - 1)
+        values[shape.cell(row, 32 * x + static_cast<uint32_t>(std::countr_zero(absent)))] = 0;
+    }
+  }
+}
+
 }  // namespace tetrakis::inline wavelet

@@ -48,7 +48,6 @@ constexpr std::array<LosslessChoice, 4> kLosslessImages = {
 constexpr double kSignificant =
     0.1;  // share of the other details that the step T leaves above itself
 constexpr int kMostFractionBits = 4;
-constexpr uint32_t kTrialSide = 96;
 constexpr int kGrowingBits = 20;  // with more, the low bands of kOrthogonal and kQuiet pass 2^30
 
 /// Doubling low bands after level 2 in the place of level 4 halves the roundings of levels 3 and 4,
@@ -57,35 +56,17 @@ constexpr int kGrowingBits = 20;  // with more, the low bands of kOrthogonal and
 constexpr uint8_t kEarlyDoubled = 2, kLateDoubled = 3;
 constexpr double kFewBits = 1.6, kFewQuietBits = 1.15;
 
-struct Sample {
-  Extent extent;
-  std::vector<int32_t> values;
-  std::vector<uint8_t> valid;  // empty: all
-  std::vector<uint16_t> held;  // empty: none
-  std::span<const int32_t> levels;
-};
-
-Sample sampleOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
-                const Window& part) {
-  const View view{0, part};
-  Sample sample{part.extent(), cut(std::span<const int32_t>(plane.values()), plane.extent(), view),
-                cut(plane.valid.bytes(), plane.extent(), view),
-                cut(held.numbers, plane.extent(), view), held.values};
-  clearUnmarked(std::span(sample.values), sample.valid);
-  return sample;
-}
-
-/// Appends the magnitudes of a sample's details, times their norms unless `plain`. Zeros, which
+/// Appends the magnitudes of a part's details, times their norms unless `plain`. Zeros, which
 /// flat ground consists of, cost nothing and say nothing about the step.
-void appendDetails(const Sample& sample, const WaveletHeader& header, bool plain,
+void appendDetails(const PlanePart& part, const WaveletHeader& header, bool plain,
                    std::vector<float>& details) {
   const WaveletSpec spec = specOf(header);
-  std::vector<int32_t> plane = sample.values, levels(sample.levels.begin(), sample.levels.end());
+  std::vector<int32_t> plane = part.values, levels(part.levels.begin(), part.levels.end());
   for (std::vector<int32_t>* values : {&plane, &levels}) {
     for (int32_t& v : *values)
       v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
   }
-  const PlaneLayout layout(spec, sample.extent, sample.valid, {sample.held, levels});
+  const PlaneLayout layout(spec, part.extent, part.valid, {part.held, levels});
   forwardWavelet(spec, layout.pyramid(), plane);
   for (size_t i = 1; i < layout.subbands().size(); ++i) {
     const Subband& band = layout.subbands()[i];
@@ -99,10 +80,10 @@ void appendDetails(const Sample& sample, const WaveletHeader& header, bool plain
   }
 }
 
-double samplesIn(const std::vector<Sample>& samples) {
+double samplesIn(const std::vector<PlanePart>& parts) {
   double count = 0;
-  for (const Sample& sample : samples)
-    count += static_cast<double>(markedIn(sample.extent, sample.valid));
+  for (const PlanePart& part : parts)
+    count += static_cast<double>(markedIn(part.extent, part.valid));
   return std::max(count, 1.0);
 }
 
@@ -135,27 +116,11 @@ double penaltyOf(const Filters& filters) {
   return 1 + kPerChoice * static_cast<double>(std::count(filters.begin(), filters.end(), kL));
 }
 
-/// A choice, and about how many bits the details of the samples take.
+/// A choice, and about how many bits the details of the parts take.
 struct Choice {
   WaveletHeader header;
   double bits = 0, penalised = std::numeric_limits<double>::infinity();
 };
-
-std::vector<Sample> samplesOf(std::span<const PlaneView<const int32_t>> planes,
-                              const HeldSamples& held = {}) {
-  assert(!planes.empty());
-  std::vector<Sample> samples;
-  const Mask valid = planes.front().valid;
-  IsCoded is_coded;
-  if (!valid.all() || !held.numbers.empty()) {
-    is_coded = [&](size_t i) { return valid[i] && (held.numbers.empty() || held.numbers[i] == 0); };
-  }
-  for (const Window& part : typicalParts(planes.front().extent(), kTrialSide, is_coded)) {
-    for (const PlaneView<const int32_t>& plane : planes)
-      samples.push_back(sampleOf(plane, held, part));
-  }
-  return samples;
-}
 
 /// bits: as the estimate has them.
 void keepIfBetter(const WaveletHeader& header, double bits, double penalty, Choice& best) {
@@ -169,7 +134,7 @@ WaveletHeader headerWith(const Filters& filters, int fraction_bits, int bits) {
   return header;
 }
 
-Choice chooseLossy(const std::vector<Sample>& samples, int bits) {
+Choice chooseLossy(const std::vector<PlanePart>& parts, int bits) {
   Choice best;
   float step = 0;
   for (const Filters& filters : kLossyChoices) {
@@ -177,7 +142,7 @@ Choice chooseLossy(const std::vector<Sample>& samples, int bits) {
     const WaveletHeader header =
         headerWith(filters, std::clamp(20 - bits, 0, kMostFractionBits), bits);
     std::vector<float> details;
-    for (const Sample& sample : samples) appendDetails(sample, header, false, details);
+    for (const PlanePart& part : parts) appendDetails(part, header, false, details);
     if (step == 0) step = stepOf(details);
     keepIfBetter(header, bitsOf(details, step), penaltyOf(filters), best);
   }
@@ -185,18 +150,18 @@ Choice chooseLossy(const std::vector<Sample>& samples, int bits) {
   return best;
 }
 
-Choice chooseLossless(const std::vector<Sample>& samples, int bits,
+Choice chooseLossless(const std::vector<PlanePart>& parts, int bits,
                       std::span<const LosslessChoice> choices) {
   Choice best;
   for (const auto& [filters, penalty] : choices) {
     if (filters.back() == kQ && bits > kGrowingBits) continue;
     const WaveletHeader header = headerWith(filters, 0, bits);
     std::vector<float> details;
-    for (const Sample& sample : samples) appendDetails(sample, header, true, details);
+    for (const PlanePart& part : parts) appendDetails(part, header, true, details);
     keepIfBetter(header, bitsOf(details, 1), penalty, best);
   }
   const bool quiet = best.header.filters.back() == kQ;
-  if (best.bits < (quiet ? kFewQuietBits : kFewBits) * samplesIn(samples)) {
+  if (best.bits < (quiet ? kFewQuietBits : kFewBits) * samplesIn(parts)) {
     best.header.first_doubled = kEarlyDoubled;
     // Level 2 is then lifted jointly, and rounds each coefficient once (wavelet/joint_lifting.hpp).
     if (quiet) best.header.filters[1] = kL;
@@ -205,24 +170,24 @@ Choice chooseLossless(const std::vector<Sample>& samples, int bits,
 }
 
 /// Of heights, and of textures that are not for the last bit.
-Choice chooseAmong(const std::vector<Sample>& samples, int bits, Purpose purpose) {
-  if (purpose == Purpose::kLossy) return chooseLossy(samples, bits);
-  return chooseLossless(samples, bits, kLosslessHeights);
+Choice chooseAmong(const std::vector<PlanePart>& parts, int bits, Purpose purpose) {
+  if (purpose == Purpose::kLossy) return chooseLossy(parts, bits);
+  return chooseLossless(parts, bits, kLosslessHeights);
 }
 
 }  // namespace
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose) {
-  return chooseAmong(samplesOf(std::span(&plane, 1)), bits, purpose).header;
+  return chooseAmong(typicalPartsOf(std::span(&plane, 1)), bits, purpose).header;
 }
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                             int bits, Purpose purpose) {
-  return chooseAmong(samplesOf(std::span(&plane, 1), held), bits, purpose).header;
+  return chooseAmong(typicalPartsOf(std::span(&plane, 1), held), bits, purpose).header;
 }
 
 WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits) {
-  return chooseLossless(samplesOf(planes), bits, kLosslessImages).header;
+  return chooseLossless(typicalPartsOf(planes), bits, kLosslessImages).header;
 }
 
 WaveletHeader withShortReach(WaveletHeader chosen) {
@@ -238,32 +203,32 @@ WaveletHeader withoutFraction(WaveletHeader lossy) {
 }
 
 PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step) {
-  const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
+  const std::vector<PlanePart> parts = typicalPartsOf(std::span(&plane, 1));
   const WaveletHeader header =
-      chooseAmong(samples, bits, step == 0 ? Purpose::kLossless : Purpose::kLossy).header;
+      chooseAmong(parts, bits, step == 0 ? Purpose::kLossless : Purpose::kLossy).header;
   const WaveletSpec spec = specOf(header);
   const double unit = std::exp2(header.fraction_bits);
   PlaneCost sum;
-  for (const Sample& sample : samples) {
-    std::vector<int32_t> values = sample.values;
+  for (const PlanePart& part : parts) {
+    std::vector<int32_t> values = part.values;
     for (int32_t& v : values)
       v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
-    const PlaneLayout layout(spec, sample.extent, sample.valid, {});
+    const PlaneLayout layout(spec, part.extent, part.valid, {});
     forwardWavelet(spec, layout.pyramid(), values);
     const PlaneCost cost = costOf(layout, values, step * unit);
     sum.bits += cost.bits;
     sum.squares += cost.squares / (unit * unit);
   }
   const double whole =
-      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(samples);
+      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(parts);
   return {sum.bits * whole, sum.squares * whole};
 }
 
 double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
-  const std::vector<Sample> samples = samplesOf(std::span(&plane, 1));
+  const std::vector<PlanePart> parts = typicalPartsOf(std::span(&plane, 1));
   const double whole =
-      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(samples);
-  return chooseAmong(samples, bits, Purpose::kLossless).bits * whole;
+      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(parts);
+  return chooseAmong(parts, bits, Purpose::kLossless).bits * whole;
 }
 
 }  // namespace tetrakis::inline wavelet

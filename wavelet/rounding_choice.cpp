@@ -20,78 +20,109 @@ namespace tetrakis::inline wavelet {
 namespace {
 
 constexpr uint32_t kPartSide = 64;
-constexpr int kTries = 12;
-constexpr double kBitsPerTry = 0.15;
+/// Squared errors of the coefficients, for each coded sample, between which rounding begins to
+/// help.
+constexpr double kMostError = 1, kLeastError = 1.0 / 2048;
+/// Parts of fewer, still water, have codewords of which the last bytes are most.
+constexpr double kLeastBits = 0.125;
+
+size_t codedIn(std::span<const uint8_t> valid, std::span<const uint16_t> held, size_t samples) {
+  size_t coded = 0;
+  for (size_t i = 0; i < samples; ++i)
+    coded += (valid.empty() || valid[i] != 0) && (held.empty() || held[i] == 0);
+  return coded;
+}
+
+/// Where the account of a track falls to so many squares, within a pass by the line between its
+/// ends.
+uint64_t bytesAt(std::span<const RatePoint> points, double squares) {
+  const auto after = std::find_if(points.begin(), points.end(), [&](const RatePoint& point) {
+    return point.squares() <= squares;
+  });
+  if (after == points.end()) return points.back().bytes;
+  if (after == points.begin()) return after->bytes;
+  const RatePoint &a = *(after - 1), &b = *after;
+  const double rest = (squares - b.squares()) / (a.squares() - b.squares());
+  return b.bytes - static_cast<uint64_t>(rest * static_cast<double>(b.bytes - a.bytes));
+}
 
 /// A part of the plane as a stream of its own.
 class CodedPart {
  public:
-  CodedPart(const PlaneView<const int32_t>& plane, const View& view, const WaveletHeader& wavelet)
-      : extent_(view.extentIn(plane.extent())),
-        samples_(cut(std::span<const int32_t>(plane.values()), plane.extent(), view)),
-        valid_(cut(plane.valid.bytes(), plane.extent(), view)),
-        spec_(specOf(wavelet)),
-        layout_(spec_, extent_, valid_),
-        parts_(layout_.parts(regionsOf(extent_.width, extent_.height, 0).front())) {
-    clearUnmarked(std::span(samples_), valid_);
-    std::vector<int32_t> values = samples_;
-    forwardWavelet(spec_, {values, extent_, valid_});
+  CodedPart(PlanePart part, const WaveletHeader& wavelet)
+      : part_(std::move(part)),
+        coded_(static_cast<double>(codedIn(part_.valid, part_.held, part_.values.size()))),
+        spec_(specOf(wavelet)) {
+    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, part_.levels});
+    std::vector<int32_t> values = part_.values;
+    forwardWavelet(spec_, layout.pyramid(), values);
+    bands_ = layout.parts(regionsOf(part_.extent.width, part_.extent.height, 0).front());
     TrackSource source;
-    source.plan = layout_.plan(parts_, 0, 0, 0);
-    layout_.markAbsent(parts_, source.plan);
-    for (const BandPart& part : parts_)
-      source.bands.push_back({layout_.gather(values, part), layout_.energy(part.subband)});
+    source.plan = layout.plan(bands_, 0, 0, 0);
+    layout.markAbsent(bands_, source.plan);
+    for (size_t i = 0; i < bands_.size(); ++i) {
+      source.bands.push_back({layout.gather(values, bands_[i]), layout.energy(bands_[i].subband)});
+      clearAbsent(source.plan[i], source.bands[i].values);
+    }
     track_ = std::move(encodeTracks({source}, {}).front());
     growing_.emplace(std::move(source.plan), track_.planes);
   }
 
-  /// Squared errors of a prefix, inverted without roundings and with them. Asked for rising bytes.
-  std::array<double, 2> squares(double missing_bits) {
-    const double missing = missing_bits * static_cast<double>(extent_.samples()) / 8;
-    const double bytes = std::max(static_cast<double>(track_.codeword.size()) - missing, 0.0);
-    const TrackState& state =
-        growing_->decode(std::span(track_.codeword).first(static_cast<size_t>(bytes)));
+  bool tells() const {
+    return coded_ > 0 && 8 * static_cast<double>(track_.codeword.size()) >= kLeastBits * coded_;
+  }
+
+  /// Squared errors of the prefix whose coefficients are off by so much, inverted without roundings
+  /// and with them. Asked for falling errors.
+  std::array<double, 2> squares(double coefficient_error) {
+    const uint64_t bytes = bytesAt(track_.points, coefficient_error * coded_);
+    const TrackState& state = growing_->decode(std::span(track_.codeword).first(bytes));
     return {squaresWith(state, {unroundedBits(track_.planes), false}),
             squaresWith(state, {0, true})};
   }
 
  private:
   double squaresWith(const TrackState& state, Precision precision) const {
-    ViewSynthesis synthesis(spec_, layout_.pyramid(), {});
+    std::vector<int32_t> levels(part_.levels.begin(), part_.levels.end());
+    for (int32_t& level : levels)
+      level = static_cast<int32_t>(static_cast<uint32_t>(level) << precision.fraction_bits);
+    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, levels});
+    ViewSynthesis synthesis(spec_, layout.pyramid(), {});
     synthesis.allocate();
-    for (size_t i = 0; i < parts_.size(); ++i)
-      synthesis.put(state.bands[i], precision.fraction_bits, parts_[i]);
+    for (size_t i = 0; i < bands_.size(); ++i)
+      synthesis.put(state.bands[i], precision.fraction_bits, bands_[i]);
     std::vector<int32_t> shown = synthesis.run(1, precision.rounds);
-    clearUnmarked(std::span(shown), valid_);
+    clearUnmarked(std::span(shown), part_.valid);
     double squares = 0;
     for (size_t i = 0; i < shown.size(); ++i) {
-      const double error = std::ldexp(shown[i], -precision.fraction_bits) - samples_[i];
+      const double error = std::ldexp(shown[i], -precision.fraction_bits) - part_.values[i];
       squares += error * error;
     }
     return squares;
   }
 
-  Extent extent_;
-  std::vector<int32_t> samples_;
-  std::vector<uint8_t> valid_;
+  PlanePart part_;
+  double coded_;
   WaveletSpec spec_;
-  PlaneLayout layout_;
-  std::vector<BandPart> parts_;
+  std::vector<BandPart> bands_;
   EncodedTrack track_;
   std::optional<GrowingTrack> growing_;
 };
 
 }  // namespace
 
-double roundedBits(const PlaneView<const int32_t>& plane, const WaveletHeader& wavelet) {
+double roundedSquares(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                      const WaveletHeader& wavelet) {
   std::vector<std::unique_ptr<CodedPart>> parts;
-  for (const Window& window : typicalParts(plane.extent(), kPartSide))
-    parts.push_back(std::make_unique<CodedPart>(plane, View{0, window}, wavelet));
-  int first = 0;  // of the tries from which on rounding is better
-  for (int tried = kTries; tried > 0; --tried) {
+  for (PlanePart& cut : typicalPartsOf(std::span(&plane, 1), held, kPartSide)) {
+    auto part = std::make_unique<CodedPart>(std::move(cut), wavelet);
+    if (part->tells()) parts.push_back(std::move(part));
+  }
+  double first = 0;
+  for (double tried = kMostError; tried >= kLeastError; tried /= 2) {
     std::array<double, 2> sums{};
     for (const auto& part : parts) {
-      const std::array<double, 2> squares = part->squares(tried * kBitsPerTry);
+      const std::array<double, 2> squares = part->squares(tried);
       sums[0] += squares[0];
       sums[1] += squares[1];
     }
@@ -100,13 +131,17 @@ double roundedBits(const PlaneView<const int32_t>& plane, const WaveletHeader& w
     else if (first == 0)
       first = tried;
   }
-  return first * kBitsPerTry;
+  const size_t coded = codedIn(plane.valid.bytes(), held.numbers, plane.extent().samples());
+  return first * static_cast<double>(coded);
 }
 
-uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double missing_bits) {
-  const uint64_t exact = exactBytes(tracks), missing = static_cast<uint64_t>(missing_bits / 8);
+uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double squares) {
+  const uint64_t exact = exactBytes(tracks);
   if (exact > bytesOf(tracks)) return exact;
-  return exact - std::min(exact, missing);
+  uint64_t bytes = 0;
+  for (const EncodedTrack& track : tracks)
+    bytes += bytesAt(track.points, squares / static_cast<double>(tracks.size()));
+  return bytes;
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -10,15 +10,17 @@
 #include "base/plane.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/track/track_encoder.hpp"
+#include "wavelet/held_samples.hpp"
 
 namespace tetrakis::inline wavelet {
 
-/// The bits per sample that may be missing for the inverse to be better with roundings than
-/// without. Measured on typical parts of the plane. wavelet: without fraction bits.
-double roundedBits(const PlaneView<const int32_t>& plane, const WaveletHeader& wavelet);
+/// The squares that coefficients may still be off by for the inverse to be better with roundings
+/// than without; 0: none. Measured on typical parts of the plane. wavelet: without fraction bits.
+double roundedSquares(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                      const WaveletHeader& wavelet);
 
-/// What the header says of it. missing_bits: of the whole component. Tracks that are not complete
-/// are never rounded.
-uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double missing_bits);
+/// What the header says of it. squares: of all tracks, which belong to one component. Tracks that
+/// are not complete are never rounded.
+uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double squares);
 
 }  // namespace tetrakis::inline wavelet

@@ -2,6 +2,7 @@
 #include "wavelet/typical_parts.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tetrakis::inline wavelet {
 
@@ -71,7 +72,33 @@ FieldPart partOf(uint32_t column, uint32_t row, Extent plane, uint32_t side,
   return best;
 }
 
+PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                 const Window& window) {
+  const View view{0, window};
+  PlanePart part{window.extent(),
+                 cut(std::span<const int32_t>(plane.values()), plane.extent(), view),
+                 cut(plane.valid.bytes(), plane.extent(), view),
+                 cut(held.numbers, plane.extent(), view), held.values};
+  clearUnmarked(std::span(part.values), part.valid);
+  return part;
+}
+
 }  // namespace
+
+std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> planes,
+                                      const HeldSamples& held, uint32_t side) {
+  assert(!planes.empty());
+  std::vector<PlanePart> parts;
+  const Mask valid = planes.front().valid;
+  IsCoded is_coded;
+  if (!valid.all() || !held.none())
+    is_coded = [&](size_t i) { return valid[i] && (held.none() || held.numbers[i] == 0); };
+  for (const Window& window : typicalParts(planes.front().extent(), side, is_coded)) {
+    for (const PlaneView<const int32_t>& plane : planes)
+      parts.push_back(partOf(plane, held, window));
+  }
+  return parts;
+}
 
 size_t markedIn(Extent plane, const Mask& mask) {
   if (mask.all()) return plane.samples();

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/plane.hpp"
 #include "base/view.hpp"
+#include "wavelet/held_samples.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -21,6 +23,19 @@ using IsCoded = std::function<bool(size_t)>;
 /// lies in the middle, or where more than twice as many samples are coded: parts of voids say
 /// nothing. There is at least one part.
 std::vector<Window> typicalParts(Extent plane, uint32_t side = 96, const IsCoded& is_coded = {});
+
+/// What a part of a plane holds.
+struct PlanePart {
+  Extent extent;
+  std::vector<int32_t> values;
+  std::vector<uint8_t> valid;       ///< empty: all
+  std::vector<uint16_t> held;       ///< empty: none
+  std::span<const int32_t> levels;  ///< of what is held, as in HeldSamples; those of the plane
+};
+
+/// The typical parts of planes that have one size and one mask: of each part every plane's.
+std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> planes,
+                                      const HeldSamples& held = {}, uint32_t side = 96);
 
 /// How many of a plane's samples the mask marks.
 size_t markedIn(Extent plane, const Mask& mask);

@@ -112,7 +112,7 @@ class EncodingIo {
     distortion_ += weight_ * change;
     squares_ += plain_ * change;
     if (distortion_ < best_) best_ = distortion_;
-    dips_ |= distortion_ > kDip * best_;
+    dips_ |= distortion_ > kDip * best_ + least_;
   }
   void start(const RatePoint& nothing) {
     distortion_ = best_ = nothing.distortion;
@@ -140,7 +140,8 @@ class EncodingIo {
   }
 
   RangeEncoder encoder_;
-  double distortion_ = 0, best_ = 0, least_ = 0;
+  double distortion_ = 0, best_ = 0;
+  double least_ = 0;    ///< what these sums, which are not exact, may be off
   double squares_ = 0;  ///< whatever viewers see of them
   bool dips_ = false;
   uint32_t words_ = 0;

@@ -2,7 +2,6 @@
 #include "codec/geometry/geometry_encoder.hpp"
 
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -12,22 +11,6 @@
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {
-
-namespace {
-
-/// What lifting leaves where samples are held is no coefficient.
-void clearAbsent(const BandPlan& band, std::vector<int32_t>& values) {
-  const BandShape& shape = band.shape;
-  for (uint32_t row = 0; row < shape.rows; ++row) {
-    for (uint32_t x = 0; x < shape.words(); ++x) {
-      uint32_t absent = band.absent[shape.word(row, x)];
-      for (; absent != 0; absent &= absent - 1)
-        values[shape.cell(row, 32 * x + static_cast<uint32_t>(std::countr_zero(absent)))] = 0;
-    }
-  }
-}
-
-}  // namespace
 
 std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
                                              const WaveletHeader& wavelet,
@@ -63,7 +46,7 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
     for (size_t k = 0; k < parts.size(); ++k) {
       track.bands.push_back(
           {layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit, worth});
-      if (!flat.empty()) clearAbsent(track.plan[k], track.bands[k].values);
+      clearAbsent(track.plan[k], track.bands[k].values);
     }
   });
   return encodeTracks(tracks, {options.limit, options.threads, options.enough});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any prefix decodes, and quality does not fall when bytes are added: never at packet ends, by at
 // most 0.03 dB inside a packet. Tested at every byte of small streams.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -114,6 +115,24 @@ TEST(StreamPrefix, DrawingsImproveAtEveryByte) {
   const Bytes bytes = encode(nullptr, &drawing, lossless());
   ASSERT_TRUE(Stream(bytes).info().texture_drawn);
   expectProgress(bytes, nullptr, &drawing, lossless());
+}
+
+/// In larger planes as well bytes of the last bit-plane count as they come, and the inverse rounds
+/// in time: errors fall to nothing without a cliff.
+TEST(StreamPrefix, LosslessHeightsHaveNoCliffBeforeTheLastByte) {
+  Raster coast = make({Pattern::kRidges, 200, 180, 1, TKS_U8});
+  for (std::byte& height : coast.data) height = std::max(height, std::byte{120});
+  for (const Raster& heights : {make({Pattern::kRidges, 200, 180, 1, TKS_I16}),
+                                make({Pattern::kRidges, 200, 180, 1, TKS_U8}), coast}) {
+    const Bytes bytes = encode(&heights, nullptr, lossless());
+    const auto errorWithout = [&](size_t missing) {
+      Stream stream(Prefix(bytes).first(bytes.size() - missing));
+      return squaredError(heights, stream.heights());
+    };
+    const double before = errorWithout(bytes.size() / 32);
+    EXPECT_LT(errorWithout(bytes.size() / 128), before * 0.7);
+    EXPECT_LT(errorWithout(bytes.size() / 512), before * 0.2);
+  }
 }
 
 TEST(StreamPrefix, TextureImprovesAtEveryByte) {
