@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/texels.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/texture_header.hpp"
 
 namespace tetrakis::inline texture {
 

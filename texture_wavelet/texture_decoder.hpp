@@ -7,8 +7,8 @@
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
-#include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
+#include "bitstream/stream/texture_header.hpp"
 #include "texture_wavelet/texture_opening.hpp"
 #include "wavelet/region_decoder.hpp"
 

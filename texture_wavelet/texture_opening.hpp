@@ -9,7 +9,7 @@
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/texture_header.hpp"
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 
 namespace tetrakis::inline texture {

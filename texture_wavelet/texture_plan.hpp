@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/texture_header.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 #include "wavelet/band_plan.hpp"
 

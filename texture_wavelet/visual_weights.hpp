@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/texture_header.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/plane.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/coding_headers.hpp"
 #include "wavelet/held_samples.hpp"
 #include "wavelet/plane_cost.hpp"
 

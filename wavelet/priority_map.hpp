@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/coding_headers.hpp"
 #include "bitstream/track/band.hpp"
 
 namespace tetrakis::inline wavelet {

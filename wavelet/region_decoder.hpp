@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/coding_headers.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"

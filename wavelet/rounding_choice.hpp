@@ -8,7 +8,7 @@
 #include <span>
 
 #include "base/plane.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/coding_headers.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "wavelet/held_samples.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/coding_headers.hpp"
 #include "wavelet/wavelet.hpp"
 
 namespace tetrakis::inline wavelet {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 
+#include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/header_checks.hpp"
 
 namespace tetrakis::inline stream {

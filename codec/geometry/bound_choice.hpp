@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/plane.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/height_steps.hpp"
 
 namespace tetrakis::inline geometry {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/height_steps.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/geometry_decoder.hpp"
 
 namespace tetrakis::inline geometry {

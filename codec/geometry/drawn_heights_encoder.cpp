@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
 #include "codec/geometry/drawn_fill.hpp"

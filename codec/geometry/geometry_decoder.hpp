@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "wavelet/region_decoder.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "wavelet/priority_map.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes heights from the layers of their tracks: validity, flat areas, coefficients or a
-// drawing with a table of values, corrections (bitstream/stream/header.hpp), or stored samples.
+// drawing with a table of values, corrections (bitstream/stream/geometry_header.hpp), or stored samples.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "base/view.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/geometry_decoder.hpp"
 
 namespace tetrakis::inline geometry {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/status.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/value_table.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 
 namespace tetrakis::inline geometry {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/height_steps.hpp"
 
 namespace tetrakis::inline geometry {

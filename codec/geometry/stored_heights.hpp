@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "tetrakis/tetrakis.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/geometry_decoder.hpp"
 
 namespace tetrakis::inline geometry {

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 
 namespace tetrakis::inline geometry {
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/header.hpp"
 #include "conformance/cases/vector_cases.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "bitstream/coder/range_decoder.hpp"
 #include "bitstream/coder/range_encoder.hpp"
+#include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "bitstream/stream/fields.hpp"
 #include "codec/drawing/drawing_mixture.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
 #include "texture_wavelet/mask/overlay.hpp"

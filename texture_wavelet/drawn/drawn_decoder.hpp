@@ -8,7 +8,7 @@
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/texture_header.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
 namespace tetrakis::inline drawn {

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 
 namespace tetrakis::inline flat {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bitstream/coder/decision_encoding.hpp"
-#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/flat/flat_pass.hpp"
 #include "codec/geometry/flat/opening.hpp"
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the headers of heights and of textures share: the wavelet, spatial regions, priorities over the
+// ground (docs/FORMAT.md, section 2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "bitstream/track/regions.hpp"
+
+namespace tetrakis::inline stream {
+
+inline constexpr int kMaxFractionBits = 8;
+
+/// Which wavelet: wavelet/wavelet.hpp.
+struct WaveletHeader {
+  std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
+  uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
+  uint8_t bits = 0;                  ///< of a sample with its fraction: how wide sums must be
+  /// Without fraction bits: the low band is doubled after this level and the next; 0: never.
+  uint8_t first_doubled = 0;
+  /// Without fraction bits: the inverse rounds if the coefficients have so many bytes, of all
+  /// tracks together.
+  uint64_t rounded_bytes = 0;
+
+  template <class V>
+  void visit(V& v) {
+    for (uint8_t& filter : filters) v.u8("filter", filter, 0, 4);
+    v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
+    v.u8("sample_bits", bits, 0, 32);
+    if (fraction_bits > 0) return;
+    v.u8("first_doubled", first_doubled, 0, kMostDoubled);
+    v.varint("rounded_bytes", rounded_bytes, 0, UINT64_MAX >> 1);
+  }
+  static constexpr uint8_t kMostDoubled = 4;
+};
+
+/// Spatial regions of a component: bitstream/track/regions.hpp.
+struct RegionHeader {
+  uint8_t side_log2 = 0;  ///< of the regions of the finest levels; 0: one region
+
+  bool isDefault() const { return *this == RegionHeader{}; }
+  bool operator==(const RegionHeader&) const = default;
+
+  template <class V>
+  void visit(V& v) {
+    v.u8("region_log2", side_log2, 0, kMostRegionLog2);
+  }
+};
+
+/// Tiles of the samples of a component that come earlier than others: wavelet/priority_map.hpp.
+struct PriorityHeader {
+  uint8_t tile_log2 = 0;  ///< sides of the tiles; 0: none, all have the same priority
+  std::string code;       ///< of the map, empty or not
+
+  bool none() const { return tile_log2 == 0; }
+
+  template <class V>
+  void visit(V& v) {
+    v.u8("tile_log2", tile_log2, kLeastTileLog2, kMostRegionLog2);
+    v.text("priority_map", code);
+  }
+  static constexpr uint8_t kLeastTileLog2 = 4;
+  static constexpr uint64_t kMostTiles = 65536;
+};
+
+/// The tiles of a side of a plane.
+inline uint32_t tilesAlong(uint32_t side, int tile_log2) {
+  return ((side - 1) >> tile_log2) + 1;
+}
+
+}  // namespace tetrakis::inline stream

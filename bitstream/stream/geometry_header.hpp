@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the stream header says of the heights, and of the layers of their first track (docs/FORMAT.md,
+// section 2).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/coding_headers.hpp"
+#include "bitstream/stream/line_repeats.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline stream {
+
+inline constexpr uint32_t kMaxSide = 1u << 20;  ///< samples in a row or column of heights
+
+/// What corrections are added to.
+enum class CorrectionKind : uint8_t {
+  kNone = 0,
+  kSteps = 1,   ///< heights in steps: heights += correction_step * correction
+  kSamples = 2  ///< samples, in the order of their type: restores them bit for bit
+};
+
+/// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
+struct GeometryHeader {
+  uint32_t width = 0, height = 0;  ///< of the lines that are coded
+  LineRepeats repeats;             ///< which of those that are shown they are
+  uint8_t sample = 0;              ///< tks_sample of the input and of the decoded output
+  uint8_t planes = 0;
+  bool drawn = false;  ///< with kDirectPlanes alone
+  uint8_t exact = 0;   ///< the steps restore every input sample
+  double base = 0, step = 1;
+  double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
+  WaveletHeader wavelet;
+  PriorityHeader priorities;
+  RegionHeader regions;  ///< a part of the header of its own
+
+  template <class V>
+  void visit(V& v) {
+    Extent whole = shown();
+    v.varint("geometry_width", whole.width, 1, kMaxSide);
+    v.varint("geometry_height", whole.height, 1, kMaxSide);
+    auto kind = static_cast<uint8_t>(sample + (repeats.none() ? 0 : kWithRepeats));
+    v.u8("geometry_sample", kind, 0, kWithRepeats + TKS_F32);
+    sample = kind % kWithRepeats;
+    if (kind >= kWithRepeats) v.text("repeated_lines", repeats.code);
+    if (v.ok()) setLines(whole, kind >= kWithRepeats);
+    auto coding =
+        static_cast<uint8_t>(planes + (drawn || !priorities.none() ? kWithPriorities : 0));
+    v.u8("geometry_planes", coding, 0, kWithPriorities + kDirectPlanes);
+    planes = coding % kWithPriorities;
+    drawn = coding == kWithPriorities + kDirectPlanes;
+    if (coding >= kWithPriorities && !drawn) priorities.visit(v);
+    v.u8("exact", exact, 0, 1);
+    v.f64("base", base);
+    v.f64("step", step);
+    v.f64("max_error", max_error);
+    if (!direct()) wavelet.visit(v);
+  }
+  Extent extent() const { return {width, height}; }
+  Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
+  /// Without a transform: drawn or stored.
+  bool direct() const { return planes == kDirectPlanes; }
+  bool stored() const { return direct() && !drawn; }
+
+  /// In the place of a number of bit-planes: steps are drawn (codec/geometry/drawn_heights.hpp), or
+  /// the samples are stored (bitstream/coder/byte_planes.hpp).
+  static constexpr uint8_t kDirectPlanes = 31;
+  static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes
+  static constexpr uint8_t kWithRepeats = 8;      ///< bit beside the type of the samples
+
+ private:
+  void setLines(Extent whole, bool repeated) {
+    if (repeated) repeats.shown = whole;
+    const Extent coded = repeated ? lineMapsOf(repeats).coded() : whole;
+    width = coded.width;
+    height = coded.height;
+  }
+};
+
+/// A point of the polyline that stands for a table of values while that is missing.
+struct TableKnot {
+  uint32_t place = 0;  ///< in the table
+  int64_t rise = 0;    ///< of its value above base + step * (place - middle), in 1/16 steps
+
+  bool operator==(const TableKnot&) const = default;
+};
+
+/// What a geometry track holds besides coefficients:
+///
+///   validity codeword | flat areas | coefficients | corrections
+///
+/// A table of values lies within the coefficients, or at one of their ends.
+struct GeometryLayers {
+  uint64_t validity_bytes = 0;  ///< 0: every sample is valid
+  uint64_t table_bytes = 0;     ///< 0: steps are multiples; else they count the values of a table
+  uint32_t table_values = 0;    ///< with a table only: how many it has
+  uint64_t table_after = 0;     ///< likewise: bytes of coefficients before it
+  std::vector<TableKnot> table_knots = {};  ///< likewise, by rising places
+  uint64_t flat_bytes = 0;                  ///< 0: there are no flat areas
+  uint32_t flat_areas = 0;                  ///< with flat areas only: how many there are
+  uint8_t has_nodata = 0;  ///< voids have the sample value `nodata`; else NaN (f32 only)
+  double nodata = 0;
+  CorrectionKind corrections = CorrectionKind::kNone;
+  uint64_t coefficient_bytes = 0;  ///< with corrections only: what follows is theirs
+  uint32_t correction_step = 0;    ///< kSteps only: unit of the corrections, in steps
+
+  bool isDefault() const { return *this == GeometryLayers{}; }
+  bool operator==(const GeometryLayers&) const = default;
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("validity_bytes", validity_bytes, 0, UINT64_MAX >> 1);
+    v.u8("has_nodata", has_nodata, 0, 1);
+    if (has_nodata) v.f64("nodata", nodata);
+    auto kinds = static_cast<uint8_t>(static_cast<uint8_t>(corrections) |
+                                      (table_bytes > 0 ? kWithTable : 0) |
+                                      (flat_bytes > 0 ? kWithFlatAreas : 0));
+    v.u8("layer_kinds", kinds, 0, kWithFlatAreas + kWithTable + 2);
+    corrections = static_cast<CorrectionKind>(kinds % kWithTable);
+    if (kinds & kWithTable) {
+      v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
+      v.varint("table_values", table_values, 2, kMostValues);
+      v.varint("table_after", table_after, 0, UINT64_MAX >> 1);
+      visitKnots(v);
+    }
+    if (kinds & kWithFlatAreas) {
+      v.varint("flat_bytes", flat_bytes, 1, UINT64_MAX >> 1);
+      v.varint("flat_areas", flat_areas, 1, kMostFlatAreas);
+    }
+    if (corrections == CorrectionKind::kNone) return;
+    v.varint("coefficient_bytes", coefficient_bytes, table_after, UINT64_MAX >> 1);
+    if (corrections == CorrectionKind::kSteps) {
+      v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
+    }
+  }
+  static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
+  static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8;  ///< bits beside the corrections
+  static constexpr uint64_t kMostFlatAreas = 65535;
+  static constexpr uint64_t kMostFlatSamples = uint64_t{1} << 31;  ///< of a plane with flat areas
+  static constexpr uint32_t kMostValues = 1u << 20;
+  static constexpr uint8_t kMostKnots = 64;
+  static constexpr int64_t kMostRise = int64_t{1} << 28;
+
+  uint64_t openingBytes() const { return validity_bytes + flat_bytes; }
+
+ private:
+  /// Each as what it differs by from the one before it.
+  template <class V>
+  void visitKnots(V& v) {
+    auto count = static_cast<uint8_t>(table_knots.size());
+    v.u8("table_knots", count, 0, kMostKnots);
+    table_knots.resize(count);
+    TableKnot before;
+    for (size_t i = 0; i < table_knots.size() && v.ok(); ++i) {
+      TableKnot& knot = table_knots[i];
+      uint32_t gap = knot.place - before.place;
+      int64_t rise = knot.rise - before.rise;
+      v.varint("knot_gap", gap, i > 0 ? 1 : 0, table_values - 1u - before.place);
+      v.zigzag("knot_rise", rise, 2 * kMostRise);
+      knot = {before.place + gap, before.rise + rise};
+      before = knot;
+    }
+  }
+};
+
+}  // namespace tetrakis::inline stream

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the stream header says of the texture (docs/FORMAT.md, section 2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/coding_headers.hpp"
+#include "bitstream/track/band.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline stream {
+
+inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or column
+
+/// In the place of a number of bit-planes: the texture is drawn
+/// (codec/drawing/drawing_pass.hpp), or its samples are stored
+/// (bitstream/coder/byte_planes.hpp).
+inline constexpr uint8_t kDrawnPlanes = 31, kStoredTexture = 63;
+
+/// What is added to the priority of a component at its finest levels, in 1/16 of a binary order of
+/// magnitude: how visible errors of a band are. A part of the header of its own.
+struct BandWeights {
+  static constexpr uint64_t kMostLevels = 8;
+  static constexpr int64_t kMaxPriority = 128;
+
+  uint8_t levels = 0;  ///< 0: none, for no component
+  /// Of a component: HL and LH of level 1, HH of level 1, HL and LH of level 2, ...
+  std::array<std::array<int64_t, 2 * kMostLevels>, 4> priority{};
+
+  int64_t at(uint32_t component, int level, Orientation orientation) const {
+    if (orientation == Orientation::kLL || level > levels) return 0;
+    return priority[component]
+                   [static_cast<size_t>(2 * (level - 1) + (orientation == Orientation::kHH))];
+  }
+
+  template <class V>
+  void visit(V& v, uint32_t components) {
+    v.u8("weight_levels", levels, 1, kMostLevels);
+    for (uint32_t c = 0; c < components; ++c) {
+      for (size_t i = 0; i < size_t{2} * levels && v.ok(); ++i)
+        v.zigzag("band_priority", priority[c][i], kMaxPriority);
+    }
+  }
+};
+
+/// Texture: centre, order and shears as in texture_wavelet/colour/colour.hpp. Drawn and stored ones
+/// end with `planes`.
+struct TextureHeader {
+  uint32_t width = 0, height = 0;
+  uint8_t channels = 0;
+  uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
+  uint8_t planes = 0;
+  uint8_t colour_order = 0;
+  /// With 3 components or more: of samples, then those of coefficients.
+  std::vector<std::array<int64_t, 6>> colour_shears{{}};
+  std::array<uint16_t, 4> centre{};   ///< one per component
+  std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
+  WaveletHeader wavelet;
+  PriorityHeader priorities;
+  RegionHeader regions;  ///< a part of the header of its own
+  BandWeights weights;
+  /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
+  /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
+  uint64_t alpha_bytes = 0;
+  uint8_t hidden = 0;  ///< of a cut-out: colours where alpha is 0 are not coded
+  /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
+  uint64_t overlay_bytes = 0;
+  bool stored = false;  ///< sample by sample, without a transform
+
+  Extent extent() const { return {width, height}; }
+  Extent shown() const { return extent(); }
+  uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("texture_width", width, 1, kMaxTextureSide);
+    v.varint("texture_height", height, 1, kMaxTextureSide);
+    uint8_t kind = static_cast<uint8_t>(alpha_bytes == 0 ? channels : 4 + channels / 2);
+    v.u8("channels", kind, 1, 6);
+    channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
+    v.u8("texture_sample", sample, 0, TKS_U16);
+    const uint8_t overlaid = kDrawnPlanes + 1;
+    auto coding = static_cast<uint8_t>(
+        (stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
+        (priorities.none() ? 0 : kWithPriorities));
+    v.u8("texture_planes", coding, 0, kWithPriorities + kStoredTexture - 1);
+    const bool ordered = coding >= kWithPriorities;
+    coding %= kWithPriorities;
+    planes = coding % overlaid;
+    stored = coding == kStoredTexture;
+    if (ordered) priorities.visit(v);
+    if (direct()) return;
+    wavelet.visit(v);
+    if (kind > 4) {
+      v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
+      v.u8("hidden", hidden, 0, 1);
+    }
+    if (coding >= overlaid) v.varint("overlay_bytes", overlay_bytes, 1, UINT64_MAX >> 1);
+    for (size_t c = 0; c < components() && v.ok(); ++c) {
+      v.varint("centre", centre[c], 0, 0xffff);
+      v.zigzag("priority", priority[c], kMaxPriority);
+    }
+    if (components() < 3) return;
+    auto colour = static_cast<uint8_t>(colour_order + kOrders * (colour_shears.size() - 1));
+    v.u8("colour", colour, 0, kOrders * kMostShears - 1);
+    colour_order = colour % kOrders;
+    colour_shears.resize(colour / kOrders + size_t{1});
+    for (auto& shears : colour_shears) {
+      for (int64_t& shear : shears) v.zigzag("colour_shear", shear, INT16_MAX);
+    }
+  }
+  bool drawn() const { return direct() && !stored; }
+  /// Without a transform: drawn or stored.
+  bool direct() const { return planes == kDrawnPlanes; }
+
+  static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
+  static constexpr int64_t kMaxPriority = 128;
+  static constexpr uint8_t kOrders = 6;      ///< of channels
+  static constexpr uint8_t kMostShears = 8;  ///< sets of shears
+};
+
+}  // namespace tetrakis::inline stream
