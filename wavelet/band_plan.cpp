@@ -33,7 +33,7 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
 
 PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid, HeldSamples held,
                          const PriorityMap& priorities)
-    : pyramid_(plane, valid, held), norms_(spec, pyramid_.levels()) {
+    : whole_(spec.whole), pyramid_(plane, valid, held), norms_(spec, pyramid_.levels()) {
   if (!priorities.empty()) priorities_.emplace(priorities);
 }
 
@@ -66,6 +66,8 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
     band.shape = parts[i].shape();
     band.orientation = subband.orientation;
     band.log_norm = norms_.log16(subband) + priority;
+    if (whole_ && (subband.level > 1 || subband.orientation == Orientation::kLL))
+      band.least_key = priority;
     band.models = models + modelsOf(subband);
     const size_t parent = i - kBandsPerLevel;  // LL is nobody's
     const bool has_parent = i >= kBandsPerLevel &&

@@ -47,7 +47,9 @@ class PlaneLayout {
 
   /// Returns one entry for each part of a region, without its absent coefficients. The indices of
   /// parents and siblings count from `first`, the place that the first entry will have in the plan
-  /// of the track. priority: added to every log_norm. models: the class of contexts of the first
+  /// of the track. priority: added to every log_norm. Of whole numbers it is the least key of all
+  /// but the finest details: at the end, where the inverse rounds, nothing else is missing; one
+  /// coarse coefficient that is off by 1 changes the rounding of hundreds of samples. models: the class of contexts of the first
   /// band.
   std::vector<BandPlan> plan(std::span<const BandPart> parts, int first, int priority,
                              uint32_t models) const;
@@ -63,6 +65,7 @@ class PlaneLayout {
   std::vector<int32_t> gather(std::span<const int32_t> plane, const BandPart& part) const;
 
  private:
+  bool whole_;
   Pyramid pyramid_;
   SynthesisNorms norms_;
   std::optional<CoefficientPriorities> priorities_;

@@ -48,7 +48,8 @@ PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
       if (members == 0) continue;
       const Pass first = {static_cast<uint16_t>(band), tier, static_cast<uint8_t>(planes - 1),
                           PassKind::kLikely};
-      progressOf(first) = {plan[band].log_norm + 16 * tier, plan[band].needed, members, 0};
+      progressOf(first) = {plan[band].log_norm + 16 * tier, plan[band].least_key + 16 * tier,
+                           plan[band].needed, members, 0};
       needed_ += plan[band].needed;
       push(first, 0);
     }
@@ -61,7 +62,8 @@ void PassQueue::push(Pass pass, uint32_t significant) {
   assert(significant <= progress.coefficients);
   const uint32_t rarity = progress.coefficients / std::max(significant, 1u);
   const auto density = std::min(static_cast<size_t>(std::bit_width(rarity)), kDensities - 1);
-  pass.key = 16 * pass.plane + progress.log_norm - delayOf(pass.kind, density);
+  pass.key = std::max(16 * pass.plane + progress.log_norm - delayOf(pass.kind, density),
+                      progress.least_key);
   ++progress.open;
   pending_.push_back(pass);
   std::push_heap(pending_.begin(), pending_.end(), isLater);

@@ -26,7 +26,7 @@ class PassQueue {
 
  private:
   struct Progress {
-    int log_norm = 0;  ///< and the priority
+    int log_norm = 0, least_key = 0;  ///< and the priority
     bool needed = false;
     uint32_t coefficients = 0;  ///< that exist
     uint8_t open = 0;           ///< passes of the plane that are not coded yet

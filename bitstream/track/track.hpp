@@ -16,13 +16,15 @@ namespace tetrakis::inline track {
 /// One band of a track, as its owner (codec/, texture_wavelet/) describes it.
 struct BandPlan {
   static constexpr int kNone = -1;
+  static constexpr int kNoKey = -(1 << 24);  ///< below all keys
 
   BandShape shape;
   Orientation orientation = Orientation::kLL;
-  int log_norm = 0;       ///< 16 * log2 of the L2 norm of the band's synthesis functions, rounded
-  uint32_t models = 0;    ///< index of the BandModels that the band uses
-  int parent = kNone;     ///< the band of the same orientation one level coarser
-  int component = kNone;  ///< the same band of another component
+  int log_norm = 0;        ///< 16 * log2 of the L2 norm of the band's synthesis functions, rounded
+  int least_key = kNoKey;  ///< of its passes
+  uint32_t models = 0;     ///< index of the BandModels that the band uses
+  int parent = kNone;      ///< the band of the same orientation one level coarser
+  int component = kNone;   ///< the same band of another component
   std::array<int, 2> siblings = {kNone, kNone};  ///< the other details of the level
   /// Bit map (BandShape::word) of the coefficients that do not exist; empty: all do.
   std::vector<uint32_t> absent = {};
@@ -42,7 +44,8 @@ struct Pass {
   uint8_t tier;
   uint8_t plane;
   PassKind kind;
-  int key = 0;  ///< 16 log2 of norm * 2^plane, and the tier's priority, less a delay
+  /// 16 log2 of norm * 2^plane, less a delay, or BandPlan::least_key; and the tier's priority.
+  int key = 0;
 };
 
 /// Bit-planes a coefficient may have: magnitudes stay below 2^30.

@@ -73,6 +73,8 @@ std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& 
     const Subband& subband = part.subband;
     Band band(part.rows, part.columns, subband.orientation);
     if (!band.empty()) band.logNorm = logNormOf(header, subband);
+    if (header.fractionBits == 0 && (subband.orientation == kLL || subband.level > 1))
+      band.leastKey = 0;
     band.modelClass = subband.orientation == kLL ? 4 : std::min(subband.level, 4) - 1;
     for (size_t i = 0; i < bands.size() && subband.orientation != kLL; ++i) {
       const Subband& other = parts[i].subband;

@@ -24,6 +24,7 @@ std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part
       Band& band = bands[i];
       const Subband& subband = parts[i].subband;
       band.logNorm += header.priority[c];
+      if (band.leastKey) band.leastKey = header.priority[c];
       const auto& weights = header.bandPriority[c];
       if (subband.orientation != kLL && subband.level <= static_cast<int>(weights.size()))
         band.logNorm += weights[subband.level - 1][subband.orientation == kHH];

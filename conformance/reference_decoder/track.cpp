@@ -76,6 +76,7 @@ class PassOrder {
                       : pass.kind == kLikely ? kLikelyDelay[d - 1]
                                              : kRestDelay[d - 1];
     pass.key = 16 * (pass.plane + pass.priority) + band.logNorm - delay;
+    if (band.leastKey) pass.key = std::max(pass.key, 16 * pass.priority + *band.leastKey);
     pending_.push_back(pass);
   }
 

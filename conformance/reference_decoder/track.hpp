@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct Band {
   int rows, columns;
   Orientation orientation;
   int logNorm = 0, modelClass = 0;
+  std::optional<int> leastKey;
   size_t parent = kNone, companion = kNone;  ///< numbers of bands of the track
   std::vector<size_t> siblings;              ///< likewise
   std::vector<Coefficient> coefficients;     ///< row by row

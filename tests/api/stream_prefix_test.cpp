@@ -135,6 +135,18 @@ TEST(StreamPrefix, LosslessHeightsHaveNoCliffBeforeTheLastByte) {
   }
 }
 
+/// The last bytes of a photograph are of its finest level, and each of few texels.
+TEST(StreamPrefix, LosslessTexturesHaveNoCliffBeforeTheLastByte) {
+  const Raster image = make({Pattern::kRidges, 240, 200, 3, TKS_U8});
+  const Bytes bytes = encode(nullptr, &image, lossless());
+  const auto errorWithout = [&](size_t missing) {
+    Stream stream(Prefix(bytes).first(bytes.size() - missing));
+    return squaredError(image, stream.texture());
+  };
+  EXPECT_LT(errorWithout(bytes.size() / 512), errorWithout(bytes.size() / 32) * 0.15);
+  EXPECT_LT(errorWithout(bytes.size() / 4096), errorWithout(bytes.size() / 32) * 0.03);
+}
+
 TEST(StreamPrefix, TextureImprovesAtEveryByte) {
   const Raster colour = make({Pattern::kRidges, 24, 24, 3, TKS_U8});
   expectProgress(nullptr, &colour, lossless());
