@@ -7,7 +7,7 @@ import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {gzipSync} from 'node:zlib';
 
-import {TksError, open} from '../src/index.js';
+import {FIRST_FRAME, TksError, open} from '../src/index.js';
 import {serve} from './server.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
@@ -404,6 +404,21 @@ test('a decoder that goes on gives what one that begins anew gives, forth and ba
       triangles: 1000, texels: cut % 2 ? 64 : 4096, samples: cut % 3 ? 64 : 4096};
     assert.deepEqual(growing.decode(request), fresh.decode(request), `${cut} bytes`);
   }
+});
+
+test('a module is compiled whatever the server calls it', async () => {
+  await writeFile(join(folder, 'decoder.wasm'),
+    await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
+  for (const type of ['application/wasm', 'application/octet-stream']) {
+    await withServer({headers: {'content-type': type}}, async ({url}) => {
+      const terrain = await open(bytes, {worker: false, wasm: `${url}decoder.wasm`});
+      assert.equal((await terrain.decode(FIRST_FRAME)).bytes, FIRST_FRAME.bytes);
+      terrain.dispose();
+    });
+  }
+  await withServer({missing: true}, async ({url}) => {
+    await assert.rejects(open(bytes, {worker: false, wasm: `${url}decoder.wasm`}), {code: 'io'});
+  });
 });
 
 test('memory returns: a hundred frames take no more than one', async () => {
