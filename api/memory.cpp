@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/shown_lines.hpp"
 #include "codec/geometry/value_table.hpp"
 #include "codec/mesh/budget_mesh.hpp"
@@ -96,14 +97,33 @@ class HeightsBytes {
   uint64_t validity() const { return kOnce + (voids_ ? area(header_) + shown_ : 0) + copyBytes(); }
 
  private:
+  /// Of another view of the coded lines.
+  HeightsBytes(const HeightsBytes& of, const View& lines)
+      : decoder_(of.decoder_),
+        header_(of.header_),
+        layers_(of.layers_),
+        view_(lines),
+        shown_(area(lines.extentIn(header_.extent()))),
+        copied_(of.copied_),
+        voids_(of.voids_),
+        flat_(of.flat_),
+        table_(of.table_),
+        corrected_(of.corrected_) {}
+
   uint64_t decodingLines() const {
-    // Corrections and direct samples of a window are cut out of the whole plane.
-    if (view_.window && corrected_) return wholeLines() + shown_ * (2 * kValue + 1);
+    if (!view_.window || !corrected_) return decodingTaken();
+    // Corrected and direct samples of a window are cut out of more.
+    const HeightsBytes all(*this, decodedView(header_, layers_, view_));
+    return all.decodingTaken() + shown_ * (2 * kValue + 1);
+  }
+
+  uint64_t decodingTaken() const {
     if (header_.drawn) return drawing();
     const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
-    const uint64_t marks = view_.window ? 0 : low();
+    const uint64_t samples = view_.window ? shown_ : low();
+    const uint64_t marks = view_.window ? 0 : samples;
     const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
-    const uint64_t corrections = corrected_ ? low() * (kValue + 1) + kRow * header_.width : 0;
+    const uint64_t corrections = corrected_ ? samples * (kValue + 1) + kRow * header_.width : 0;
     const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
     const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +
                              std::max({state, planes.work, corrections + tableBytes()});
@@ -120,11 +140,6 @@ class HeightsBytes {
     return kDrawnOnce + shown_ * kSample + masks + joinedBytes() + behind;
   }
 
-  /// Of all coded lines.
-  uint64_t wholeLines() const {
-    HeightsBytes whole(decoder_, {});
-    return whole.decodingLines();
-  }
   /// Heights, marks, mask and corrections that are copied, beside what they are copied from, and
   /// the maps of lines.
   uint64_t copyBytes() const {

@@ -8,6 +8,7 @@
 #include "api/memory.hpp"
 #include "api/ranges.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
+#include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/shown_lines.hpp"
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -16,15 +17,15 @@ namespace tetrakis::inline api {
 
 namespace {
 
-/// By their numbers. all: whatever the view shows.
-std::vector<bool> neededTracks(const auto& header, const View& view, bool all) {
+/// By their numbers.
+std::vector<bool> neededTracks(const auto& header, const View& view) {
   const Pyramid pyramid(header.extent());
   const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
-  std::vector<bool> needed(regions.size(), all);
+  std::vector<bool> needed(regions.size());
   needed.front() = true;  // the component's opening and the coarsest levels
-  for (size_t i = 1; i < regions.size() && !all; ++i) {
+  for (size_t i = 1; i < regions.size(); ++i) {
     const std::vector<BandPart> parts = partsOf(pyramid.subbands(), regions[i]);
     needed[i] = std::any_of(parts.begin(), parts.end(),
                             [&](const BandPart& part) { return synthesis.needs(part); });
@@ -32,16 +33,10 @@ std::vector<bool> neededTracks(const auto& header, const View& view, bool all) {
   return needed;
 }
 
-/// Corrections are decoded with all of level 0, drawings and stored samples at all levels.
-bool takesAll(const StreamHeader& header, const View& view) {
-  return header.geometry->direct() ||
-         (view.level == 0 && header.layers.corrections != CorrectionKind::kNone);
-}
-
 std::vector<bool> neededTracks(const StreamHeader& header, Component component, const View& view) {
-  if (component == Component::kTexture) return neededTracks(*header.texture, view, false);
+  if (component == Component::kTexture) return neededTracks(*header.texture, view);
   const View lines = codedView(*header.geometry, view);
-  return neededTracks(*header.geometry, lines, takesAll(header, lines));
+  return neededTracks(*header.geometry, decodedView(*header.geometry, header.layers, lines));
 }
 
 /// How many bytes of a component's tracks that a view does not need are missing.

@@ -120,7 +120,7 @@ size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const Lif
 
 }  // namespace tetrakis::inline wavelet
 
-#else
+#elif !defined(__wasm_simd128__)  // wavelet/lifting_wasm.cpp has those
 
 namespace tetrakis::inline wavelet {
 

@@ -47,7 +47,9 @@ export class Site {
     const worker = await bundled([], {entryPoints: [web + 'src/worker.js']});
     for (const {path, contents} of [...parted, ...whole, ...worker]) site.#code(path, contents);
     const early = Object.fromEntries(METHODS.map((name) => [name, EARLY[name] ?? []]));
-    early.tks = [...early.tks, ...parted.map(({path}) => `<link rel="modulepreload" href="${path}">`)];
+    // What draws comes behind the decoder, which has work to do meanwhile.
+    const ahead = parted.filter(({path}) => path !== '/tks_scene.js');
+    early.tks = [...early.tks, ...ahead.map(({path}) => `<link rel="modulepreload" href="${path}">`)];
     for (const method of METHODS) site.#code(`/${method}.html`, pageOf(method, early[method]));
     site.#code('/tetrakis.wasm', readFileSync(web + 'dist/tetrakis.wasm'));
     const draco = web + 'node_modules/three/examples/jsm/libs/draco/gltf/';

@@ -116,7 +116,8 @@ class RangeDecoder {
 };
 
 /// Decodes while RangeDecoder::hasPlenty() holds, without asking for missing bytes and with its
-/// state in registers; the decoder that it is made from goes on behind it once it is gone.
+/// state in registers, which is why decisions are inlined where else little is (web/module); the
+/// decoder that it is made from goes on behind it once it is gone.
 class RangeDecoder::Plenty {
  public:
   explicit Plenty(RangeDecoder& decoder)
@@ -129,7 +130,7 @@ class RangeDecoder::Plenty {
     decoder_.range_ = range_;
   }
 
-  bool decode(AdaptiveBit& model) {
+  [[gnu::always_inline]] bool decode(AdaptiveBit& model) {
     const uint32_t bound = boundOf(model);
     const bool bit = code_ >= bound;
     if (bit) {
@@ -144,7 +145,7 @@ class RangeDecoder::Plenty {
   }
 
   /// The same without a branch on the decision: for those that nobody can predict.
-  bool decodeUncertain(AdaptiveBit& model) {
+  [[gnu::always_inline]] bool decodeUncertain(AdaptiveBit& model) {
     const uint32_t bound = boundOf(model);
     const bool bit = code_ >= bound;
     const uint32_t mask = 0u - uint32_t{bit};

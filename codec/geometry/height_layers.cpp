@@ -125,9 +125,10 @@ void addCorrections(const std::vector<int32_t>& more, std::vector<int32_t>& corr
   }
 }
 
-/// The window of heights that were decoded whole, without the marks of their vertices.
-DecodedHeights cutWindow(const DecodedHeights& whole, const View& view) {
-  const DecodedGeometry& geometry = whole.geometry;
+/// The window of heights that were decoded from the first row on, without the marks of their
+/// vertices.
+DecodedHeights cutWindow(const DecodedHeights& decoded, const View& view) {
+  const DecodedGeometry& geometry = decoded.geometry;
   const auto cut_out = [&]<class T>(const std::vector<T>& values) {
     return cut(std::span<const T>(values), geometry.extent(), view);
   };
@@ -138,7 +139,7 @@ DecodedHeights cutWindow(const DecodedHeights& whole, const View& view) {
   part.geometry.fraction_bits = geometry.fraction_bits;
   part.geometry.heights = cut_out(geometry.heights);
   part.geometry.valid = cut_out(geometry.valid);
-  part.corrections = cut_out(whole.corrections);
+  part.corrections = cut_out(decoded.corrections);
   return part;
 }
 
@@ -175,15 +176,10 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
 
 namespace {
 
-/// Of the coded lines.
-DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& layers,
-                           const Codewords& codewords, const View& view,
+/// Of the coded lines, what stands in the codewords for all that the view shows.
+DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& layers,
+                           TakenLayers taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
-  TakenLayers taken(codewords, layers);
-  // A stored sample's place depends on the voids before it. Contexts of drawings and of corrections
-  // come from the whole plane.
-  if (view.window && (header.direct() || !taken.corrections.empty()))
-    return cutWindow(decodeLines(header, layers, codewords, {}, {context.threads}), view);
   HeightsMemory* const memory = context.memory;
   std::vector<uint8_t> valid = validityOf(taken, header, layers, memory);
   if (header.stored()) return decodeStored(header, taken.coefficients.front(), valid, view.level);
@@ -208,12 +204,32 @@ DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& l
   }
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(geometry), header);
   addCorrections(
-      decodeCorrections(taken.corrections, {hints, header.extent(), geometry.valid}).values,
+      decodeCorrections(taken.corrections, {hints, geometry.extent(), geometry.valid}).values,
       decoded.corrections);
   return decoded;
 }
 
+/// Of the coded lines.
+DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& layers,
+                           const Codewords& codewords, const View& view,
+                           const DecodeContext<HeightsMemory>& context) {
+  const TakenLayers taken(codewords, layers);
+  if (view.window && (header.direct() || !taken.corrections.empty())) {
+    const View all = decodedView(header, layers, view);
+    return cutWindow(decodeTaken(header, layers, taken, all, {context.threads}), view);
+  }
+  return decodeTaken(header, layers, taken, view, context);
+}
+
 }  // namespace
+
+View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {
+  if (header.direct()) return {};
+  if (!view.window || layers.corrections == CorrectionKind::kNone) return view;
+  const uint32_t rows = view.window->y + view.window->height;
+  if (layers.corrections == CorrectionKind::kSteps || rows == header.height) return {};
+  return {0, Window{0, 0, header.width, rows}};
+}
 
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,
                              const Codewords& codewords, const View& view,

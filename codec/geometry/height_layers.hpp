@@ -27,8 +27,15 @@ struct HeightsMemory {
   uint64_t bytes() const;
 };
 
+/// What a view takes of the coded lines. A stored sample's place depends on the voids before it,
+/// contexts of drawings come from the whole plane, and those of corrections from the rows before
+/// and from the heights that are corrected. Corrections of steps, which streams in regions hardly
+/// ever have, are decoded with all of them.
+View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view);
+
 /// Decodes what a view shows of the heights. In a window the time follows its size if there are
-/// regions and no corrections. Levels above 0 have no corrections: those belong to the samples.
+/// regions, with corrections of samples that of all rows from the first to its last. Levels above 0 have no
+/// corrections: those belong to the samples.
 /// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes. The
 /// memory is that of earlier calls with the same headers and view, which is no window.
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,

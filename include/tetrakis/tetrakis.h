@@ -364,8 +364,9 @@ typedef struct tks_window {
 
 /* The same samples as the three functions above give there, and no others: window->width *
  * window->height of them, row by row. The window lies inside and holds a sample, else TKS_USAGE. Of
- * streams with regions only those are decoded that reach the window; all of them where the stream
- * holds corrections (of floats that no step restores, or to a largest error). */
+ * streams with regions only those are decoded that reach the window; where the stream holds
+ * corrections those that reach its rows or any before them (of floats that no step restores), or
+ * all of them (to a largest error). */
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
 tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,

@@ -193,15 +193,27 @@ TEST(NeededRanges, BesideVoids) {
   EXPECT_TRUE(valid == expected);
 }
 
-/// Corrections are decoded with all heights, so that a window needs all of them.
-TEST(NeededRanges, OfStreamsWithCorrectionsAreAll) {
-  const samples::Raster heights = ridges(70, 60, TKS_I16);
-  tks_encode_options options = budget(0);
-  options.max_error = 3;
-  const Bytes bytes = encodeRegions(&heights, nullptr, options);
-  const tks_window window{50, 40, 5, 7};
-  const uint64_t header = Stream(bytes).info().header_bytes;
-  EXPECT_EQ(expectEnough(bytes, TKS_PART_HEIGHTS, &window), bytes.size() - header);
+/// Corrections are decoded from the first row on: a window needs the rows before it as well.
+TEST(NeededRanges, OfStreamsWithCorrectionsEndWithTheWindow) {
+  constexpr uint32_t kWidth = 64, kHeight = 300;
+  samples::Raster thirds = ridges(kWidth, kHeight, TKS_F32);
+  for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
+    const auto third = static_cast<float>(sampleAt(thirds.data, TKS_F32, i) / 3);
+    std::memcpy(thirds.data.data() + 4 * i, &third, 4);
+  }
+  const Bytes bytes = encodeRegions(&thirds, nullptr, lossless());
+  uint64_t before = 0;
+  for (uint32_t y = 0; y + 7 <= kHeight; y += 23) {
+    const tks_window window{50, y, 5, 7};
+    const uint64_t needed = expectEnough(bytes, TKS_PART_HEIGHTS, &window);
+    EXPECT_GE(needed, before);
+    before = needed;
+  }
+  const tks_window top{50, 0, 5, 7}, bottom{3, kHeight - 9, 5, 9};
+  const uint64_t all = bytes.size() - Stream(bytes).info().header_bytes;
+  EXPECT_LT(expectEnough(bytes, TKS_PART_HEIGHTS, &top), all);
+  EXPECT_EQ(expectEnough(bytes, TKS_PART_HEIGHTS, &bottom), all);
+  expectWindows(bytes, TKS_PART_HEIGHTS, kWidth, kHeight);
 }
 
 TEST(NeededRanges, NonsenseIsRefused) {

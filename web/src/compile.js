@@ -5,15 +5,21 @@ import {hasVectors} from './module.js';
 
 const compiled = new Map();
 
+/** While it comes, where the server says that it is a module. */
+async function compileAt(url) {
+  const answer = await fetch(url);
+  return answer.headers.get('content-type') === 'application/wasm'
+    ? WebAssembly.compileStreaming(answer)
+    : WebAssembly.compile(await answer.arrayBuffer());
+}
+
 /** One of `assets`, or what the caller says: a URL, bytes, or a module. */
 export async function compile(assets, wasm) {
   if (wasm instanceof WebAssembly.Module) return wasm;
   if (wasm && typeof wasm !== 'string' && !(wasm instanceof URL)) return WebAssembly.compile(wasm);
   const load = hasVectors() ? assets.full : assets.plain, key = wasm ? String(wasm) : load;
   if (!compiled.has(key)) {
-    const fetched = async () =>
-      wasm ? WebAssembly.compile(await (await fetch(wasm)).arrayBuffer()) : load();
-    const promise = fetched().catch((error) => {
+    const promise = (wasm ? compileAt(wasm) : load()).catch((error) => {
       compiled.delete(key);
       throw new TksError('io', `The WebAssembly module cannot be loaded (${error.message}). ` +
         'Bundlers may need {wasm: URL}.', {cause: error});

@@ -165,6 +165,9 @@ export interface Terrain {
   dispose(): void;
 }
 
+/** Options of `decode` for a frame that is to be soon: what the first bytes tell. */
+export const FIRST_FRAME: {bytes: number; triangles: number; texels: number};
+
 export function open(
   input: string | URL | ArrayBuffer | ArrayBufferView | Blob, options?: OpenOptions,
 ): Promise<Terrain>;

@@ -4,11 +4,11 @@ import {abortable} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './module.js';
-import {FIRST_BYTES, GROWTH, nextBytes} from './pace.js';
+import {FIRST_BYTES, FIRST_FRAME, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
 
-export {TksError, groundScale};
+export {FIRST_FRAME, TksError, groundScale};
 
 /** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen that go out at a time. */
 const REQUEST_BYTES = 4096;

@@ -3,6 +3,8 @@
 
 /** The first request: a picture of most terrains. */
 export const FIRST_BYTES = 4096;
+/** The first frame is to be soon, and so many bytes tell no more than this. */
+export const FIRST_FRAME = {bytes: FIRST_BYTES, triangles: 5000, texels: 512};
 /**
  * How many times as long each following prefix is, at least. A frame takes an inverse transform and
  * a mesh anew: with this growth they are few.

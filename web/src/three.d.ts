@@ -52,6 +52,6 @@ export class TksLoader extends Loader<TksTerrain> {
 }
 
 /** What TksLoader decodes before it gives a terrain. */
-export const FIRST_FRAME: {bytes: number; triangles: number; texels: number};
+export {FIRST_FRAME} from './index.js';
 
 export function textureOf(raster: Raster<Uint8ClampedArray>): DataTexture;

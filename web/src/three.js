@@ -9,7 +9,9 @@ import {
 import {startDecoder} from './decoders.js';
 import {drapeOf} from './drape.js';
 import {groundScale, open} from './index.js';
-import {FIRST_BYTES, GROWTH} from './pace.js';
+import {FIRST_FRAME, GROWTH} from './pace.js';
+
+export {FIRST_FRAME};
 
 /** Places of all samples that matter: of a mesh's vertices, or of the corners of a flat image. */
 function geometryOf(frame) {
@@ -51,8 +53,6 @@ export function textureOf({width, height, data}) {
   return texture;
 }
 
-/** The first frame is to be soon, and so many bytes tell no more than this. */
-export const FIRST_FRAME = {bytes: FIRST_BYTES, triangles: 5000, texels: 512};
 /** What is asked for at a time where the camera may move meanwhile: as much as is there, within. */
 const LEAST_STEP = 2 ** 14, MOST_STEP = 2 ** 18;
 /** What error of a texture is seen where a texel fills a pixel. */

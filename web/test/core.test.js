@@ -7,7 +7,7 @@ import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {gzipSync} from 'node:zlib';
 
-import {TksError, open} from '../src/index.js';
+import {FIRST_FRAME, TksError, open} from '../src/index.js';
 import {serve} from './server.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
@@ -406,6 +406,21 @@ test('a decoder that goes on gives what one that begins anew gives, forth and ba
   }
 });
 
+test('a module is compiled whatever the server calls it', async () => {
+  await writeFile(join(folder, 'decoder.wasm'),
+    await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
+  for (const type of ['application/wasm', 'application/octet-stream']) {
+    await withServer({headers: {'content-type': type}}, async ({url}) => {
+      const terrain = await open(bytes, {worker: false, wasm: `${url}decoder.wasm`});
+      assert.equal((await terrain.decode(FIRST_FRAME)).bytes, FIRST_FRAME.bytes);
+      terrain.dispose();
+    });
+  }
+  await withServer({missing: true}, async ({url}) => {
+    await assert.rejects(open(bytes, {worker: false, wasm: `${url}decoder.wasm`}), {code: 'io'});
+  });
+});
+
 test('memory returns: a hundred frames take no more than one', async () => {
   const {Decoder} = await import('../src/module.js');
   const decoder = new Decoder(
@@ -421,7 +436,7 @@ test('memory returns: a hundred frames take no more than one', async () => {
 });
 
 test('the modules are small', async () => {
-  const limits = {tetrakis: 177, 'tetrakis-raster': 125, 'tetrakis-encode': 327};
+  const limits = {tetrakis: 179, 'tetrakis-raster': 125, 'tetrakis-encode': 330};
   for (const [name, limit] of Object.entries(limits)) {
     const file = await readFile(new URL(`../dist/${name}.wasm`, import.meta.url));
     const zipped = gzipSync(file, {level: 9}).length;

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first script of the page: asks for the stream (?tks=URL) and starts its decoder while what draws
-// it is still on its way.
-import {open} from '../src/index.js';
+// The first script of the page: asks for the stream (?tks=URL) and decodes a first frame of it while
+// what draws it is still on its way.
+import {FIRST_FRAME, open} from '../src/index.js';
 import {decoder} from './decoder.js';
 
 const address = new URLSearchParams(location.search).get('tks');
 let asked = null;
 if (address) {
   const stop = new AbortController();
-  asked = {address, stop, terrain: open(address, {...decoder, signal: stop.signal})};
-  asked.terrain.catch(() => {});  // the viewer tells why
+  const {signal} = stop, terrain = open(address, {...decoder, signal});
+  const first = terrain.then((opened) => opened.decode({
+    ...FIRST_FRAME, bytes: opened.loaded.bytes, samples: 1024, normals: true,
+    surface: !opened.info.hasTexture, signal,
+  }));
+  asked = {address, stop, terrain, first};
+  for (const each of [terrain, first]) each.catch(() => {});  // the viewer tells why
 }
 const {begin} = await import('./viewer.js');
 begin(asked);

@@ -23,6 +23,8 @@ let terrain = null, object = null;
 let wanted = {};
 /** Bytes and triangles of the frame that is shown, and whether it has all texels. */
 let shown = {};
+/** A promise of the first frame, where that is being made already. */
+let begun = null;
 let opening = new AbortController();
 let pumping = false;
 
@@ -105,11 +107,12 @@ async function drawFirst(current) {
   const triangles = Math.min(wanted.triangles, FIRST_FRAME.triangles);
   const options = frameOptions(triangles);
   if (!info.hasIndex) current.load(wanted.bytes, options).catch(() => {});
-  const frame = await current.decode({...options, texels, bytes});
+  const frame = await (begun ?? current.decode({...options, texels, bytes}));
   if (current !== terrain) return;
+  begun = null;
   show(frame);
   const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
-  shown = {bytes, triangles, isWhole};
+  shown = {bytes: frame.bytes, triangles, isWhole};
 }
 
 /** Frames of more bytes, until others are wanted. */
@@ -200,7 +203,7 @@ function prepareControls(info) {
   $('size').textContent = sizes.join(' · ');
 }
 
-/** `asked`: {stop, terrain} of an open() that is under way already. */
+/** `asked`: {stop, terrain, first} of an open() that is under way already, and its first frame. */
 async function openInput(input, name, asked) {
   opening.abort();
   opening = asked?.stop ?? new AbortController();
@@ -216,6 +219,7 @@ async function openInput(input, name, asked) {
     terrain = opened;
     map.show(terrain);
     shown = {};
+    begun = asked?.first ?? null;
     object = new TksTerrain(terrain);
     object.material.wireframe = $('wireframe').checked;
     object.scale.y = exaggeration();
@@ -347,7 +351,7 @@ function nameOf(address) {
   }
 }
 
-/** Takes over what the page has asked for already: {address, stop, terrain}, or nothing. */
+/** Takes over what the page has asked for already: {address, stop, terrain, first}, or nothing. */
 export function begin(asked) {
   picture.onrest = replan;
   listen();

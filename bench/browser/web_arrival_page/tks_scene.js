@@ -5,8 +5,9 @@ import {material, measure, query} from './scene.js';
 
 const OPTIONS = {triangles: Number(query.triangles)};
 
-export const refine = (opening) => measure(async function* () {
+export const refine = (opening, beginning) => measure(async function* () {
   const terrain = await opening;
+  terrain.load(terrain.info.streamBytes).catch(() => {});  // told where frames are awaited
   const object = new TksTerrain(terrain, {material: material()});
   const shown = (frame) => {
     object.show(frame);
@@ -23,10 +24,9 @@ export const refine = (opening) => measure(async function* () {
       return drawn;
     }};
   };
-  const {triangles, texels} = FIRST_FRAME, first = {triangles, texels};
-  let options = {...OPTIONS, ...first};
-  for await (const frame of terrain.refine({...OPTIONS, first})) {
-    yield mark(frame, options);
-    options = OPTIONS;
+  const first = await beginning;
+  yield mark(first, FIRST_FRAME);
+  for await (const frame of terrain.refine({...OPTIONS, after: first.bytes})) {
+    yield mark(frame, OPTIONS);
   }
 });
