@@ -34,6 +34,10 @@ struct CodedHeights {
   bool corrects() const { return layers.corrections == CorrectionKind::kSamples; }
   /// Samples that count in the error.
   double counted() const { return of->counted(); }
+  /// Behind the opening there is one codeword, of coefficients.
+  bool holdsCoefficientsAlone() const {
+    return tracks.size() == 1 && !header.direct() && !corrects() && layers.table_bytes == 0;
+  }
   CodedTracks rated() const {
     return {Component::kGeometry, tracks, layers.openingBytes(), closing};
   }
