@@ -39,8 +39,8 @@ std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& grou
 }
 
 /// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
-/// `ratio` times the bytes of the one before, up to the first beyond half of the budget: behind that
-/// errors fall as they did (ratecontrol/pair_errors.hpp), and the last nodes take most time.
+/// `ratio` times the bytes of the one before, up to the first beyond half of the budget: behind
+/// that errors fall as they did (ratecontrol/pair_errors.hpp), and the last nodes take most time.
 template <class Coded>
 std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t budget) {
   constexpr double kFirst = 64;  // bytes
