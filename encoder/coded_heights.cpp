@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/coded_heights.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -174,12 +175,24 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
   HeightLayers layers = layersAround(*of, std::move(choice), options.priorities);
   std::vector<EncodedTrack> coefficients =
       codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));
-  if (layers.wavelet.fraction_bits == 0) {
-    const PlaneView<const int32_t> plane(of->steps.steps, extentOf(*of->samples), of->steps.valid);
-    const double missing = roundedBits(plane, layers.wavelet) * of->counted();
-    layers.wavelet.rounded_bytes = roundedBytes(coefficients, missing);
-  }
-  return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+  if (layers.wavelet.fraction_bits == 0) layers.wavelet.rounded_bytes = exactBytes(coefficients);
+  CodedHeights coded =
+      joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+  return target.tried ? coded : withRounding(std::move(coded));
+}
+
+CodedHeights withRounding(CodedHeights coded) {
+  WaveletHeader& wavelet = coded.header.wavelet;
+  const auto complete = [](const EncodedTrack& track) { return track.complete; };
+  if (coded.header.direct() || wavelet.fraction_bits > 0 ||
+      !std::all_of(coded.tracks.begin(), coded.tracks.end(), complete))
+    return coded;
+  const QuantisedHeights& of = *coded.of;
+  const PlaneView<const int32_t> plane(of.steps.steps, extentOf(*of.samples), of.steps.valid);
+  const uint64_t all = std::exchange(wavelet.rounded_bytes, 0);
+  const auto missing = static_cast<uint64_t>(roundedBits(plane, wavelet) * of.counted() / 8);
+  wavelet.rounded_bytes = all - std::min(all, missing);
+  return coded;
 }
 
 std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of) {

@@ -79,6 +79,7 @@ struct HeightTarget {
   Purpose purpose;
   uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
   double mean_square = 0;       ///< > 0: the error that is wanted, in squared steps
+  bool tried = false;           ///< one of several attempts: withRounding() follows for the best
 
   HeightTarget(Purpose of) : purpose(of) {}
 };
@@ -86,6 +87,9 @@ struct HeightTarget {
 /// All of this, with the corrections that the heights come with, and flat areas that pay.
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options);
+
+/// The same with the byte from which on decoders round, which takes time to find. coded: an attempt.
+CodedHeights withRounding(CodedHeights coded);
 
 /// The same heights as a drawing, in the place of coefficients; nothing if they have too many
 /// values for one.
