@@ -57,11 +57,13 @@ CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
 }
 
 /// Floats whose step is not given, rounded to the widest step that the bound allows; nothing if
-/// there is none wider than the exact one.
-std::optional<CodedHeights> widen(const Bound& bound) {
+/// there is none wider than the exact one, or multiples of that are clearly wider.
+std::optional<CodedHeights> widen(const Bound& bound, int32_t largest) {
+  constexpr double kClearly = 1.02;
   const tks_heights& samples = *bound.of->samples;
-  const double widest = 2 * bound.error;
-  if (samples.sample != TKS_F32 || samples.step > 0 || widest <= bound.of->steps.step) return {};
+  const double widest = 2 * bound.error, exact = bound.of->steps.step;
+  if (samples.sample != TKS_F32 || samples.step > 0 || widest <= exact) return {};
+  if ((2.0 * largest + 1) * exact > kClearly * widest) return {};
   Result<HeightSteps> wide = toSteps(samples, {.given = widest});
   if (!wide.ok()) return {};
   return codeRounded(bound, std::move(*wide));
@@ -170,7 +172,7 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
   const BoundWays ways = boundWays(bound.of->steps, extentOf(samples), bound.wavelet, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
-    if (std::optional<CodedHeights> wide = widen(bound))
+    if (std::optional<CodedHeights> wide = widen(bound, largest))
       made.push_back(candidateOf(*std::move(wide)));
     made.push_back(candidateOf(round(bound, largest)));
   }
