@@ -88,7 +88,8 @@ struct HeightTarget {
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options);
 
-/// The same with the byte from which on decoders round, which takes time to find. coded: an attempt.
+/// The same with the byte from which on decoders round, which takes time to find. coded: an
+/// attempt.
 CodedHeights withRounding(CodedHeights coded);
 
 /// The same heights as a drawing, in the place of coefficients; nothing if they have too many

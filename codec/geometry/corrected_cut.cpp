@@ -75,8 +75,8 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
 }
 
 /// The bytes have one minimum, near the usual cut: descent from there with ever smaller strides.
-/// Every turn but the last of each stride has fewer bytes than the one before. The shorter neighbour
-/// is tried first, because the usual cut goes on from it.
+/// Every turn but the last of each stride has fewer bytes than the one before. The shorter
+/// neighbour is tried first, because the usual cut goes on from it.
 uint64_t CorrectedCut::best(uint64_t rival) {
   constexpr double kWidest = 1.3;
   constexpr double kClearly = 1.03;  // smaller strides save less
