@@ -51,15 +51,19 @@ CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
   rounded->validity = bound.of->validity;
   rounded->steps = std::move(steps);
   if (!rounded->steps.exact) rounded->left = rounded->squaresOf(rounded->steps);
-  return codeHeights(std::move(rounded), Purpose::kLossless, bound.options);
+  HeightTarget target(Purpose::kLossless);
+  target.tried = true;
+  return codeHeights(std::move(rounded), target, bound.options);
 }
 
 /// Floats whose step is not given, rounded to the widest step that the bound allows; nothing if
-/// there is none wider than the exact one.
-std::optional<CodedHeights> widen(const Bound& bound) {
+/// there is none wider than the exact one, or multiples of that are clearly wider.
+std::optional<CodedHeights> widen(const Bound& bound, int32_t largest) {
+  constexpr double kClearly = 1.02;
   const tks_heights& samples = *bound.of->samples;
-  const double widest = 2 * bound.error;
-  if (samples.sample != TKS_F32 || samples.step > 0 || widest <= bound.of->steps.step) return {};
+  const double widest = 2 * bound.error, exact = bound.of->steps.step;
+  if (samples.sample != TKS_F32 || samples.step > 0 || widest <= exact) return {};
+  if ((2.0 * largest + 1) * exact > kClearly * widest) return {};
   Result<HeightSteps> wide = toSteps(samples, {.given = widest});
   if (!wide.ok()) return {};
   return codeRounded(bound, std::move(*wide));
@@ -106,11 +110,13 @@ struct UncutHeights {
   EncodedTrack track;
 };
 
-UncutHeights codeUncut(const Bound& bound, FlatChoice choice) {
+/// enough: the mean squared error, in steps, at which coding ends; 0: it does not.
+UncutHeights codeUncut(const Bound& bound, FlatChoice choice, double enough) {
   const QuantisedHeights& heights = *bound.of;
   HeightLayers layers = layersAround(heights, std::move(choice), bound.options.priorities);
-  EncodedTrack track = std::move(
-      codeCoefficients(heights, layers.wavelet, layers.flat.beside(bound.options)).front());
+  CoefficientOptions options = layers.flat.beside(bound.options);
+  if (enough > 0) options.enough = enough * heights.counted();
+  EncodedTrack track = std::move(codeCoefficients(heights, layers.wavelet, options).front());
   layers.wavelet.rounded_bytes = exactBytes(std::span(&track, 1));
   return {std::move(layers), std::move(track)};
 }
@@ -127,19 +133,37 @@ HeightLayers withCorrections(HeightLayers layers, const Corrected& corrected, in
   return layers;
 }
 
-/// mean_square: that the cut leaves, in steps; nothing: what takes the fewest bytes.
-CodedHeights correct(const Bound& bound, int32_t largest, FlatChoice choice,
-                     std::optional<double> mean_square) {
+/// What a cut is to be.
+struct CutTarget {
+  std::optional<double> mean_square = {};  ///< that it leaves, in steps; nothing: fewest bytes
+  uint64_t rival = UINT64_MAX;             ///< heights that clearly take more bytes are of no use
+};
+
+/// Coding ends at a small part of the error that cuts usually leave, unless the best one comes near
+/// that.
+CodedHeights correct(const Bound& bound, int32_t largest, const FlatChoice& choice,
+                     const CutTarget& target, bool to_the_end = false) {
+  constexpr double kPart = 1. / 32, kNear = 1.5;
   const QuantisedHeights& heights = *bound.of;
   assert(heights.corrections.empty());
-  const auto [layers, track] = codeUncut(bound, std::move(choice));
+  const double left = target.mean_square.value_or(usualCut(largest));
+  const auto [layers, track] = codeUncut(bound, choice, to_the_end ? 0 : left * kPart);
   const GeometryHeader header = headerOf(heights, layers, track.planes);
-  const CorrectedCut cut(heights.steps, layers.flat.areas, header, track, largest);
-  const uint64_t bytes = mean_square ? cut.bytesFor(*mean_square) : cut.best();
+  CorrectedCut cut(heights.steps, layers.flat.areas, header, track, largest);
+  const uint64_t bytes =
+      target.mean_square ? cut.bytesFor(*target.mean_square) : cut.best(target.rival);
+  const bool near = kNear * static_cast<double>(bytes) > static_cast<double>(track.codeword.size());
+  if (near && !to_the_end && !track.complete) return correct(bound, largest, choice, target, true);
   const Corrected corrected = cut.correct(bytes);
   const double distortion = distortionAt(track.points, bytes);
   return joinLayers(bound.of, withCorrections(layers, corrected, largest, distortion),
                     {cutAt(track, bytes)}, bound.options.region_log2);
+}
+
+uint64_t fewestOf(const std::vector<Candidate<CodedHeights>>& made) {
+  uint64_t fewest = UINT64_MAX;
+  for (const auto& one : made) fewest = std::min(fewest, one.bytes());
+  return fewest;
 }
 
 /// All attempts at a largest error in steps, whether they keep it or not.
@@ -148,14 +172,14 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
   const BoundWays ways = boundWays(bound.of->steps, extentOf(samples), bound.wavelet, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
-    if (std::optional<CodedHeights> wide = widen(bound))
+    if (std::optional<CodedHeights> wide = widen(bound, largest))
       made.push_back(candidateOf(*std::move(wide)));
     made.push_back(candidateOf(round(bound, largest)));
   }
   const bool one_track = bound.options.region_log2 == 0;  // is cut, not many
   if (ways.correct && one_track)
-    made.push_back(
-        candidateOf(correct(bound, largest, flatAreasOf(bound, largest), ways.mean_square)));
+    made.push_back(candidateOf(
+        correct(bound, largest, flatAreasOf(bound, largest), {ways.mean_square, fewestOf(made)})));
   return made;
 }
 
@@ -200,12 +224,16 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   for (const int32_t tried : {largest, std::max(largest - 1, 0), 0}) {
     if (tried == 0 && !kept.empty()) break;
     std::vector<Candidate<CodedHeights>> made = attempts(bound, tried);
-    const auto beyond =
-        std::erase_if(made, [&](const auto& one) { return !keepsBound(inputs, *one.coded); });
-    std::move(made.begin(), made.end(), std::back_inserter(kept));
-    if (beyond == 0) break;
+    std::stable_sort(made.begin(), made.end(),
+                     [](const auto& a, const auto& b) { return a.bytes() < b.bytes(); });
+    const auto keeps = [&](const auto& one) { return keepsBound(inputs, *one.coded); };
+    const auto shortest = std::find_if(made.begin(), made.end(), keeps);
+    if (shortest != made.end()) kept.push_back(*shortest);
+    if (shortest == made.begin()) break;  // longer ones need not be looked at
   }
-  return kept.empty() ? exactly() : fewestBytes(std::move(kept)).coded;
+  if (kept.empty()) return exactly();
+  const std::shared_ptr<const CodedHeights> best = fewestBytes(std::move(kept)).coded;
+  return std::make_shared<const CodedHeights>(withRounding(*best));
 }
 
 namespace {
@@ -235,7 +263,7 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   if (!correctionsMayPay(*whole.coded)) return whole.coded;
   options.limit = whole.bytes();
   const Bound bound{of, Purpose::kLossy, chooseHeightFilters(*of, Purpose::kLossy), options, 0};
-  auto corrected = candidateOf(correct(bound, 0, flatAreasOf(bound, 0), {}));
+  auto corrected = candidateOf(correct(bound, 0, flatAreasOf(bound, 0), {{}, whole.bytes()}));
   // Without corrections its account would not end at exact.
   if (corrected.coded->layers.corrections == CorrectionKind::kNone) return whole.coded;
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
@@ -265,7 +293,7 @@ CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy
   assert(lossy.tracks.size() == 1 && lossy.of->steps.exact && lossy.of->table.empty());
   const WaveletHeader& wavelet = lossy.header.wavelet;
   const Bound bound{lossy.of, Purpose::kLossy, wavelet, heightOptions(inputs), 0};
-  return correct(bound, 0, {lossy.flat, wavelet}, cut * cut);
+  return correct(bound, 0, {lossy.flat, wavelet}, {cut * cut});
 }
 
 }  // namespace tetrakis::inline encoder

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/coded_heights.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -9,7 +10,6 @@
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/hull.hpp"
 #include "wavelet/priority_map_encoder.hpp"
-#include "wavelet/rounding_choice.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -174,12 +174,26 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
   HeightLayers layers = layersAround(*of, std::move(choice), options.priorities);
   std::vector<EncodedTrack> coefficients =
       codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));
-  if (layers.wavelet.fraction_bits == 0) {
-    const PlaneView<const int32_t> plane(of->steps.steps, extentOf(*of->samples), of->steps.valid);
-    const double squares = roundedSquares(plane, layers.flat.areas.held(), layers.wavelet);
-    layers.wavelet.rounded_bytes = roundedBytes(coefficients, squares);
-  }
-  return joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+  std::vector<Account> accounts = accountsOf(coefficients);
+  if (layers.wavelet.fraction_bits == 0) layers.wavelet.rounded_bytes = exactBytes(coefficients);
+  CodedHeights coded =
+      joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+  coded.accounts = std::move(accounts);
+  return target.tried ? coded : withRounding(std::move(coded));
+}
+
+CodedHeights withRounding(CodedHeights coded) {
+  const std::vector<Account> accounts = std::exchange(coded.accounts, {});
+  WaveletHeader& wavelet = coded.header.wavelet;
+  const auto complete = [](const EncodedTrack& track) { return track.complete; };
+  if (accounts.empty() || wavelet.fraction_bits > 0 ||
+      !std::all_of(coded.tracks.begin(), coded.tracks.end(), complete))
+    return coded;
+  const QuantisedHeights& of = *coded.of;
+  const PlaneView<const int32_t> plane(of.steps.steps, extentOf(*of.samples), of.steps.valid);
+  wavelet.rounded_bytes =
+      roundedBytes(accounts, roundedSquares(plane, coded.flat.areas.held(), wavelet));
+  return coded;
 }
 
 std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of) {

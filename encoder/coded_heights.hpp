@@ -15,6 +15,7 @@
 #include "encoder/quantised_heights.hpp"
 #include "ratecontrol/coded_tracks.hpp"
 #include "wavelet/filter_choice.hpp"
+#include "wavelet/rounding_choice.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -25,15 +26,20 @@ struct CodedHeights {
   /// The first holds the codewords of validity and flat areas, coefficients with the table among
   /// them, corrections; others coefficients alone.
   std::vector<EncodedTrack> tracks;
-  uint64_t closing = 0;  ///< bytes of corrections
-  double left = 0;       ///< QuantisedHeights::left, or what stored samples leave
-  FlatLayer flat = {};   ///< beside which the coefficients were coded
+  uint64_t closing = 0;                ///< bytes of corrections
+  double left = 0;                     ///< QuantisedHeights::left, or what stored samples leave
+  FlatLayer flat = {};                 ///< beside which the coefficients were coded
+  std::vector<Account> accounts = {};  ///< of an attempt: of the coefficients of each track
 
   /// The complete tracks restore every sample.
   bool restoresSamples() const;
   bool corrects() const { return layers.corrections == CorrectionKind::kSamples; }
   /// Samples that count in the error.
   double counted() const { return of->counted(); }
+  /// Behind the opening there is one codeword, of coefficients.
+  bool holdsCoefficientsAlone() const {
+    return tracks.size() == 1 && !header.direct() && !corrects() && layers.table_bytes == 0;
+  }
   CodedTracks rated() const {
     return {Component::kGeometry, tracks, layers.openingBytes(), closing};
   }
@@ -75,6 +81,7 @@ struct HeightTarget {
   Purpose purpose;
   uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
   double mean_square = 0;       ///< > 0: the error that is wanted, in squared steps
+  bool tried = false;           ///< one of several attempts: withRounding() follows for the best
 
   HeightTarget(Purpose of) : purpose(of) {}
 };
@@ -82,6 +89,10 @@ struct HeightTarget {
 /// All of this, with the corrections that the heights come with, and flat areas that pay.
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options);
+
+/// The same with the byte from which on decoders round, which takes time to find. coded: an
+/// attempt.
+CodedHeights withRounding(CodedHeights coded);
 
 /// The same heights as a drawing, in the place of coefficients; nothing if they have too many
 /// values for one.

@@ -24,6 +24,8 @@ struct CodedTexture {
 
   /// Samples that count in the error.
   double counted() const;
+  /// Behind the opening there is one codeword, of coefficients.
+  bool holdsCoefficientsAlone() const { return tracks.size() == 1 && !header.direct(); }
   CodedTracks rated() const {
     return {Component::kTexture, tracks, header.alpha_bytes + header.overlay_bytes};
   }

@@ -10,7 +10,7 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-constexpr uint64_t kTexelsPerByte = 8, kSamplesPerByte = 16, kLeast = 4096;
+constexpr uint64_t kTexelsPerByte = 6, kSamplesPerByte = 12, kLeast = 4096;
 
 /// The heights that a view of a coarser level shows, with the last ones once more where they do not
 /// reach the border.
@@ -37,6 +37,15 @@ View enoughOf(Extent whole, uint64_t samples) {
   return view;
 }
 
+/// What a decoder is given of a component, and told of it.
+template <class Coded>
+Codewords prefixOf(const Rated<Coded>& rated, uint64_t bytes, TrackMemory& memory) {
+  const CodedTracks tracks = rated.coded.rated();
+  if (!endsWithPasses(rated)) return prefixAfter(tracks, rated.curve.packets, bytes);
+  memory.passes_within = bytes - std::min(bytes, tracks.opening);
+  return codewordsOf(tracks.tracks);
+}
+
 }  // namespace
 
 DecodedNodes::DecodedNodes(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
@@ -47,31 +56,30 @@ DecodedNodes::DecodedNodes(const EncodeInputs& inputs, const Rated<CodedHeights>
     mesh_.emplace(inputs, *heights.coded.of, texture.coded.of->texels);
 }
 
-DecodedNodes::Samples DecodedNodes::heightsAt(size_t point, const View& view) {
+DecodedNodes::Samples DecodedNodes::heightsAt(uint64_t bytes, const View& view) {
   const CodedHeights& coded = heights_.coded;
-  DecodedHeights shown = decodedAt(point, view);
+  DecodedHeights shown = decodedAt(bytes, view);
   std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
                                  shown.geometry.heights.size());
   fromSteps(shown, coded.header, coded.layers, samples.data());
   return {std::move(samples), std::move(shown.geometry.valid)};
 }
 
-Relief DecodedNodes::shownAt(size_t point) {
+Relief DecodedNodes::shownAt(uint64_t bytes) {
   if (mesh_) {
-    std::optional<Relief> mesh = mesh_->ofDecoded(decodedAt(point, mesh_->view()).geometry);
+    std::optional<Relief> mesh = mesh_->ofDecoded(decodedAt(bytes, mesh_->view()).geometry);
     if (mesh) return std::move(*mesh);
   }
-  return reliefAt(point);
+  return reliefAt(bytes);
 }
 
 /// Voids have every sample of their border.
-Relief DecodedNodes::reliefAt(size_t point) {
+Relief DecodedNodes::reliefAt(uint64_t bytes) {
   const tks_heights& whole = *inputs_.heights;
   const Extent extent{whole.width, whole.height};
   View view;
-  if (heights_.coded.of->steps.valid.empty())
-    view = enoughOf(extent, kSamplesPerByte * heights_.curve.points[point].bytes);
-  const Samples samples = heightsAt(point, view);
+  if (heights_.coded.of->steps.valid.empty()) view = enoughOf(extent, kSamplesPerByte * bytes);
+  const Samples samples = heightsAt(bytes, view);
   tks_heights shown = whole;
   shown.width = view.extentIn(extent).width;
   shown.height = view.extentIn(extent).height;
@@ -86,26 +94,23 @@ Relief DecodedNodes::original() const {
   return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
 }
 
-ScreenTexture DecodedNodes::textureAt(size_t point) {
+ScreenTexture DecodedNodes::textureAt(uint64_t bytes) {
   const CodedTexture& coded = texture_.coded;
   const Extent whole = coded.header.extent();
   View view;
-  if (!coded.header.direct())
-    view = enoughOf(whole, kTexelsPerByte * texture_.curve.points[point].bytes);
-  return {texelsAt(point, view), whole, view.level};
+  if (!coded.header.direct()) view = enoughOf(whole, kTexelsPerByte * bytes);
+  return {texelsAt(bytes, view), whole, view.level};
 }
 
-Texels DecodedNodes::texelsAt(size_t point, const View& view) {
+Texels DecodedNodes::texelsAt(uint64_t bytes, const View& view) {
   const CodedTexture& coded = texture_.coded;
-  const uint64_t bytes = texture_.curve.points[point].bytes;
-  const Codewords prefix = prefixAfter(coded.rated(), texture_.curve.packets, bytes);
+  const Codewords prefix = prefixOf(texture_, bytes, texture_memory_.tracks);
   return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, &texture_memory_});
 }
 
-DecodedHeights DecodedNodes::decodedAt(size_t point, const View& view) {
+DecodedHeights DecodedNodes::decodedAt(uint64_t bytes, const View& view) {
   const CodedHeights& coded = heights_.coded;
-  const uint64_t bytes = heights_.curve.points[point].bytes;
-  const Codewords prefix = prefixAfter(coded.rated(), heights_.curve.packets, bytes);
+  const Codewords prefix = prefixOf(heights_, bytes, heights_memory_.tracks);
   return decodeHeights(coded.header, coded.layers, prefix, view,
                        {inputs_.options.threads, &heights_memory_});
 }

@@ -24,8 +24,14 @@ struct Rated {
   const ComponentCurve& curve;
 };
 
-/// What decoders show of the inputs after the bytes of some nodes; calls must come with rising
-/// nodes, the last one for the original.
+/// Where the curve is one of whole passes, these are decoded, else prefixes of any length.
+template <class Coded>
+bool endsWithPasses(const Rated<Coded>& rated) {
+  return !rated.curve.passes.empty() && rated.coded.holdsCoefficientsAlone();
+}
+
+/// What decoders show of the inputs after so many bytes of either component; calls must come with
+/// rising bytes, and with those of ends of passes where the curve has them.
 class DecodedNodes {
  public:
   DecodedNodes(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
@@ -35,20 +41,20 @@ class DecodedNodes {
     std::vector<std::byte> data;  ///< of the type of the inputs
     std::vector<uint8_t> valid;   ///< empty: all are
   };
-  Samples heightsAt(size_t point, const View& view);
+  Samples heightsAt(uint64_t bytes, const View& view);
   bool showsMeshes() const { return mesh_.has_value(); }
   /// What viewers see of the heights.
-  Relief shownAt(size_t point);
+  Relief shownAt(uint64_t bytes);
   /// What they see of all heights, if that is a mesh.
   std::optional<Relief> meshOfAll() const { return mesh_ ? mesh_->ofOriginal() : std::nullopt; }
   Relief original() const;
 
-  ScreenTexture textureAt(size_t point);
-  Texels texelsAt(size_t point, const View& view);
+  ScreenTexture textureAt(uint64_t bytes);
+  Texels texelsAt(uint64_t bytes, const View& view);
 
  private:
-  DecodedHeights decodedAt(size_t point, const View& view);
-  Relief reliefAt(size_t point);
+  DecodedHeights decodedAt(uint64_t bytes, const View& view);
+  Relief reliefAt(uint64_t bytes);
 
   const EncodeInputs& inputs_;
   Rated<CodedHeights> heights_;

@@ -30,13 +30,24 @@ namespace {
 using Heights = std::shared_ptr<const CodedHeights>;
 using Texture = std::shared_ptr<const CodedTexture>;
 
+/// An error, in sample units, that leaves nothing but the exact steps: no coarser multiples of
+/// these, and of floats no other step.
+bool leavesExactSteps(const QuantisedHeights& heights, double error) {
+  const bool any_step = heights.samples->sample == TKS_F32;
+  return heights.steps.exact && !heights.restored() &&
+         error < heights.steps.step / (any_step ? 2 : 1);
+}
+
 /// Exact ones where these take fewer bytes.
 Heights codeWithinBound(const EncodeInputs& inputs,
                         const std::shared_ptr<const QuantisedHeights>& of) {
+  const double error = inputs.options.max_error / std::abs(inputs.heights->scale);
+  if (leavesExactSteps(*of, error)) {
+    if (Heights exact = exactHeightsFor(inputs, error, UINT64_MAX)) return exact;
+  }
   Heights bounded = codeBoundedHeights(inputs, of);
   const uint64_t bytes = bytesOf(bounded->tracks);
-  Heights exact =
-      exactHeightsFor(inputs, inputs.options.max_error / std::abs(inputs.heights->scale), bytes);
+  Heights exact = exactHeightsFor(inputs, error, bytes);
   return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
 }
 

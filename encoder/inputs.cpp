@@ -31,11 +31,14 @@ bool readByWindows(const tks_encode_options& options, int region_log2) {
 }
 
 /// Bytes worth coding: beyond the budget, because the slopes of the last packets within it depend
-/// on the points that follow, and the order must not depend on the budget.
+/// on the points that follow, and the order should hardly depend on the budget. Two components
+/// share it: either gets less, and has as much more behind it.
 uint64_t limitOf(const EncodeInputs& inputs) {
   constexpr uint64_t kMargin = 4096;
   const uint64_t budget = inputs.options.bytes;
-  return inputs.budgeted() && budget < UINT64_MAX / 4 ? 2 * budget + kMargin : UINT64_MAX;
+  if (!inputs.budgeted() || budget >= UINT64_MAX / 4) return UINT64_MAX;
+  const bool shared = inputs.heights != nullptr && inputs.image != nullptr;
+  return budget + (shared ? budget / 4 : budget) + kMargin;
 }
 
 }  // namespace

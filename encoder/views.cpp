@@ -39,36 +39,38 @@ std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& grou
 }
 
 /// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
-/// `ratio` times the bytes of the one before, up to the first beyond the budget. Tracks are coded
-/// to twice the budget: with a ratio of 2 the nodes that matter to it do not depend on it.
-std::vector<size_t> nodesOf(const ComponentCurve& curve, double ratio, uint64_t budget) {
+/// `ratio` times the bytes of the one before, up to the first beyond half of the budget: behind
+/// that errors fall as they did (ratecontrol/pair_errors.hpp), and the last nodes take most time.
+template <class Coded>
+std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t budget) {
   constexpr double kFirst = 64;  // bytes
-  const std::vector<RatePoint>& points = curve.points;
-  std::vector<size_t> nodes = {curve.opened};
+  const ComponentCurve& curve = rated.curve;
+  const std::span<const RatePoint> points = endsWithPasses(rated)
+                                                ? std::span(curve.passes)
+                                                : std::span(curve.points).subspan(curve.opened);
+  std::vector<RatePoint> nodes = {points.front()};
   double next = kFirst;
-  for (size_t i = curve.opened + 1; i < points.size(); ++i) {
-    const double bytes =
-        static_cast<double>(points[i].bytes) - static_cast<double>(points[curve.opened].bytes);
+  for (size_t i = 1; i < points.size(); ++i) {
+    const auto bytes = static_cast<double>(points[i].bytes - points.front().bytes);
     const bool last = i + 1 == points.size();
     if (bytes < next && !last) continue;
-    const RatePoint& before = points[nodes.back()];
-    if (!(points[i].distortion > 0 && points[i].distortion < before.distortion)) continue;
-    nodes.push_back(i);
+    if (!(points[i].distortion > 0 && points[i].distortion < nodes.back().distortion)) continue;
+    nodes.push_back(points[i]);
     next = std::max(bytes, next) * ratio;
-    if (points[i].bytes >= budget) break;
+    if (points[i].bytes >= budget / 2) break;
   }
   return nodes;
 }
 
 /// The pairs that are looked at: points of either curve.
 struct Nodes {
-  std::vector<size_t> heights, textures;
+  std::vector<RatePoint> heights, textures;
   std::vector<double> square_metres;  ///< errors of the heights
 };
 
-std::vector<double> squaresAt(const ComponentCurve& curve, const std::vector<size_t>& nodes) {
+std::vector<double> squaresAt(const std::vector<RatePoint>& nodes) {
   std::vector<double> squares;
-  for (const size_t node : nodes) squares.push_back(curve.points[node].distortion);
+  for (const RatePoint& node : nodes) squares.push_back(node.distortion);
   return squares;
 }
 
@@ -110,7 +112,7 @@ Surfaces surfacesOf(const ScreenPoints& points, const GroundRays& ground, Decode
     surfaces.seen.push_back(points.seenOf(GroundRays(std::move(relief)), texels));
   };
   for (size_t g = 0; g < nodes.heights.size(); ++g)
-    add(decoded.shownAt(nodes.heights[g]), nodes.square_metres[g]);
+    add(decoded.shownAt(nodes.heights[g].bytes), nodes.square_metres[g]);
   if (mesh) {
     add(std::move(*mesh), 0);
   } else {
@@ -128,8 +130,29 @@ std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenPoints
   return points.errorsOfOutlines(truth, pictures, surfaces.square_metres, enough);
 }
 
+/// What a texture adds to the error of a picture changes little from one surface to the next. So
+/// every other surface is not looked at through each texture, but for the last prefix and the
+/// original. count: of all surfaces, the original last.
+bool isLookedAt(size_t surface, size_t count) {
+  return surface % 2 == 0 || surface + 2 >= count;
+}
+
+/// Gives the other surfaces what their neighbours have: of what a shift of the ground does to a
+/// picture and of what it does to a texture's errors, both grow with its square as long as it is
+/// small. errors: with a texture, whole: with the original one, by surfaces.
+void fillBetween(const std::vector<double>& whole, std::vector<double>& errors) {
+  for (size_t g = 1; g + 1 < errors.size(); ++g) {
+    if (isLookedAt(g, errors.size())) continue;
+    const double before = whole[g - 1], here = whole[g], after = whole[g + 1];
+    const bool falls = before >= here && here >= after && before > after;
+    const double rest = falls ? (before - here) / (before - after) : 0.5;
+    const double from = errors[g - 1] - before, to = errors[g + 1] - after;
+    errors[g] = std::max(here + from + (to - from) * rest, 0.0);
+  }
+}
+
 /// Errors of all pairs of nodes by the modelled engine: all surfaces are traced first, then each
-/// texture is looked at through all of them.
+/// texture is looked at through them.
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
                                    DecodedNodes& decoded, const Nodes& nodes,
                                    const Texels& texels) {
@@ -138,19 +161,30 @@ std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const Gro
   const Surfaces surfaces = surfacesOf(points, ground, decoded, nodes, extent);
   const std::vector<std::vector<SeenPoint>>& seen = surfaces.seen;
   const ScreenTexture original(texels, extent);
-  const std::vector<SeenPoint> in_truth = points.seenOf(ground, extent);
-  const std::vector<Colour> true_colours = points.coloursOf(in_truth, original);
-  const ScreenPoints::Pictures truth{in_truth, true_colours};
   const SeenColours whole = coloursOf(points, seen, original);
+  const bool of_mesh = decoded.showsMeshes();
+  const std::vector<SeenPoint> in_truth = of_mesh ? points.seenOf(ground, extent) : seen.back();
+  const std::vector<Colour> true_colours =
+      of_mesh ? points.coloursOf(in_truth, original) : whole.back();
+  const ScreenPoints::Pictures truth{in_truth, true_colours};
   const std::vector<double> outlines = outlineErrors(points, truth, surfaces, whole);
+  std::vector<double> inside;
+  for (size_t g = 0; g < seen.size(); ++g)
+    inside.push_back(points.errorInside(truth, {seen[g], whole[g]}));
   const size_t columns = nodes.textures.size() + 1;
   std::vector<double> errors(seen.size() * columns);
   for (size_t t = 0; t < columns; ++t) {
-    const bool last = t + 1 == columns;
-    const SeenColours shown =
-        last ? whole : coloursOf(points, seen, decoded.textureAt(nodes.textures[t]));
-    for (size_t g = 0; g < seen.size(); ++g)
-      errors[g * columns + t] = points.errorInside(truth, {seen[g], shown[g]}) + outlines[g];
+    std::vector<double> column = inside;
+    if (t + 1 < columns) {
+      const ScreenTexture texture = decoded.textureAt(nodes.textures[t].bytes);
+      for (size_t g = 0; g < seen.size(); ++g) {
+        if (!isLookedAt(g, seen.size())) continue;
+        const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
+        column[g] = points.errorInside(truth, {seen[g], colours});
+      }
+      fillBetween(inside, column);
+    }
+    for (size_t g = 0; g < seen.size(); ++g) errors[g * columns + t] = column[g] + outlines[g];
   }
   return errors;
 }
@@ -170,13 +204,13 @@ std::vector<double> renderedErrors(const EncodeInputs& inputs, DecodedNodes& dec
                                    const Nodes& nodes) {
   const tks_encode_options& options = inputs.options;
   std::vector<DecodedNodes::Samples> surfaces;
-  for (const size_t node : nodes.heights) surfaces.push_back(decoded.heightsAt(node, {}));
+  for (const RatePoint& node : nodes.heights) surfaces.push_back(decoded.heightsAt(node.bytes, {}));
   const size_t rows = nodes.heights.size() + 1, columns = nodes.textures.size() + 1;
   std::vector<double> errors(rows * columns);
   for (size_t t = 0; t < columns; ++t) {
     std::vector<std::byte> texels;
     if (t + 1 < columns)
-      texels = bytesOfTexels(decoded.texelsAt(nodes.textures[t], {}), inputs.image->sample);
+      texels = bytesOfTexels(decoded.texelsAt(nodes.textures[t].bytes, {}), inputs.image->sample);
     for (size_t g = 0; g < rows; ++g) {
       if (g + 1 == rows && t + 1 == columns) continue;  // the originals themselves
       const void* heights = g + 1 < rows ? surfaces[g].data.data() : inputs.heights->data;
@@ -244,9 +278,8 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
   const double metres = metresOfStep(heights.coded);
-  Nodes nodes = {nodesOf(heights.curve, ratio, budget), nodesOf(texture.curve, ratio, budget), {}};
-  PairNodes squares = {squaresAt(heights.curve, nodes.heights),
-                       squaresAt(texture.curve, nodes.textures)};
+  Nodes nodes = {nodesOf(heights, ratio, budget), nodesOf(texture, ratio, budget), {}};
+  PairNodes squares = {squaresAt(nodes.heights), squaresAt(nodes.textures)};
   for (const double square : squares.heights)
     nodes.square_metres.push_back(square * metres * metres);
   const bool exact = squares.heights.front() <= 0 || squares.textures.front() <= 0;
@@ -281,8 +314,9 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
   std::vector<double> errors;
   for (size_t i = 0; i < lengths.size(); ++i) {
     const std::vector<SeenPoint> seen =
-        points.seenOf(GroundRays(decoded.shownAt(i)), texels.extent());
-    const std::vector<Colour> colours = points.coloursOf(seen, decoded.textureAt(i));
+        points.seenOf(GroundRays(decoded.shownAt(of_heights.points[i].bytes)), texels.extent());
+    const std::vector<Colour> colours =
+        points.coloursOf(seen, decoded.textureAt(of_texture.points[i].bytes));
     const ScreenPoints::Pictures shown{seen, colours};
     const double square_metres =
         of_heights.points[i].distortion * std::pow(metresOfStep(heights), 2);

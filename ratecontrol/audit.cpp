@@ -146,9 +146,11 @@ class Correction {
 /// just before the end: the fewer coefficients are missing the more counts what samples lose by
 /// being rounded.
 std::vector<size_t> pointsToMeasure(std::span<const RatePoint> points) {
+  static constexpr std::array kExact = {0.5, 0.65, 0.8, 0.9};
+  static constexpr std::array kOther = {0.25, 0.5, 0.75};
   const bool exact = points.back().squares() == 0;
   std::vector<size_t> measured;
-  for (const double part : exact ? std::array{0.5, 0.75, 0.9} : std::array{0.25, 0.5, 0.75})
+  for (const double part : exact ? std::span<const double>(kExact) : kOther)
     measured.push_back(static_cast<size_t>(part * static_cast<double>(points.size() - 1)));
   if (exact && points.size() > 1) measured.push_back(points.size() - 2);
   return measured;

@@ -80,9 +80,13 @@ ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> point
     quality[point.bytes] = statedQuality(point.squares(), pricing);
     point.distortion = costOf(point.distortion, pricing);
   }
+  std::vector<RatePoint> behind_opening;
+  for (const RatePoint& point : points)
+    if (point.bytes >= coded.opening) behind_opening.push_back(point);
   favour(points, coded.opening);
   const std::vector<RatePoint> hull = lowerHull(points, kPacketGrowth);
   ComponentCurve curve{{hull.front()}, {}};
+  curve.passes = std::move(behind_opening);
   uint64_t begin = 0;
   for (size_t i = 1; i < hull.size(); ++i) {
     for (const RatePoint& end : packetEnds(points, hull[i - 1], hull[i])) {
@@ -123,7 +127,10 @@ ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope,
   assert(!coded.tracks.empty() && pricing.samples > 0);
   if (coded.tracks.size() > 1) return curveOfMany(coded, measure, pricing);
   const auto measure_track = [&](uint64_t bytes) { return measure({}, bytes); };
-  return curveOfOne(coded, audit(coded.tracks.front(), scope, measure_track), pricing);
+  ComponentCurve curve =
+      curveOfOne(coded, audit(coded.tracks.front(), scope, measure_track), pricing);
+  if (scope.samples <= kSmallSamples) curve.passes.clear();  // prefixes of any length are measured
+  return curve;
 }
 
 }  // namespace tetrakis::inline ratecontrol

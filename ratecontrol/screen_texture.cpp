@@ -9,17 +9,21 @@ namespace tetrakis::inline ratecontrol {
 
 ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
     : whole_(whole), first_(first) {
-  const size_t count = size_t{texels.width} * texels.height, channels = texels.channels;
+  const size_t channels = texels.channels;
   const bool has_alpha = channels % 2 == 0;
+  const size_t second = channels < 3 ? 0 : 1, third = channels < 3 ? 0 : 2;
   const int shift = texels.bits - 8;
-  Level level{texels.width, texels.height, std::vector<uint8_t>(4 * count), 1, 1, 0};
-  for (size_t i = 0; i < count; ++i) {
-    const uint16_t* texel = &texels.samples[i * channels];
+  Level level{texels.width, texels.height, {}, 1, 1, 0};
+  level.texels.resize(texels.extent().samples());
+  const uint16_t* texel = texels.samples.data();
+  for (Lanes& lanes : level.texels) {
     const uint32_t alpha = has_alpha ? texel[channels - 1] >> shift : 255;
-    for (size_t c = 0; c < 3; ++c) {
-      const uint32_t colour = texel[channels < 3 ? 0 : c] >> shift;
-      level.texels[4 * i + c] = static_cast<uint8_t>((colour * alpha + 127) / 255);
-    }
+    const auto colour = [&](size_t c) -> Lanes {
+      const uint32_t value = texel[c] >> shift;
+      return alpha == 255 ? value : (value * alpha + 127) / 255;
+    };
+    lanes = colour(0) | colour(second) << 16 | colour(third) << 32;
+    texel += channels;
   }
   while (level.width > 1 || level.height > 1) {
     Level next = halved(level);
@@ -39,41 +43,42 @@ void ScreenTexture::place(Level& level, int halvings) const {
 }
 
 ScreenTexture::Level ScreenTexture::halved(const Level& fine) {
+  constexpr Lanes kHalf = 0x0002'0002'0002, kBytes = 0x00ff'00ff'00ff;
   Level coarse{std::max(1u, fine.width / 2), std::max(1u, fine.height / 2), {}};
-  coarse.texels.resize(size_t{4} * coarse.width * coarse.height);
-  size_t out = 0;
+  coarse.texels.resize(size_t{coarse.width} * coarse.height);
+  const size_t beside = fine.width > 1 ? 1 : 0;
+  Lanes* out = coarse.texels.data();
   for (uint32_t y = 0; y < coarse.height; ++y) {
-    const uint8_t* north = &fine.texels[size_t{4} * fine.width * std::min(2 * y, fine.height - 1)];
-    const uint8_t* south =
-        &fine.texels[size_t{4} * fine.width * std::min(2 * y + 1, fine.height - 1)];
+    const Lanes* north = &fine.texels[size_t{fine.width} * std::min(2 * y, fine.height - 1)];
+    const Lanes* south = &fine.texels[size_t{fine.width} * std::min(2 * y + 1, fine.height - 1)];
     for (uint32_t x = 0; x < coarse.width; ++x) {
-      const size_t west = size_t{4} * std::min(2 * x, fine.width - 1);
-      const size_t east = size_t{4} * std::min(2 * x + 1, fine.width - 1);
-      for (size_t c = 0; c < 4; ++c)
-        coarse.texels[out++] = static_cast<uint8_t>(
-            (north[west + c] + north[east + c] + south[west + c] + south[east + c] + 2) / 4);
+      const size_t west = size_t{2} * x, east = west + beside;
+      *out++ = (north[west] + north[east] + south[west] + south[east] + kHalf) >> 2 & kBytes;
     }
   }
   return coarse;
 }
 
-void ScreenTexture::addBilinear(const Level& level, double u, double v, float weight, Sum& sum) {
+/// Along rows weights are multiples of 1/256, so that sums of lanes stay below 2^16.
+void ScreenTexture::addBilinear(const Level& level, double u, double v, float weight, Colour& sum) {
   const double x = std::clamp(u * level.scale_x - level.shift, 0.0, level.width - 1.0);
   const double y = std::clamp(v * level.scale_y - level.shift, 0.0, level.height - 1.0);
   const auto west = static_cast<size_t>(x), north = static_cast<size_t>(y);
   const size_t east = std::min<size_t>(west + 1, level.width - 1);
   const size_t south = std::min<size_t>(north + 1, level.height - 1);
-  const auto fx = static_cast<float>(x - static_cast<double>(west));
+  constexpr Lanes kParts = 256;
+  const auto of_east = static_cast<Lanes>((x - static_cast<double>(west)) * kParts + 0.5);
   const auto fy = static_cast<float>(y - static_cast<double>(north));
-  const uint8_t* rows[2] = {&level.texels[4 * north * level.width],
-                            &level.texels[4 * south * level.width]};
-  const float along[2] = {weight * (1 - fy), weight * fy};
-  for (size_t j = 0; j < 2; ++j) {
-    const uint8_t *a = rows[j] + 4 * west, *b = rows[j] + 4 * east;
-    const float wa = along[j] * (1 - fx), wb = along[j] * fx;
-    for (size_t c = 0; c < 4; ++c)
-      sum[c] += wa * static_cast<float>(a[c]) + wb * static_cast<float>(b[c]);
-  }
+  const Lanes* const texels = level.texels.data();
+  const auto along = [&](size_t row) {
+    const Lanes* const from = texels + row * level.width;
+    return from[west] * (kParts - of_east) + from[east] * of_east;
+  };
+  const Lanes upper = along(north), lower = along(south);
+  const float of_upper = weight * (1 - fy) / kParts, of_lower = weight * fy / kParts;
+  for (size_t c = 0; c < 3; ++c)
+    sum[c] += of_upper * static_cast<float>(upper >> 16 * c & 0xffff) +
+              of_lower * static_cast<float>(lower >> 16 * c & 0xffff);
 }
 
 Colour ScreenTexture::at(double u, double v, double level) const {
@@ -81,10 +86,10 @@ Colour ScreenTexture::at(double u, double v, double level) const {
   const double detail = std::clamp(level - first_, 0.0, last);
   const auto fine = static_cast<size_t>(detail);
   const auto rest = static_cast<float>(detail - static_cast<double>(fine));
-  Sum sum{};
+  Colour sum{};
   addBilinear(levels_[fine], u, v, 1 - rest, sum);
   if (rest > 0) addBilinear(levels_[fine + 1], u, v, rest, sum);
-  return {sum[0], sum[1], sum[2]};
+  return sum;
 }
 
 }  // namespace tetrakis::inline ratecontrol

@@ -24,16 +24,17 @@ class ScreenTexture {
   Colour at(double u, double v, double level) const;
 
  private:
+  /// R, G and B in 16 bits each, from the lowest up: one multiplication weighs all three.
+  using Lanes = uint64_t;
   struct Level {
     uint32_t width = 0, height = 0;
-    std::vector<uint8_t> texels;  ///< R, G, B and nothing: four are one load
+    std::vector<Lanes> texels;
     /// Place of a level's texel = scale * (place from 0 to 1) - shift.
     double scale_x = 1, scale_y = 1, shift = 0;
   };
   static Level halved(const Level& fine);
   void place(Level& level, int halvings) const;
-  using Sum = std::array<float, 4>;
-  static void addBilinear(const Level& level, double u, double v, float weight, Sum& sum);
+  static void addBilinear(const Level& level, double u, double v, float weight, Colour& sum);
 
   Extent whole_;
   int first_;                  ///< level of detail of levels_[0]

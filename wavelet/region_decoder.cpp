@@ -19,6 +19,16 @@ uint64_t bytesOf(const Codewords& codewords) {
 
 }  // namespace
 
+uint64_t TrackMemory::knownBytes(const Codewords& codewords) const {
+  return passes_within ? std::min(*passes_within, bytesOf(codewords)) : bytesOf(codewords);
+}
+
+const TrackState& TrackMemory::decode(size_t track, std::span<const uint8_t> codeword) {
+  assert(!passes_within || tracks.size() == 1);
+  return passes_within ? tracks[track]->decodePasses(codeword, *passes_within)
+                       : tracks[track]->decode(codeword);
+}
+
 uint64_t TrackMemory::bytes() const {
   uint64_t sum = 0;
   for (const auto& one : tracks) sum += one ? one->bytes() : 0;
@@ -50,21 +60,23 @@ Precision RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of,
                              const Take& take) const {
   assert(!codewords.empty());
   // Windows do not decode all tracks, so that only the bytes say how much is known.
-  const Precision precision = precisionOf(wavelet, bit_planes, bytesOf(codewords), level);
+  TrackMemory* const memory = context.memory;
+  const uint64_t bytes = memory != nullptr ? memory->knownBytes(codewords) : bytesOf(codewords);
+  const Precision precision = precisionOf(wavelet, bit_planes, bytes, level);
   const int more_bits = precision.fraction_bits - wavelet.fraction_bits;
   if (nothingKnown(codewords)) return precision;
-  TrackMemory* const memory = context.memory;
   if (memory != nullptr) memory->tracks.resize(codewords.size());
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
     if (codewords[i].empty() || bit_planes == 0) return;
     if (memory != nullptr && memory->tracks[i])
-      return take(i, memory->tracks[i]->decode(codewords[i]), more_bits);
+      return take(i, memory->decode(i, codewords[i]), more_bits);
     std::vector<BandPlan> plan = plan_of(i);
     if (plan.empty()) return;
     if (memory == nullptr) return take(i, decodeTrack(plan, bit_planes, codewords[i]), more_bits);
     if (memory->all_levels)
       for (BandPlan& band : plan) band.needed = true;
-    take(i, memory->tracks[i].emplace(std::move(plan), bit_planes).decode(codewords[i]), more_bits);
+    memory->tracks[i].emplace(std::move(plan), bit_planes);
+    take(i, memory->decode(i, codewords[i]), more_bits);
   });
   return precision;
 }

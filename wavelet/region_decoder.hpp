@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/view.hpp"
@@ -23,7 +24,13 @@ namespace tetrakis::inline wavelet {
 struct TrackMemory {
   std::vector<std::optional<GrowingTrack>> tracks;
   bool all_levels = false;  ///< for calls with views of several levels
+  /// For calls with the whole codeword of the only track: the passes that begin within so many
+  /// bytes of it count. Encoders look at prefixes so.
+  std::optional<uint64_t> passes_within = {};
 
+  /// What calls know of these codewords.
+  uint64_t knownBytes(const Codewords& codewords) const;
+  const TrackState& decode(size_t track, std::span<const uint8_t> codeword);
   uint64_t bytes() const;
 };
 

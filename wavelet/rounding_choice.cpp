@@ -135,13 +135,22 @@ double roundedSquares(const PlaneView<const int32_t>& plane, const HeldSamples& 
   return first * static_cast<double>(coded);
 }
 
+std::vector<Account> accountsOf(std::span<const EncodedTrack> tracks) {
+  std::vector<Account> accounts;
+  for (const EncodedTrack& track : tracks) accounts.push_back(track.points);
+  return accounts;
+}
+
+uint64_t roundedBytes(std::span<const Account> accounts, double squares) {
+  uint64_t bytes = 0;
+  for (const Account& account : accounts)
+    bytes += bytesAt(account, squares / static_cast<double>(accounts.size()));
+  return bytes;
+}
+
 uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double squares) {
   const uint64_t exact = exactBytes(tracks);
-  if (exact > bytesOf(tracks)) return exact;
-  uint64_t bytes = 0;
-  for (const EncodedTrack& track : tracks)
-    bytes += bytesAt(track.points, squares / static_cast<double>(tracks.size()));
-  return bytes;
+  return exact > bytesOf(tracks) ? exact : roundedBytes(accountsOf(tracks), squares);
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -19,8 +19,16 @@ namespace tetrakis::inline wavelet {
 double roundedSquares(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                       const WaveletHeader& wavelet);
 
-/// What the header says of it. squares: of all tracks, which belong to one component. Tracks that
-/// are not complete are never rounded.
+/// The points of a track's coefficients (EncodedTrack::points).
+using Account = std::vector<RatePoint>;
+
+std::vector<Account> accountsOf(std::span<const EncodedTrack> tracks);
+
+/// What the header says of it. accounts: of all tracks of a component, which are complete. squares:
+/// of them together.
+uint64_t roundedBytes(std::span<const Account> accounts, double squares);
+
+/// The same of tracks of coefficients alone; those that are not complete are never rounded.
 uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double squares);
 
 }  // namespace tetrakis::inline wavelet

@@ -122,6 +122,20 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   return state_;
 }
 
+const TrackState& GrowingTrack::decodePasses(std::span<const uint8_t> codeword, uint64_t bytes) {
+  if (!decoder_) decoder_.emplace(codeword);
+  DecodingIo io{{*decoder_}};
+  while (passes_.needed() && io.decoder.read(codeword) < bytes) {
+    const Pass pass = passes_.front();
+    state_.run(plan_, pass, io);
+    if (io.stopped()) break;
+    passes_.pop(state_.bands[pass.band]);
+  }
+  decoder_ = io.decoder;
+  state_.complete = !passes_.needed();
+  return state_;
+}
+
 uint64_t GrowingTrack::bytes() const {
   uint64_t sum = 0, largest = 0;
   for (const BandPlan& band : plan_) {

@@ -31,6 +31,11 @@ class GrowingTrack {
   /// other bytes the state may be one that no prefix has). The state is valid until the next call.
   const TrackState& decode(std::span<const uint8_t> codeword);
 
+  /// All passes that the first `bytes` bytes decide, to the end of the last one of them, which may
+  /// read on: nothing has to be taken back. codeword: all of it, the same at every call. Not mixed
+  /// with calls of decode().
+  const TrackState& decodePasses(std::span<const uint8_t> codeword, uint64_t bytes);
+
   /// What the state takes, at most, as it is and as it was at the beginning of a pass.
   uint64_t bytes() const;
 

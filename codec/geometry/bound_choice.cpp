@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <span>
 #include <vector>
@@ -28,7 +29,7 @@ HeightSteps cropped(const HeightSteps& whole, Extent plane, const Window& part) 
   return out;
 }
 
-/// A part of the plane, as if it were one.
+/// A part of the plane, as if it were one. It stays where it is made.
 class PartTrial {
  public:
   PartTrial(HeightSteps steps, const Window& part, const WaveletHeader& wavelet, int32_t largest)
@@ -39,11 +40,9 @@ class PartTrial {
     track_ = coded(steps_.steps, wavelet);
     header_.planes = static_cast<uint8_t>(track_.planes);
   }
+  PartTrial(const PartTrial&) = delete;
 
-  uint64_t corrected(double mean_square) const {
-    const CorrectedCut cut(steps_, no_areas_, header_, track_, largest_);
-    return cut.total(cut.bytesFor(mean_square));
-  }
+  uint64_t corrected(double mean_square) { return cut_.total(cut_.bytesFor(mean_square)); }
 
   uint64_t rounded() const {
     std::vector<int32_t> steps = steps_.steps;
@@ -63,6 +62,7 @@ class PartTrial {
   const FlatAreas no_areas_;  // they help rounded steps as much as corrected ones
   GeometryHeader header_;
   EncodedTrack track_;
+  CorrectedCut cut_{steps_, no_areas_, header_, track_, largest_};
 };
 
 /// Where the corrected parts take the fewest bytes.
@@ -72,10 +72,10 @@ struct BestCut {
 };
 
 /// Descent by falling ratios; every turn but the last of each has fewer bytes than the one before.
-BestCut bestCut(const std::vector<PartTrial>& trials, int32_t largest) {
+BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
   const auto at = [&](double mean_square) {
     BestCut cut{mean_square, 0};
-    for (const PartTrial& trial : trials) cut.bytes += trial.corrected(mean_square);
+    for (PartTrial& trial : trials) cut.bytes += trial.corrected(mean_square);
     return cut;
   };
   BestCut best = at(usualCut(largest));
@@ -103,7 +103,7 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   assert(steps.steps.size() == plane.samples());
   if (largest == 0) return {.correct = false};
   if (plane.samples() <= kSearchedSamples) return {};
-  std::vector<PartTrial> trials;
+  std::deque<PartTrial> trials;
   uint64_t rounded = 0;
   const Mask valid = steps.valid;
   const IsCoded is_coded = valid.all() ? IsCoded() : [&](size_t i) { return valid[i]; };

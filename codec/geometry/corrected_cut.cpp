@@ -2,7 +2,9 @@
 #include "codec/geometry/corrected_cut.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 
@@ -13,9 +15,39 @@ int32_t nearestMultiple(int64_t q, int64_t largest) {
   return static_cast<int32_t>((shifted - (shifted % unit + unit) % unit) / unit);
 }
 
-Corrected CorrectedCut::correct(uint64_t bytes) const {
-  const DecodedGeometry decoded = decodeGeometry(
-      header_, {std::span(coefficients_.codeword).first(bytes)}, {steps_.valid, flat_});
+/// Goes on from the longest cut that is known and no longer.
+DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
+  const auto longer = known_.upper_bound(bytes);
+  TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;
+  DecodedGeometry geometry =
+      decodeGeometry(header_, {std::span(coefficients_.codeword).first(bytes)},
+                     {steps_.valid, flat_}, {}, {1, &memory});
+  known_[bytes] = std::move(memory);
+  return geometry;
+}
+
+/// Cuts to be tried lie about the shortest in all: what helps most is known of it and of the next
+/// one before it.
+void CorrectedCut::forgetFarthest() {
+  constexpr size_t kKept = 2;
+  while (known_.size() > kKept) {
+    const auto last = std::prev(known_.end());
+    known_.erase(last->first > shortest_ ? last : known_.begin());
+  }
+}
+
+uint64_t CorrectedCut::total(uint64_t bytes) {
+  const auto tried = totals_.find(bytes);
+  if (tried != totals_.end()) return tried->second;
+  const uint64_t total = bytes + correct(bytes).codeword.size();
+  if (totals_.empty() || total < totals_[shortest_]) shortest_ = bytes;
+  totals_[bytes] = total;
+  forgetFarthest();
+  return total;
+}
+
+Corrected CorrectedCut::correct(uint64_t bytes) {
+  const DecodedGeometry decoded = this->decoded(bytes);
   const std::vector<int32_t> steps = wholeSteps(decoded);
   Corrected result;
   std::vector<int32_t> corrections(steps.size());
@@ -43,15 +75,24 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
 }
 
 /// The bytes have one minimum, near the usual cut: descent from there with ever smaller strides.
-/// Every turn but the last of each stride has fewer bytes than the one before.
-uint64_t CorrectedCut::best() const {
-  uint64_t best = bytesFor(usualCut(largest_)), least = total(best);
-  for (const double stride : {1.3, 1.1, 1.04}) {
+/// Every turn but the last of each stride has fewer bytes than the one before. The shorter
+/// neighbour is tried first, because the usual cut goes on from it.
+uint64_t CorrectedCut::best(uint64_t rival) {
+  constexpr double kWidest = 1.3;
+  constexpr double kClearly = 1.03;  // smaller strides save less
+  const auto scaled = [&](uint64_t bytes, double factor) {
+    return std::min<uint64_t>(static_cast<uint64_t>(static_cast<double>(bytes) * factor),
+                              coefficients_.codeword.size());
+  };
+  uint64_t best = bytesFor(usualCut(largest_));
+  total(scaled(best, 1 / kWidest));
+  uint64_t least = total(best);
+  for (const double stride : {kWidest, 1.1, 1.04}) {
+    const bool lost = static_cast<double>(least) > kClearly * static_cast<double>(rival);
+    if (lost && stride < kWidest) break;
     for (const double factor : {1 / stride, stride}) {
       for (;;) {
-        const uint64_t cut =
-            std::min<uint64_t>(static_cast<uint64_t>(static_cast<double>(best) * factor),
-                               coefficients_.codeword.size());
+        const uint64_t cut = scaled(best, factor);
         const uint64_t bytes = total(cut);
         if (bytes >= least) break;
         best = cut;

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
+#include "codec/geometry/geometry_decoder.hpp"
 #include "codec/geometry/height_steps.hpp"
 
 namespace tetrakis::inline geometry {
@@ -22,7 +24,8 @@ struct Corrected {
   double before = 0, after = 0;   ///< squared errors in steps
 };
 
-/// Tries cuts of one track of coefficients, complete or not. All arguments outlive it.
+/// Tries cuts of one track of coefficients, complete or not. All arguments outlive it. It remembers
+/// what it has decoded of the cuts near the best one, so that others go on from there.
 class CorrectedCut {
  public:
   /// header: with the planes of the track; flat: what the coefficients were coded beside; largest:
@@ -35,22 +38,28 @@ class CorrectedCut {
         coefficients_(coefficients),
         largest_(largest) {}
 
-  Corrected correct(uint64_t bytes) const;
+  Corrected correct(uint64_t bytes);
 
   /// Bytes of the coefficients that leave a mean squared error, in steps.
   uint64_t bytesFor(double mean_square) const;
   /// Of the cut there and its corrections.
-  uint64_t total(uint64_t bytes) const { return bytes + correct(bytes).codeword.size(); }
+  uint64_t total(uint64_t bytes);
 
-  /// The cut of fewest bytes in all.
-  uint64_t best() const;
+  /// The cut of fewest bytes in all; where these are clearly more than the rival's, about it.
+  uint64_t best(uint64_t rival);
 
  private:
+  DecodedGeometry decoded(uint64_t bytes);
+  void forgetFarthest();
+
   const HeightSteps& steps_;
   const FlatAreas& flat_;
   const GeometryHeader& header_;
   const EncodedTrack& coefficients_;
   int32_t largest_;
+  std::map<uint64_t, TrackMemory> known_;  ///< by bytes
+  std::map<uint64_t, uint64_t> totals_;
+  uint64_t shortest_ = 0;  ///< of the cuts that were tried, if there are any
 };
 
 /// The mean squared error, in steps, that cuts usually leave where the bytes are fewest. Samples

@@ -320,6 +320,35 @@ TEST(TrackCoding, GrowingTracksEndInLongPasses) {
   }
 }
 
+/// All known bits of a are known in b.
+bool isWithin(const TrackState& a, const TrackState& b) {
+  bool within = true;
+  for (size_t i = 0; i < a.bands.size(); ++i)
+    for (size_t k = 0; k < a.bands[i].magnitude.size(); ++k)
+      within &= (a.bands[i].magnitude[k] & ~b.bands[i].magnitude[k]) == 0;
+  return within;
+}
+
+/// Whole passes know all that a prefix tells, but for the bytes that a decoder reads ahead, and end
+/// with everything.
+TEST(TrackCoding, WholePassesKnowWhatPrefixesTell) {
+  constexpr size_t kAhead = 4;
+  const Material m = material(3, {9, 40}, 5);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  const TrackState all = decodeTrack(m.plan, track.planes, track.codeword);
+  for (const size_t stride : {1u, 7u, 50u}) {
+    GrowingTrack growing(m.plan, track.planes);
+    for (size_t bytes = kAhead; bytes <= track.codeword.size(); bytes += stride) {
+      const auto prefix = std::span(track.codeword).first(bytes - kAhead);
+      const TrackState& known = growing.decodePasses(track.codeword, bytes);
+      ASSERT_TRUE(isWithin(decodeTrack(m.plan, track.planes, prefix), known)) << bytes;
+      ASSERT_TRUE(isWithin(known, all)) << bytes;
+    }
+    const TrackState& last = growing.decodePasses(track.codeword, UINT64_MAX);
+    EXPECT_TRUE(last.complete && sameKnowledge(last, all));
+  }
+}
+
 /// Coefficients of 30 bits, the most there may be, all of them.
 TEST(TrackCoding, TheLargestMagnitudesComeBack) {
   Material m = material(9, {6, 9}, 5);

@@ -198,6 +198,25 @@ TEST(PairErrors, MeetsItsNodesAndStaysBetweenThem) {
     for (double t = 80; t > 1e-3; t *= 0.8) EXPECT_LE(at(h * 0.9, t * 0.9), at(h, t) + 1e-9);
 }
 
+/// Errors that are a power of the squared error stay one behind the last node.
+TEST(PairErrors, GoOnAsTheyFell) {
+  constexpr double kPower = 1.4, kOriginal = 3;
+  const std::vector<double> squares = {1000, 100, 10};
+  const auto error = [&](double square) { return kOriginal + std::pow(square, kPower); };
+  std::vector<double> by_heights, by_textures;
+  for (const double square : squares) by_textures.push_back(error(square));
+  by_textures.push_back(kOriginal);
+  by_textures.insert(by_textures.end(), by_textures.begin(), by_textures.begin() + 4);
+  for (const double square : squares) by_heights.insert(by_heights.end(), 2, error(square));
+  by_heights.insert(by_heights.end(), 2, kOriginal);
+  const PairErrors textures({{1}, squares}, by_textures), heights({squares, {1}}, by_heights);
+  for (const double square : {9., 5., 1., 0.1}) {
+    EXPECT_NEAR(textures.at(textures.heightsAt(1), textures.textureAt(square)), error(square),
+                1e-9);
+    EXPECT_NEAR(heights.at(heights.heightsAt(square), heights.textureAt(1)), error(square), 1e-9);
+  }
+}
+
 TEST(JoinNeighbours, KeepsBytesQualityStepsAndWholePackets) {
   const auto packet = [](Component component, bool whole, int quality, uint64_t begin,
                          uint64_t end) {

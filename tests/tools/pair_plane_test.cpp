@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+
+#include "tools/synth/synth.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -103,6 +107,39 @@ TEST(PairPlane, ExactPairsEndTheHull) {
   findPaths(plane);
   expectPaths(plane);
   EXPECT_TRUE(std::isinf(plane.hull.back().psnr));
+}
+
+/// Tracks that are decoded once, and textures that are drawn at once, give what each stream of two
+/// prefixes gives by itself.
+TEST(PairPlane, PairsAreStreamsOfTheirPrefixes) {
+  SynthOptions options;
+  options.size = 65;
+  SynthTerrain terrain = synthesize(options);
+  const Reference original{std::move(terrain.heights), std::move(terrain.texture)};
+  const tks_heights heights = asHeights(*original.heights);
+  const tks_image image = asImage(*original.image);
+  tks_encode_options target = makeEncodeOptions();
+  target.bytes = 6000;
+  const Result<Buffer> stream = encode(&heights, &image, target);
+  ASSERT_TRUE(stream.ok());
+  const Result<Decoder> decoder = Decoder::open(stream->bytes());
+  ASSERT_TRUE(decoder.ok());
+  Result<Comparer> comparer = Comparer::create(original, decoder->info());
+  ASSERT_TRUE(comparer.ok() && comparer->look({"", "all"}).ok());
+  const Result<SplitStream> tracks = SplitStream::take(stream->bytes());
+  ASSERT_TRUE(tracks.ok());
+  std::vector<double> progress;
+  const auto tell = [&](double done) { progress.push_back(done); };
+  const Result<PairPlane> plane = lookAtPairs(*comparer, *tracks, {.most = 3, .ratio = 3}, 0, tell);
+  ASSERT_TRUE(plane.ok());
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()) && progress.back() == 1);
+  for (size_t h = 0; h < plane->heights.size(); ++h)
+    for (size_t t = 0; t < plane->textures.size(); ++t) {
+      const std::vector<uint8_t> cut = tracks->cut({plane->heights[h], plane->textures[t]});
+      const Result<Measurement> seen = comparer->measure(cut, 0);
+      ASSERT_TRUE(seen.ok());
+      EXPECT_EQ(plane->at(h, t), *seen->screen_psnr) << h << ", " << t;
+    }
 }
 
 }  // namespace

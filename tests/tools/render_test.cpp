@@ -200,6 +200,35 @@ TEST_F(Rendering, SeveralCamerasGiveWhatSingleOnesGive) {
     EXPECT_EQ((*pictures)[i].rgba, draw(mesh, (*cameras)[i]).rgba);
 }
 
+/// Several textures are drawn at once, unless one of them has holes.
+TEST_F(Rendering, EachTextureGivesWhatItGivesAlone) {
+  const Result<std::vector<Camera>> cameras = presetCameras("all", {{-1, 0, -1}, {1, 0.5, 1}});
+  ASSERT_TRUE(cameras.ok());
+  std::vector<ImageFile> images;
+  for (uint8_t i = 0; i < 9; ++i) {
+    const auto colour = static_cast<uint8_t>(25 * i);
+    images.push_back(
+        blocks({{{colour, 10, 20}, {30, colour, 40}, {50, 60, colour}, {9, 8, 7}}}, 8));
+  }
+  ImageFile with_holes = blocks({{{200, 255}, {30, 0}, {50, 255}, {90, 0}}}, 8);
+  MeshFile mesh = square({0, 0.5f, 0.25f, 0});
+  for (const size_t count : {0u, 1u, 2u, 3u, 4u, 5u, 9u, 10u}) {
+    if (count == 10) images.push_back(with_holes);
+    mesh.texture = nullptr;
+    ASSERT_TRUE(renderer_->takeTextures(std::span(images).first(count)).ok());
+    std::vector<std::vector<Picture>> drawn;
+    const auto take = [&](std::vector<Picture> pictures) { drawn.push_back(std::move(pictures)); };
+    ASSERT_TRUE(renderer_->drawWithEach(mesh, *cameras, take).ok());
+    ASSERT_EQ(drawn.size(), count);
+    for (size_t i = 0; i < count; ++i) {
+      mesh.texture = &images[i];
+      ASSERT_EQ(drawn[i].size(), cameras->size());
+      for (size_t c = 0; c < cameras->size(); ++c)
+        EXPECT_EQ(drawn[i][c].rgba, draw(mesh, (*cameras)[c]).rgba) << i << " of " << count;
+    }
+  }
+}
+
 TEST_F(Rendering, RenderersDoNotDisturbEachOther) {
   const MeshFile mesh = square({0, 0.5f, 0.25f, 0});
   const Picture first = draw(mesh, above(30));

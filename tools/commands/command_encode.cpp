@@ -236,16 +236,30 @@ std::string summary(const std::string& name, const tks_info& info) {
          std::to_string(heads) + ")";
 }
 
-Status stageReport(const EncodeArguments& arguments, const Reference& inputs,
-                   std::span<const uint8_t> stream, Output& page) {
+Status writeReport(const EncodeArguments& arguments, const Reference& inputs,
+                   std::span<const uint8_t> stream, bool quiet, Output& page) {
+  tellNote("drawing the report, which takes some seconds", quiet);
   const std::string name = arguments.height.empty() ? arguments.texture : arguments.height;
-  const Result<Report> report =
-      makeReport(inputs, {std::filesystem::path(name).filename().string(), stream,
-                          arguments.triangles, arguments.cameras});
+  Progress progress("drawing", quiet);
+  ReportRequest request{std::filesystem::path(name).filename().string(), stream,
+                        arguments.triangles, arguments.cameras};
+  request.progress = [&](double done) { Progress::report(&progress, done); };
+  const Result<Report> report = makeReport(inputs, request);
   if (!report.ok()) return report.status();
   const Result<std::string> html = renderPage(*report);
   if (!html.ok()) return html.status();
-  return page.stage(std::as_bytes(std::span(*html)));
+  if (Status status = page.stage(std::as_bytes(std::span(*html))); !status.ok()) return status;
+  return page.commit();
+}
+
+/// What was written, unless nobody wants to know.
+Status tellSummary(const EncodeArguments& arguments, std::span<const uint8_t> stream, bool quiet) {
+  if (quiet) return Status();
+  const Result<Decoder> decoder = openDecoder(stream);
+  if (!decoder) return decoder.status();
+  tellNote(boundNote(arguments, decoder->info()), quiet);
+  std::fprintf(stderr, "%s\n", summary(arguments.output, decoder->info()).c_str());
+  return Status();
 }
 
 /// The outputs, planned before any work is done.
@@ -287,19 +301,10 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();
   if (Status status = outputs->stream.stage(std::as_bytes(bytes)); !status.ok()) return status;
-  if (outputs->report) {
-    if (Status status = stageReport(arguments, *inputs, bytes, *outputs->report); !status.ok())
-      return status;
-  }
-  std::vector<Output*> all{&outputs->stream};
-  if (outputs->report) all.push_back(&*outputs->report);
-  if (Status status = Output::commitAll(std::move(all)); !status.ok()) return status;
-  if (quiet) return Status();
-  const Result<Decoder> decoder = openDecoder(bytes);
-  if (!decoder) return decoder.status();
-  tellNote(boundNote(arguments, decoder->info()), quiet);
-  std::fprintf(stderr, "%s\n", summary(arguments.output, decoder->info()).c_str());
-  return Status();
+  if (Status status = outputs->stream.commit(); !status.ok()) return status;
+  if (Status status = tellSummary(arguments, bytes, quiet); !status.ok()) return status;
+  if (!outputs->report) return Status();
+  return writeReport(arguments, *inputs, bytes, quiet, *outputs->report);
 }
 
 }  // namespace

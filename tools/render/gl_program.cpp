@@ -42,6 +42,19 @@ void main() {
   colour = vec4(min(kGround * (0.74 * sun + 0.28 * sky), 1.0), 1.0);
 })";
 
+/// Each texture has an output of its own, whose colours are as above where alpha is 1.
+std::string manyTexturesShader(GLuint textures) {
+  const std::string count = std::to_string(textures);
+  std::string outputs, body;
+  for (GLuint i = 0; i < textures; ++i) {
+    const std::string number = std::to_string(i);
+    outputs += "layout(location = " + number + ") out vec4 colour" + number + ";\n";
+    body += "colour" + number + " = vec4(texture(images[" + number + "], varied.xy).rgb, 1.0);\n";
+  }
+  return "#version 300 es\nprecision highp float;\nuniform sampler2D images[" + count +
+         "];\nin highp vec3 varied;\n" + outputs + "void main() {\n" + body + "}";
+}
+
 std::string shaderLog(GLuint shader) {
   std::string log(512, '\0');
   GLsizei length = 0;
@@ -70,11 +83,24 @@ GlProgram::~GlProgram() {
 }
 
 Status GlProgram::build(Paint paint) {
+  return buildWith(paint == Paint::kTexture ? kTextureShader : kHillshadeShader);
+}
+
+Status GlProgram::buildMany(GLuint textures) {
+  if (Status status = buildWith(manyTexturesShader(textures).c_str()); !status.ok()) return status;
+  constexpr std::array<GLint, kTexturesAtOnce> kUnits = {0, 1, 2, 3};
+  glUseProgram(program_);
+  glUniform1iv(glGetUniformLocation(program_, "images"), static_cast<GLsizei>(textures),
+               kUnits.data());
+  return Status();
+}
+
+Status GlProgram::buildWith(const char* fragment_shader) {
   program_ = glCreateProgram();
   if (Status status = attach(program_, GL_VERTEX_SHADER, kVertexShader); !status.ok())
     return status;
-  const char* fragment = paint == Paint::kTexture ? kTextureShader : kHillshadeShader;
-  if (Status status = attach(program_, GL_FRAGMENT_SHADER, fragment); !status.ok()) return status;
+  if (Status status = attach(program_, GL_FRAGMENT_SHADER, fragment_shader); !status.ok())
+    return status;
   glLinkProgram(program_);
   GLint linked = GL_FALSE;
   glGetProgramiv(program_, GL_LINK_STATUS, &linked);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "ground/sky.hpp"
@@ -45,23 +46,24 @@ Status checkGl(const char* what) {
                                      " with " + what);
 }
 
-Status checkMesh(const MeshFile& mesh) {
+Status checkTexture(const ImageFile& image) {
+  const size_t samples = size_t{image.width} * image.height * image.channels;
+  const size_t bytes = image.sample == TKS_U8 ? 1 : image.sample == TKS_U16 ? 2 : 0;
+  if (samples > 0 && bytes > 0 && image.data.size() == samples * bytes) return Status();
+  return Status(TKS_USAGE,
+                "cannot draw a texture whose samples are not 8 or 16 bits each, or do not fill it");
+}
+
+/// textured: it will have a texture.
+Status checkMesh(const MeshFile& mesh, bool textured) {
   const size_t vertices = mesh.positions.size() / 3;
   for (const uint32_t index : mesh.triangles)
     if (index >= vertices) return Status(TKS_USAGE, "cannot draw: a triangle has no such vertex");
   if (mesh.triangles.size() / 3 > std::numeric_limits<GLsizei>::max() / 3)
     return Status(TKS_LIMIT, "cannot draw more than 715827882 triangles at once");
-  if (!mesh.texture) return Status();
-  if (mesh.texcoords.size() != 2 * vertices)
+  if (textured && mesh.texcoords.size() != 2 * vertices)
     return Status(TKS_USAGE, "cannot draw a texture on a mesh without texture coordinates");
-  const ImageFile& image = *mesh.texture;
-  const size_t samples = size_t{image.width} * image.height * image.channels;
-  const size_t bytes = image.sample == TKS_U8 ? 1 : image.sample == TKS_U16 ? 2 : 0;
-  if (samples == 0 || bytes == 0 || image.data.size() != samples * bytes)
-    return Status(
-        TKS_USAGE,
-        "cannot draw a texture whose samples are not 8 or 16 bits each, or do not fill it");
-  return Status();
+  return mesh.texture ? checkTexture(*mesh.texture) : Status();
 }
 
 /// The triangles whose corners are all finite.
@@ -114,34 +116,56 @@ std::vector<float> normalsOf(const MeshFile& mesh, const std::vector<uint32_t>& 
   return normals;
 }
 
-/// A mesh with its paint on the GPU.
+/// A texture on the GPU.
+class Texture {
+ public:
+  Texture(const ImageFile& image, const GlLimits& limits) : opaque_(image.channels % 2 == 1) {
+    const std::vector<TextureLevel> levels = texturePyramid(image, limits.texture);
+    bind();
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    for (size_t i = 0; i < levels.size(); ++i)
+      glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA8,
+                   static_cast<GLsizei>(levels[i].width), static_cast<GLsizei>(levels[i].height), 0,
+                   GL_RGBA, GL_UNSIGNED_BYTE, levels[i].rgba.data());
+  }
+  void bind(GLuint unit = 0) const {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, name_);
+  }
+  bool opaque() const { return opaque_; }
+
+ private:
+  GlTexture name_;
+  bool opaque_;
+};
+
+/// A mesh on the GPU, with texture coordinates or normals.
 class Scene {
  public:
-  Status upload(const MeshFile& mesh, const GlLimits& limits) {
+  Status upload(const MeshFile& mesh, Paint paint) {
     const std::vector<uint32_t> triangles = finiteTriangles(mesh);
     box_ = boundsOf(mesh, triangles);
     index_count_ = static_cast<GLsizei>(triangles.size());
     if (triangles.empty()) return Status();
-    paint_ = mesh.texture ? Paint::kTexture : Paint::kHillshade;
     glBindVertexArray(array_);
     fill(GL_ELEMENT_ARRAY_BUFFER, indices_, triangles);
     fillAttribute(0, positions_, mesh.positions, 3);
-    if (mesh.texture) {
-      fillAttribute(1, attributes_, mesh.texcoords, 2);
-      fillTexture(texturePyramid(*mesh.texture, limits.texture));
-    } else {
+    if (paint == Paint::kHillshade)
       fillAttribute(1, attributes_, normalsOf(mesh, triangles), 3);
-    }
+    else
+      fillAttribute(1, attributes_, mesh.texcoords, 2);
     return checkGl("the mesh");
   }
 
-  Paint paint() const { return paint_; }
   const Bounds& box() const { return box_; }
 
+  /// With the texture that is bound, if it has coordinates.
   void draw() const {
     if (index_count_ == 0) return;
     glBindVertexArray(array_);
-    glBindTexture(GL_TEXTURE_2D, texture_);
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
   }
 
@@ -160,33 +184,25 @@ class Scene {
     glEnableVertexAttribArray(location);
   }
 
-  void fillTexture(const std::vector<TextureLevel>& levels) const {
-    glBindTexture(GL_TEXTURE_2D, texture_);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    for (size_t i = 0; i < levels.size(); ++i)
-      glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA8,
-                   static_cast<GLsizei>(levels[i].width), static_cast<GLsizei>(levels[i].height), 0,
-                   GL_RGBA, GL_UNSIGNED_BYTE, levels[i].rgba.data());
-  }
-
   GlVertexArray array_;
   GlBuffer indices_, positions_, attributes_;
-  GlTexture texture_;
   GLsizei index_count_ = 0;
-  Paint paint_ = Paint::kHillshade;
   Bounds box_;
 };
 
-/// Colour and depth to draw into; read back row by row from the bottom.
+/// Colours of one picture or several, and depth, to draw into; read back row by row from the
+/// bottom.
 class Target {
  public:
-  Target(uint32_t width, uint32_t height) : width_(width), height_(height) {
+  Target(uint32_t width, uint32_t height, GLuint pictures) : width_(width), height_(height) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    attach(colour_, GL_RGBA8, GL_COLOR_ATTACHMENT0);
+    std::vector<GLenum> outputs;
+    for (GLuint i = 0; i < pictures; ++i) {
+      outputs.push_back(GL_COLOR_ATTACHMENT0 + i);
+      attach(colours_[i], GL_RGBA8, outputs.back());
+    }
     attach(depth_, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+    glDrawBuffers(static_cast<GLsizei>(outputs.size()), outputs.data());
   }
 
   Status begin() const {
@@ -201,7 +217,8 @@ class Target {
     return Status();
   }
 
-  std::vector<uint8_t> read() const {
+  std::vector<uint8_t> read(GLuint picture) const {
+    glReadBuffer(GL_COLOR_ATTACHMENT0 + picture);
     std::vector<uint8_t> rgba(size_t{4} * width_ * height_);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, static_cast<GLsizei>(width_), static_cast<GLsizei>(height_), GL_RGBA,
@@ -219,7 +236,8 @@ class Target {
 
   uint32_t width_, height_;
   GlFramebuffer framebuffer_;
-  GlRenderbuffer colour_, depth_;
+  std::array<GlRenderbuffer, kTexturesAtOnce> colours_;
+  GlRenderbuffer depth_;
 };
 
 /// Averages kSamples x kSamples samples, the sky where nothing was drawn.
@@ -253,30 +271,91 @@ class GlesRenderer final : public Renderer {
   Status build() {
     limits_ = GlLimits::query();
     if (Status status = textured_.build(Paint::kTexture); !status.ok()) return status;
+    for (size_t i = 0; i < many_.size(); ++i)
+      if (Status status = many_[i].buildMany(static_cast<GLuint>(i + 2)); !status.ok())
+        return status;
     return hillshaded_.build(Paint::kHillshade);
   }
 
   Result<std::vector<Picture>> draw(const MeshFile& mesh,
                                     const std::vector<Camera>& cameras) override {
-    try {
-      if (Status status = checkMesh(mesh); !status.ok()) return status;
-      if (Status status = context_.makeCurrent(); !status.ok()) return status;
+    std::vector<Picture> pictures;
+    Status status = guarded([&]() -> Status {
+      const bool textured = mesh.texture != nullptr;
+      if (Status sound = checkMesh(mesh, textured); !sound.ok()) return sound;
+      if (Status current = context_.makeCurrent(); !current.ok()) return current;
       Scene scene;
-      if (Status status = scene.upload(mesh, limits_); !status.ok()) return status;
-      std::vector<Picture> pictures;
-      for (const Camera& camera : cameras) {
-        Result<Picture> picture = draw(scene, camera);
-        if (!picture.ok()) return picture.status();
-        pictures.push_back(std::move(*picture));
+      std::optional<Texture> texture;
+      if (textured) texture.emplace(*mesh.texture, limits_);
+      const Paint paint = textured ? Paint::kTexture : Paint::kHillshade;
+      if (Status uploaded = scene.upload(mesh, paint); !uploaded.ok()) return uploaded;
+      if (texture) texture->bind();
+      std::vector<std::vector<Picture>> drawn(1);
+      const GlProgram& program = textured ? textured_ : hillshaded_;
+      if (Status done = draw(scene, cameras, program, drawn); !done.ok()) return done;
+      pictures = std::move(drawn.front());
+      return Status();
+    });
+    if (!status.ok()) return status;
+    return pictures;
+  }
+
+  Status takeTextures(std::span<const ImageFile> textures) override {
+    return guarded([&]() -> Status {
+      if (Status current = context_.makeCurrent(); !current.ok()) return current;
+      textures_.clear();
+      for (const ImageFile& image : textures) {
+        if (Status sound = checkTexture(image); !sound.ok()) return sound;
+        textures_.push_back(std::make_unique<const Texture>(image, limits_));
       }
-      return pictures;
+      return checkGl("the textures");
+    });
+  }
+
+  Status drawWithEach(const MeshFile& mesh, const std::vector<Camera>& cameras,
+                      const TakePictures& take) override {
+    return guarded([&]() -> Status {
+      if (Status sound = checkMesh(mesh, true); !sound.ok()) return sound;
+      if (Status current = context_.makeCurrent(); !current.ok()) return current;
+      Scene scene;
+      if (Status uploaded = scene.upload(mesh, Paint::kTexture); !uploaded.ok()) return uploaded;
+      const bool opaque = std::all_of(textures_.begin(), textures_.end(),
+                                      [](const auto& texture) { return texture->opaque(); });
+      // Holes are those of one texture, and what lies behind them is seen.
+      const size_t all = textures_.size(), most = opaque ? kTexturesAtOnce : 1;
+      const size_t batches = (all + most - 1) / most;
+      for (size_t batch = 0; batch < batches; ++batch) {
+        const size_t first = all * batch / batches, count = all * (batch + 1) / batches - first;
+        for (size_t i = 0; i < count; ++i) textures_[first + i]->bind(static_cast<GLuint>(i));
+        std::vector<std::vector<Picture>> drawn(count);
+        const GlProgram& program = count == 1 ? textured_ : many_[count - 2];
+        if (Status done = draw(scene, cameras, program, drawn); !done.ok()) return done;
+        for (std::vector<Picture>& pictures : drawn) take(std::move(pictures));
+      }
+      return Status();
+    });
+  }
+
+ private:
+  template <class Work>
+  static Status guarded(const Work& work) {
+    try {
+      return work();
     } catch (const std::bad_alloc&) {
       return Status(TKS_NO_MEMORY, "cannot draw: out of memory");
     }
   }
 
- private:
-  Result<Picture> draw(const Scene& scene, const Camera& camera) const {
+  /// pictures: of each camera one is added for each of the program's outputs.
+  Status draw(const Scene& scene, const std::vector<Camera>& cameras, const GlProgram& program,
+              std::vector<std::vector<Picture>>& pictures) const {
+    for (const Camera& camera : cameras)
+      if (Status status = draw(scene, camera, program, pictures); !status.ok()) return status;
+    return Status();
+  }
+
+  Status draw(const Scene& scene, const Camera& camera, const GlProgram& program,
+              std::vector<std::vector<Picture>>& pictures) const {
     const uint32_t largest = limits_.target / kSamples;
     if (camera.width == 0 || camera.height == 0 || camera.width > largest ||
         camera.height > largest)
@@ -284,19 +363,24 @@ class GlesRenderer final : public Renderer {
                                    std::to_string(camera.height) +
                                    " pixels: this driver allows 1 to " + std::to_string(largest) +
                                    " a side");
-    const Target target(kSamples * camera.width, kSamples * camera.height);
+    const auto count = static_cast<GLuint>(pictures.size());
+    const Target target(kSamples * camera.width, kSamples * camera.height, count);
     if (Status status = target.begin(); !status.ok()) return status;
-    const GlProgram& program = scene.paint() == Paint::kTexture ? textured_ : hillshaded_;
     program.use(projectionOf(camera, scene.box()));
     scene.draw();
-    const std::vector<uint8_t> samples = target.read();
-    if (Status status = checkGl("the triangles"); !status.ok()) return status;
-    return resolve(samples, camera);
+    for (GLuint i = 0; i < count; ++i) {
+      const std::vector<uint8_t> samples = target.read(i);
+      if (Status status = checkGl("the triangles"); !status.ok()) return status;
+      pictures[i].push_back(resolve(samples, camera));
+    }
+    return Status();
   }
 
   EglContext context_;
   GlLimits limits_;
   GlProgram textured_, hillshaded_;
+  std::array<GlProgram, kTexturesAtOnce - 1> many_;  ///< for two textures and more
+  std::vector<std::unique_ptr<const Texture>> textures_;
 };
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,15 @@ class Renderer {
   /// the driver), TKS_NO_MEMORY.
   virtual Result<std::vector<Picture>> draw(const MeshFile& mesh,
                                             const std::vector<Camera>& cameras) = 0;
+
+  /// Textures for drawWithEach(), in the place of those before; they stay on the GPU.
+  virtual Status takeTextures(std::span<const ImageFile> textures) = 0;
+
+  /// The same for a mesh with texture coordinates and no texture, with one of these textures after
+  /// the other: the mesh moves to the GPU once. take: called with the pictures of each.
+  using TakePictures = std::function<void(std::vector<Picture> pictures)>;
+  virtual Status drawWithEach(const MeshFile& mesh, const std::vector<Camera>& cameras,
+                              const TakePictures& take) = 0;
 
   /// The same for one camera. Drawing several at once saves moving the mesh to the GPU each time.
   Result<Picture> draw(const MeshFile& mesh, const Camera& camera);

@@ -181,10 +181,27 @@ Status Comparer::drawAndScore(MeshFile& mesh, const ImageFile* texture, Measurem
   result.pictures = std::move(*pictures);
   for (size_t i = 0; i < pictures_.size(); ++i)
     result.camera_psnr.push_back(screenPsnr({pictures_[i]}, {result.pictures[i]}));
+  result.screen_psnr = screenPsnr(pictures_, result.pictures, weights());
+  return Status();
+}
+
+std::vector<double> Comparer::weights() const {
   std::vector<double> weights;
   for (const Camera& camera : cameras_) weights.push_back(camera.weight);
-  result.screen_psnr = screenPsnr(pictures_, result.pictures, weights);
-  return Status();
+  return weights;
+}
+
+Result<std::vector<double>> Comparer::psnrWithEach(Decoder& stream, uint32_t triangles) {
+  Measurement of_heights;
+  const Result<MeshFile> mesh = triangles > 0 ? measureMesh(stream, triangles, nullptr, of_heights)
+                                              : measureSurface(stream, of_heights);
+  if (!mesh.ok()) return mesh.status();
+  std::vector<double> psnr;
+  const auto score = [&](const std::vector<Picture>& pictures) {
+    psnr.push_back(screenPsnr(pictures_, pictures, weights()));
+  };
+  if (Status status = renderer_->drawWithEach(*mesh, cameras_, score); !status.ok()) return status;
+  return psnr;
 }
 
 Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t triangles) {

@@ -57,6 +57,18 @@ class Comparer {
   /// the budget mesh.
   Result<Measurement> measure(std::span<const uint8_t> stream, uint32_t triangles);
 
+  /// What is drawn of heights does not depend on the texture, as that of a mesh for cameras does.
+  bool drawsApart(uint32_t triangles) const { return triangles == 0 || choice_.isDefault(); }
+
+  /// Textures for psnrWithEach(), in the place of those before. look() has been called.
+  Status takeTextures(std::span<const ImageFile> textures) {
+    return renderer_->takeTextures(textures);
+  }
+
+  /// Screen PSNR of the heights of a stream with each of these textures, and nothing else of what
+  /// measure() says. drawsApart(triangles).
+  Result<std::vector<double>> psnrWithEach(Decoder& stream, uint32_t triangles);
+
   const std::vector<Camera>& cameras() const { return cameras_; }
   const std::vector<Picture>& referencePictures() const { return pictures_; }
 
@@ -66,6 +78,7 @@ class Comparer {
   Result<MeshFile> measureSurface(Decoder& decoder, Measurement& result) const;
   Result<MeshFile> measureMesh(Decoder& decoder, uint32_t triangles, const ImageFile* texture,
                                Measurement& result) const;
+  std::vector<double> weights() const;
   Status drawAndScore(MeshFile& mesh, const ImageFile* texture, Measurement& result);
 
   const Reference* reference_;

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
+
+#include "tools/files/stream.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -97,17 +100,91 @@ void findPaths(PairPlane& plane) {
   plane.looked = looked.size();
 }
 
-Result<PairPlane> lookAtPairs(Comparer& comparer, const SplitStream& tracks, const PlaneGrid& grid,
-                              uint32_t triangles) {
-  PairPlane plane;
-  plane.heights = ratesOf(tracks.most().heights, grid);
-  plane.textures = ratesOf(tracks.most().texture, grid);
+namespace {
+
+/// Decoders of rising bytes of one track, each of which goes on from the one before.
+class GrowingTrackDecoder {
+ public:
+  /// most: what the stream holds, of one component.
+  GrowingTrackDecoder(const SplitStream& tracks, const Split& most)
+      : stream_(tracks.cut(most)), most_(most.total()) {}
+
+  Result<Decoder*> decoderOf(uint64_t bytes) {
+    const auto prefix = std::span(stream_).first(stream_.size() - (most_ - bytes));
+    if (decoder_) {
+      if (Status grown = decoder_->append(prefix.subspan(size_)); !grown.ok()) return grown;
+    } else {
+      Result<Decoder> opened = openDecoder(prefix);
+      if (!opened) return opened.status();
+      decoder_.emplace(std::move(*opened));
+    }
+    size_ = prefix.size();
+    return &*decoder_;
+  }
+
+ private:
+  std::vector<uint8_t> stream_;
+  uint64_t most_;
+  std::optional<Decoder> decoder_;
+  size_t size_ = 0;
+};
+
+Result<std::vector<ImageFile>> texturesOf(const SplitStream& tracks,
+                                          const std::vector<uint64_t>& rates) {
+  GrowingTrackDecoder growing(tracks, {0, tracks.most().texture});
+  std::vector<ImageFile> textures;
+  for (const uint64_t bytes : rates) {
+    const Result<Decoder*> decoder = growing.decoderOf(bytes);
+    if (!decoder.ok()) return decoder.status();
+    const uint64_t copies = imageBytes((*decoder)->info()) * rates.size();
+    Result<ImageFile> texture = decodeImage(**decoder, {}, copies);
+    if (!texture.ok()) return texture.status();
+    textures.push_back(std::move(*texture));
+  }
+  return textures;
+}
+
+/// Draws each surface with all textures.
+Status drawApart(Comparer& comparer, const SplitStream& tracks, uint32_t triangles,
+                 const PlaneProgress& progress, PairPlane& plane) {
+  const Result<std::vector<ImageFile>> textures = texturesOf(tracks, plane.textures);
+  if (!textures.ok()) return textures.status();
+  if (Status taken = comparer.takeTextures(*textures); !taken.ok()) return taken;
+  GrowingTrackDecoder growing(tracks, {tracks.most().heights, 0});
+  for (const uint64_t heights : plane.heights) {
+    const Result<Decoder*> decoder = growing.decoderOf(heights);
+    if (!decoder.ok()) return decoder.status();
+    const Result<std::vector<double>> psnr = comparer.psnrWithEach(**decoder, triangles);
+    if (!psnr.ok()) return psnr.status();
+    plane.psnr.insert(plane.psnr.end(), psnr->begin(), psnr->end());
+    progress(static_cast<double>(plane.psnr.size()) / static_cast<double>(plane.pairs()));
+  }
+  return comparer.takeTextures({});
+}
+
+/// Draws each pair by itself.
+Status drawTogether(Comparer& comparer, const SplitStream& tracks, uint32_t triangles,
+                    const PlaneProgress& progress, PairPlane& plane) {
   for (const uint64_t heights : plane.heights)
     for (const uint64_t texture : plane.textures) {
       const Result<Measurement> seen = comparer.measure(tracks.cut({heights, texture}), triangles);
       if (!seen.ok()) return seen.status();
       plane.psnr.push_back(seen->screen_psnr.value_or(0));
+      progress(static_cast<double>(plane.psnr.size()) / static_cast<double>(plane.pairs()));
     }
+  return Status();
+}
+
+}  // namespace
+
+Result<PairPlane> lookAtPairs(Comparer& comparer, const SplitStream& tracks, const PlaneGrid& grid,
+                              uint32_t triangles, const PlaneProgress& progress) {
+  PairPlane plane;
+  plane.heights = ratesOf(tracks.most().heights, grid);
+  plane.textures = ratesOf(tracks.most().texture, grid);
+  const auto draw = comparer.drawsApart(triangles) ? drawApart : drawTogether;
+  if (Status status = draw(comparer, tracks, triangles, progress, plane); !status.ok())
+    return status;
   findPaths(plane);
   plane.shipped = shippedPath(tracks);
   return plane;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct PairPlane {
   std::vector<Split> shipped;    ///< what the stream's own order gives either track
   std::vector<SeenPair> equal_psnr, equal_bytes;  ///< models to be marked; may be empty
 
+  size_t pairs() const { return heights.size() * textures.size(); }
   double at(size_t height, size_t texture) const {
     return psnr[height * textures.size() + texture];
   }
@@ -36,16 +38,19 @@ struct PairPlane {
 
 /// Which pairs are looked at: of each track at most so many prefixes, from few bytes to all.
 struct PlaneGrid {
-  size_t most = 8;
-  double ratio = 2;  ///< of the bytes of two neighbours, at most; 0: as the number needs it
+  size_t most = 6;
+  double ratio = 2.5;  ///< of the bytes of two neighbours, at most; 0: as the number needs it
 };
 
 /// The hull, and the path of the marginal analysis (thesis 6.3.2): it begins with all bytes and
 /// gives up those of either track that cost least error a byte, one step of the grid at a time.
 void findPaths(PairPlane& plane);
 
+/// Told the part of the pairs that are drawn, from 0 to 1.
+using PlaneProgress = std::function<void(double done)>;
+
 /// Draws all pairs. comparer: has cameras. triangles: as Comparer::measure() has them.
 Result<PairPlane> lookAtPairs(Comparer& comparer, const SplitStream& tracks, const PlaneGrid& grid,
-                              uint32_t triangles);
+                              uint32_t triangles, const PlaneProgress& progress);
 
 }  // namespace tetrakis::tools

@@ -8,13 +8,16 @@ namespace tetrakis::tools {
 namespace {
 
 constexpr uint32_t kLargestDivisor = 16;
+constexpr double kCuts = 0.15;  ///< of the time, about: the cuts, before the pairs
 
 /// Of streams of heights and texture in one track each; nothing of others.
 Result<std::optional<PairPlane>> planeOf(Comparer& comparer, const ReportRequest& request) {
   const Result<SplitStream> tracks = SplitStream::take(request.stream);
   if (!tracks.ok() || tracks->most().heights == 0 || tracks->most().texture == 0)
     return std::optional<PairPlane>();
-  Result<PairPlane> plane = lookAtPairs(comparer, *tracks, request.grid, request.triangles);
+  const auto progress = [&](double done) { request.progress(kCuts + (1 - kCuts) * done); };
+  Result<PairPlane> plane =
+      lookAtPairs(comparer, *tracks, request.grid, request.triangles, progress);
   if (!plane.ok()) return plane.status();
   return std::optional<PairPlane>(std::move(*plane));
 }
@@ -37,6 +40,7 @@ Result<Report> makeReport(const Reference& reference, const ReportRequest& reque
     if (!measurement.ok()) return measurement.status();
     report.rows.push_back({divisor, std::move(*measurement)});
   }
+  request.progress(kCuts);
   Result<std::optional<PairPlane>> plane = planeOf(*comparer, request);
   if (!plane.ok()) return plane.status();
   report.plane = std::move(*plane);

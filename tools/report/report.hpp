@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +24,8 @@ struct ReportRequest {
   uint32_t triangles = 0;  ///< draw budget meshes of at most that many; 0: the full grid
   CameraChoice cameras;
   PlaneGrid grid{};
+  /// Told how much is done, from 0 to 1.
+  std::function<void(double done)> progress = [](double) {};
 };
 
 /// One cut of the stream.
