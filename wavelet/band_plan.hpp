@@ -49,8 +49,8 @@ class PlaneLayout {
   /// parents and siblings count from `first`, the place that the first entry will have in the plan
   /// of the track. priority: added to every log_norm. Of whole numbers it is the least key of all
   /// but the finest details: at the end, where the inverse rounds, nothing else is missing; one
-  /// coarse coefficient that is off by 1 changes the rounding of hundreds of samples. models: the class of contexts of the first
-  /// band.
+  /// coarse coefficient that is off by 1 changes the rounding of hundreds of samples. models: the
+  /// class of contexts of the first band.
   std::vector<BandPlan> plan(std::span<const BandPart> parts, int first, int priority,
                              uint32_t models) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the headers of heights and of textures share: the wavelet, spatial regions, priorities over the
-// ground (docs/FORMAT.md, section 2).
+// What the headers of heights and of textures share: the wavelet, spatial regions, priorities over
+// the ground (docs/FORMAT.md, section 2).
 #pragma once
 
 #include <array>

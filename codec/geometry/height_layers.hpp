@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes heights from the layers of their tracks: validity, flat areas, coefficients or a
-// drawing with a table of values, corrections (bitstream/stream/geometry_header.hpp), or stored samples.
+// drawing with a table of values, corrections (bitstream/stream/geometry_header.hpp), or stored
+// samples.
 #pragma once
 
 #include <cstdint>
@@ -34,10 +35,10 @@ struct HeightsMemory {
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view);
 
 /// Decodes what a view shows of the heights. In a window the time follows its size if there are
-/// regions, with corrections of samples that of all rows from the first to its last. Levels above 0 have no
-/// corrections: those belong to the samples.
-/// codewords: any prefix of each track; the layers are those of the first. Safe on any bytes. The
-/// memory is that of earlier calls with the same headers and view, which is no window.
+/// regions, with corrections of samples that of all rows from the first to its last. Levels above 0
+/// have no corrections: those belong to the samples. codewords: any prefix of each track; the
+/// layers are those of the first. Safe on any bytes. The memory is that of earlier calls with the
+/// same headers and view, which is no window.
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,
                              const Codewords& codewords, const View& view = {},
                              const DecodeContext<HeightsMemory>& context = {});
