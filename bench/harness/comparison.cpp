@@ -104,6 +104,7 @@ Result<PeerResult> measure(const Peer& peer, const Raster& raster, RateWindow wi
   };
   result.cuts = against_made(result.points);
   result.lossless_cuts = against_made(points_of(curves->lossless_cuts));
+  result.near_end = points_of(curves->near_end);
   result.lossless_bytes = curves->lossless_bytes;
   return result;
 }

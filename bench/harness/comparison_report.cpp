@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <numeric>
 
+#include "bench/peers/peer.hpp"
+
 namespace tetrakis::bench {
 namespace {
 
@@ -51,6 +53,7 @@ void ComparisonReport::addPeer(const std::string& codec, const PeerResult& resul
   addErrors(codec, result.points);
   std::printf("\n");
   addCuts(codec, result);
+  addNearEnd(codec, result);
   std::fflush(stdout);
   lines_.push_back({codec, result});
 }
@@ -63,6 +66,19 @@ void ComparisonReport::addCuts(const std::string& codec, const PeerResult& resul
       cuts, lossless);
   add(codec, "cuts_bd_rate_percent", cuts);
   add(codec, "lossless_cuts_bd_rate_percent", lossless);
+}
+
+void ComparisonReport::addNearEnd(const std::string& codec, const PeerResult& result) {
+  if (result.near_end.size() != kNearEnd.size()) return;
+  std::printf("    the lossless stream without its last");
+  for (size_t i = 0; i < kNearEnd.size(); ++i) {
+    const double percent = 100 * kNearEnd[i], psnr = result.near_end[i].psnr;
+    std::printf("%s %g %%: %.1f dB", i > 0 ? "," : "", percent, psnr);
+    char quantity[64];
+    std::snprintf(quantity, sizeof quantity, "psnr_without_last_%g_percent", percent);
+    if (std::isfinite(psnr)) add(codec, quantity, psnr);
+  }
+  std::printf("\n");
 }
 
 void ComparisonReport::finishFile() {

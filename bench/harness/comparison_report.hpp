@@ -20,6 +20,7 @@ struct PeerResult {
   std::optional<RateDifference> difference;  ///< to the anchor; none for the anchor itself
   /// Of cuts of one stream, and of the lossless one, to streams made for each length.
   std::optional<RateDifference> cuts, lossless_cuts;
+  std::vector<RatePoint> near_end;  ///< of the lossless stream without kNearEnd; empty: not known
 };
 
 class ComparisonReport {
@@ -58,6 +59,7 @@ class ComparisonReport {
 
   Total& totalOf(const std::string& codec);
   void addCuts(const std::string& codec, const PeerResult& result);
+  void addNearEnd(const std::string& codec, const PeerResult& result);
   void addMean(const std::string& codec, const char* quantity, const std::vector<double>& values);
   void addMeans(const std::string& anchor, RateWindow window);
   void addLosslessSums(const std::string& anchor);

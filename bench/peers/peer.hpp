@@ -3,6 +3,7 @@
 // the list of peers of geometry.cpp or texture.cpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "bench/peers/raster.hpp"
 
 namespace tetrakis::bench {
+
+/// Shares of a lossless stream's bytes, from its end.
+inline constexpr std::array kNearEnd = {0.1, 0.04, 0.01, 0.001};
 
 /// A decoded operating point. mse: over the real samples of all channels, squared sample steps.
 struct CodedPoint {
@@ -26,6 +30,8 @@ struct PeerCurves {
   /// Where the points are cuts of one stream: those of streams made for each length, and cuts of
   /// the lossless stream.
   std::vector<CodedPoint> made, lossless_cuts;
+  /// Of the lossless stream without the last kNearEnd of its bytes.
+  std::vector<CodedPoint> near_end;
 };
 
 class Peer {

@@ -180,14 +180,19 @@ Result<PeerCurves> TetrakisPeer::curves(const Raster& raster,
   if (!stream.ok()) return stream.status();
 
   PeerCurves curves;
+  std::vector<uint64_t> ends;
+  for (const double share : kNearEnd)
+    ends.push_back(lossless->size() -
+                   static_cast<uint64_t>(share * static_cast<double>(lossless->size())));
   const auto cuts = cutsOf(source, *stream, targets), low = cutsOf(source, *lossless, targets),
-             made = madeFor(source, targets);
-  for (const auto* points : {&cuts, &low, &made}) {
+             made = madeFor(source, targets), near_end = cutsOf(source, *lossless, ends);
+  for (const auto* points : {&cuts, &low, &made, &near_end}) {
     if (!points->ok()) return points->status();
   }
   curves.settings.push_back(*cuts);
   curves.lossless_cuts = *low;
   curves.made = *made;
+  curves.near_end = *near_end;
   const auto restored = decodeTetrakis(*lossless);
   if (!restored.ok()) return restored.status();
   if ((is_image ? restored->image : restored->heights) != raster.samples) {
