@@ -356,6 +356,8 @@ export function begin(asked) {
   picture.onrest = replan;
   listen();
   if (matchMedia('(max-width: 640px)').matches) $('fold').click();
-  if (asked) openInput(asked.address, nameOf(asked.address), asked);
+  const early = [...$('file').files];  // chosen while this script was on its way
+  if (early.length > 0) openFiles(early);
+  else if (asked) openInput(asked.address, nameOf(asked.address), asked);
   else $('welcome').hidden = false;
 }
