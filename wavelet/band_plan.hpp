@@ -71,7 +71,8 @@ class PlaneLayout {
   std::optional<CoefficientPriorities> priorities_;
 };
 
-/// What lifting leaves where samples are held is no coefficient. values: as gathered for the band.
+/// Sets absent coefficients to 0: what lifting leaves where samples are held is no coefficient.
+/// values: as gathered for the band.
 void clearAbsent(const BandPlan& band, std::span<int32_t> values);
 
 }  // namespace tetrakis::inline wavelet

@@ -20,10 +20,11 @@ namespace tetrakis::inline wavelet {
 namespace {
 
 constexpr uint32_t kPartSide = 64;
-/// Squared errors of the coefficients, for each coded sample, between which rounding begins to
-/// help.
+/// The least and the greatest squared error of coefficients, for each coded sample, from which on
+/// rounding may be found to help.
 constexpr double kMostError = 1, kLeastError = 1.0 / 2048;
-/// Parts of fewer, still water, have codewords of which the last bytes are most.
+/// Parts of fewer bits a sample, such as still water, say nothing: their codewords are hardly
+/// longer than the bytes that a range coder ends with.
 constexpr double kLeastBits = 0.125;
 
 size_t codedIn(std::span<const uint8_t> valid, std::span<const uint16_t> held, size_t samples) {

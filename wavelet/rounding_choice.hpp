@@ -24,8 +24,8 @@ using Account = std::vector<RatePoint>;
 
 std::vector<Account> accountsOf(std::span<const EncodedTrack> tracks);
 
-/// What the header says of it. accounts: of all tracks of a component, which are complete. squares:
-/// of them together.
+/// Returns WaveletHeader::rounded_bytes. accounts: of all tracks of a component, which are
+/// complete. squares: of them together.
 uint64_t roundedBytes(std::span<const Account> accounts, double squares);
 
 /// The same of tracks of coefficients alone; those that are not complete are never rounded.
