@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "codec/geometry/height_layers.hpp"
-#include "codec/geometry/shown_lines.hpp"
-#include "codec/geometry/value_table.hpp"
+#include "codec/geometry/repeats/shown_lines.hpp"
+#include "codec/geometry/values/value_table.hpp"
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/screen_weights.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"

@@ -9,7 +9,7 @@
 #include "api/ranges.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
 #include "codec/geometry/height_layers.hpp"
-#include "codec/geometry/shown_lines.hpp"
+#include "codec/geometry/repeats/shown_lines.hpp"
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 

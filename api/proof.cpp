@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/samples.hpp"
-#include "codec/geometry/voids.hpp"
+#include "codec/geometry/quantiser/voids.hpp"
 
 namespace tetrakis::inline api {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/samples.hpp"
-#include "codec/geometry/height_steps.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis::inline api {

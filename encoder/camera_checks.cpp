@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "codec/geometry/voids.hpp"
+#include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/view_inputs.hpp"
 #include "ratecontrol/screen_points.hpp"
 

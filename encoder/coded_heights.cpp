@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-#include "codec/geometry/drawn_heights_encoder.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
 #include "codec/geometry/stored_heights.hpp"
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/hull.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "codec/geometry/steps/height_samples.hpp"
 #include "encoder/view_inputs.hpp"
 
 namespace tetrakis::inline encoder {

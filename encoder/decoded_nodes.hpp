@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "codec/geometry/height_layers.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/coded_texture.hpp"
 #include "encoder/inputs.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/voids.hpp"
+#include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/camera_checks.hpp"
 #include "encoder/coded_heights.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/drawing_estimate.hpp"
+#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/exact_heights.hpp"
 #include "encoder/height_errors.hpp"

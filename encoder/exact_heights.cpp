@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "codec/geometry/drawing_estimate.hpp"
+#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/bounded_heights.hpp"
 #include "encoder/quantised_heights.hpp"
 #include "wavelet/filter_choice.hpp"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/samples.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
 
 namespace tetrakis::inline encoder {
 

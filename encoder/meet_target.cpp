@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/voids.hpp"
+#include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/candidates.hpp"
 #include "encoder/exact_budget.hpp"
 #include "encoder/exact_heights.hpp"

@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "codec/geometry/corrections/corrections_encoder.hpp"
-#include "codec/geometry/stand_in_choice.hpp"
-#include "codec/geometry/value_table_encoder.hpp"
+#include "codec/geometry/quantiser/stand_in_choice.hpp"
+#include "codec/geometry/quantiser/step_choice.hpp"
+#include "codec/geometry/quantiser/step_errors.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/values/value_table_encoder.hpp"
 #include "lattice/validity_encoder.hpp"
 
 namespace tetrakis::inline encoder {

@@ -11,7 +11,8 @@
 
 #include "base/status.hpp"
 #include "bitstream/stream/header.hpp"
-#include "codec/geometry/height_steps.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "encoder/inputs.hpp"
 
 namespace tetrakis::inline encoder {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "codec/geometry/line_repeats_encoder.hpp"
+#include "codec/geometry/repeats/line_repeats_encoder.hpp"
 #include "encoder/inputs.hpp"
 #include "ground/frame.hpp"
 

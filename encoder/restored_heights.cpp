@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "codec/geometry/corrections/corrections_encoder.hpp"
-#include "codec/geometry/geometry_decoder.hpp"
 #include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
 
 namespace tetrakis::inline encoder {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/mesh/coarse_surface.hpp"
 #include "codec/mesh/lattice.hpp"
 #include "codec/mesh/lattice_mesh.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "codec/geometry/voids.hpp"
+#include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/coded_texture.hpp"
 #include "encoder/view_inputs.hpp"
 #include "ratecontrol/screen_points.hpp"

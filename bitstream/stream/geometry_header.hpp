@@ -64,7 +64,7 @@ struct GeometryHeader {
   bool direct() const { return planes == kDirectPlanes; }
   bool stored() const { return direct() && !drawn; }
 
-  /// In the place of a number of bit-planes: steps are drawn (codec/geometry/drawn_heights.hpp), or
+  /// In the place of a number of bit-planes: steps are drawn (codec/geometry/drawn_heights/drawn_heights_decoder.hpp), or
   /// the samples are stored (bitstream/coder/byte_planes.hpp).
   static constexpr uint8_t kDirectPlanes = 31;
   static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes

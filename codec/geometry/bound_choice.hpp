@@ -8,7 +8,7 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/geometry_header.hpp"
-#include "codec/geometry/height_steps.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
 
 namespace tetrakis::inline geometry {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/geometry/corrections/corrections_encoder.hpp"
+#include "codec/geometry/height_layers.hpp"
 
 namespace tetrakis::inline geometry {
 

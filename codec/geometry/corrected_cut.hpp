@@ -11,7 +11,7 @@
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/geometry_decoder.hpp"
-#include "codec/geometry/height_steps.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
 
 namespace tetrakis::inline geometry {
 

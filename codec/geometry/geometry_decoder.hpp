@@ -10,6 +10,7 @@
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "wavelet/region_decoder.hpp"
 
 namespace tetrakis::inline geometry {
@@ -24,21 +25,6 @@ struct KnownSamples {
       : valid(std::move(valid_samples)), flat(std::move(flat_areas)) {}
 };
 
-/// What a view shows of decoded heights, row by row.
-struct DecodedGeometry {
-  uint32_t width = 0, height = 0;
-  /// In units of 2^-fraction_bits steps; 0 where samples are void.
-  std::vector<int32_t> heights;
-  int fraction_bits = 0;
-  /// 1 where the vertex of a sample has a non-zero coefficient. Empty if the view is a window.
-  std::vector<uint8_t> significant;
-  std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
-  /// How many of the finest levels of the view have no significant coefficient. 0 in a window.
-  uint32_t quiet_levels = 0;
-
-  Extent extent() const { return {width, height}; }
-};
-
 /// Decodes what a view shows; in a window the time follows its size if the plane has regions.
 /// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). known: of
 /// the whole plane. Safe on any bytes and on any header that readHeader() accepts. The memory is
@@ -46,14 +32,5 @@ struct DecodedGeometry {
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
                                KnownSamples known = {}, const View& view = {},
                                const DecodeContext<TrackMemory>& context = {});
-
-/// Rounds a height in units of 2^-fraction_bits steps to whole steps, half up.
-inline int32_t wholeStep(int32_t height, int fraction_bits) {
-  const int some = fraction_bits > 0;
-  return (height >> fraction_bits) + ((height >> (fraction_bits - some)) & some);
-}
-
-/// Returns all heights in whole steps.
-std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);
 
 }  // namespace tetrakis::inline geometry

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "codec/geometry/corrections/corrections_decoder.hpp"
-#include "codec/geometry/drawn_heights.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
-#include "codec/geometry/height_steps.hpp"
-#include "codec/geometry/shown_lines.hpp"
+#include "codec/geometry/repeats/shown_lines.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/stored_heights.hpp"
-#include "codec/geometry/value_stand_in.hpp"
-#include "codec/geometry/value_table_decoder.hpp"
+#include "codec/geometry/values/value_stand_in.hpp"
+#include "codec/geometry/values/value_table_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
 
 namespace tetrakis::inline geometry {

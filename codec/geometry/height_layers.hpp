@@ -13,11 +13,6 @@
 
 namespace tetrakis::inline geometry {
 
-struct DecodedHeights {
-  DecodedGeometry geometry;          ///< corrections of steps are applied
-  std::vector<int32_t> corrections;  ///< of the samples; empty where there are none
-};
-
 /// What one call of decodeHeights() leaves to the next, whose tracks begin with the same bytes. It
 /// is empty before the first call.
 struct HeightsMemory {

@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "base/samples.hpp"
+#include "base/view.hpp"
 #include "bitstream/coder/byte_planes.hpp"
-#include "codec/geometry/restore.hpp"
-#include "codec/geometry/sample_order.hpp"
+#include "codec/geometry/steps/restore.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
 
 namespace tetrakis::inline geometry {
 

@@ -8,7 +8,7 @@
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline geometry {

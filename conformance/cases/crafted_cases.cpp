@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "codec/geometry/flat/flat_encoder.hpp"
-#include "codec/geometry/line_repeats_encoder.hpp"
+#include "codec/geometry/repeats/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
 

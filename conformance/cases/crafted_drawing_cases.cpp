@@ -2,7 +2,7 @@
 // Drawings of noise: values and indices that nothing foretells.
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
-#include "codec/geometry/drawn_steps.hpp"
+#include "codec/geometry/drawn_heights/drawn_steps.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
 #include "lattice/levels.hpp"

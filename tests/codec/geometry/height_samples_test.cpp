@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "codec/geometry/height_steps.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
 #include "tests/support/random_planes.hpp"
 
 namespace tetrakis::test {

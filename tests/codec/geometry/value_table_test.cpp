@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "codec/geometry/value_table_decoder.hpp"
-#include "codec/geometry/value_table_encoder.hpp"
+#include "codec/geometry/values/value_table_decoder.hpp"
+#include "codec/geometry/values/value_table_encoder.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 
 namespace tetrakis::test {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Foretells what drawn heights take, at a small part of the price of drawing them.
+#pragma once
+
+#include <cstdint>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline drawn_heights {
+
+/// About how many bytes the steps take as a drawing. Drawings take 0.7 to 1.05 times as many;
+/// terrain, 1.7 times.
+double estimateDrawing(const PlaneView<const int32_t>& heights);
+
+/// Whether they may take at most so many bytes. Shapes whose borders the estimate sees as noise
+/// take two thirds of it.
+inline bool drawingMayFit(const PlaneView<const int32_t>& heights, uint64_t bytes) {
+  return estimateDrawing(heights) <= 1.5 * static_cast<double>(bytes);
+}
+
+}  // namespace tetrakis::inline drawn_heights

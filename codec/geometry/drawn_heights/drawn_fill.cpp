@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/drawn_heights/drawn_fill.hpp"
+
+#include <cstddef>
+
+#include "lattice/stencil.hpp"
+
+namespace tetrakis::inline drawn_heights {
+
+namespace {
+
+/// The sum over n, rounded to the nearest, halves up. n: from 1 to 4.
+int32_t meanOf(int64_t sum, int n) {
+  const int64_t doubled = sum + n / 2;
+  const int64_t quotient = doubled / n;
+  return static_cast<int32_t>(quotient - (doubled % n < 0));
+}
+
+/// The heights of coarser vertices, looked at from those of one level.
+class Around {
+ public:
+  Around(const Level& level, const PlaneView<const DrawnIndex>& plane, const int32_t* heights)
+      : extent_(plane.extent()), valid_(plane.valid), heights_(heights) {
+    if (level.kind == LevelKind::kRoots) return;
+    roots_ = false;
+    stencil_ = stencilOf(level.kind, level.step, plane.width);
+    step_ = level.step;
+  }
+
+  int32_t mean(uint32_t x, uint32_t y) const {
+    if (roots_) return 0;
+    const size_t vertex = size_t{y} * extent_.width + x;
+    const int32_t* const at = heights_ + vertex;
+    const ptrdiff_t* const to = stencil_.linear.data();
+    const bool inside =
+        x >= step_ && y >= step_ && x + step_ < extent_.width && y + step_ < extent_.height;
+    if (inside && valid_.all())
+      return meanOf(int64_t{at[to[0]]} + at[to[1]] + at[to[2]] + at[to[3]], kTaps);
+    int64_t sum = 0, sum_of_valid = 0;
+    int n = 0, n_valid = 0;
+    for (int tap = 0; tap < kTaps; ++tap) {
+      const int64_t nx = int64_t{x} + stencil_.dx[tap], ny = int64_t{y} + stencil_.dy[tap];
+      if (nx < 0 || ny < 0 || nx >= extent_.width || ny >= extent_.height) continue;
+      const int32_t height = at[to[tap]];
+      sum += height;
+      ++n;
+      if (!valid_[static_cast<size_t>(static_cast<ptrdiff_t>(vertex) + to[tap])]) continue;
+      sum_of_valid += height;
+      ++n_valid;
+    }
+    return n_valid > 0 ? meanOf(sum_of_valid, n_valid) : meanOf(sum, n);
+  }
+
+ private:
+  static constexpr int kTaps = Stencil::kRingSize[0];
+
+  Extent extent_;
+  Mask valid_;
+  const int32_t* heights_;
+  bool roots_ = true;
+  Stencil stencil_{};
+  uint32_t step_ = 0;
+};
+
+/// Calls see(vertex, mean) for all vertices, coarse to fine; mean() is what those around make it.
+void forEachVertex(const DrawnSurface& surface, const int32_t* heights, const auto& see) {
+  for (const Level& level : surface.levels) {
+    const Around around(level, surface.indices, heights);
+    for (uint32_t row = 0; row < level.rows; ++row) {
+      const uint32_t y = level.y(row);
+      uint32_t x = level.firstX(row);
+      for (uint32_t i = 0; i < level.columns[row % 2]; ++i, x += level.pitch())
+        see(size_t{y} * surface.indices.width + x, [&] { return around.mean(x, y); });
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<int32_t> DrawnSurface::heights() const {
+  std::vector<int32_t> heights(indices.extent().samples());
+  forEachVertex(*this, heights.data(), [&](size_t vertex, const auto& mean) {
+    const DrawnIndex index = indices.data[vertex];
+    heights[vertex] = index != kNoIndex ? static_cast<int32_t>(static_cast<uint32_t>(steps[index])
+                                                               << kFractionBits)
+                                        : mean();
+  });
+  return heights;
+}
+
+std::vector<uint8_t> DrawnSurface::significant(const std::vector<int32_t>& heights) const {
+  std::vector<uint8_t> marks(heights.size());
+  forEachVertex(*this, heights.data(), [&](size_t vertex, const auto& mean) {
+    marks[vertex] = indices.data[vertex] != kNoIndex && heights[vertex] != mean();
+  });
+  return marks;
+}
+
+}  // namespace tetrakis::inline drawn_heights

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
+
+#include <cmath>
+#include <unordered_map>
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/drawing/drawing_encoding.hpp"
+#include "codec/drawing/drawing_pass.hpp"
+#include "codec/geometry/drawn_heights/drawn_fill.hpp"
+
+namespace tetrakis::inline drawn_heights {
+
+namespace {
+
+using NumberedSteps = Numbered<int32_t>;
+
+/// Nothing if there are too many. Voids have the number 0.
+std::optional<NumberedSteps> number(const PlaneView<const int32_t>& heights) {
+  NumberedSteps out;
+  out.numbers.resize(heights.extent().samples());
+  std::unordered_map<int32_t, DrawnIndex> known;
+  DrawnIndex last = kNoIndex;
+  for (size_t i = 0; i < out.numbers.size(); ++i) {
+    if (!heights.valid[i]) continue;
+    const int32_t step = heights.data[i];
+    if (last == kNoIndex || step != out.values[last]) {
+      const auto [entry, added] =
+          known.try_emplace(step, static_cast<DrawnIndex>(out.values.size()));
+      if (added && out.values.size() == kMostDrawnValues) return {};
+      if (added) out.values.push_back(step);
+      last = entry->second;
+    }
+    out.numbers[i] = last;
+  }
+  return out;
+}
+
+double squaredError(const PlaneView<const int32_t>& heights, const DrawnSurface& surface) {
+  const std::vector<int32_t> shown = surface.heights();
+  const double unit = std::exp2(-DrawnSurface::kFractionBits);
+  double squares = 0;
+  for (size_t i = 0; i < shown.size(); ++i) {
+    if (!heights.valid[i]) continue;
+    const double error = shown[i] * unit - heights.data[i];
+    squares += error * error;
+  }
+  return squares;
+}
+
+}  // namespace
+
+std::optional<EncodedTrack> encodeDrawnHeights(const PlaneView<const int32_t>& heights) {
+  const std::optional<NumberedSteps> numbered = number(heights);
+  if (!numbered) return {};
+  const Extent extent = heights.extent();
+  std::vector<DrawnIndex> indices(extent.samples(), kNoIndex);
+  const PlaneView<DrawnIndex> plane(indices, extent, heights.valid);
+  const std::vector<Level> levels = levelsOf(heights.width, heights.height);
+  DrawnSteps steps;
+  const DrawnSurface surface{plane, steps, levels};
+  DrawingEncoding<int32_t> io(*numbered, 0, [&] { return squaredError(heights, surface); });
+  DrawingPass(plane, steps, io).run(levels);
+  return io.finishTrack(GeometryHeader::kDirectPlanes);
+}
+
+}  // namespace tetrakis::inline drawn_heights

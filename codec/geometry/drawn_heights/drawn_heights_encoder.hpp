@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codes heights in steps as the drawing that decodeDrawnHeights() takes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/plane.hpp"
+#include "bitstream/track/track_encoder.hpp"
+
+namespace tetrakis::inline drawn_heights {
+
+/// Lossless, whole. Nothing if there are more than kMostDrawnValues values. Distortion is in
+/// squared units of the heights, summed over the valid samples.
+std::optional<EncodedTrack> encodeDrawnHeights(const PlaneView<const int32_t>& heights);
+
+}  // namespace tetrakis::inline drawn_heights

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights of any sample type are coded as integer steps: sample = base + q * step. This file
+// holds the steps of all samples, and says what a decoder lacks to restore these.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/values/value_table.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline quantiser {
+
+/// Returns the size of a height field of the C interface.
+inline Extent extentOf(const tks_heights& heights) {
+  return {heights.width, heights.height};
+}
+
+struct HeightSteps {
+  std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0; 0 where voids are
+  std::vector<uint8_t> valid;  ///< 1 valid, 0 void; empty: all are valid
+  double base = 0, step = 1;
+  ValueTable table;    ///< not empty: steps count its values, which `base` and `step` approximate
+  bool exact = false;  ///< every valid sample comes back bit for bit
+  int range_bits = 0;  ///< the steps span less than 2^range_bits
+
+  size_t validCount() const;
+};
+
+/// The steps of a table's values as decoders know them: drawn, and whole.
+std::vector<int32_t> drawnSteps(const HeightSteps& steps, const GeometryHeader& header);
+
+/// The corrections that restore the samples.
+std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps);
+
+}  // namespace tetrakis::inline quantiser

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders choose here which knots stand for a table of values while that is missing, and learn how
+// much error these leave.
+#pragma once
+
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+
+namespace tetrakis::inline quantiser {
+
+struct StandInChoice {
+  std::vector<TableKnot> knots;
+  double squares = 0;  ///< squared error of the samples with complete coefficients, in steps
+};
+
+/// steps: with a table. table_bytes: of its codeword. most: what a sample adds to the squares at
+/// most.
+StandInChoice chooseStandIn(const HeightSteps& steps, const GeometryHeader& header,
+                            size_t table_bytes, double most);
+
+}  // namespace tetrakis::inline quantiser

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/quantiser/value_choice.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/samples.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
+#include "codec/geometry/values/value_table_encoder.hpp"
+#include "wavelet/filter_choice.hpp"
+
+namespace tetrakis::inline quantiser {
+
+namespace {
+
+/// A table of more values than one for so many samples is not looked at: it would not pay.
+constexpr size_t kSamplesForAValue = 4;
+/// At most one sample in so many may have a value that the table leaves out.
+constexpr size_t kSamplesForAnException = 16;
+/// A table of nearly all numbers in the range saves nothing.
+constexpr double kNearlyAll = 0.9;
+/// Estimates of bits are not better than that.
+constexpr double kClearly = 0.98;
+
+/// A value that samples have: its word (codec/geometry/steps/sample_order.hpp), and how many they are.
+struct Value {
+  uint32_t word;
+  uint32_t samples;
+};
+
+/// The values of a height field in the order in which they are met, found by a hash table with open
+/// addresses.
+class Values {
+ public:
+  explicit Values(size_t most) : most_(most), slots_(1024, kEmpty) {}
+
+  /// Counts a word and returns the number of its value.
+  uint32_t numberOf(uint32_t word) {
+    uint32_t& slot = slotOf(word);
+    const uint32_t number = slot;
+    if (number != kEmpty) {
+      ++values_[number].samples;
+      return number;
+    }
+    slot = static_cast<uint32_t>(values_.size());
+    values_.push_back({word, 1});
+    if (2 * values_.size() > slots_.size()) grow();
+    return static_cast<uint32_t>(values_.size() - 1);
+  }
+  bool tooMany() const { return values_.size() > most_; }
+  size_t size() const { return values_.size(); }
+  const Value& operator[](size_t number) const { return values_[number]; }
+
+ private:
+  static constexpr uint32_t kEmpty = UINT32_MAX;
+
+  /// Where the word is, or may go.
+  uint32_t& slotOf(uint32_t word) {
+    const size_t last = slots_.size() - 1;
+    size_t at = (word * 0x9e3779b1u >> 11) & last;
+    while (slots_[at] != kEmpty && values_[slots_[at]].word != word) at = (at + 1) & last;
+    return slots_[at];
+  }
+  void grow() {
+    slots_.assign(2 * slots_.size(), kEmpty);
+    for (size_t i = 0; i < values_.size(); ++i) slotOf(values_[i].word) = static_cast<uint32_t>(i);
+  }
+
+  size_t most_;
+  std::vector<uint32_t> slots_;
+  std::vector<Value> values_;
+};
+
+/// Corrections of samples: how many are not 0, and the bits that their magnitudes take.
+struct Exceptions {
+  size_t count = 0;
+  double magnitude_bits = 0;
+
+  void add(uint32_t correction, size_t samples) {
+    const auto signed_one = static_cast<double>(static_cast<int32_t>(correction));
+    count += samples;
+    magnitude_bits += static_cast<double>(samples) * (1 + std::log2(1 + std::abs(signed_one)));
+  }
+  /// With the places of those that are not 0 among all samples.
+  double bits(size_t samples) const {
+    const double share = static_cast<double>(count) / static_cast<double>(samples);
+    if (count == 0 || count == samples) return magnitude_bits;
+    const double entropy = -share * std::log2(share) - (1 - share) * std::log2(1 - share);
+    return magnitude_bits + static_cast<double>(samples) * entropy;
+  }
+};
+
+struct Candidate {
+  HeightSteps steps;
+  double bits = std::numeric_limits<double>::infinity();
+};
+
+class TableChoice {
+ public:
+  TableChoice(const tks_heights& heights, const HeightSteps& multiples)
+      : heights_(heights),
+        multiples_(multiples),
+        samples_(multiples.validCount()),
+        values_(std::min<size_t>(samples_ / kSamplesForAValue, GeometryLayers::kMostValues)) {}
+
+  /// Whether a table is worth a closer look.
+  bool hasFewValues() {
+    number_.resize(multiples_.steps.size());
+    int32_t low = INT32_MAX, high = INT32_MIN;
+    withSampleType(heights_.sample, [&](auto type) {
+      const auto* samples = static_cast<const decltype(type)*>(heights_.data);
+      for (size_t i = 0; i < number_.size() && !values_.tooMany(); ++i) {
+        if (!isValid(i)) continue;
+        number_[i] = values_.numberOf(orderOf(samples[i]));
+        low = std::min(low, multiples_.steps[i]);
+        high = std::max(high, multiples_.steps[i]);
+      }
+    });
+    if (values_.tooMany() || values_.size() < 2) return false;
+    const double range = 1.0 + high - low;
+    return !multiples_.exact || static_cast<double>(values_.size()) < kNearlyAll * range;
+  }
+
+  /// The best table, if it takes fewer bits than multiples.
+  std::optional<HeightSteps> best() {
+    sortValues();
+    Candidate best;
+    best.bits = bitsOfMultiples() * kClearly;
+    for (const uint32_t least : {1u, 2u, 4u}) {
+      const size_t rare = rarerThan(least);
+      if (rare > samples_ / kSamplesForAnException) break;
+      if (least > 1 && rare == rarerThan(least / 2)) continue;
+      Candidate table = tableOf(least);
+      if (table.bits < best.bits) best = std::move(table);
+    }
+    if (best.steps.table.empty()) return {};
+    return std::move(best.steps);
+  }
+
+ private:
+  bool isValid(size_t i) const { return multiples_.valid.empty() || multiples_.valid[i]; }
+
+  void sortValues() {
+    sorted_.resize(values_.size());
+    std::iota(sorted_.begin(), sorted_.end(), 0u);
+    std::sort(sorted_.begin(), sorted_.end(), [&](uint32_t a, uint32_t b) {
+      const uint32_t x = values_[a].word, y = values_[b].word;
+      return heights_.sample == TKS_U32 ? x < y : static_cast<int32_t>(x) < static_cast<int32_t>(y);
+    });
+  }
+
+  /// Samples whose value fewer than `least` have.
+  size_t rarerThan(uint32_t least) const {
+    size_t rare = 0;
+    for (size_t i = 0; i < values_.size(); ++i)
+      rare += values_[i].samples < least ? values_[i].samples : 0;
+    return rare;
+  }
+
+  double bitsOfMultiples() const {
+    double bits = bitsOf(multiples_);
+    if (multiples_.exact) return bits;
+    Exceptions exceptions;
+    for (const int32_t correction : sampleCorrections(heights_, multiples_)) {
+      if (correction != 0) exceptions.add(static_cast<uint32_t>(correction), 1);
+    }
+    return bits + exceptions.bits(samples_);
+  }
+
+  double bitsOf(const HeightSteps& steps) const {
+    return losslessBits({steps.steps, {heights_.width, heights_.height}, steps.valid},
+                        steps.range_bits);
+  }
+
+  /// The table of the values that so many samples have at least. All others get the place of the
+  /// next smaller value that is in it.
+  Candidate tableOf(uint32_t least) const {
+    Candidate out;
+    std::vector<uint32_t>& words = out.steps.table.words;
+    std::vector<int32_t> place(values_.size());
+    Exceptions exceptions;
+    for (const uint32_t number : sorted_) {
+      const Value& value = values_[number];
+      if (value.samples >= least || words.empty()) {
+        words.push_back(value.word);
+      } else {
+        exceptions.add(value.word - words.back(), value.samples);
+      }
+      place[number] = static_cast<int32_t>(words.size()) - 1;
+    }
+    if (words.size() < 2) return {};
+    describe(place, out.steps);
+    out.steps.exact = exceptions.count == 0;
+    const double table_bits = 8.0 * static_cast<double>(encodeValueTable(out.steps.table).size());
+    out.bits = bitsOf(out.steps) + table_bits + exceptions.bits(samples_);
+    return out;
+  }
+
+  /// Steps that count from the middle of the table, and the line that comes nearest to its values.
+  void describe(const std::vector<int32_t>& place, HeightSteps& out) const {
+    const std::vector<uint32_t>& words = out.table.words;
+    const auto middle = static_cast<int32_t>(words.size() / 2);
+    withSampleType(heights_.sample, [&](auto type) {
+      using T = decltype(type);
+      const auto value = [](uint32_t word) { return static_cast<double>(fromOrder<T>(word)); };
+      const double range = value(words.back()) - value(words.front());
+      out.step =
+          range > 0 ? range / static_cast<double>(words.size() - 1) : 1;  // 0: it is 0 and -0
+      out.base = value(words[static_cast<size_t>(middle)]);
+    });
+    out.valid = multiples_.valid;
+    out.steps.resize(number_.size());
+    for (size_t i = 0; i < number_.size(); ++i)
+      out.steps[i] = isValid(i) ? place[number_[i]] - middle : 0;
+    out.range_bits = static_cast<int>(std::bit_width(words.size()));
+  }
+
+  const tks_heights& heights_;
+  const HeightSteps& multiples_;
+  size_t samples_;
+  Values values_;
+  std::vector<uint32_t> number_;  ///< of each sample's value
+  std::vector<uint32_t> sorted_;  ///< numbers of values, smallest sample first
+};
+
+}  // namespace
+
+HeightSteps fewerBits(const tks_heights& heights, HeightSteps multiples) {
+  TableChoice choice(heights, multiples);
+  if (!choice.hasFewValues()) return multiples;
+  std::optional<HeightSteps> table = choice.best();
+  return table ? std::move(*table) : std::move(multiples);
+}
+
+}  // namespace tetrakis::inline quantiser

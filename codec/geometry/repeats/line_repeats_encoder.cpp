@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/repeats/line_repeats_encoder.hpp"
+
+#include <string>
+
+#include "bitstream/coder/decision_encoding.hpp"
+
+namespace tetrakis::inline repeats {
+
+LineRepeats encodeRepeats(std::vector<uint8_t> columns, std::vector<uint8_t> rows) {
+  const Extent shown{static_cast<uint32_t>(columns.size()), static_cast<uint32_t>(rows.size())};
+  DecisionEncoding io;
+  RepeatPass<DecisionEncoding> pass(io);
+  pass.run(columns);
+  pass.run(rows);
+  const std::vector<uint8_t> code = io.finish();
+  return {shown, std::string(code.begin(), code.end())};
+}
+
+}  // namespace tetrakis::inline repeats

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codes which columns and rows of heights repeat the one before them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/stream/line_repeats.hpp"
+
+namespace tetrakis::inline repeats {
+
+/// columns, rows: 1 where a line repeats the one before, 0 for the first.
+LineRepeats encodeRepeats(std::vector<uint8_t> columns, std::vector<uint8_t> rows);
+
+}  // namespace tetrakis::inline repeats

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights as a decoder knows them: in steps, which later become samples, and corrections of these.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline steps {
+
+/// What a view shows of decoded heights, row by row.
+struct DecodedGeometry {
+  uint32_t width = 0, height = 0;
+  /// In units of 2^-fraction_bits steps; 0 where samples are void.
+  std::vector<int32_t> heights;
+  int fraction_bits = 0;
+  /// 1 where the vertex of a sample has a non-zero coefficient. Empty if the view is a window.
+  std::vector<uint8_t> significant;
+  std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
+  /// How many of the finest levels of the view have no significant coefficient. 0 in a window.
+  uint32_t quiet_levels = 0;
+
+  Extent extent() const { return {width, height}; }
+};
+
+struct DecodedHeights {
+  DecodedGeometry geometry;          ///< corrections of steps are applied
+  std::vector<int32_t> corrections;  ///< of the samples; empty where there are none
+};
+
+/// Rounds a height in units of 2^-fraction_bits steps to whole steps, half up.
+inline int32_t wholeStep(int32_t height, int fraction_bits) {
+  const int some = fraction_bits > 0;
+  return (height >> fraction_bits) + ((height >> (fraction_bits - some)) & some);
+}
+
+/// Returns all heights in whole steps.
+std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);
+
+}  // namespace tetrakis::inline steps

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/steps/height_samples.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include "base/samples.hpp"
+#include "codec/geometry/steps/restore.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
+
+namespace tetrakis::inline steps {
+
+namespace {
+
+template <class T>
+T voidSample(const GeometryLayers& layers) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return layers.has_nodata ? static_cast<T>(layers.nodata) : std::numeric_limits<T>::quiet_NaN();
+  } else {
+    return restore<T>(layers.nodata, 0, 0);
+  }
+}
+
+/// Whether T has the value that is declared for voids. If not no sample can be taken for one.
+template <class T>
+bool holdsNodata(const GeometryLayers& layers) {
+  if (layers.has_nodata == 0) return false;
+  return std::is_floating_point_v<T> || static_cast<double>(voidSample<T>(layers)) == layers.nodata;
+}
+
+/// What a height becomes that came out as the value of voids: the next larger sample, beside the
+/// largest finite one, or infinity, the next smaller. Both zeros have the same neighbour.
+template <class T>
+T besides(T nodata) {
+  if (nodata >= std::numeric_limits<T>::max()) return fromOrder<T>(orderOf(nodata) - 1);
+  return fromOrder<T>(orderOf(nodata == 0 ? T{0} : nodata) + 1);
+}
+
+/// Voids get their value, and no height keeps it.
+template <class T>
+void markVoids(const std::vector<uint8_t>& valid, const GeometryLayers& layers,
+               std::span<T> samples) {
+  const T nodata = voidSample<T>(layers);
+  if (holdsNodata<T>(layers)) std::replace(samples.begin(), samples.end(), nodata, besides(nodata));
+  for (size_t i = 0; i < valid.size(); ++i) {
+    if (!valid[i]) samples[i] = nodata;
+  }
+}
+
+}  // namespace
+
+void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
+               const GeometryLayers& layers, void* out) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
+    using T = decltype(type);
+    T* samples = static_cast<T*>(out);
+    restoreAll(geometry.heights, geometry.fraction_bits, {header.base, header.step}, samples);
+    for (size_t i = 0; i < decoded.corrections.size(); ++i) {
+      const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
+      samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
+    }
+    markVoids(geometry.valid, layers, std::span(samples, geometry.heights.size()));
+  });
+}
+
+std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header) {
+  std::vector<uint8_t> hints(steps.size());
+  withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
+    using T = decltype(type);
+    for (size_t i = 0; i < steps.size(); ++i)
+      hints[i] = openBits(restore<T>(header.base, header.step, steps[i]), header.step);
+  });
+  return hints;
+}
+
+}  // namespace tetrakis::inline steps

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps of decoded heights to samples: sample = base + q * step, and a correction where there is one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+
+namespace tetrakis::inline steps {
+
+/// Writes samples of header.sample, one for each height of `decoded`; integers saturate at their
+/// type's range. Voids become layers.nodata or NaN; a height that would be the declared nodata
+/// value becomes the next sample, whether there are voids or not.
+void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
+               const GeometryLayers& layers, void* out);
+
+/// The hints (codec/geometry/corrections/corrections_pass.hpp) of corrections to samples that these
+/// steps become. steps: whole, as decoders know them.
+std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header);
+
+}  // namespace tetrakis::inline steps

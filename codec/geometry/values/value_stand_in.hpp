@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands for a table of values while bytes of it are missing: a polyline through a few of its
+// values, which the header holds. Without knots it is the line of base and step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+
+namespace tetrakis::inline values {
+
+class StandIn {
+ public:
+  static constexpr int kFractionBits = 4;
+
+  /// knots: by rising places, at least one. values: of the table.
+  StandIn(std::span<const TableKnot> knots, uint32_t values) : knots_(knots), middle_(values / 2) {}
+
+  /// The height, in 1/16 steps, of place v + middle of the table. v: in units of 2^-fraction_bits.
+  int32_t heightOf(int32_t v, int fraction_bits) const;
+
+ private:
+  int64_t riseAt(int64_t place, int fraction_bits) const;
+
+  std::span<const TableKnot> knots_;
+  int64_t middle_;
+};
+
+/// Turns numbers of values into heights between steps.
+void applyStandIn(const GeometryLayers& layers, DecodedGeometry& geometry);
+
+}  // namespace tetrakis::inline values

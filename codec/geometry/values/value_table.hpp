@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The values that the samples of a height field have, where their type could hold many more: feet
+// written as metres, maps of 8 bits that were rescaled, decimal fractions that no float holds. The
+// wavelet then codes the number of a sample's value in a sorted table, and the table turns numbers
+// into samples.
+//
+// Everything behind the decoder of heights works on steps. So each value is also drawn as a height
+// between steps, and a correction leads from there to the very sample.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+
+namespace tetrakis::inline values {
+
+/// The values of the samples as words (codec/geometry/steps/sample_order.hpp), smallest sample first.
+struct ValueTable {
+  std::vector<uint32_t> words;
+
+  bool empty() const { return words.empty(); }
+  /// The place of step q, which counts from the middle of the table. Beyond the ends: the end.
+  size_t placeOf(int32_t q) const {
+    const int64_t place = int64_t{q} + static_cast<int64_t>(words.size() / 2);
+    return static_cast<size_t>(
+        std::clamp<int64_t>(place, 0, static_cast<int64_t>(words.size()) - 1));
+  }
+  uint32_t wordOf(int32_t q) const { return words[placeOf(q)]; }
+};
+
+/// A value as heights and corrections say it.
+struct DrawnValue {
+  static constexpr int kFractionBits = 4;
+  int32_t height;      ///< the nearest multiple of 2^-kFractionBits steps
+  int32_t correction;  ///< from what the nearest whole step restores to the value
+};
+
+/// One for each value of the table, which is not empty. header: sample type, base and step.
+std::vector<DrawnValue> drawnValues(const ValueTable& table, const GeometryHeader& header);
+
+/// Turns numbers of values into heights between steps, with a correction for each sample.
+void applyTable(const ValueTable& table, const GeometryHeader& header, DecodedHeights& decoded);
+
+}  // namespace tetrakis::inline values

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codeword to table of values.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "codec/geometry/values/value_table.hpp"
+
+namespace tetrakis::inline values {
+
+/// codeword: any prefix of it. Empty unless all of the values are known. values: how many there
+/// are. Safe on any bytes; takes memory for that many words and no more.
+ValueTable decodeValueTable(std::span<const uint8_t> codeword, uint32_t values);
+
+}  // namespace tetrakis::inline values
