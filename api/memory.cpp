@@ -8,7 +8,7 @@
 #include "codec/geometry/repeats/shown_lines.hpp"
 #include "codec/geometry/values/value_table.hpp"
 #include "codec/mesh/budget_mesh.hpp"
-#include "codec/mesh/screen_weights.hpp"
+#include "codec/mesh/screen/screen_weights.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/view_synthesis.hpp"

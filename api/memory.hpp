@@ -11,7 +11,7 @@
 
 #include "api/decoder.hpp"
 #include "base/describe_bytes.hpp"
-#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::inline api {
 

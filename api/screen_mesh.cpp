@@ -15,7 +15,7 @@
 #include "api/sized.hpp"
 #include "api/surface_mesh.hpp"
 #include "base/samples.hpp"
-#include "codec/mesh/screen_weights.hpp"
+#include "codec/mesh/screen/screen_weights.hpp"
 #include "codec/mesh/void_mesh.hpp"
 
 namespace tetrakis::inline api {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "api/decoder.hpp"
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/lattice_mesh.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::inline api {
 

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "codec/mesh/decimation.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
 #include "encoder/height_errors.hpp"
 #include "encoder/shown_mesh.hpp"
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "codec/mesh/budget_mesh.hpp"
+#include "codec/mesh/screen/screen_weights.hpp"
 #include "codec/mesh/screen_mesh.hpp"
-#include "codec/mesh/screen_weights.hpp"
-#include "codec/mesh/triangle_samples.hpp"
+#include "codec/mesh/topology/triangle_samples.hpp"
 #include "encoder/view_inputs.hpp"
 
 namespace tetrakis::inline encoder {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "codec/geometry/steps/decoded_heights.hpp"
-#include "codec/mesh/coarse_surface.hpp"
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/lattice_mesh.hpp"
-#include "codec/mesh/surface_picture.hpp"
+#include "codec/mesh/screen/surface_picture.hpp"
+#include "codec/mesh/surface/coarse_surface.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 #include "encoder/coded_heights.hpp"
 #include "encoder/inputs.hpp"
 #include "ratecontrol/ground_rays.hpp"

@@ -10,7 +10,7 @@
 //                (levels.hpp).
 //   overhanging  Squares begin at a power of two that covers the shorter side, in a row along the
 //                longer one. Those at the border are whole and reach over it, so that every
-//                triangle has two halves (codec/mesh/lattice.hpp).
+//                triangle has two halves (codec/mesh/topology/lattice.hpp).
 #pragma once
 
 #include <algorithm>

@@ -163,7 +163,7 @@ Choice chooseLossless(const std::vector<PlanePart>& parts, int bits,
   const bool quiet = best.header.filters.back() == kQ;
   if (best.bits < (quiet ? kFewQuietBits : kFewBits) * samplesIn(parts)) {
     best.header.first_doubled = kEarlyDoubled;
-    // Level 2 is then lifted jointly, and rounds each coefficient once (wavelet/joint_lifting.hpp).
+    // Level 2 is then lifted jointly, and rounds each coefficient once.
     if (quiet) best.header.filters[1] = kL;
   }
   return best;

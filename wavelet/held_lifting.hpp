@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "wavelet/held_samples.hpp"
-#include "wavelet/lifting_steps.hpp"
-#include "wavelet/masked_lifting.hpp"
+#include "wavelet/lifting/lifting_steps.hpp"
+#include "wavelet/lifting/masked_lifting.hpp"
 #include "wavelet/pyramid.hpp"
 #include "wavelet/wavelet.hpp"
 

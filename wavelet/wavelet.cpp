@@ -10,9 +10,9 @@
 
 #include "base/parallel.hpp"
 #include "wavelet/held_lifting.hpp"
-#include "wavelet/joint_lifting.hpp"
-#include "wavelet/lifting.hpp"
-#include "wavelet/masked_lifting.hpp"
+#include "wavelet/lifting/joint_lifting.hpp"
+#include "wavelet/lifting/lifting.hpp"
+#include "wavelet/lifting/masked_lifting.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -47,7 +47,7 @@ struct BlockMask {
   }
 };
 
-/// What a level does with fractions (wavelet/joint_lifting.hpp).
+/// What a level does with fractions (wavelet/lifting/joint_lifting.hpp).
 struct Carrying {
   bool in = false, out = false;
   std::span<const uint8_t> fractions = {};

@@ -4,10 +4,10 @@
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
 // with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
-// coefficient once (wavelet/joint_lifting.hpp). The finest levels do not round their low bands at
-// all, but carry the fractions to the next one. Then the low bands of three levels are doubled, so
-// that coarser levels round half as much: prefixes get better, lossless streams a little longer.
-// docs/EXPERIMENTS.md says by how much.
+// coefficient once (wavelet/lifting/joint_lifting.hpp). The finest levels do not round their low
+// bands at all, but carry the fractions to the next one. Then the low bands of three levels are
+// doubled, so that coarser levels round half as much: prefixes get better, lossless streams a little
+// longer. docs/EXPERIMENTS.md says by how much.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
-#include "wavelet/joint_lifting.hpp"
-#include "wavelet/lifting_filter.hpp"
+#include "wavelet/lifting/joint_lifting.hpp"
+#include "wavelet/lifting/lifting_filter.hpp"
 #include "wavelet/pyramid.hpp"
 
 namespace tetrakis::inline wavelet {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "codec/mesh/fitted_heights.hpp"
-#include "codec/mesh/gains.hpp"
+#include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/mesh_hull.hpp"
 
 namespace tetrakis::bench {

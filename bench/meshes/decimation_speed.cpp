@@ -10,7 +10,7 @@
 #include "bench/meshes/decimation_peers.hpp"
 #include "bench/peers/child_memory.hpp"
 #include "codec/mesh/fitted_heights.hpp"
-#include "codec/mesh/gains.hpp"
+#include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/mesh_hull.hpp"
 
 namespace tetrakis::bench {

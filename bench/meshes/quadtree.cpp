@@ -16,7 +16,7 @@
 #include "bench/harness/results.hpp"
 #include "bench/meshes/quadtree_classics.hpp"
 #include "bench/peers/raster.hpp"
-#include "codec/mesh/decimation.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
 #include "codec/mesh/quadtree/mesh_tree.hpp"
 #include "tools/files/files.hpp"
 #include "tools/synth/synth.hpp"

@@ -16,9 +16,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "codec/mesh/lattice.hpp"
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
 #include "codec/mesh/quadtree/traversal.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::bench {
 

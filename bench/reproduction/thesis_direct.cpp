@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "codec/mesh/ancestors.hpp"
-#include "codec/mesh/worth.hpp"
+#include "codec/mesh/decimation/worth.hpp"
+#include "codec/mesh/topology/ancestors.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/results.hpp"
-#include "codec/mesh/ancestors.hpp"
-#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/topology/ancestors.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "codec/mesh/fitted_heights.hpp"
-#include "codec/mesh/height_range.hpp"
+#include "codec/mesh/fitting/height_range.hpp"
 
 namespace tetrakis::inline mesh {
 

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "base/status.hpp"
-#include "codec/mesh/coarse_surface.hpp"
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/lattice_mesh.hpp"
+#include "codec/mesh/surface/coarse_surface.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::inline mesh {
 

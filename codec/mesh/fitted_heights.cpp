@@ -9,11 +9,11 @@
 #include <numeric>
 #include <span>
 
-#include "codec/mesh/closure.hpp"
-#include "codec/mesh/decimation.hpp"
-#include "codec/mesh/fitted_solver.hpp"
-#include "codec/mesh/gains.hpp"
-#include "codec/mesh/saturated_order.hpp"
+#include "codec/mesh/closure/closure.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
+#include "codec/mesh/decimation/saturated_order.hpp"
+#include "codec/mesh/fitting/fitted_solver.hpp"
+#include "codec/mesh/gains/gains.hpp"
 
 namespace tetrakis::inline mesh {
 

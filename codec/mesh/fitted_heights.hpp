@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
-#include "codec/mesh/fitted_moments.hpp"
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/lattice_mesh.hpp"
+#include "codec/mesh/fitting/fitted_moments.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::inline mesh {
 

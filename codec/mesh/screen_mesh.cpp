@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "codec/mesh/height_range.hpp"
+#include "codec/mesh/fitting/height_range.hpp"
 #include "codec/mesh/turned_edges.hpp"
 #include "codec/mesh/void_mesh.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "base/status.hpp"
 #include "codec/mesh/fitted_heights.hpp"
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/weighted_surface.hpp"
+#include "codec/mesh/surface/weighted_surface.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::inline mesh {
 

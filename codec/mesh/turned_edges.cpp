@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "codec/mesh/fitted_solver.hpp"
-#include "codec/mesh/fitted_triangle.hpp"
-#include "codec/mesh/triangle_samples.hpp"
+#include "codec/mesh/fitting/fitted_solver.hpp"
+#include "codec/mesh/fitting/fitted_triangle.hpp"
+#include "codec/mesh/topology/triangle_samples.hpp"
 
 namespace tetrakis::inline mesh {
 namespace {

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "codec/mesh/fitted_heights.hpp"
-#include "codec/mesh/weighted_surface.hpp"
+#include "codec/mesh/surface/weighted_surface.hpp"
 
 namespace tetrakis::inline mesh {
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "codec/mesh/decimation.hpp"
-#include "codec/mesh/fitted_solver.hpp"
-#include "codec/mesh/height_range.hpp"
-#include "codec/mesh/masked_surface.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
+#include "codec/mesh/fitting/fitted_solver.hpp"
+#include "codec/mesh/fitting/height_range.hpp"
+#include "codec/mesh/surface/masked_surface.hpp"
 
 namespace tetrakis::inline mesh {
 

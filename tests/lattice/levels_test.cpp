@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "codec/mesh/lattice_mesh.hpp"
-#include "codec/mesh/surface_view.hpp"
+#include "codec/mesh/surface/surface_view.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::checks {
 

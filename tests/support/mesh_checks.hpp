@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/mesh/lattice_mesh.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::checks {
 

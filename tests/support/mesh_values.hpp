@@ -4,10 +4,10 @@
 
 #include <ostream>
 
-#include "codec/mesh/closure.hpp"
-#include "codec/mesh/lattice.hpp"
+#include "codec/mesh/closure/closure.hpp"
+#include "codec/mesh/decimation/worth.hpp"
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
-#include "codec/mesh/worth.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vectors of a processor do what plain arithmetic does, on any values.
-#include "wavelet/lifting_kernel.hpp"
+#include "wavelet/lifting/lifting_kernel.hpp"
 
 #include <gtest/gtest.h>
 

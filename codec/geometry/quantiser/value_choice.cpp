@@ -29,7 +29,8 @@ constexpr double kNearlyAll = 0.9;
 /// Estimates of bits are not better than that.
 constexpr double kClearly = 0.98;
 
-/// A value that samples have: its word (codec/geometry/steps/sample_order.hpp), and how many they are.
+/// A value that samples have: its word (codec/geometry/steps/sample_order.hpp), and how many they
+/// are.
 struct Value {
   uint32_t word;
   uint32_t samples;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of decoded heights to samples: sample = base + q * step, and a correction where there is one.
+// Turns the steps of decoded heights into samples: sample = base + q * step, and a correction where
+// there is one.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@
 
 namespace tetrakis::inline values {
 
-/// The values of the samples as words (codec/geometry/steps/sample_order.hpp), smallest sample first.
+/// The values of the samples as words (codec/geometry/steps/sample_order.hpp), the smallest first.
 struct ValueTable {
   std::vector<uint32_t> words;
 

@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "codec/mesh/lattice.hpp"
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
 #include "codec/mesh/quadtree/traversal.hpp"
 #include "codec/mesh/quadtree/view_raster.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::inline quadtree {
 

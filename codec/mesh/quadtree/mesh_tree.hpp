@@ -17,10 +17,10 @@
 #include <span>
 #include <vector>
 
-#include "codec/mesh/lattice_mesh.hpp"
 #include "codec/mesh/quadtree/index_differences.hpp"
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
 #include "codec/mesh/quadtree/view_raster.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::inline quadtree {
 

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "codec/mesh/gains.hpp"
-#include "codec/mesh/general_decimation.hpp"
+#include "codec/mesh/decimation/general_decimation.hpp"
+#include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/leaf_order.hpp"
 #include "codec/mesh/study/local_errors.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ways to choose the vertices of meshes that the thesis compares (2.5.2, 5.4.2, 5.5.2), with costs
-// of any kind. The library itself decimates in one way (codec/mesh/decimation.hpp).
+// of any kind. The library itself decimates in one way (codec/mesh/decimation/decimation.hpp).
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "codec/mesh/decimation.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
 
 namespace tetrakis::inline study {
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <queue>
 
-#include "codec/mesh/slope_queue.hpp"
-#include "codec/mesh/worth.hpp"
+#include "codec/mesh/decimation/slope_queue.hpp"
+#include "codec/mesh/decimation/worth.hpp"
 
 namespace tetrakis::inline study {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/vertex_costs.hpp"
+#include "codec/mesh/decimation/vertex_costs.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::inline study {
 

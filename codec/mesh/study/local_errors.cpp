@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "codec/mesh/clamped_triangle.hpp"
-#include "codec/mesh/triangle.hpp"
+#include "codec/mesh/gains/clamped_triangle.hpp"
+#include "codec/mesh/topology/triangle.hpp"
 
 namespace tetrakis::inline study {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/surface_view.hpp"
+#include "codec/mesh/surface/surface_view.hpp"
+#include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::inline study {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "codec/mesh/gains.hpp"
+#include "codec/mesh/gains/gains.hpp"
 
 namespace tetrakis::inline study {
 

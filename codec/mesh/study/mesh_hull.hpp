@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lower convex hull of all 4-8 meshes of a surface (codec/mesh/closure.hpp), which no order of
-// decimation can beat, and an order through all of its corners.
+// The lower convex hull of all 4-8 meshes of a surface (codec/mesh/closure/closure.hpp), which no
+// order of decimation can beat, and an order through all of its corners.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "codec/mesh/closure.hpp"
-#include "codec/mesh/decimation.hpp"
+#include "codec/mesh/closure/closure.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
 
 namespace tetrakis::inline study {
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "codec/mesh/closure_flow.hpp"
-#include "codec/mesh/gains.hpp"
+#include "codec/mesh/closure/closure_flow.hpp"
+#include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/mesh_hull.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_values.hpp"

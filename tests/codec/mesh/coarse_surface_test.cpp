@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coarse surfaces and where they lie in the whole.
-#include "codec/mesh/coarse_surface.hpp"
+#include "codec/mesh/surface/coarse_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "codec/mesh/lattice_mesh.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis {
 namespace {

@@ -11,9 +11,9 @@
 #include <random>
 #include <set>
 
-#include "codec/mesh/gains.hpp"
-#include "codec/mesh/merging_domains.hpp"
-#include "codec/mesh/octagon.hpp"
+#include "codec/mesh/decimation/merging_domains.hpp"
+#include "codec/mesh/gains/gains.hpp"
+#include "codec/mesh/topology/octagon.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_values.hpp"
 

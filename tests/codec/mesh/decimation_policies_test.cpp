@@ -8,14 +8,14 @@
 #include <random>
 #include <span>
 
-#include "codec/mesh/ancestors.hpp"
-#include "codec/mesh/gains.hpp"
-#include "codec/mesh/general_decimation.hpp"
-#include "codec/mesh/merging_domains.hpp"
-#include "codec/mesh/saturated_order.hpp"
+#include "codec/mesh/decimation/general_decimation.hpp"
+#include "codec/mesh/decimation/merging_domains.hpp"
+#include "codec/mesh/decimation/saturated_order.hpp"
+#include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/decimation_policies.hpp"
 #include "codec/mesh/study/leaf_order.hpp"
 #include "codec/mesh/study/local_errors.hpp"
+#include "codec/mesh/topology/ancestors.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"
 

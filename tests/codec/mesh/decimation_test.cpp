@@ -6,8 +6,8 @@
 #include <chrono>
 #include <limits>
 
-#include "codec/mesh/gains.hpp"
-#include "codec/mesh/general_decimation.hpp"
+#include "codec/mesh/decimation/general_decimation.hpp"
+#include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/decimation_policies.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"

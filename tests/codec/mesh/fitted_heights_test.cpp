@@ -13,8 +13,8 @@
 #include <random>
 #include <utility>
 
-#include "codec/mesh/decimation.hpp"
-#include "codec/mesh/fitted_solver.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
+#include "codec/mesh/fitting/fitted_solver.hpp"
 #include "tests/support/mesh_checks.hpp"
 
 namespace tetrakis {

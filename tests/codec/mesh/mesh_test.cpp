@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <random>
 
-#include "codec/mesh/ancestors.hpp"
-#include "codec/mesh/lattice.hpp"
-#include "codec/mesh/lattice_mesh.hpp"
+#include "codec/mesh/topology/ancestors.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_values.hpp"
 

@@ -9,9 +9,9 @@
 #include <limits>
 #include <set>
 
-#include "codec/mesh/fitted_triangle.hpp"
-#include "codec/mesh/screen_weights.hpp"
-#include "codec/mesh/surface_picture.hpp"
+#include "codec/mesh/fitting/fitted_triangle.hpp"
+#include "codec/mesh/screen/screen_weights.hpp"
+#include "codec/mesh/screen/surface_picture.hpp"
 #include "codec/mesh/turned_edges.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rate-distortion decimation (thesis 5). It gives an order of insertion of all vertices of a 4-8
+// mesh. Every prefix of the order is a conforming mesh with little error for its triangles, and the
+// meshes are nested.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh/surface/surface_view.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
+
+namespace tetrakis::inline decimation {
+
+/// The progressive order of all vertices of a surface.
+class MeshSequence {
+ public:
+  MeshSequence(Lattice lattice, std::vector<VertexId> order, const std::vector<double>& gains);
+
+  const Lattice& lattice() const { return lattice_; }
+  /// Vertices in insertion order, parents before children, hidden ones included.
+  const std::vector<VertexId>& order() const { return order_; }
+  /// The number of triangles of the mesh of the first `inserted` vertices, 0 ... order().size(). It
+  /// never falls as vertices are inserted.
+  uint32_t triangleCount(size_t inserted) const { return triangle_counts_[inserted]; }
+  /// The error of that mesh: the sum over all samples of weight * (sample - mesh)^2, in squared
+  /// height steps.
+  double squaredError(size_t inserted) const { return squared_errors_[inserted]; }
+
+  /// The shortest prefix with the least error among those of at most `triangles` triangles; 0, the
+  /// roots alone, where even they have more.
+  size_t bestPrefix(uint32_t triangles) const;
+  LatticeMesh mesh(size_t inserted) const;
+  LatticeMesh meshWithAtMost(uint32_t triangles) const { return mesh(bestPrefix(triangles)); }
+
+ private:
+  Lattice lattice_;
+  std::vector<VertexId> order_;
+  std::vector<uint32_t> triangle_counts_;
+  std::vector<double> squared_errors_;
+};
+
+/// Orders all vertices by general decimation (general_decimation.hpp). The coarsest meshes of the
+/// order, those of up to 4096 triangles and of no more than one for each 8 samples, pass through
+/// the corners of the hull of the meshes within them (closure.hpp). Fails with the errors of
+/// Lattice::make, and with TKS_USAGE for weights that are not one for each sample, negative or not
+/// finite.
+Result<MeshSequence> decimate(const SurfaceView& surface);
+
+}  // namespace tetrakis::inline mesh

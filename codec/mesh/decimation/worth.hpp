@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What vertices cost and save: the vector functional u = (D, R) of the thesis and its slope.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace tetrakis::inline decimation {
+
+/// Returns the slope lambda of thesis 5.2.2. A domain that frees no triangles gets the slope
+/// -infinity (it is removed first) if its removal does not increase the error, and +infinity
+/// (removed last) if it does.
+inline double slopeOf(double distortion, uint32_t cost) {
+  constexpr double kSteepest = std::numeric_limits<double>::infinity();
+  if (cost == 0) return distortion > 0 ? kSteepest : -kSteepest;
+  return distortion / cost;
+}
+
+/// u of a vertex or of a set of vertices.
+struct Worth {
+  double distortion = 0;
+  uint32_t cost = 0;
+
+  Worth& operator+=(const Worth& other) {
+    distortion += other.distortion;
+    cost += other.cost;
+    return *this;
+  }
+  Worth& operator-=(const Worth& other) {
+    distortion -= other.distortion;
+    cost -= other.cost;
+    return *this;
+  }
+  bool operator==(const Worth&) const = default;
+};
+
+/// u of a merging domain, and the slope below which a fall of its slope is reported. It has 16
+/// bytes, so that each ancestor that changes takes one access to memory.
+struct DomainWorth {
+  double distortion = 0;
+  uint32_t cost = 0;
+  float bound = -std::numeric_limits<float>::infinity();
+
+  DomainWorth& operator+=(const Worth& other) {
+    distortion += other.distortion;
+    cost += other.cost;
+    return *this;
+  }
+  DomainWorth& operator-=(const Worth& other) {
+    distortion -= other.distortion;
+    cost -= other.cost;
+    return *this;
+  }
+};
+
+}  // namespace tetrakis::inline mesh
