@@ -24,7 +24,7 @@ constexpr uint64_t kBytesPerTrack = 64;       // its region, and views of its by
 constexpr uint64_t kValue = sizeof(int32_t);  // of a plane
 constexpr uint64_t kRow = 8;                  // of corrections, a sample of the row before
 
-/// Of a rectangle.
+/// How many samples a rectangle has.
 uint64_t area(const auto& extent) {
   return uint64_t{extent.width} * extent.height;
 }
@@ -97,7 +97,7 @@ class HeightsBytes {
   uint64_t validity() const { return kOnce + (voids_ ? area(header_) + shown_ : 0) + copyBytes(); }
 
  private:
-  /// Of another view of the coded lines.
+  /// The same heights, of which another view of the coded lines is decoded.
   HeightsBytes(const HeightsBytes& of, const View& lines)
       : decoder_(of.decoder_),
         header_(of.header_),
@@ -246,7 +246,8 @@ class TextureBytes {
     return count *
            ((header_.drawn() ? sizeof(DrawnIndex) : 0) + header_.channels * sizeof(uint16_t));
   }
-  /// Of whole planes: what can be seen, the overlay, what is coded.
+  /// What the opening takes: a mask of the texels that can be seen, the colours of the overlay and
+  /// a mask of the texels that are coded, each of a whole plane.
   uint64_t opening() const {
     const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(DrawnIndex) : 0;
     return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0));

@@ -17,7 +17,7 @@ namespace tetrakis::inline api {
 
 namespace {
 
-/// By their numbers.
+/// For each track, by its number, whether the view needs it.
 std::vector<bool> neededTracks(const auto& header, const View& view) {
   const Pyramid pyramid(header.extent());
   const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);

@@ -14,7 +14,7 @@
 namespace tetrakis::inline api {
 namespace {
 
-/// Without a camera all ground counts alike.
+/// What the camera sees and what it might see next. Without a camera all ground counts alike.
 Result<std::vector<WeightedSighting>> sightingsIn(tks_decoder& decoder,
                                                   const tks_screen_camera* given,
                                                   uint32_t triangles) {

@@ -51,7 +51,7 @@ Status takeTexture(const tks_image& given, tks_image& out) {
   return {};
 }
 
-/// In 8 bits.
+/// How bright each texel is, in 8 bits.
 GroundImage brightnessOf(const tks_image& image) {
   GroundImage brightness;
   withSampleType(image.sample, [&](auto type) {

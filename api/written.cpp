@@ -26,7 +26,8 @@ float surfaceAt(const DecodedGeometry& geometry, const SurfaceScale& scale, size
                : std::numeric_limits<float>::quiet_NaN();
 }
 
-/// Of the smallest plane: all samples are like the first.
+/// The heights that stand where nothing was sent, as a plane of the smallest size: all samples are
+/// like its first.
 DecodedHeights unsentHeights(const StreamHeader& header) {
   GeometryHeader smallest = *header.geometry;
   smallest.width = smallest.height = 2;

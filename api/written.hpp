@@ -17,7 +17,7 @@ void writeSurface(const tks_decoder& decoder, const DecodedHeights& decoded, flo
 /// out: as many samples of that type as the texels have.
 void writeTexels(const Texels& texels, tks_sample sample, void* out);
 
-/// So many samples, heights or texels, of a component of which nothing was sent.
+/// Write so many samples (heights, or texels) of a component of which nothing was sent.
 void writeUnsentHeights(const tks_decoder& decoder, void* out, size_t count);
 void writeUnsentSurface(const tks_decoder& decoder, float* out, size_t count);
 void writeUnsentTexels(const TextureHeader& header, void* out, size_t count);

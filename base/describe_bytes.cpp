@@ -5,7 +5,8 @@
 
 namespace tetrakis::inline base {
 
-/// In whole numbers: what formats floating-point ones would be a large part of a small decoder.
+/// This computes with whole numbers, because the code that formats floating-point ones would be a
+/// large part of a small decoder.
 std::string describeBytes(uint64_t bytes) {
   constexpr std::array<const char*, 5> kUnits = {" bytes", " KiB", " MiB", " GiB", " TiB"};
   size_t unit = 0;

@@ -255,7 +255,8 @@ bool correctionsMayPay(const CodedHeights& whole) {
   return may_pay(freeSamples(whole)) || (some_flat && may_pay(steps.valid));
 }
 
-/// By wavelet.
+/// Codes heights to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
+/// corrections behind it.
 std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
                                                      const Quantised& of) {
   CoefficientOptions options = heightOptions(inputs);

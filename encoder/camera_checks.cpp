@@ -12,7 +12,8 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Of one picture: at first, and about each pixel of 768 x 512.
+/// How many points of a picture are looked at: at first, and in the end about as many as
+/// a picture of 768 x 512 has pixels.
 constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
 
 Status blames(const Camera& camera, const char* what) {

@@ -28,8 +28,8 @@ struct Candidates {
 /// RMSE in steps, or texel units, below which the last bit is worth a try.
 inline constexpr double kNearlyExact = 0.6;
 
-/// The same with both curves, and what their errors are to a viewer: as it is known already, or as
-/// it is found for these candidates.
+/// The candidates with the curves of both, and with what their errors are to a viewer: as it is
+/// known already, or as it is found for these candidates.
 Candidates withCurves(const EncodeInputs& inputs, Candidates candidates);
 
 /// All packets of both, which have curves, in their joint order.

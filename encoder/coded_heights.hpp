@@ -86,19 +86,20 @@ struct HeightTarget {
   HeightTarget(Purpose of) : purpose(of) {}
 };
 
-/// All of this, with the corrections that the heights come with, and flat areas that pay.
+/// Codes the heights as a component: coefficients by the filters that suit them, beside the flat
+/// areas that pay, and the layers that the heights come with.
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
                          const CoefficientOptions& options);
 
-/// The same with the byte from which on decoders round, which takes time to find. coded: an
+/// The attempt with the byte from which on decoders round, which takes time to find. coded: an
 /// attempt.
 CodedHeights withRounding(CodedHeights coded);
 
-/// The same heights as a drawing, in the place of coefficients; nothing if they have too many
+/// Codes the heights as a drawing, in the place of coefficients; nothing if they have too many
 /// values for one.
 std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of);
 
-/// The same heights with their samples written as they are, in the place of coefficients and
+/// Codes the heights with their samples written as they are, in the place of coefficients and
 /// corrections. The header keeps its base and step. threads: nothing depends on them.
 CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads);
 

@@ -33,14 +33,16 @@ struct CodedTexture {
 
 std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
 
-/// By the coder that suits the image. of: quantiseTexture() of the image of the inputs.
+/// Codes the texture by the coder that suits it. of: quantiseTexture() of the image of the inputs.
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> of,
                          Purpose purpose);
 
-/// To the last bit, with the colours and filters of lossy textures, which are not drawn or stored.
+/// Codes the same texture to the last bit, with the colours and filters of `lossy`, which is
+/// neither drawn nor stored.
 CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy);
 
-/// The same, but to the end, if the samples of `coded` miss the PSNR that its account meets.
+/// Returns `coded`, or the texture coded to the end if the samples of `coded` miss the PSNR that
+/// its account meets.
 CodedTexture codeFurtherIfNeeded(const EncodeInputs& inputs, CodedTexture coded);
 
 /// The samples written as they are.

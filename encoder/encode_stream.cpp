@@ -97,7 +97,7 @@ struct Components {
   Texture texture;  ///< null: there is none
 };
 
-/// With threads, both components at a time.
+/// Codes both components, at the same time if there are threads.
 Result<Components> codeComponents(const EncodeInputs& inputs,
                                   const std::shared_ptr<const QuantisedHeights>& heights,
                                   const std::shared_ptr<const TextureSource>& texture) {
@@ -160,8 +160,8 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
   return logarithms < 0;
 }
 
-/// With maps of priorities where these pay. Of larger budgets they take too little to be in doubt
-/// (docs/EXPERIMENTS.md), and coding twice takes twice the time.
+/// Codes with maps of priorities where these pay. Maps take too little of large budgets to be in
+/// doubt (docs/EXPERIMENTS.md), and coding twice takes twice the time.
 Result<Selection> selectWithMaps(const EncodeInputs& given, const ViewPriorities& priorities) {
   constexpr uint64_t kCertain = 16;
   Result<Selection> with = codeAndSelect(given.with(given.options, &priorities));

@@ -13,7 +13,8 @@ namespace {
 
 /// Sides of regions, chosen so that they cost about 1 % of the bytes (docs/ARCHITECTURE.md).
 constexpr int kRegionLog2 = 9;
-/// Of streams made for windows: they cost as much again, and a window of 512 takes a third less.
+/// Sides of regions in streams made for windows: they cost as much again, and a window of 512 takes
+/// a third less.
 constexpr int kWindowRegionLog2 = 8;
 constexpr uint64_t kOneRegionTexels = 2048 * 2048;
 

@@ -41,11 +41,11 @@ struct EncodeInputs {
   const tks_heights* allHeights() const { return lines != nullptr ? whole : heights; }
   /// The mean squared error of all lines is at most so many times that of the coded ones.
   double heaviest() const { return lines != nullptr ? lines->heaviest : 1; }
-  /// By how many samples of all lines each coded sample is shown; empty: by one.
+  /// How many samples of all lines show each coded sample; empty: one.
   std::span<const uint32_t> shownBy() const {
     return lines != nullptr ? std::span(lines->shown_by) : std::span<const uint32_t>();
   }
-  /// The same under other options, which outlive the result, and with other priorities.
+  /// The same inputs under other options, which outlive the result, and with other priorities.
   EncodeInputs with(const tks_encode_options& other, const ViewPriorities* others) const {
     return {.heights = heights,
             .image = image,

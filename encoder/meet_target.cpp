@@ -34,7 +34,7 @@ Selection selectNeeded(const EncodeInputs& inputs, const Candidates& candidates)
   return selection;
 }
 
-/// As much as there is room for.
+/// Selects as much as the budget has room for.
 Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
   lossy = withCurves(inputs, std::move(lossy));
   Selection selection = orderPackets(lossy);

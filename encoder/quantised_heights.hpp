@@ -51,8 +51,8 @@ struct QuantisedHeights {
   double squaresOf(const HeightSteps& other) const;
 
   /// Squared error, in steps, of what is decoded from a prefix, over the samples that `valid` says.
-  /// Samples that are shown more often than in the mean count more.
-  /// With multiples of a step corrections are left out: they come all at once, behind all else.
+  /// Samples that are shown more often than in the mean count more. Where steps are multiples,
+  /// corrections are left out: they come all at once, behind all else.
   double squaresOf(const DecodedHeights& decoded, std::vector<uint8_t> valid) const;
 };
 

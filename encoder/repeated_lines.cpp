@@ -30,7 +30,8 @@ class SampleBytes {
       repeated[y] = std::memcmp(at(0, y), at(0, y - 1), width_ * size_) == 0;
     return repeated;
   }
-  /// Likewise of columns. Those that differ somewhere are not looked at again.
+  /// 1 for columns that repeat the one before. Columns that differ somewhere are not looked at
+  /// again.
   std::vector<uint8_t> repeatedColumns() const {
     std::vector<uint32_t> alike(width_ - 1);
     std::iota(alike.begin(), alike.end(), 1u);
@@ -42,7 +43,7 @@ class SampleBytes {
     for (const uint32_t x : alike) repeated[x] = 1;
     return repeated;
   }
-  /// Those of lines that are not repeated.
+  /// The samples of the lines that repeat no other.
   std::vector<std::byte> without(const std::vector<uint8_t>& columns,
                                  const std::vector<uint8_t>& rows) const {
     std::vector<std::byte> samples;

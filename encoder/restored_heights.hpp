@@ -13,7 +13,8 @@ namespace tetrakis::inline encoder {
 /// one track, and are no lossless heights yet.
 bool canBeRestored(const CodedHeights& lossy);
 
-/// The same coefficients with the corrections behind them. lossy: canBeRestored().
+/// The heights with their coefficients as they are and the corrections behind them. lossy:
+/// canBeRestored().
 CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy);
 
 }  // namespace tetrakis::inline encoder

@@ -17,7 +17,7 @@ namespace {
 
 /// Points of all pictures: some hundreds for each tile.
 constexpr size_t kMapPoints = 1 << 16;
-/// Of the range of heights: what 16 to 64 kB leave.
+/// A typical error of heights, as a share of their range: what 16 to 64 kB leave.
 constexpr double kTypicalError = 0.005;
 /// What a pixel shows is off as the texels are, whatever their errors. Those of the heights cost in
 /// proportion to their squares only as long as they move the texture by less than its details are

@@ -11,7 +11,7 @@
 
 namespace tetrakis::inline encoder {
 
-/// Of a stream of these packets that is not lossless.
+/// How many bytes the header of a stream of these packets takes that is not lossless.
 uint64_t headerBytesOf(const EncodeInputs& inputs, const Selection& selection);
 
 /// All samples come back, header and all within the budget.

@@ -11,7 +11,7 @@ namespace tetrakis::inline receiver {
 
 namespace {
 
-/// In the stream's order, without a gap between them.
+/// The pieces of packets that are missing, in the order of the stream.
 std::vector<Piece> piecesOf(std::span<const PlacedPacket> packets, const Missing& missing,
                             uint64_t end) {
   std::vector<Piece> pieces;

@@ -28,7 +28,7 @@ using Missing = std::function<std::vector<ByteRange>(uint64_t begin, uint64_t en
 /// cost something, ranges are few: the plan has the greatest worth beside the costs of its bytes
 /// and of its requests, with bytes in ranges that help little or are there, and a packet may come
 /// before an earlier one of its track. TKS_CORRUPT where the index names a track that there is not.
-/// Without an index: the bytes in their order.
+/// Where there is no index, the plan is the bytes in their order.
 Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
                                           std::span<const WeightedSighting> sightings,
                                           const Missing& missing, const FetchLimits& limits);

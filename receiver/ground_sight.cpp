@@ -76,7 +76,7 @@ class Sight {
     return {double(x) * ground_.step, double(y) * ground_.step, heightAt(x, y)};
   }
 
-  /// Of a point that nothing hides.
+  /// The pixels and the parallax of a point that nothing hides.
   GroundPoint shown(const Place& point) const {
     const double w = rowAt(view_.clip, 3, point);
     const double cx = rowAt(view_.clip, 0, point), cy = rowAt(view_.clip, 1, point);
@@ -98,8 +98,8 @@ class Sight {
     return ground_.heights[size_t{y} * ground_.columns + x];
   }
 
-  /// Of the point and its neighbours: low-pass filtered ground hides what is behind it, not its own
-  /// tops.
+  /// The highest of a point and its neighbours: low-pass filtered ground hides what is behind it,
+  /// not its own tops.
   double topAt(uint32_t x, uint32_t y) const {
     double top = heightAt(x, y);
     for (uint32_t j = y > 0 ? y - 1 : 0; j <= std::min(y + 1, ground_.rows - 1); ++j)

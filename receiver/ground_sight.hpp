@@ -33,7 +33,7 @@ struct GroundPoint {
 /// below coarse ground. Without such an eye (a map) nothing is hidden.
 std::vector<GroundPoint> sightOf(const CoarseGround& ground, const Eye& eye);
 
-/// The same for a viewer who turns on the spot to face each point: what a picture would show whose
+/// What a viewer sees who turns on the spot to face each point: what a picture would show whose
 /// middle column looked that way. aspect: the spacing of columns over that of rows. Nothing
 /// is seen without an eye.
 std::vector<GroundPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect);

@@ -98,8 +98,8 @@ class SightedStream {
   }
 
  private:
-  /// Of the points that a region of a plane reaches, because its waves end beyond it; hidden ones
-  /// count as 0.
+  /// The mean cost of the points that a region of a plane reaches, as its waves end beyond it;
+  /// hidden points count as 0.
   template <class Cost>
   double meanOver(const Region& region, Extent plane, Cost&& cost) const {
     const auto first = [](uint32_t begin, uint32_t side, uint32_t points) {

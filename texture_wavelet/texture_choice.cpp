@@ -21,8 +21,8 @@ namespace tetrakis::inline texture {
 
 namespace {
 
-/// Of so many bytes at most; what lies between two points of the account is not known to be better
-/// than the first.
+/// The distortion that at most so many bytes leave. What lies between two points of the account is
+/// not known to be better than the first.
 double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
   const std::vector<RatePoint>& points = encoded.tracks.front().points;
   const auto above = std::find_if(points.begin() + 1, points.end(),
@@ -30,7 +30,7 @@ double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
   return (above - 1)->distortion;
 }
 
-/// So few are not worth the time of another attempt.
+/// So few bytes are not worth the time of another attempt.
 constexpr uint64_t kFewBytes = 1024;
 
 TextureOptions oneTrack(TextureOptions options) {
@@ -41,7 +41,7 @@ TextureOptions oneTrack(TextureOptions options) {
 /// What a drawn texture and the wavelet make of an image, side by side.
 struct Contest {
   bool drawn_wins;
-  /// In one track, if that is what encodePhotograph() would make of it without an overlay.
+  /// What encodePhotograph() would make of the image without an overlay, if that is one track.
   std::optional<EncodedTexture> plain;
 };
 
@@ -80,7 +80,8 @@ bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const Texture
   return error_a != error_b ? error_a < error_b : bytesOf(a.tracks) < bytesOf(b.tracks);
 }
 
-/// The same of a drawn texture whose end will not be sent. Alpha of a cut-out would not be exact.
+/// The contest for a drawn texture whose end will not be sent. Alpha of a cut-out would not be
+/// exact.
 Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
                    const TextureOptions& options) {
   if (!source.cutout.empty()) return {false, {}};
@@ -93,8 +94,9 @@ Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Pur
   return {false, std::move(wavelet)};
 }
 
-/// With an overlay or without. Both are coded in one track to compare them: all of it for the last
-/// bit, else what a budget has room for. plain: without an overlay, in one track, if that is there.
+/// Codes the image by wavelet, with an overlay or without. Both are coded in one track to compare
+/// them: all of it for the last bit, else what a budget has room for. plain: the image without an
+/// overlay, in one track, if that was coded already.
 EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
                                 const TextureOptions& options,
                                 std::optional<EncodedTexture> plain) {

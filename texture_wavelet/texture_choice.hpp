@@ -7,8 +7,8 @@
 
 namespace tetrakis::inline texture {
 
-/// By wavelet; or drawn, or stored, in one track where that is better. Complete tracks without
-/// fraction bits that hide nothing are lossless.
+/// Codes the image by wavelet; or it is drawn or stored, in one track, where that is better.
+/// Complete tracks without fraction bits that hide nothing are lossless.
 EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, TextureOptions options);
 
 /// The image that was coded by wavelet with the header `lossy`, to the last bit, with its colours

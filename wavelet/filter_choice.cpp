@@ -169,7 +169,7 @@ Choice chooseLossless(const std::vector<PlanePart>& parts, int bits,
   return best;
 }
 
-/// Of heights, and of textures that are not for the last bit.
+/// Chooses for heights, and for textures that are not for the last bit.
 Choice chooseAmong(const std::vector<PlanePart>& parts, int bits, Purpose purpose) {
   if (purpose == Purpose::kLossy) return chooseLossy(parts, bits);
   return chooseLossless(parts, bits, kLosslessHeights);

@@ -24,7 +24,7 @@ enum class Purpose : uint8_t {
 /// bits that their coefficients take.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose);
 
-/// The same for a plane of which samples are held.
+/// Chooses the wavelet of a plane of which samples are held.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                             int bits, Purpose purpose);
 

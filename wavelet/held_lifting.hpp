@@ -34,7 +34,7 @@ struct HeldLevel {
 
   /// The values that held samples of a quarter of the level have after the analysis.
   std::span<const int32_t> after(bool high_x, bool high_y) const;
-  /// Those of the columns of a half.
+  /// The states of the columns of one half of the rows.
   const HeldStates& columns(bool high_x) const { return high_x ? high_columns : low_columns; }
 };
 
@@ -44,7 +44,7 @@ class HeldLadder {
   /// The pyramid outlives this.
   HeldLadder(const WaveletSpec& spec, const Pyramid& pyramid);
 
-  /// From 1 on.
+  /// level: from 1 on.
   HeldLevel level(int level) const;
 
  private:
@@ -96,11 +96,11 @@ struct HeldColumns {
   uint32_t begin, lows;  ///< lows: columns of the block that are low
 };
 
-/// As liftColumns(), or liftMaskedColumns() where there is a mask.
+/// Does what liftColumns() does, or liftMaskedColumns() where there is a mask, beside held samples.
 void liftHeldColumns(const Rows<int32_t>& rows, const Rows<const uint8_t>* valid,
                      const HeldColumns& columns, const LiftedSignals& signals);
 
-/// As RowLifting and MaskedRowLifting.
+/// Does what RowLifting and MaskedRowLifting do, beside held samples.
 class HeldRowLifting {
  public:
   explicit HeldRowLifting(uint32_t longest) : values_(longest), valid_(longest) {}

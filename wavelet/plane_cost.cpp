@@ -18,7 +18,7 @@ uint32_t magnitudeOf(int32_t value) {
   return static_cast<uint32_t>(value < 0 ? -int64_t{value} : int64_t{value});
 }
 
-/// Of large bands the first kStrip of every kPeriod rows tell what all of them cost.
+/// In large bands the first kStrip of every kPeriod rows tell what all rows cost.
 constexpr uint32_t kLargeRows = 256, kPeriod = 64, kStrip = 16;
 
 /// Calls take(row, marks) for the coefficients of a subband's rows; marks: 1 for those that are
@@ -50,7 +50,7 @@ double forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32
   return static_cast<double>(band.height) / std::max(rows, 1u);
 }
 
-/// Of numbers of bits, by the neighbours' magnitudes.
+/// Counts numbers of bits by the magnitudes of the neighbours.
 class BitCounts {
  public:
   void count(uint32_t neighbours, int bits) {

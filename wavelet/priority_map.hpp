@@ -37,7 +37,7 @@ class CoefficientPriorities {
  public:
   explicit CoefficientPriorities(const PriorityMap& map);
 
-  /// Of a coefficient of a level whose sample lies at (x, y).
+  /// The priority of a coefficient of a level whose sample lies at (x, y).
   uint8_t at(uint32_t x, uint32_t y, int level) const;
 
  private:

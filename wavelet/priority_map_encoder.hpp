@@ -6,7 +6,7 @@
 
 namespace tetrakis::inline wavelet {
 
-/// None for a map without tiles.
+/// The header that stands for a map; an empty one for a map without tiles.
 PriorityHeader headerOf(const PriorityMap& map);
 
 }  // namespace tetrakis::inline wavelet

@@ -24,8 +24,8 @@ namespace tetrakis::inline wavelet {
 struct TrackMemory {
   std::vector<std::optional<GrowingTrack>> tracks;
   bool all_levels = false;  ///< for calls with views of several levels
-  /// For calls with the whole codeword of the only track: the passes that begin within so many
-  /// bytes of it count. Encoders look at prefixes so.
+  /// Where there is but one track and calls have its whole codeword, only the passes count that
+  /// begin within so many bytes of it. Encoders look at prefixes in this way.
   std::optional<uint64_t> passes_within = {};
 
   /// What calls know of these codewords.

@@ -28,7 +28,8 @@ std::vector<Account> accountsOf(std::span<const EncodedTrack> tracks);
 /// complete. squares: of them together.
 uint64_t roundedBytes(std::span<const Account> accounts, double squares);
 
-/// The same of tracks of coefficients alone; those that are not complete are never rounded.
+/// The bytes from which on tracks of coefficients alone are rounded; those that are not complete
+/// never are.
 uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double squares);
 
 }  // namespace tetrakis::inline wavelet

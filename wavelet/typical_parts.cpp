@@ -16,9 +16,9 @@ struct Interval {
   uint32_t first, length;
 };
 
-/// At most so many samples in the middle of a field of a side. They begin at a multiple of kAligned
-/// where the field holds one: rows that were interpolated, or copied, then look to the transform of
-/// the part as they do to that of the plane.
+/// The middle of a field of a side, of at most so many samples. It begins at a multiple of
+/// kAligned where the field holds one: rows that were interpolated, or copied, then look to the
+/// transform of the part as they do to that of the plane.
 Interval middleOf(uint32_t field, uint32_t side, uint32_t most) {
   const auto begin = static_cast<uint32_t>(uint64_t{side} * field / kFields);
   const auto end = static_cast<uint32_t>(uint64_t{side} * (field + 1) / kFields);

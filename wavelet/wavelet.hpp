@@ -6,8 +6,8 @@
 // with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
 // coefficient once (wavelet/lifting/joint_lifting.hpp). The finest levels do not round their low
 // bands at all, but carry the fractions to the next one. Then the low bands of three levels are
-// doubled, so that coarser levels round half as much: prefixes get better, lossless streams a little
-// longer. docs/EXPERIMENTS.md says by how much.
+// doubled, so that coarser levels round half as much: prefixes get better, lossless streams a
+// little longer. docs/EXPERIMENTS.md says by how much.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +63,7 @@ int carriedTo(const WaveletSpec& spec, const Pyramid& pyramid);
 /// exist are left alone.
 void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
-/// The same for the plane of a pyramid, which knows what is held: held samples have their values,
+/// Transforms the plane of a pyramid, which knows what is held: held samples have their values,
 /// and the places of their coefficients may be anything afterwards.
 void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     uint32_t threads = 1);
@@ -71,10 +71,10 @@ void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
 /// Turns coefficients into samples, in place. Defined for all values.
 void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
-/// The same for the low band of a level, which is a plane of its own: undoes the coarser levels
-/// alone. low: the values of that low band. Where samples are held any values will do. rounds: the
-/// values are whole coefficients, known to the last bit or nearly, and roundings are undone. Else
-/// fractions are not carried; nor are they where level > 0.
+/// Turns coefficients into the low band of a level, which is a plane of its own: undoes the coarser
+/// levels alone. low: the values of that low band. Where samples are held any values will do.
+/// rounds: the values are whole coefficients, known to the last bit or nearly, and roundings are
+/// undone. Else fractions are not carried; nor are they where level > 0.
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
                     std::span<int32_t> low, uint32_t threads, bool rounds = true);
 

@@ -144,7 +144,7 @@ class RangeDecoder::Plenty {
     return bit;
   }
 
-  /// The same without a branch on the decision: for those that nobody can predict.
+  /// Does what decode() does without a branch on the decision: for those that nobody can predict.
   [[gnu::always_inline]] bool decodeUncertain(AdaptiveBit& model) {
     const uint32_t bound = boundOf(model);
     const bool bit = code_ >= bound;

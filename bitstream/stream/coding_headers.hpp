@@ -18,10 +18,11 @@ struct WaveletHeader {
   std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
   uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
   uint8_t bits = 0;                  ///< of a sample with its fraction: how wide sums must be
-  /// Without fraction bits: the low band is doubled after this level and the next; 0: never.
+  /// Where there are no fraction bits, the low band is doubled after this level and the next two;
+  /// 0: never.
   uint8_t first_doubled = 0;
-  /// Without fraction bits: the inverse rounds if the coefficients have so many bytes, of all
-  /// tracks together.
+  /// Where there are no fraction bits, the inverse rounds from the moment on when all tracks
+  /// together have so many bytes of coefficients.
   uint64_t rounded_bytes = 0;
 
   template <class V>

@@ -60,12 +60,12 @@ struct GeometryHeader {
   }
   Extent extent() const { return {width, height}; }
   Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
-  /// Without a transform: drawn or stored.
+  /// The heights were coded without a transform: drawn or stored.
   bool direct() const { return planes == kDirectPlanes; }
   bool stored() const { return direct() && !drawn; }
 
-  /// In the place of a number of bit-planes: steps are drawn (codec/geometry/drawn_heights/drawn_heights_decoder.hpp), or
-  /// the samples are stored (bitstream/coder/byte_planes.hpp).
+  /// This stands in the place of a number of bit-planes where steps are drawn
+  /// (codec/geometry/drawn_heights/) or samples are stored (bitstream/coder/byte_planes.hpp).
   static constexpr uint8_t kDirectPlanes = 31;
   static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes
   static constexpr uint8_t kWithRepeats = 8;      ///< bit beside the type of the samples

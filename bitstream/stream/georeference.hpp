@@ -33,10 +33,10 @@ struct TransformBasis {
   bool has_heights = false;
 };
 
-/// That of north-up samples of this size, at 0.
+/// The transform of a north-up raster at (0, 0) whose samples have this size.
 GeoTransform northUp(double size_x, double size_y);
 
-/// That of samples so many times as large over the same ground.
+/// The transform of a raster over the same ground whose samples are so many times as large.
 GeoTransform stretched(const GeoTransform& transform, double columns, double rows);
 
 /// The least form that gives the transform back bit for bit.
@@ -45,7 +45,7 @@ TransformForm formOf(const GeoTransform& transform, const TransformBasis& basis)
 /// Below that in magnitude every sum over a raster is finite.
 bool isSound(const GeoTransform& transform);
 
-/// That of the raster of every 2^level-th column and row, whose samples lie where they lay.
+/// The transform of every 2^level-th column and row of a raster: samples stay where they are.
 GeoTransform atLevel(const GeoTransform& transform, int level);
 
 struct Placement {
@@ -92,7 +92,7 @@ struct Placement {
   }
 };
 
-/// Of both components.
+/// Where the heights and the texture lie.
 struct Georeference {
   Placement heights;
   std::string description;  ///< of the heights

@@ -15,7 +15,7 @@
 
 namespace tetrakis::inline stream {
 
-/// Of a plane whose coded lines are fewer than those that are shown.
+/// Says which lines of a plane are coded, where these are fewer than the ones that are shown.
 struct LineRepeats {
   Extent shown = {0, 0};  ///< lines of the plane; 0: no map, all lines are coded
   std::string code;       ///< of the map

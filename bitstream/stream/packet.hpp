@@ -100,7 +100,7 @@ struct Demultiplexed {
   std::array<std::optional<uint8_t>, kComponents> quality;  ///< of the last complete packet of each
   std::vector<PacketHead> heads;                            ///< of every packet begun
 
-  /// Of all tracks, which may be many.
+  /// The bytes of each track of a component. There may be many tracks.
   Codewords codewordsOf(Component component) const;
   /// No byte of any track of the component is available.
   bool nothingOf(Component component) const;

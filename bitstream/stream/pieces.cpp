@@ -65,7 +65,8 @@ uint64_t openingBytes(const StreamHeader& header, Component component) {
 
 namespace {
 
-/// Nothing counts of tracks whose component's opening is not there.
+/// Drops the tracks behind the first of a component whose opening is not complete: they mean
+/// nothing without it.
 void dropUnopened(const StreamHeader& header, Demultiplexed& payload) {
   for (size_t i = 0; i < kComponents; ++i) {
     auto& tracks = payload.codewords[i];

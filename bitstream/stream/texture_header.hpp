@@ -15,7 +15,7 @@ namespace tetrakis::inline stream {
 
 inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or column
 
-/// In the place of a number of bit-planes: the texture is drawn
+/// These stand in the place of a number of bit-planes: the texture is drawn
 /// (codec/drawing/drawing_pass.hpp), or its samples are stored
 /// (bitstream/coder/byte_planes.hpp).
 inline constexpr uint8_t kDrawnPlanes = 31, kStoredTexture = 63;
@@ -27,7 +27,7 @@ struct BandWeights {
   static constexpr int64_t kMaxPriority = 128;
 
   uint8_t levels = 0;  ///< 0: none, for no component
-  /// Of a component: HL and LH of level 1, HH of level 1, HL and LH of level 2, ...
+  /// The list of a component begins with HL and LH of level 1, HH of level 1, HL and LH of level 2.
   std::array<std::array<int64_t, 2 * kMostLevels>, 4> priority{};
 
   int64_t at(uint32_t component, int level, Orientation orientation) const {
@@ -54,7 +54,7 @@ struct TextureHeader {
   uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
   uint8_t colour_order = 0;
-  /// With 3 components or more: of samples, then those of coefficients.
+  /// Textures of 3 components or more have the shears of samples, then those of coefficients.
   std::vector<std::array<int64_t, 6>> colour_shears{{}};
   std::array<uint16_t, 4> centre{};   ///< one per component
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
@@ -113,7 +113,7 @@ struct TextureHeader {
     }
   }
   bool drawn() const { return direct() && !stored; }
-  /// Without a transform: drawn or stored.
+  /// The texture was coded without a transform: drawn or stored.
   bool direct() const { return planes == kDrawnPlanes; }
 
   static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes

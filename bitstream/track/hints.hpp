@@ -29,12 +29,12 @@ class RowHints {
         component_(at(bands.component, row, 32 * word)),
         siblings_{at(bands.siblings[0], row, 32 * word), at(bands.siblings[1], row, 32 * word)} {}
 
-  /// Of column i: the sum.
+  /// The sum of the hints at column i.
   uint32_t ofOne(uint32_t i) const {
     return parent_[i / 2] + component_[i] + siblings_[0][i] + siblings_[1][i];
   }
 
-  /// Of the four columns from i on: twice the bits that are set anywhere.
+  /// Twice the bits that are set in any hint at the four columns from i on.
   uint32_t ofFour(uint32_t i) const {
     const uint32_t *c = component_ + i, *s = siblings_[0] + i, *t = siblings_[1] + i;
     const uint64_t any = twoOf(parent_ + i / 2) | twoOf(c) | twoOf(c + 2) | twoOf(s) |

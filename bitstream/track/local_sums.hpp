@@ -14,8 +14,8 @@
 
 namespace tetrakis::inline track {
 
-/// Of 32 coefficients of a row; passes add to them what they learn, at most 2 each. The last one is
-/// never used, only added to.
+/// The local sums of 32 coefficients of a row. Passes add to them what they learn, at most 2 each.
+/// The last sum is added to, but never used.
 using LocalSums = std::array<uint8_t, 33>;
 static_assert(8 * kMostLocal + 2 <= 255);
 
@@ -39,7 +39,7 @@ void localSums(const Band& band, size_t first, LocalSums& sums) {
   }
 }
 
-/// Of one coefficient, in units of 2^plane.
+/// The local sum of one coefficient, in units of 2^plane.
 inline uint8_t localSum(const Band& band, size_t cell, int plane) {
   const Neighbours neighbours(band.shape, band.orientation);
   const auto scaled = [&](ptrdiff_t offset) {

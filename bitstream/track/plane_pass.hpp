@@ -234,8 +234,8 @@ class PlanePass {
     return i % 4 == 0 && ((r.todo >> i) & 15) == 15 && ((r.near >> i) & 15) == 0;
   }
 
-  /// Of four quiet columns: 0 if there is something significant at most two columns and rows away,
-  /// 1 if three, else 2.
+  /// The context of four quiet columns: 0 if there is something significant at most two columns and
+  /// rows away, 1 if at most three, else 2.
   size_t reachClass(Row& r, uint32_t i) const {
     if (!r.reached) r.reach = band_.significantWithin(r.word);
     r.reached = true;
@@ -303,7 +303,8 @@ class PlanePass {
     }
   }
 
-  /// By the known bits, from the highest: 1, 2 or 3, more.
+  /// known: the bits of the magnitude that are known, from the highest. 1, 2 and 3, and more have
+  /// contexts of their own.
   size_t refinementContext(uint32_t known, uint8_t sum) const {
     const size_t local = kLocalClass[sum];
     return known == 1 ? local / 2 : known < 4 ? 6 + (local > 6) : 8;
@@ -327,8 +328,8 @@ class PlanePass {
     return columns;
   }
 
-  /// Of a row of 32 columns: the most decisions are a group, a place, a sign, and three times
-  /// significance with sign, for every four columns.
+  /// The most decisions that a row of 32 columns takes: for every four columns a group, a place, a
+  /// sign, and three times significance with sign.
   static constexpr size_t kRowDecisions = 8 * 10;
 
   Band& band_;

@@ -108,7 +108,8 @@ int32_t Reconstruction::fraction(int sixtyfourths, int plane) const {
   return sixtyfourths < 0 ? -value : value;
 }
 
-/// Of those of 32 columns that are known down to plane band.plane + kAbove.
+/// Writes those coefficients of 32 columns that are significant and known down to plane
+/// band.plane + kAbove.
 template <int kAbove>
 void Reconstruction::significant(size_t first, uint32_t columns, int32_t* out) const {
   LocalSums sums;

@@ -32,7 +32,7 @@ class Reconstruction {
 
   /// What the signs of the neighbours can say at most, in 1/64 of an interval.
   static constexpr int kMostHint = 26;
-  /// Of coefficients of one plane.
+  /// What to make of coefficients that are known down to one plane.
   struct PlaneTables {
     std::array<int32_t, BandModels::kLocal> rest{};  ///< unknown part, by the neighbours' class
     std::array<int32_t, 2 * kMostHint + 1> guess{};  ///< [hint + kMostHint]: of insignificant ones

@@ -21,7 +21,7 @@ namespace tetrakis::inline track {
 TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
                        std::span<const uint8_t> codeword);
 
-/// The same for one prefix after the other, each longer than the one before: what that decided is
+/// Decodes one prefix after the other, each longer than the one before: what that one decided is
 /// not decoded again.
 class GrowingTrack {
  public:

@@ -150,7 +150,7 @@ class EncodingIo {
   const Occupancy* occupancy_ = nullptr;
 };
 
-/// Of the coefficients of a tier.
+/// The sum of the squared coefficients of a tier.
 double squaresOf(const BandPlan& plan, const BandSource& source, size_t tier) {
   double squares = 0;
   for (uint32_t row = 0; row < plan.shape.rows; ++row) {

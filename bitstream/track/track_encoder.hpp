@@ -35,7 +35,7 @@ struct EncodedTrack {
   bool complete = true;  ///< down to the last bit
 };
 
-/// Of all codewords together.
+/// How many bytes all codewords take together.
 uint64_t bytesOf(std::span<const EncodedTrack> tracks);
 
 /// The bytes with which coefficients are restored exactly; where their tracks are not complete,

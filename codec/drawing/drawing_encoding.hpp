@@ -93,7 +93,8 @@ class DrawingEncoding : public DrawingDecisions {
  private:
   static constexpr size_t kLargeDrawing = size_t{1} << 20;
   static constexpr uint64_t kLeastStep = 32;
-  /// In so many bytes a vertex stands for so many samples that a wrong one makes them worse.
+  /// Within the first so many bytes a vertex stands for so many samples that a wrong one makes the
+  /// prefix worse.
   static constexpr uint64_t kDippingBytes = 512;
 
   /// The error is measured as often as the codeword has grown by so much; of large drawings less

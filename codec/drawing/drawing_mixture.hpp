@@ -26,7 +26,7 @@ constexpr int32_t probabilityOf(int32_t odds) {
   return (kAt[place] * (128 - part) + kAt[place + 1] * part + 64) >> 7;
 }
 
-/// For each probability the least odds that have it, or more.
+/// For each probability, the least odds that have this probability or more.
 using OddsTable = std::array<int16_t, 4096>;
 
 /// Made at run time: as a constant it would be 3 kB of the compressed module for the web.

@@ -58,7 +58,7 @@ class Candidates {
   const VotedIndex& operator[](int place) const { return all_[static_cast<size_t>(place)]; }
   /// kNoIndex beyond the last one.
   DrawnIndex at(int place) const { return place < count_ ? (*this)[place].index : kNoIndex; }
-  /// That of a neighbour, in the order above; kNoIndex if there is none.
+  /// The index of a neighbour, in the order above; kNoIndex if there is none.
   DrawnIndex neighbour(size_t i) const { return known_ >> i & 1 ? neighbours_[i] : kNoIndex; }
 
  private:

@@ -42,7 +42,7 @@ class CorrectedCut {
 
   /// Bytes of the coefficients that leave a mean squared error, in steps.
   uint64_t bytesFor(double mean_square) const;
-  /// Of the cut there and its corrections.
+  /// Bytes of the coefficients, cut there, and of their corrections.
   uint64_t total(uint64_t bytes);
 
   /// The cut of fewest bytes in all; where these are clearly more than the rival's, about it.

@@ -81,7 +81,7 @@ struct TakenLayers {
   }
 };
 
-/// Of the whole plane.
+/// The validity mask of the whole plane.
 std::vector<uint8_t> validityOf(const TakenLayers& taken, const GeometryHeader& header,
                                 const GeometryLayers& layers, HeightsMemory* memory = nullptr) {
   if (layers.validity_bytes == 0) return {};
@@ -92,7 +92,7 @@ std::vector<uint8_t> validityOf(const TakenLayers& taken, const GeometryHeader& 
   return valid;
 }
 
-/// Of the whole plane.
+/// The flat areas of the whole plane.
 FlatAreas flatAreasOf(const TakenLayers& taken, const GeometryHeader& header,
                       const GeometryLayers& layers, const std::vector<uint8_t>& valid,
                       HeightsMemory* memory) {
@@ -176,7 +176,7 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
 
 namespace {
 
-/// Of the coded lines, what stands in the codewords for all that the view shows.
+/// Decodes a view of the coded lines, with everything that the codewords hold for it.
 DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& layers,
                            TakenLayers taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
@@ -209,7 +209,7 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
   return decoded;
 }
 
-/// Of the coded lines.
+/// Decodes a view of the coded lines; a window is cut out of what decodedView() says.
 DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& layers,
                            const Codewords& codewords, const View& view,
                            const DecodeContext<HeightsMemory>& context) {

@@ -83,7 +83,7 @@ void FittedSequence::sortBySlope(size_t count, const FittedMoments& fitted) {
   sortByKeys(vertices, closureSlopes(lattice_, vertices, fitted.gains(vertices)), first);
 }
 
-/// So that the best of them for so many triangles come first.
+/// Sorts the first vertices so that the best of them for so many triangles come first.
 void FittedSequence::sortBySide(size_t count, const FittedMoments& fitted, uint32_t triangles) {
   const std::span<VertexId> first = std::span(order_).first(count);
   const std::vector<VertexId> vertices = ascending(first);

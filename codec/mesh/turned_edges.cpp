@@ -21,7 +21,7 @@ constexpr uint32_t kNoTwin = std::numeric_limits<uint32_t>::max();
 /// Doubled area of the smallest triangle that a turned edge may leave: what has fewer samples is
 /// right at all of them, and wrong between.
 constexpr int64_t kLeastArea = 4;
-/// Of the error of two triangles has to go, so that sweeps come to an end.
+/// A turn has to take this share off the error of two triangles, so that sweeps come to an end.
 constexpr double kLeastGain = 0x1p-20;
 
 uint32_t following(uint32_t half_edge) {

@@ -28,8 +28,8 @@ Polylines urefine(const Curve& curve);
 /// 2.4, appendix 2.D: removes the knot nearest to the chord of its neighbours. 5 m log m.
 Polylines udecimate(const Curve& curve);
 
-/// Not in the thesis: the same, but removes the knot that adds least to the error of the whole
-/// polyline, knots that are gone included (the global error of 2.5.4, which the thesis has for
+/// Not in the thesis: this removes the knot that adds least to the error of the whole polyline,
+/// knots that are gone included (the global error of 2.5.4, which the thesis has for
 /// trees alone). 5 m log m.
 Polylines udecimateGlobal(const Curve& curve);
 

@@ -18,7 +18,7 @@ class Curve {
  public:
   /// The knots of the thesis: at 0, 1, 2, …
   explicit Curve(std::span<const double> heights);
-  /// As many places as heights.
+  /// places: ascending, as many as heights.
   Curve(std::span<const double> places, std::span<const double> heights);
 
   uint32_t size() const { return static_cast<uint32_t>(knots_.size()); }

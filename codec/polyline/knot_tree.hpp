@@ -20,7 +20,7 @@ struct KnotNode {
 
 class KnotTree {
  public:
-  /// Of a curve of so many knots, at least two. Between a and b the node is (a + b) / 2.
+  /// The tree of a curve of so many knots, at least two. Between a and b its node is (a + b) / 2.
   explicit KnotTree(uint32_t knots);
 
   const KnotNode& operator[](uint32_t knot) const { return nodes_[knot]; }

@@ -13,11 +13,11 @@ class LinkedKnots {
     for (uint32_t k = 0; k < count; ++k) links_[k] = {k - 1, k + 1};
   }
 
-  /// Of knots that are left and have such a neighbour.
+  /// The neighbours that are left of a knot that is left and has such a neighbour.
   uint32_t before(uint32_t knot) const { return links_[knot].before; }
   uint32_t after(uint32_t knot) const { return links_[knot].after; }
 
-  /// Not an end.
+  /// knot: not an end.
   void remove(uint32_t knot) {
     const Link link = links_[knot];
     links_[link.before].after = link.after;

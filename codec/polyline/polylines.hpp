@@ -16,11 +16,12 @@ struct Polylines {
   /// errors[c]: of the polyline of c segments; NaN where the algorithm has none (c = 0 always).
   std::vector<double> errors;
 
-  /// Of nested polylines (2.4): knot k is in those of entry[k] segments and more. Else empty.
+  /// Where polylines are nested (2.4), knot k is in those of entry[k] segments and more. Else
+  /// empty.
   std::vector<uint32_t> entry;
 
-  /// Of polylines that are not nested: before[c][k] is the knot ahead of k in the best polyline of
-  /// c segments from knot 0 to knot k. Else empty.
+  /// Where polylines are not nested, before[c][k] is the knot ahead of k in the best polyline of c
+  /// segments from knot 0 to knot k. Else empty.
   std::vector<std::vector<uint32_t>> before;
 
   Operations operations;

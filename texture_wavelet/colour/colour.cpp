@@ -46,14 +46,14 @@ void shearAll(const Shears& shears, std::span<int32_t* const> planes, size_t cou
   }
 }
 
-/// Of a level; none: identity.
+/// The shears of the coefficients of a level; null: there are none.
 const Shears* shearsAt(const ColourTransform& transform, int level) {
   if (level < 2 || transform.level_shears.empty()) return nullptr;
   const size_t last = transform.level_shears.size() - 1;
   return &transform.level_shears[std::min(static_cast<size_t>(level - 2), last)];
 }
 
-/// The same steps without rounding, on one colour whose channels are in order.
+/// Shears one colour whose channels are in order, without rounding.
 void shearExactly(const Shears& shears, bool forward, std::array<double, 3>& colour) {
   for (size_t i = 0; i < kSteps.size(); ++i) {
     const size_t index = forward ? i : kSteps.size() - 1 - i;

@@ -27,7 +27,7 @@ inline constexpr int kShearFractionBits = 7;
 inline constexpr std::array<std::array<uint8_t, 3>, 6> kChannelOrders = {
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 
-/// In units of 2^-kShearFractionBits; all 0: identity.
+/// Six shears in units of 2^-kShearFractionBits; if all are 0 they change nothing.
 using Shears = std::array<int16_t, 6>;
 
 /// Parameters of the transform, as they stand in the stream header. Every value is legal.
@@ -35,7 +35,8 @@ struct ColourTransform {
   std::array<uint16_t, 4> centre{};  ///< subtracted from each channel
   uint8_t order = 0;                 ///< index into kChannelOrders, taken modulo 6
   Shears shears{};                   ///< of samples
-  /// Of coefficients, on top: [i] of level i + 2, the last of all coarser levels and the low band.
+  /// Further shears of coefficients: [i] of level i + 2, the last one of all coarser levels and of
+  /// the low band.
   std::vector<Shears> level_shears;
 
   static constexpr size_t kMostLevelShears = 7;
@@ -55,7 +56,7 @@ void forwardColour(const ColourTransform& transform, std::span<int32_t* const> p
 void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
                    int fraction_bits);
 
-/// The same shears of coefficients of one level, in place: three planes of `count` values. Sums are
+/// Shears the coefficients of one level, in place: three planes of `count` values. Sums are
 /// of 64 bits, because low bands outgrow samples. Exactly undone by inverseLevelColour.
 void forwardLevelColour(const ColourTransform& transform, int level,
                         std::span<int32_t* const> planes, size_t count);

@@ -51,7 +51,7 @@ double bitsOf(const std::vector<int32_t>& plane, uint32_t width, uint32_t height
   return bits;
 }
 
-/// Of all planes. The shears of coefficients are left out.
+/// The estimated bits of all planes. The shears of coefficients are left out.
 double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
   double bits = 0;
   for (Sample& sample : samples) {

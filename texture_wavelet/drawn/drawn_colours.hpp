@@ -17,7 +17,7 @@ namespace tetrakis::inline drawn {
 
 using DrawnColour = std::array<uint16_t, 4>;  ///< one value for each channel, the others 0
 
-/// Of an overlay: the first colour of its list, grey, which is not shown.
+/// The first colour in the list of an overlay, grey, which is not shown.
 inline constexpr DrawnIndex kSeeThrough = 0;
 
 class DrawnColours {

@@ -27,7 +27,7 @@ struct Use {
   size_t texels = 0, alike = 0;
 };
 
-/// Of the colours that occur twice in a row. Photographs have next to none of them.
+/// How often each colour is used that occurs twice in a row. Photographs have next to none.
 std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels, Mask seen) {
   std::unordered_map<uint64_t, Use> uses;
   const size_t count = size_t{texels.width} * texels.height;

@@ -44,7 +44,8 @@ struct JointBlock {
   bool doubled;               ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
   bool fractions_in = false;  ///< samples have kJointPlaces binary places; what is coded has none
   bool fractions_out = false;  ///< a has them
-  /// With fractions_in, for the synthesis: those of the samples, row by row, in their own order.
+  /// With fractions_in, the synthesis needs the fractions of the samples, row by row, in their
+  /// order.
   std::span<const uint8_t> fractions = {};
 };
 
@@ -71,12 +72,12 @@ class JointLifting {
   static std::array<JointStep, 4> steps(Direction direction);
 
  private:
-  /// Those that a step along the columns reads to change a row: of low or of high places.
+  /// The values that a step along the columns reads to change a row: at low or at high places.
   struct Columns {
     uint32_t row;
     bool high, predicts;
   };
-  /// Some values of a row: of low or of high places.
+  /// The values of a row at low or at high places.
   struct HalfRow {
     uint32_t row;
     bool high;

@@ -35,12 +35,12 @@ struct LiftingRule {
 void liftStep(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
               size_t count);
 
-/// The same from plain arithmetic: what it means.
+/// Says by plain arithmetic what liftStep() means.
 void liftStepScalar(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                     size_t count);
 
-/// The same for as many of the first targets as the processor's vectors can do, 0 without such;
-/// returns how many these are.
+/// Does the step for as many of the first targets as the processor's vectors can do, and returns
+/// how many these are: 0 if it has no vectors.
 size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                        size_t count);
 

@@ -42,11 +42,13 @@ class MaskedStep {
   std::vector<uint8_t> regular_;  ///< 1 where neither target nor sources are void
 };
 
-/// As liftColumns(). valid: of the rows, as they lie.
+/// Does what liftColumns() does where some samples do not exist. valid: the mask of the rows, as
+/// they lie.
 void liftMaskedColumns(const Rows<int32_t>& rows, const Rows<const uint8_t>& valid, FilterId id,
                        Direction direction);
 
-/// As RowLifting. valid: of the row, the low half before the high half.
+/// Does what RowLifting does where some samples do not exist. valid: the mask of the row, the low
+/// half before the high half.
 class MaskedRowLifting {
  public:
   explicit MaskedRowLifting(uint32_t longest) : values_(longest), valid_(longest) {}

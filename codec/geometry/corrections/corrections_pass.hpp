@@ -94,7 +94,7 @@ class CorrectionPass {
       const int sum = 2 * (west.bits + north.bits) + north_west.bits + north_east.bits;
       return sum < kQuiet ? sum : std::min(6 + (sum - 6) / 12, kNeighbour - 1);
     }
-    /// From -40 to 40; reversing all signs negates it.
+    /// The signs of the neighbours as one number from -40 to 40; reversing all signs negates it.
     int signs() const {
       return 27 * west.sign + 9 * north.sign + 3 * north_west.sign + north_east.sign;
     }

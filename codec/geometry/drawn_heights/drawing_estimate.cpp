@@ -56,7 +56,7 @@ class Tally {
 
 }  // namespace
 
-/// Of large planes some rows stand for all.
+/// Some rows of a large plane stand for all of them.
 double estimateDrawing(const PlaneView<const int32_t>& heights) {
   constexpr size_t kSamples = size_t{1} << 19;
   const auto between = static_cast<uint32_t>(1 + heights.extent().samples() / kSamples);

@@ -12,17 +12,17 @@
 
 namespace tetrakis::inline drawn_heights {
 
-/// Of heights of which some vertices have the index of a step.
+/// The surface of heights of which some vertices have the index of a step.
 struct DrawnSurface {
   PlaneView<const DrawnIndex> indices;  ///< with the mask of valid samples
   const DrawnSteps& steps;
   std::span<const Level> levels;  ///< those of the grid, coarse to fine
 
-  /// Of what comes out: heights in units of 2^-kFractionBits steps.
+  /// heights() are in units of 2^-kFractionBits steps.
   static constexpr int kFractionBits = 4;
 
-  /// Without an index a vertex is the mean of the coarser vertices next to it: of those that are
-  /// valid, or if none is, of all. A root is 0. Voids get such a height as well.
+  /// A vertex without an index becomes the mean of the coarser vertices next to it: of those that
+  /// are valid, or if none is, of all. A root is 0. Voids get such a height as well.
   std::vector<int32_t> heights() const;
 
   /// 1 where a step is another than the height that its vertex would have without one.

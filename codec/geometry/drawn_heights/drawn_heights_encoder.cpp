@@ -16,7 +16,8 @@ namespace {
 
 using NumberedSteps = Numbered<int32_t>;
 
-/// Nothing if there are too many. Voids have the number 0.
+/// The list of values and the number of each sample's value in it, 0 for voids; nothing if there
+/// are too many values.
 std::optional<NumberedSteps> number(const PlaneView<const int32_t>& heights) {
   NumberedSteps out;
   out.numbers.resize(heights.extent().samples());

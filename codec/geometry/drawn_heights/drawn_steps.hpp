@@ -17,7 +17,8 @@ namespace tetrakis::inline drawn_heights {
 class DrawnSteps {
  public:
   size_t size() const { return steps_.size(); }
-  /// Of a to b: 17 for none, below for a lower one; one class each up to 5 steps.
+  /// The class of the difference between two steps: 17 if they are equal, less if a is the lower
+  /// one. Differences of up to 5 steps have a class each.
   uint32_t difference(DrawnIndex a, DrawnIndex b) const {
     const int64_t higher = int64_t{steps_[a]} - steps_[b];
     const uint64_t steps = static_cast<uint64_t>(higher < 0 ? -higher : higher);

@@ -15,7 +15,7 @@
 
 namespace tetrakis::inline flat {
 
-/// Of a whole plane.
+/// The flat areas of a whole plane.
 struct FlatAreas {
   std::vector<uint16_t> numbers;  ///< of each sample: 0, or 1 + its area; empty: there are none
   std::vector<int32_t> heights;   ///< of each area, in steps
@@ -24,7 +24,8 @@ struct FlatAreas {
   HeldSamples held() const { return {numbers, heights}; }
 };
 
-/// For each sample the index of the first sample of its area, which is its own where it is alone.
+/// Returns for each sample the index of the first sample of its area, which is its own index where
+/// it is alone.
 /// alike(i, j): whether sample i and j, the one before it or above it, are of one area.
 template <class Alike>
 std::vector<uint32_t> firstSamples(Extent plane, const Alike& alike) {

@@ -29,7 +29,7 @@ std::vector<Window> tilesOf(Extent plane) {
   return tiles;
 }
 
-/// At most so many of them, at equal distances.
+/// Takes at most so many of the tiles, at equal distances.
 void takeEvenly(const std::vector<Window>& tiles, size_t most, std::vector<SampledTile>& taken) {
   const size_t count = std::min(tiles.size(), most), before = taken.size();
   double all = 0, some = 0;

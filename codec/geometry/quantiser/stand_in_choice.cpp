@@ -71,7 +71,7 @@ class Polylines {
   /// A polyline and its error, estimated: that of heights rounded to whole steps is a twelfth.
   using Attempt = std::function<void(const std::vector<TableKnot>& knots, double squares)>;
 
-  /// From the ends of the table on, a knot more each time.
+  /// Attempts polylines, from the one between the ends of the table on, each with one knot more.
   void refine(const Attempt& attempt) const {
     std::vector<TableKnot> knots = {knotAt(0), knotAt(values() - 1)};
     std::vector<Segment> segments = {measured({0, values() - 1})};

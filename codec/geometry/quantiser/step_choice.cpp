@@ -233,7 +233,7 @@ double chooseStep(Stepper<T>& stepper, const StepNeeds&) {
   return step;
 }
 
-/// With six digits: a step may be tiny.
+/// Writes six digits, because a step may be tiny.
 std::string decimal(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g", value);

@@ -89,7 +89,7 @@ struct Exceptions {
     count += samples;
     magnitude_bits += static_cast<double>(samples) * (1 + std::log2(1 + std::abs(signed_one)));
   }
-  /// With the places of those that are not 0 among all samples.
+  /// The bits of the corrections that are not 0, and of their places among all samples.
   double bits(size_t samples) const {
     const double share = static_cast<double>(count) / static_cast<double>(samples);
     if (count == 0 || count == samples) return magnitude_bits;

@@ -28,7 +28,7 @@ class ShownLines {
   void show(DecodedHeights& decoded) const;
 
  private:
-  /// Of one side: in the coded view, the line that each line of the view shows.
+  /// For each line of the view (a column, or a row), the line of the coded view that it shows.
   using Lines = std::vector<uint32_t>;
   template <class T>
   std::vector<T> copied(const std::vector<T>& values) const;

@@ -12,7 +12,7 @@ namespace tetrakis::inline steps {
 /// What a view shows of decoded heights, row by row.
 struct DecodedGeometry {
   uint32_t width = 0, height = 0;
-  /// In units of 2^-fraction_bits steps; 0 where samples are void.
+  /// Heights in units of 2^-fraction_bits steps; 0 where samples are void.
   std::vector<int32_t> heights;
   int fraction_bits = 0;
   /// 1 where the vertex of a sample has a non-zero coefficient. Empty if the view is a window.

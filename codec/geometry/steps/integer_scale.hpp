@@ -9,7 +9,7 @@
 
 namespace tetrakis::inline steps {
 
-/// Of integer samples of up to 16 bits with a whole base and step: base + q * step is a
+/// It applies to integer samples of up to 16 bits with a whole base and step: base + q * step is a
 /// whole number that doubles hold exactly, so that 32-bit integers do as well once q is kept where
 /// it makes a difference.
 template <class T>

@@ -181,7 +181,7 @@ class Regression {
     return sums;
   }
 
-  /// Of the vertices' own slopes; a sample of them is enough.
+  /// The median of the vertices' own slopes, estimated from a sample of them, which is enough.
   int64_t medianSlope(std::span<const uint32_t> members) {
     constexpr size_t kSample = 4096;
     const size_t stride = members.size() / kSample + 1;

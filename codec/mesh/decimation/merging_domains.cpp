@@ -38,8 +38,8 @@ void MergingDomains::refresh(VertexId v) {
   domains_[v].cost = now.cost;
 }
 
-/// For more vertices of a group, but never for more than remain: the first group of a flat surface
-/// is all of its vertices.
+/// Makes room for more vertices of a group, but never for more than remain: the first group of a
+/// flat surface is all of its vertices.
 void MergingDomains::makeRoom() {
   const size_t room = std::min(2 * sites_.size(), remaining_);
   sites_.reserve(room);

@@ -96,7 +96,7 @@ uint32_t SlopeQueue::newChunk(uint32_t next) {
   return chunk;
 }
 
-/// In this chunk of a bucket and those after it.
+/// How many entries this chunk of a bucket and those after it hold.
 size_t SlopeQueue::entriesFrom(uint32_t chunk) const {
   size_t count = 0;
   for (; chunk != kNone; chunk = chunks_[chunk].next) count += chunks_[chunk].count;

@@ -36,7 +36,7 @@ std::array<double, 3> cornerSamples(const WeightedSurface& surface, const Fitted
           static_cast<double>(z[t.apex.sample])};
 }
 
-/// Of the clamped triangle, against the plane through the samples at its corners.
+/// The moments of the clamped triangle, against the plane through the samples at its corners.
 TriangleMoments rasterise(const Lattice& lattice, const WeightedSurface& surface,
                           const FittedTriangle& t) {
   return tetrakis::momentsOf(
@@ -81,8 +81,8 @@ class FittedDescent {
     out.push_back({{t.a.sample, t.b.sample, t.apex.sample}, moments});
   }
 
-  /// Of a triangle inside the grid; of one that overhangs, and is no leaf, the energy alone. gains:
-  /// those in and below t are added; may be null.
+  /// The moments of a triangle inside the grid. If the triangle overhangs and is no leaf, only the
+  /// energy is computed. gains: those in and below t are added to it; may be null.
   TriangleMoments momentsOf(const FittedTriangle& t, std::vector<double>* gains) {
     if (t.collapses(lattice_)) return {};
     if (!splits(t, mesh_.present_))

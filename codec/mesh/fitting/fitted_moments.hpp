@@ -41,7 +41,7 @@ class FittedMoments {
   const std::vector<FittedLeaf>& leaves() const { return leaves_; }
   /// The height of the mesh at `sample`, which is the place of one of its vertices.
   double height(uint32_t sample) const { return heights_[sample]; }
-  /// Of each sample; those of vertices count.
+  /// The heights of all samples, of which those of vertices count.
   std::span<const double> heights() const { return heights_; }
   const WeightedSurface& surface() const { return surface_; }
 
@@ -57,8 +57,8 @@ class FittedMoments {
   std::vector<bool> present_;    ///< of each lattice vertex
   std::vector<double> heights_;  ///< of each sample; those of vertices count
   std::vector<FittedLeaf> leaves_;
-  /// Of triangles that overhang the grid, against planes through their samples, by split vertex and
-  /// side: rasterised once.
+  /// The moments of triangles that overhang the grid, against planes through their samples, by
+  /// split vertex and side. Each triangle is rasterised once.
   mutable std::unordered_map<uint64_t, TriangleMoments> rasters_;
   bool full_ = true;  ///< all leaves are of full resolution, empty, and not stored
 };

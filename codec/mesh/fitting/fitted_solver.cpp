@@ -19,7 +19,7 @@ class NormalEquations {
     for (const FittedLeaf& leaf : leaves) add(leaf);
   }
 
-  /// Of the unknowns.
+  /// The samples whose heights are the unknowns.
   const std::vector<uint32_t>& samples() const { return samples_; }
   /// What the present heights leave of b.
   const std::vector<double>& right() const { return right_; }

@@ -29,8 +29,8 @@ struct HeightCorrections {
   std::vector<double> corrections;
 };
 
-/// The same for a mesh of any triangles. leaves: their moments against the planes through
-/// `heights`, which has one for each sample; those of vertices count.
+/// The corrections of the heights of a mesh of any triangles. leaves: their moments against the
+/// planes through `heights`, which has one for each sample; those of vertices count.
 HeightCorrections fittedCorrections(const WeightedSurface& surface,
                                     std::span<const FittedLeaf> leaves,
                                     std::span<const double> heights);

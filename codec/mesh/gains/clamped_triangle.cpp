@@ -26,7 +26,7 @@ class ClampedTriangle {
   }
 
   const TriangleSamples& samples() const { return samples_; }
-  /// Of the triangle in a sample that is in it.
+  /// The share that the triangle has of a sample that lies in it.
   double share(const TriangleSamples::Edges& e) const {
     double share = 1;
     for (size_t k = 0; k < 3; ++k)

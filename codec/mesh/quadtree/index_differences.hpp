@@ -62,7 +62,7 @@ class IndexDifferences {
     const bool wraps = g == 0 || g == shape_.columnsOf(level);
     return wraps ? borders_[level].wrap_east : borders_[level].enter_east;
   }
-  /// Likewise for a step south from row g - 1 to row g.
+  /// The difference of a step south, from row g - 1 to row g.
   uint32_t vertical(uint32_t level, uint32_t g) const {
     const auto r = static_cast<uint32_t>(std::countr_zero(g | 1u << level));
     if (r < level) return 2 * within_[r];

@@ -27,7 +27,7 @@ class ViewCosts {
         has_image_(!image.empty()),
         share_(view.weight / static_cast<double>(std::max<size_t>(picture_.covered(), 1))) {}
 
-  /// Of a sample that is known.
+  /// What an error of a known sample costs.
   double operator()(uint32_t column, uint32_t row) const {
     const ScreenPoint point = project_(column, row, heightAt(column, row));
     if (!picture_.shows(point)) return 0;
@@ -75,7 +75,7 @@ class ViewCosts {
   double share_;
 };
 
-/// Of the known samples among the nine around.
+/// The mean cost of the known samples among the nine around one.
 double meanAround(const WeightedSurface& surface, const std::vector<double>& costs, uint32_t column,
                   uint32_t row) {
   const SurfaceView& grid = surface.view;

@@ -39,7 +39,8 @@ class ScreenProjection {
   explicit ScreenProjection(const ScreenView& view) : view_(view) {}
 
   ScreenPoint operator()(double column, double row, double height) const;
-  /// Of a point that is seen, for a step of 1 along an axis: 0 columns, 1 rows, 2 heights.
+  /// How far a point that is seen moves in the picture for a step of 1 along an axis: 0 columns,
+  /// 1 rows, 2 heights.
   ScreenVector along(size_t axis, const ScreenPoint& point) const;
 
  private:

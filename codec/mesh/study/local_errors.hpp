@@ -9,7 +9,7 @@
 
 namespace tetrakis::inline study {
 
-/// Of every vertex, the squared error of its own sample, times its weight, in a mesh that has the
+/// For every vertex, the squared error of its own sample, times its weight, in a mesh that has the
 /// vertex's parents and not the vertex; 0 for hidden ones. The surface has the lattice's size.
 std::vector<double> localErrors(const Lattice& lattice, const SurfaceView& surface);
 

@@ -19,7 +19,7 @@ int32_t mean(int64_t a, int64_t b, int64_t c) {
   return static_cast<int32_t>((a + 2 * b + c + 2) >> 2);
 }
 
-/// From a over b, 2^k apart, on by `rest` < 2^k.
+/// The height on the line from a over b, which are 2^k apart, `rest` < 2^k behind b.
 int32_t beyond(int64_t a, int64_t b, uint32_t rest, uint32_t k) {
   const int64_t value = b + ((b - a) * rest >> k);
   return static_cast<int32_t>(std::clamp<int64_t>(value, std::numeric_limits<int32_t>::min(),

@@ -257,8 +257,8 @@ void AncestorSums<Delta>::arrive(size_t pair, Waiting amount, Visit& visit) {
   }
 }
 
-/// From squares to the squares above; false if there are none to go on to. own: the square is the
-/// vertex itself.
+/// Goes from squares to the squares above; false if there are none to go on to. own: the square is
+/// the vertex itself.
 template <class Delta>
 template <class Visit>
 bool AncestorSums<Delta>::rise(size_t pair, Waiting& amount, bool own, Visit& visit) {

@@ -24,7 +24,7 @@ namespace tetrakis::inline topology {
 struct Octagon {
   int64_t x, y;  ///< X, Y
 
-  /// Of the midpoints 2^k times finer than the pair of a vertex on this level.
+  /// The octagon of the midpoints 2^k times finer than the pair of a vertex on this level.
   static Octagon ofMidpoints(uint32_t level, uint32_t k) {
     const int64_t scale = int64_t{1} << k;
     if (Lattice::isCentre(level)) return {3 * scale - 2, 4 * scale - 3};
