@@ -150,7 +150,7 @@ class HeightsBytes {
   }
   /// The table, its values as heights, and a correction for each sample.
   uint64_t tableBytes() const {
-    constexpr uint64_t kEntry = sizeof(uint32_t) + sizeof(DrawnValue);
+    constexpr uint64_t kEntry = sizeof(uint32_t) + sizeof(ValueInSteps);
     const uint64_t samples = view_.window ? shown_ : low();
     return table_ ? layers_.table_values * kEntry + samples * kValue : 0;
   }

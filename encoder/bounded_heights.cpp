@@ -35,7 +35,7 @@ struct Bound {
   double error;  ///< the largest one wanted, in sample units, less what floats lose by rounding
 };
 
-/// Between the largest floats; integers are exact.
+/// The distance from the largest sample to the next float; 0 for integers, which are exact.
 double floatSpacing(const QuantisedHeights& heights) {
   if (heights.samples->sample != TKS_F32) return 0;
   const SampleRange range = rangeOf(*heights.samples, heights.steps.valid);

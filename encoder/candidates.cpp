@@ -7,13 +7,13 @@
 #include <type_traits>
 #include <utility>
 
-#include "codec/geometry/stored_heights.hpp"
+#include "codec/geometry/stored_heights_encoder.hpp"
 #include "encoder/height_errors.hpp"
 #include "encoder/order_packets.hpp"
 #include "encoder/views.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "ratecontrol/packet_slopes.hpp"
-#include "texture_wavelet/stored_encoder.hpp"
+#include "texture_wavelet/stored_texture_encoder.hpp"
 
 namespace tetrakis::inline encoder {
 

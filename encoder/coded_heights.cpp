@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
-#include "codec/geometry/stored_heights.hpp"
+#include "codec/geometry/stored_heights_encoder.hpp"
 #include "encoder/height_errors.hpp"
 #include "ratecontrol/hull.hpp"
 #include "wavelet/priority_map_encoder.hpp"
@@ -211,8 +211,8 @@ std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> 
 }
 
 CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
-  CodedHeights stored{
-      replaced.of, replaced.header, replaced.layers, {}, 0, QuantisedHeights::kSomething};
+  CodedHeights stored{replaced.of, replaced.header,           replaced.layers, {},
+                      0,           QuantisedHeights::kInexact};
   stored.header.wavelet = {};
   stored.header.regions = {};
   stored.header.priorities = {};

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/samples.hpp"
-#include "texture_wavelet/stored_encoder.hpp"
+#include "texture_wavelet/stored_texture_encoder.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 
 namespace tetrakis::inline encoder {

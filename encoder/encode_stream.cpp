@@ -38,7 +38,7 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
          error < heights.steps.step / (any_step ? 2 : 1);
 }
 
-/// Exact ones where these take fewer bytes.
+/// Codes the heights within the largest error, or exactly where that takes fewer bytes.
 Heights codeWithinBound(const EncodeInputs& inputs,
                         const std::shared_ptr<const QuantisedHeights>& of) {
   const double error = inputs.options.max_error / std::abs(inputs.heights->scale);
@@ -70,7 +70,7 @@ CodedHeights codeUntilReached(const EncodeInputs& inputs,
   return codeHeights(of, target, heightOptions(inputs));
 }
 
-/// The heights as the target asks for them.
+/// Codes the heights as the target asks for them.
 Heights codeHeightsForTarget(const EncodeInputs& inputs,
                              const std::shared_ptr<const QuantisedHeights>& of) {
   if (inputs.options.max_error > 0) return codeWithinBound(inputs, of);

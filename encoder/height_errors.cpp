@@ -49,8 +49,8 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
   const bool may_be_exact =
       decoded.geometry.fraction_bits <= heights.header.wavelet.fraction_bits ||
       isWhole(prefix, heights.tracks);
-  const double left = may_be_exact ? heights.left : QuantisedHeights::kSomething;
-  return unknown + std::max(squares, std::min(left, QuantisedHeights::kSomething));
+  const double left = may_be_exact ? heights.left : QuantisedHeights::kInexact;
+  return unknown + std::max(squares, std::min(left, QuantisedHeights::kInexact));
 }
 
 SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix,

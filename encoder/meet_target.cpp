@@ -87,7 +87,7 @@ TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy)
   return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)});
 }
 
-/// Each component by itself.
+/// Each component reaches the PSNR by itself.
 Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
   candidates = withCurves(inputs, std::move(candidates));
   auto& [heights, texture, errors] = candidates;

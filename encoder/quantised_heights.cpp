@@ -67,7 +67,7 @@ void addTable(QuantisedHeights& heights) {
   StandInChoice stand_in = chooseStandIn(heights.steps, headerOf(heights), heights.table.size(),
                                          heights.mostOfASample());
   heights.layers.table_knots = std::move(stand_in.knots);
-  heights.without_table = std::max(stand_in.squares, QuantisedHeights::kSomething);
+  heights.without_table = std::max(stand_in.squares, QuantisedHeights::kInexact);
 }
 
 /// What restores the samples behind the steps.
@@ -75,10 +75,10 @@ void addCorrections(QuantisedHeights& heights) {
   const tks_heights& samples = *heights.samples;
   heights.layers.corrections = CorrectionKind::kSamples;
   const GeometryHeader header = headerOf(heights);
-  const std::vector<uint8_t> hints = sampleHints(drawnSteps(heights.steps, header), header);
+  const std::vector<uint8_t> hints = sampleHints(decodedSteps(heights.steps, header), header);
   heights.corrections = encodeCorrections(sampleCorrections(samples, heights.steps),
                                           {hints, header.extent(), heights.steps.valid});
-  heights.left = std::max(heights.squaresOf(heights.steps), QuantisedHeights::kSomething);
+  heights.left = std::max(heights.squaresOf(heights.steps), QuantisedHeights::kInexact);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@
 namespace tetrakis::inline encoder {
 
 struct QuantisedHeights {
-  static constexpr double kSomething = 1e-200;  ///< -0 for 0 is no distance, but not exact
+  /// The least error of samples that are not exact: -0 in the place of 0 is no distance, but wrong.
+  static constexpr double kInexact = 1e-200;
 
   const tks_heights* samples = nullptr;  ///< the input, which outlives this
   HeightSteps steps;

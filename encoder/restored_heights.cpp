@@ -43,7 +43,7 @@ CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy)
       sampleCorrections(*of->samples, shown),
       {sampleHints(shown.steps, lossy.header), lossy.header.extent(), shown.valid});
   of->layers.corrections = CorrectionKind::kSamples;
-  of->left = std::max(of->squaresOf(shown), QuantisedHeights::kSomething);
+  of->left = std::max(of->squaresOf(shown), QuantisedHeights::kInexact);
   CodedHeights restored = lossy;
   EncodedTrack& track = restored.tracks.front();
   restored.layers.corrections = CorrectionKind::kSamples;

@@ -14,7 +14,7 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Before the first byte.
+/// Whether nothing is wrong before the first byte.
 bool nothingLeft(const std::vector<EncodedTrack>& tracks) {
   return std::all_of(tracks.begin(), tracks.end(), [](const EncodedTrack& track) {
     return track.points.front().distortion == 0;

@@ -15,7 +15,7 @@
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/mask/overlay.hpp"
-#include "texture_wavelet/stored_encoder.hpp"
+#include "texture_wavelet/stored_texture_encoder.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -10,7 +10,7 @@
 #include "base/parallel.hpp"
 #include "texture_wavelet/colour/colour_levels.hpp"
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
-#include "texture_wavelet/stored_texture.hpp"
+#include "texture_wavelet/stored_texture_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"

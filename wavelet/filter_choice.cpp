@@ -122,7 +122,7 @@ struct Choice {
   double bits = 0, penalised = std::numeric_limits<double>::infinity();
 };
 
-/// bits: as the estimate has them.
+/// bits: those of the estimate, which is compared after it was multiplied by the penalty.
 void keepIfBetter(const WaveletHeader& header, double bits, double penalty, Choice& best) {
   if (bits * penalty < best.penalised) best = {header, bits, bits * penalty};
 }

@@ -66,7 +66,7 @@ class LevelTransform {
         jointly_wide_(spec.jointlyWide(level)),
         threads_(threads) {}
 
-  /// Before run(), of a joint level.
+  /// To be called before run(), for a joint level.
   LevelTransform& carry(const Carrying& carrying) {
     carrying_ = carrying;
     return *this;

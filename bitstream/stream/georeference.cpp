@@ -8,7 +8,7 @@ namespace tetrakis::inline stream {
 
 namespace {
 
-/// Bit for bit: -0 is not 0.
+/// Compares bit for bit: -0 is not 0.
 bool same(double a, double b) {
   return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
 }

@@ -28,7 +28,7 @@ struct Decisions {
 
 struct DecodingIo;
 
-/// While bytes are far from missing.
+/// The Io of a pass while bytes are far from missing.
 struct PlentyIo : Decisions<RangeDecoder::Plenty> {
   explicit PlentyIo(DecodingIo& io);
   static constexpr bool stopped() { return false; }

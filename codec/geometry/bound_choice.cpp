@@ -65,7 +65,7 @@ class PartTrial {
   CorrectedCut cut_{steps_, no_areas_, header_, track_, largest_};
 };
 
-/// Where the corrected parts take the fewest bytes.
+/// The cut with which the corrected parts take the fewest bytes.
 struct BestCut {
   double mean_square;
   uint64_t bytes;

@@ -16,7 +16,7 @@ int32_t nearestMultiple(int64_t q, int64_t largest) {
   return static_cast<int32_t>((shifted - (shifted % unit + unit) % unit) / unit);
 }
 
-/// Goes on from the longest cut that is known and no longer.
+/// Decodes a cut, from where the longest known cut ends that is no longer than it.
 DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   const auto longer = known_.upper_bound(bytes);
   TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;

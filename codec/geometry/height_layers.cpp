@@ -11,7 +11,7 @@
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/repeats/shown_lines.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
-#include "codec/geometry/stored_heights.hpp"
+#include "codec/geometry/stored_heights_decoder.hpp"
 #include "codec/geometry/values/value_stand_in.hpp"
 #include "codec/geometry/values/value_table_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
@@ -26,8 +26,8 @@ std::span<const uint8_t> firstOf(std::span<const uint8_t> bytes, uint64_t count)
 
 /// Corrections in single steps make samples exact: what a fraction is then beside its sample is an
 /// error of the cut, which surfaces and meshes need not show.
-void correctSteps(DecodedGeometry& geometry, const GeometryLayers& layers,
-                  std::span<const uint8_t> codeword) {
+DecodedGeometry correctedSteps(DecodedGeometry geometry, const GeometryLayers& layers,
+                               std::span<const uint8_t> codeword) {
   const std::vector<uint8_t> hints = activityHints(geometry);
   const auto [corrections, decided] =
       decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid});
@@ -42,6 +42,7 @@ void correctSteps(DecodedGeometry& geometry, const GeometryLayers& layers,
     const auto whole = static_cast<uint32_t>(wholeStep(height, fraction_bits));
     height = static_cast<int32_t>(whole << fraction_bits);
   }
+  return geometry;
 }
 
 /// The tracks taken apart.
@@ -104,25 +105,23 @@ FlatAreas flatAreasOf(const TakenLayers& taken, const GeometryHeader& header,
   return flat;
 }
 
-/// Turns steps that count the values of a table into heights.
-void applyTable(const TakenLayers& taken, const GeometryHeader& header,
-                const GeometryLayers& layers, DecodedHeights& decoded) {
-  if (layers.table_bytes == 0) return;
+/// The heights that decoded steps are: places in a table, if there is one, else themselves.
+DecodedHeights heightsOf(DecodedGeometry steps, const TakenLayers& taken,
+                         const GeometryHeader& header, const GeometryLayers& layers) {
+  if (layers.table_bytes == 0) return {std::move(steps), {}};
   const ValueTable table = decodeValueTable(taken.table, layers.table_values);
-  if (table.empty()) {
-    applyStandIn(layers, decoded.geometry);
-  } else {
-    applyTable(table, header, decoded);
-  }
+  if (table.empty()) return {heightsOfStandIn(layers, std::move(steps)), {}};
+  return heightsOf(table, header, std::move(steps));
 }
 
-/// Adds corrections of the samples to those that the table has made.
-void addCorrections(const std::vector<int32_t>& more, std::vector<int32_t>& corrections) {
+/// The corrections of samples that the table has made, and those that are decoded.
+std::vector<int32_t> summed(std::vector<int32_t> corrections, const std::vector<int32_t>& more) {
   corrections.resize(more.size());
   for (size_t i = 0; i < more.size(); ++i) {
     corrections[i] = static_cast<int32_t>(static_cast<uint32_t>(corrections[i]) +
                                           static_cast<uint32_t>(more[i]));
   }
+  return corrections;
 }
 
 /// The window of heights that were decoded from the first row on, without the marks of their
@@ -176,36 +175,43 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
 
 namespace {
 
-/// Decodes a view of the coded lines, with everything that the codewords hold for it.
-DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& layers,
-                           TakenLayers taken, const View& view,
-                           const DecodeContext<HeightsMemory>& context) {
+/// The steps that the first codewords hold: a drawing, or coefficients beside flat areas.
+DecodedGeometry decodeSteps(const GeometryHeader& header, const GeometryLayers& layers,
+                            TakenLayers taken, const View& view,
+                            const DecodeContext<HeightsMemory>& context) {
   HeightsMemory* const memory = context.memory;
   std::vector<uint8_t> valid = validityOf(taken, header, layers, memory);
-  if (header.stored()) return decodeStored(header, taken.coefficients.front(), valid, view.level);
-  DecodedHeights decoded;
-  DecodedGeometry& geometry = decoded.geometry;
   std::vector<uint8_t> joined;
   taken.join(joined);
-  if (header.drawn) {
-    geometry = decodeDrawnHeights(header, taken.coefficients.front(), valid, view.level);
-  } else {
-    FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
-    const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
-                         taken.flat.size() == layers.flat_bytes;
-    geometry = decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
-                              {context.threads, growing ? &memory->tracks : nullptr});
+  if (header.drawn)
+    return decodeDrawnHeights(header, taken.coefficients.front(), valid, view.level);
+  FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
+  const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
+                       taken.flat.size() == layers.flat_bytes;
+  return decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
+                        {context.threads, growing ? &memory->tracks : nullptr});
+}
+
+/// Decodes a view of the coded lines, with everything that the codewords hold for it.
+DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& layers,
+                           const TakenLayers& taken, const View& view,
+                           const DecodeContext<HeightsMemory>& context) {
+  if (header.stored()) {
+    const std::vector<uint8_t> valid = validityOf(taken, header, layers, context.memory);
+    return decodeStoredHeights(header, taken.coefficients.front(), valid, view.level);
   }
-  applyTable(taken, header, layers, decoded);
+  DecodedHeights decoded =
+      heightsOf(decodeSteps(header, layers, taken, view, context), taken, header, layers);
+  DecodedGeometry& geometry = decoded.geometry;
   if (taken.corrections.empty() || view.level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
-    correctSteps(geometry, layers, taken.corrections);
+    geometry = correctedSteps(std::move(geometry), layers, taken.corrections);
     return decoded;
   }
   const std::vector<uint8_t> hints = sampleHints(wholeSteps(geometry), header);
-  addCorrections(
-      decodeCorrections(taken.corrections, {hints, geometry.extent(), geometry.valid}).values,
-      decoded.corrections);
+  decoded.corrections = summed(
+      std::move(decoded.corrections),
+      decodeCorrections(taken.corrections, {hints, geometry.extent(), geometry.valid}).values);
   return decoded;
 }
 
@@ -235,9 +241,7 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
                              const Codewords& codewords, const View& view,
                              const DecodeContext<HeightsMemory>& context) {
   const ShownLines lines(header, view);
-  DecodedHeights decoded = decodeLines(header, layers, codewords, lines.coded(), context);
-  lines.show(decoded);
-  return decoded;
+  return lines.shown(decodeLines(header, layers, codewords, lines.coded(), context));
 }
 
 }  // namespace tetrakis::inline geometry

@@ -15,16 +15,16 @@ size_t HeightSteps::validCount() const {
                        : static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{1}));
 }
 
-std::vector<int32_t> drawnSteps(const HeightSteps& steps, const GeometryHeader& header) {
+std::vector<int32_t> decodedSteps(const HeightSteps& steps, const GeometryHeader& header) {
   if (steps.table.empty()) return steps.steps;
-  const std::vector<DrawnValue> values = drawnValues(steps.table, header);
-  std::vector<int32_t> drawn(steps.steps.size(), 0);
-  for (size_t i = 0; i < drawn.size(); ++i) {
+  const std::vector<ValueInSteps> values = valuesInSteps(steps.table, header);
+  std::vector<int32_t> decoded(steps.steps.size(), 0);
+  for (size_t i = 0; i < decoded.size(); ++i) {
     if (!steps.valid.empty() && !steps.valid[i]) continue;
-    drawn[i] =
-        wholeStep(values[steps.table.placeOf(steps.steps[i])].height, DrawnValue::kFractionBits);
+    decoded[i] =
+        wholeStep(values[steps.table.placeOf(steps.steps[i])].height, ValueInSteps::kFractionBits);
   }
-  return drawn;
+  return decoded;
 }
 
 std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps) {

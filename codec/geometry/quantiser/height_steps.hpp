@@ -30,8 +30,8 @@ struct HeightSteps {
   size_t validCount() const;
 };
 
-/// The steps of a table's values as decoders know them: drawn, and whole.
-std::vector<int32_t> drawnSteps(const HeightSteps& steps, const GeometryHeader& header);
+/// The whole steps of the heights as decoders know them, who have a table turned into heights.
+std::vector<int32_t> decodedSteps(const HeightSteps& steps, const GeometryHeader& header);
 
 /// The corrections that restore the samples.
 std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps);

@@ -42,7 +42,7 @@ class Polylines {
       if (steps.valid.empty() || steps.valid[i]) ++samples_[table_.placeOf(steps.steps[i])];
     }
     rounding_ = static_cast<double>(steps.validCount()) / 12;
-    for (const DrawnValue& value : drawnValues(table_, header)) {
+    for (const ValueInSteps& value : valuesInSteps(table_, header)) {
       const auto place = static_cast<int64_t>(rises_.size());
       rises_.push_back(std::clamp(value.height - 16 * (place - middle()),
                                   -GeometryLayers::kMostRise, GeometryLayers::kMostRise));
@@ -57,9 +57,9 @@ class Polylines {
       double squares = 0;
       for (uint32_t place = 0; place < values(); ++place) {
         const auto q = static_cast<int32_t>(place - middle());
-        const int32_t drawn =
+        const int32_t whole =
             knots.empty() ? q : wholeStep(stand_in.heightOf(q, 0), StandIn::kFractionBits);
-        const auto shown = static_cast<double>(restore<T>(header_.base, header_.step, drawn));
+        const auto shown = static_cast<double>(restore<T>(header_.base, header_.step, whole));
         const auto value = static_cast<double>(fromOrder<T>(table_.words[place]));
         const double error = (shown - value) / header_.step;
         if (samples_[place] > 0) squares += samples_[place] * std::min(error * error, most_);

@@ -91,7 +91,7 @@ class Stepper {
     return out;
   }
 
-  /// All valid samples are one value, their base; or there is none.
+  /// The steps of samples that all have one value, their base; or of none.
   HeightSteps flat() const {
     HeightSteps out;
     out.steps.assign(count_, 0);

@@ -157,7 +157,7 @@ class TableChoice {
     });
   }
 
-  /// Samples whose value fewer than `least` have.
+  /// How many samples have a value that fewer than `least` samples have.
   size_t rarerThan(uint32_t least) const {
     size_t rare = 0;
     for (size_t i = 0; i < values_.size(); ++i)

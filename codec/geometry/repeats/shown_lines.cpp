@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 #include "wavelet/pyramid.hpp"
 
@@ -20,14 +21,15 @@ int codedLevel(Extent shown, Extent coded, int level) {
   return std::clamp(level - least, 0, coarsestLevel(coded));
 }
 
-/// What a view of so many lines from `first` on shows. lines: of the whole side.
-std::vector<uint32_t> linesOf(const std::vector<uint32_t>& lines, uint32_t first, uint32_t count,
-                              const View& view, const View& coded, uint32_t coded_count) {
+/// The lines that a view shows. lines: those of a side from the first on that is shown; count: how
+/// many are shown; coded_count: how many the coded view has.
+std::vector<uint32_t> linesOf(std::span<const uint32_t> lines, uint32_t count, const View& view,
+                              const View& coded, uint32_t coded_count) {
   const uint32_t half = coded.level > 0 ? uint32_t{1} << (coded.level - 1) : 0;
-  const uint32_t start = coded.window ? lines[first] : 0;
+  const uint32_t start = coded.window ? lines.front() : 0;
   std::vector<uint32_t> shown(count);
   for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t line = lines[first + (size_t{i} << view.level)] - start;
+    const uint32_t line = lines[size_t{i} << view.level] - start;
     shown[i] = std::min((line + half) >> coded.level, coded_count - 1);
   }
   return shown;
@@ -54,9 +56,10 @@ ShownLines::ShownLines(const GeometryHeader& header, const View& view)
   coded_ = codedViewOf(header, maps, view);
   coded_extent_ = coded_.extentIn(header.extent());
   const Extent shown = view.extentIn(header.shown());
-  columns_ =
-      linesOf(maps.columns, view.firstColumn(), shown.width, view, coded_, coded_extent_.width);
-  rows_ = linesOf(maps.rows, view.firstRow(), shown.height, view, coded_, coded_extent_.height);
+  const auto columns = std::span(maps.columns).subspan(view.firstColumn());
+  const auto rows = std::span(maps.rows).subspan(view.firstRow());
+  columns_ = linesOf(columns, shown.width, view, coded_, coded_extent_.width);
+  rows_ = linesOf(rows, shown.height, view, coded_, coded_extent_.height);
 }
 
 template <class T>
@@ -76,8 +79,8 @@ std::vector<uint8_t> ShownLines::shown(const std::vector<uint8_t>& mask) const {
   return none_ ? mask : copied(mask);
 }
 
-void ShownLines::show(DecodedHeights& decoded) const {
-  if (none_) return;
+DecodedHeights ShownLines::shown(DecodedHeights decoded) const {
+  if (none_) return decoded;
   DecodedGeometry& geometry = decoded.geometry;
   geometry.heights = copied(geometry.heights);
   geometry.valid = copied(geometry.valid);
@@ -86,13 +89,14 @@ void ShownLines::show(DecodedHeights& decoded) const {
   geometry.width = static_cast<uint32_t>(columns_.size());
   geometry.height = static_cast<uint32_t>(rows_.size());
   geometry.quiet_levels = 0;
-  if (geometry.significant.empty()) return;
+  if (geometry.significant.empty()) return decoded;
   for (size_t y = 0, i = 0; y < rows_.size(); ++y) {
     const bool repeated_row = y > 0 && rows_[y] == rows_[y - 1];
     for (size_t x = 0; x < columns_.size(); ++x, ++i) {
       if (repeated_row || (x > 0 && columns_[x] == columns_[x - 1])) geometry.significant[i] = 0;
     }
   }
+  return decoded;
 }
 
 }  // namespace tetrakis::inline repeats

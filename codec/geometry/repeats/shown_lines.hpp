@@ -25,7 +25,7 @@ class ShownLines {
   std::vector<uint8_t> shown(const std::vector<uint8_t>& mask) const;
   /// Makes heights of coded lines those of the view. A vertex is that of a coded sample where that
   /// is shown first.
-  void show(DecodedHeights& decoded) const;
+  DecodedHeights shown(DecodedHeights decoded) const;
 
  private:
   /// For each line of the view (a column, or a row), the line of the coded view that it shows.

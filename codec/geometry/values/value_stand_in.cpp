@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace tetrakis::inline values {
 
@@ -28,9 +29,10 @@ int32_t StandIn::heightOf(int32_t v, int fraction_bits) const {
   return static_cast<int32_t>(std::clamp(line, -kMost, kMost) + riseAt(place, fraction_bits));
 }
 
-void applyStandIn(const GeometryLayers& layers, DecodedGeometry& geometry) {
-  if (layers.table_knots.empty()) return;
+DecodedGeometry heightsOfStandIn(const GeometryLayers& layers, DecodedGeometry places) {
+  if (layers.table_knots.empty()) return places;
   const StandIn stand_in(layers.table_knots, layers.table_values);
+  DecodedGeometry geometry = std::move(places);
   for (int32_t& height : geometry.heights)
     height = stand_in.heightOf(height, geometry.fraction_bits);
   for (size_t i = 0; i < geometry.valid.size(); ++i) {
@@ -38,6 +40,7 @@ void applyStandIn(const GeometryLayers& layers, DecodedGeometry& geometry) {
   }
   geometry.fraction_bits = StandIn::kFractionBits;
   geometry.quiet_levels = 0;
+  return geometry;
 }
 
 }  // namespace tetrakis::inline values

@@ -28,7 +28,7 @@ class StandIn {
   int64_t middle_;
 };
 
-/// Turns numbers of values into heights between steps.
-void applyStandIn(const GeometryLayers& layers, DecodedGeometry& geometry);
+/// Turns places in the table into heights between steps.
+DecodedGeometry heightsOfStandIn(const GeometryLayers& layers, DecodedGeometry places);
 
 }  // namespace tetrakis::inline values

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The values that the samples of a height field have, where their type could hold many more: feet
 // written as metres, maps of 8 bits that were rescaled, decimal fractions that no float holds. The
-// wavelet then codes the number of a sample's value in a sorted table, and the table turns numbers
+// wavelet then codes the place of a sample's value in a sorted table, and the table turns places
 // into samples.
 //
-// Everything behind the decoder of heights works on steps. So each value is also drawn as a height
+// Everything behind the decoder of heights works on steps. So each value is also said as a height
 // between steps, and a correction leads from there to the very sample.
 #pragma once
 
@@ -32,17 +32,18 @@ struct ValueTable {
   uint32_t wordOf(int32_t q) const { return words[placeOf(q)]; }
 };
 
-/// A value as heights and corrections say it.
-struct DrawnValue {
+/// A value as a height and a correction say it.
+struct ValueInSteps {
   static constexpr int kFractionBits = 4;
   int32_t height;      ///< the nearest multiple of 2^-kFractionBits steps
   int32_t correction;  ///< from what the nearest whole step restores to the value
 };
 
 /// One for each value of the table, which is not empty. header: sample type, base and step.
-std::vector<DrawnValue> drawnValues(const ValueTable& table, const GeometryHeader& header);
+std::vector<ValueInSteps> valuesInSteps(const ValueTable& table, const GeometryHeader& header);
 
-/// Turns numbers of values into heights between steps, with a correction for each sample.
-void applyTable(const ValueTable& table, const GeometryHeader& header, DecodedHeights& decoded);
+/// Turns places in the table into heights between steps, with a correction for each sample.
+DecodedHeights heightsOf(const ValueTable& table, const GeometryHeader& header,
+                         DecodedGeometry places);
 
 }  // namespace tetrakis::inline values

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texture_wavelet/stored_texture.hpp"
+#include "texture_wavelet/stored_texture_decoder.hpp"
 
 #include "bitstream/coder/byte_planes.hpp"
 

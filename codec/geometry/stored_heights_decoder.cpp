@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/stored_heights.hpp"
+#include "codec/geometry/stored_heights_decoder.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -59,8 +59,8 @@ DecodedHeights emptyHeights(Extent extent, bool masked) {
 
 }  // namespace
 
-DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_t> bytes,
-                            Mask valid, int level) {
+DecodedHeights decodeStoredHeights(const GeometryHeader& header, std::span<const uint8_t> bytes,
+                                   Mask valid, int level) {
   const size_t count = header.extent().samples();
   const auto marks = valid.bytes();
   const auto voids = static_cast<size_t>(std::count(marks.begin(), marks.end(), uint8_t{0}));
@@ -86,21 +86,6 @@ DecodedHeights decodeStored(const GeometryHeader& header, std::span<const uint8_
     assert(i == extent.samples() && number == count - voids);
   });
   return decoded;
-}
-
-uint64_t storedBytes(const tks_heights& heights, size_t valid_samples) {
-  return uint64_t{valid_samples} * tks_sample_bytes(heights.sample);
-}
-
-std::vector<uint8_t> storeSamples(const tks_heights& heights, Mask valid) {
-  std::vector<uint32_t> words;
-  withSampleType(heights.sample, [&](auto type) {
-    const auto* samples = static_cast<const decltype(type)*>(heights.data);
-    for (size_t i = 0; i < size_t{heights.width} * heights.height; ++i) {
-      if (valid[i]) words.push_back(orderOf(samples[i]));
-    }
-  });
-  return toBytePlanes(words, static_cast<int>(tks_sample_bytes(heights.sample)));
 }
 
 }  // namespace tetrakis::inline geometry
