@@ -173,7 +173,7 @@ class PlanePass {
   /// Class of the magnitude that hints lead to expect, in units of 2^plane.
   size_t hintClass(uint32_t hint) const {
     constexpr uint32_t kMost = (1u << (BandModels::kHint - 1)) - 1;
-    // Of 2 n + 1, which is never 0: without a branch.
+    // The width of 2 n + 1, which is never 0, takes no branch.
     return static_cast<size_t>(std::bit_width(2 * std::min(hint >> plane_, kMost) + 1) - 1);
   }
 

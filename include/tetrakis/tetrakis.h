@@ -72,7 +72,7 @@ typedef enum tks_registration {
 } tks_registration;
 
 /* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
- * Sizes from 1 x 1; one column or row has no area, so that no mesh can be made of it and no camera
+ * The least size is 1 x 1. One column or row has no area: no mesh can be made of it, and no camera
  * sees it. A sample v stands for the height v * scale + offset in `unit`.
  *
  * Voids: samples equal to `nodata` (if has_nodata), and floats that are NaN, are no heights. Their
@@ -134,7 +134,7 @@ typedef struct tks_image {
 /* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1]. */
 typedef int (*tks_progress)(void* user, double done);
 
-/* What errors of a texture's wavelet count as: what is worth most comes first, and is kept where
+/* How errors of a texture's wavelet are weighed: what counts most comes first, and is kept where
  * bytes are few. The complete stream holds the same. */
 typedef enum tks_weights {
   TKS_WEIGHTS_PSNR = 0,  /* their squares */
@@ -142,9 +142,9 @@ typedef enum tks_weights {
                             less, in colour differences much less; costs up to 1.2 dB of PSNR */
 } tks_weights;
 
-/* A pinhole camera that looks at the heights with their texture. In metres, x east, y up, z south;
- * the origin is the middle of the heights at height 0. Where the spacing of the heights is unknown,
- * samples are 30 metres apart. */
+/* A pinhole camera that looks at the heights with their texture. Its places are in metres: x points
+ * east, y up, z south, and the origin is the middle of the heights at height 0. Where the spacing
+ * of the heights is unknown, samples are 30 metres apart. */
 typedef struct tks_camera {
   const char* name;                /* UTF-8, for messages; NULL: its number, from 1 */
   double eye[3], target[3], up[3]; /* up: not along the line of sight */
@@ -155,8 +155,8 @@ typedef struct tks_camera {
 
 /* How far a picture of decoded samples is from that of the original ones. heights: samples as in
  * tks_heights.data; texels: as in tks_image.data. Writes the squared error, summed over pixels and
- * over R, G and B of 0 to 255 each, and of how many such values it is the sum. Returns 0, anything
- * else if it cannot draw: then the encoder does without pictures. */
+ * over R, G and B of 0 to 255 each, and of how many such values it is the sum. Returns 0, or
+ * anything else if it cannot draw: then the encoder does without pictures. */
 typedef int (*tks_picture_error)(void* user, const void* heights, const void* texels,
                                  double* squares, double* values);
 
@@ -335,7 +335,7 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 /* From here on heights and texture are those of mip levels: level k, of W x H samples, is the image
  * of ceil(W / 2^k) x ceil(H / 2^k) whose sample (x, y) lies on sample (x 2^k, y 2^k), low-pass
  * filtered; 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A level
- * takes no inverse transform of the finer ones, and of the bytes what comes before the last that
+ * takes no inverse transform of the finer ones, and reads the stream only up to the last byte that
  * concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed above
  * level 0, and meshes are made of level 0 only. TKS_USAGE beyond the coarsest levels (those of a
  * missing part: 0); the levels are then as before. */
@@ -362,11 +362,11 @@ typedef struct tks_window {
   uint32_t x, y, width, height;
 } tks_window;
 
-/* The same samples as the three functions above give there, and no others: window->width *
- * window->height of them, row by row. The window lies inside and holds a sample, else TKS_USAGE. Of
- * streams with regions only those are decoded that reach the window; where the stream holds
- * corrections those that reach its rows or any before them (of floats that no step restores), or
- * all of them (to a largest error). */
+/* These write what tks_decode_heights, _surface and _texture would write there, and nothing else:
+ * window->width * window->height samples, row by row. The window has to lie inside and to hold a
+ * sample, else TKS_USAGE. Of a stream with regions only those are decoded that reach the window;
+ * where it holds corrections, those that reach the window's rows or any before them (corrections of
+ * floats that no step restores), or all regions (corrections to a largest error). */
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
 tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
@@ -383,12 +383,12 @@ typedef enum tks_part {
   TKS_PART_BUDGET_MESH = 4  /* the same, TKS_MESH_BUDGET */
 } tks_part;
 
-/* Whether tks_limits.max_memory suffices for such a call, before there is an array for what it
- * gives: TKS_LIMIT and a sentence if the decoder, the call and `beside` bytes (of that array, say)
- * take more together. window: NULL for all of the level that is set; max_triangles: of a budget
- * mesh. bytes, unless NULL: an upper bound of what the call itself allocates, meshes that it hands
- * over included; more threads take more. Calls check the same with `beside` 0. TKS_USAGE: there is
- * no such part or window. */
+/* Says whether tks_limits.max_memory suffices for a call that decodes `part`, before there is an
+ * array for it: TKS_LIMIT and a sentence if the decoder, the call and `beside` bytes (that array,
+ * say) take more together. window: NULL for all of the level that is set; max_triangles: of a
+ * budget mesh. bytes, unless NULL: an upper bound of what the call itself allocates, meshes that it
+ * hands over included; more threads take more. Calls check the same with `beside` 0. TKS_USAGE:
+ * there is no such part or window. */
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes);
 
@@ -399,11 +399,11 @@ typedef struct tks_ranges {
 } tks_ranges;
 void tks_free_ranges(tks_ranges* ranges);
 
-/* Which bytes behind the header a call needs of a stream with a front index, to decode what it
- * would of the complete stream: packets of the tracks that it decodes, in their order. Given to
- * tks_put_ranges they suffice: what else is missing counts as there. A window needs some regions, a
- * level from 3 on none of the finest levels. For a rougher terrain take what lies before some byte;
- * of streams for windows take a first part of each range: each is a region, and may touch the next.
+/* Lists the bytes behind the header of a stream with a front index that a call needs to give what
+ * it would give of the complete stream: the packets of the tracks that it decodes, in their order.
+ * Given to tks_put_ranges they suffice: what else is missing counts as there. A window needs some
+ * regions; a level from 3 on needs none of the finest levels. For rougher terrain take what lies
+ * before some byte; of streams for windows a first part of each range, which is a region.
  * TKS_USAGE: there is no index, part or window. TKS_LIMIT: as the call. */
 tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
                              tks_ranges* out);
@@ -492,7 +492,7 @@ typedef struct tks_fetch {
                              shared by those that go out at a time; 0: nothing */
 } tks_fetch;
 
-/* What to fetch next: the ranges of at most `bytes` bytes that are not there yet and help a view
+/* Says what to fetch next: ranges of at most `bytes` bytes that are not there yet and help a view
  * most, the most helpful first. Hand them to tks_put as they come, in any order, and ask again. A
  * stream without a front index (tks_encode_options.index) is fetched in its order. Viewers turn:
  * what other pictures from the same place would show counts as well, a sixteenth of this one, and
@@ -514,17 +514,17 @@ typedef struct tks_fetch {
  * it counts when that has come.
  *
  * view: NULL: all ground counts alike. Its weight is not looked at; its columns and rows are those
- * of the heights, or of a texture without heights. Decodes a coarse mip level of the heights, which
- * says what hides what. TKS_USAGE, TKS_UNSUPPORTED: as tks_decode_screen_mesh of a camera. */
+ * of the heights, or of a texture without heights. The call decodes a coarse mip level of the
+ * heights: what hides what. TKS_USAGE, TKS_UNSUPPORTED: as tks_decode_screen_mesh of a camera. */
 tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const tks_fetch* fetch,
                     tks_ranges* out);
 
-/* The stream that is open, with its packets in the order that helps these cameras most: as tks_plan
- * chooses, with what they see together, by their weights, and the stream's own triangle budget. Of
- * the packets only the stated errors change: the whole decodes to the same; every prefix is a
- * stream. What a prefix lacks stays behind what it has. Bytes beyond a gap are left out. TKS_USAGE:
- * there is no front index, or no camera; else as tks_plan. Not part of the library that only
- * decodes. */
+/* Writes the open stream with its packets in the order that helps these cameras most: as tks_plan
+ * chooses, by what they see together, with their weights and the stream's own triangle budget. In
+ * packets only the stated errors change: the whole decodes to the same; every prefix is a stream.
+ * What a prefix lacks stays behind what it has. Bytes beyond a gap are left out. TKS_USAGE: there
+ * is no front index, or no camera; else as tks_plan. The library that only decodes lacks this
+ * function. */
 tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
                        uint32_t camera_count, tks_buffer* out);
 
