@@ -61,12 +61,12 @@ constexpr double kFewBits = 1.6, kFewQuietBits = 1.15;
 void appendDetails(const PlanePart& part, const WaveletHeader& header, bool plain,
                    std::vector<float>& details) {
   const WaveletSpec spec = specOf(header);
-  std::vector<int32_t> plane = part.values, levels(part.levels.begin(), part.levels.end());
-  for (std::vector<int32_t>* values : {&plane, &levels}) {
+  std::vector<int32_t> plane = part.values, areas(part.area_values.begin(), part.area_values.end());
+  for (std::vector<int32_t>* values : {&plane, &areas}) {
     for (int32_t& v : *values)
       v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
   }
-  const PlaneLayout layout(spec, part.extent, part.valid, {part.held, levels});
+  const PlaneLayout layout(spec, part.extent, part.valid, {part.held, areas});
   forwardWavelet(spec, layout.pyramid(), plane);
   for (size_t i = 1; i < layout.subbands().size(); ++i) {
     const Subband& band = layout.subbands()[i];

@@ -54,7 +54,7 @@ class CodedPart {
       : part_(std::move(part)),
         coded_(static_cast<double>(codedIn(part_.valid, part_.held, part_.values.size()))),
         spec_(specOf(wavelet)) {
-    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, part_.levels});
+    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, part_.area_values});
     std::vector<int32_t> values = part_.values;
     forwardWavelet(spec_, layout.pyramid(), values);
     bands_ = layout.parts(regionsOf(part_.extent.width, part_.extent.height, 0).front());
@@ -84,10 +84,10 @@ class CodedPart {
 
  private:
   double squaresWith(const TrackState& state, Precision precision) const {
-    std::vector<int32_t> levels(part_.levels.begin(), part_.levels.end());
-    for (int32_t& level : levels)
-      level = static_cast<int32_t>(static_cast<uint32_t>(level) << precision.fraction_bits);
-    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, levels});
+    std::vector<int32_t> areas(part_.area_values.begin(), part_.area_values.end());
+    for (int32_t& value : areas)
+      value = static_cast<int32_t>(static_cast<uint32_t>(value) << precision.fraction_bits);
+    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, areas});
     ViewSynthesis synthesis(spec_, layout.pyramid(), {});
     synthesis.allocate();
     for (size_t i = 0; i < bands_.size(); ++i)

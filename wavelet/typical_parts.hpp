@@ -28,9 +28,10 @@ std::vector<Window> typicalParts(Extent plane, uint32_t side = 96, const IsCoded
 struct PlanePart {
   Extent extent;
   std::vector<int32_t> values;
-  std::vector<uint8_t> valid;       ///< empty: all
-  std::vector<uint16_t> held;       ///< empty: none
-  std::span<const int32_t> levels;  ///< of what is held, as in HeldSamples; those of the plane
+  std::vector<uint8_t> valid;  ///< empty: all
+  std::vector<uint16_t> held;  ///< empty: none
+  /// Those of what is held (HeldSamples::values): of all areas of the plane.
+  std::span<const int32_t> area_values;
 };
 
 /// The typical parts of planes that have one size and one mask: of each part every plane's.

@@ -15,7 +15,7 @@
 
 #include "base/parallel.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
-#include "codec/geometry/flat/flat_tiles.hpp"
+#include "codec/geometry/flat/flat_parts.hpp"
 #include "wavelet/plane_cost.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -31,33 +31,33 @@ constexpr size_t kLargeAreas = 4;
 /// Nothing is tried where areas of kPond samples cover less than that share of the plane.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
-/// Estimates of bits are no better than that; those from tiles, which miss coarse levels, worse.
-constexpr double kClearlyOfPlane = 0.99, kClearlyOfTiles = 0.98;
+/// Estimates of bits are no better than that. Parts miss coarse levels, so theirs are worse.
+constexpr double kClearlyOfPlane = 0.99, kClearlyOfParts = 0.98;
 /// What it is worth, as a share of the bytes, that all samples are flat and stay so: squared errors
 /// do not tell that a sea with waves looks wrong.
 constexpr double kWorthOfFlatness = 0.1;
 
-/// A tile, copied from the plane.
-struct Tile {
-  SampledTile place;
+/// A part, copied from the plane.
+struct CopiedPart {
+  SampledPart place;
   std::vector<int32_t> heights;
   std::vector<uint8_t> valid;
 
-  Tile(const PlaneView<const int32_t>& plane, const SampledTile& sampled)
+  CopiedPart(const PlaneView<const int32_t>& plane, const SampledPart& sampled)
       : place(sampled),
         heights(cut(plane.values(), plane.extent(), {0, sampled.window})),
         valid(cut(plane.valid.bytes(), plane.extent(), {0, sampled.window})) {}
   Extent extent() const { return place.window.extent(); }
 };
 
-/// A tile, transformed.
-class TriedTile {
+/// A part, transformed.
+class TriedPart {
  public:
-  TriedTile(const Tile& tile, const FlatAreas& flat, const WaveletHeader& wavelet)
-      : values_(scaled(tile.heights, wavelet)),
+  TriedPart(const CopiedPart& part, const FlatAreas& flat, const WaveletHeader& wavelet)
+      : values_(scaled(part.heights, wavelet)),
         area_heights_(scaled(flat.heights, wavelet)),
-        layout_(specOf(wavelet), tile.extent(), tile.valid, {flat.numbers, area_heights_}) {
-    clearUnmarked(std::span(values_), tile.valid);
+        layout_(specOf(wavelet), part.extent(), part.valid, {flat.numbers, area_heights_}) {
+    clearUnmarked(std::span(values_), part.valid);
     forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
   }
   PlaneCost cost(double step) const { return costOf(layout_, values_, step); }
@@ -75,23 +75,23 @@ class TriedTile {
   PlaneLayout layout_;
 };
 
-/// Tiles that stand for a plane, and what that costs.
+/// Parts that stand for a plane, and what that costs.
 class TriedPlane {
  public:
-  /// areas: of each tile; the tiles outlive this, and so do they.
-  TriedPlane(const std::vector<Tile>& tiles, const std::vector<FlatAreas>& areas,
+  /// areas: of each part; the parts outlive this, and so do they.
+  TriedPlane(const std::vector<CopiedPart>& parts, const std::vector<FlatAreas>& areas,
              const WaveletHeader& wavelet, uint32_t threads)
-      : tiles_(tiles), tried_(tiles.size()), threads_(threads) {
-    parallelFor(threads_, tiles.size(),
-                [&](size_t i) { tried_[i].emplace(tiles[i], areas[i], wavelet); });
+      : parts_(parts), tried_(parts.size()), threads_(threads) {
+    parallelFor(threads_, parts.size(),
+                [&](size_t i) { tried_[i].emplace(parts[i], areas[i], wavelet); });
   }
   PlaneCost cost(double step) const {
-    std::vector<PlaneCost> costs(tiles_.size());
+    std::vector<PlaneCost> costs(parts_.size());
     parallelFor(threads_, costs.size(), [&](size_t i) { costs[i] = tried_[i]->cost(step); });
     PlaneCost sum;
     for (size_t i = 0; i < costs.size(); ++i) {
-      sum.bits += tiles_[i].place.stands_for * costs[i].bits;
-      sum.squares += tiles_[i].place.stands_for * costs[i].squares;
+      sum.bits += parts_[i].place.stands_for * costs[i].bits;
+      sum.squares += parts_[i].place.stands_for * costs[i].squares;
     }
     return sum;
   }
@@ -103,8 +103,8 @@ class TriedPlane {
   }
 
  private:
-  const std::vector<Tile>& tiles_;
-  std::vector<std::optional<TriedTile>> tried_;
+  const std::vector<CopiedPart>& parts_;
+  std::vector<std::optional<TriedPart>> tried_;
   uint32_t threads_;
 };
 
@@ -168,8 +168,8 @@ class FlatTrials {
     const FlatChoice plain = {{}, wavelet_};
     const uint64_t samples = heights_.extent().samples();
     if (finder_.samplesOf(kPond, whole()) * kLeastShare < samples) return plain;
-    for (const SampledTile& tile : sampleTiles(finder_, kPond, kLeastSamples))
-      tiles_.emplace_back(heights_, tile);
+    for (const SampledPart& part : sampleParts(finder_, kPond, kLeastSamples))
+      parts_.emplace_back(heights_, part);
     const std::optional<FlatShape> shape = shapeThatPays();
     if (!shape) return plain;
     FlatLayer flat{finder_.areas(*shape, whole()), {}};
@@ -193,7 +193,7 @@ class FlatTrials {
   /// The shape that pays best; nothing: none does. Smaller areas are added if simpler shapes do not
   /// gain.
   std::optional<FlatShape> shapeThatPays() {
-    const TriedPlane plain(tiles_, std::vector<FlatAreas>(tiles_.size()), wavelet_,
+    const TriedPlane plain(parts_, std::vector<FlatAreas>(parts_.size()), wavelet_,
                            purpose_.threads);
     const ComparedSteps steps(plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
                               static_cast<double>(heights_.extent().samples()));
@@ -204,7 +204,7 @@ class FlatTrials {
       const Trial fine = tryAll(large, {kShapes.begin() + kLargeAreas + 1, kShapes.end()}, steps);
       if (fine.price < best.price) best = fine;
     }
-    const double clearly = tiles_.size() > 1 ? kClearlyOfTiles : kClearlyOfPlane;
+    const double clearly = parts_.size() > 1 ? kClearlyOfParts : kClearlyOfPlane;
     if (best.price >= clearly) return {};
     return best.shape;
   }
@@ -225,10 +225,10 @@ class FlatTrials {
   double priceOf(const FlatShape& shape, const ComparedSteps& steps) {
     std::vector<FlatAreas> areas;
     double held = 0;
-    for (const Tile& tile : tiles_) {
-      areas.push_back(finder_.areas(shape, tile.place.window));
+    for (const CopiedPart& part : parts_) {
+      areas.push_back(finder_.areas(shape, part.place.window));
       const std::vector<uint16_t>& numbers = areas.back().numbers;
-      held += tile.place.stands_for *
+      held += part.place.stands_for *
               static_cast<double>(
                   std::count_if(numbers.begin(), numbers.end(), [](uint16_t n) { return n != 0; }));
     }
@@ -244,14 +244,14 @@ class FlatTrials {
                  const ComparedSteps& steps) {
     constexpr double kHeaderBits = 64;  // what the header says of them
     double bits = kHeaderBits;
-    for (size_t i = 0; i < tiles_.size(); ++i) {
+    for (size_t i = 0; i < parts_.size(); ++i) {
       if (areas[i].empty()) continue;
-      const Tile& tile = tiles_[i];
-      bits += tile.place.stands_for * 8 *
-              static_cast<double>(encodeFlatAreas(areas[i], tile.extent(), tile.valid).size());
+      const CopiedPart& part = parts_[i];
+      bits += part.place.stands_for * 8 *
+              static_cast<double>(encodeFlatAreas(areas[i], part.extent(), part.valid).size());
     }
     if (!beside_) beside_ = waveletBeside(finder_.areas(shape, whole()));
-    return steps.ratio(TriedPlane(tiles_, areas, *beside_, purpose_.threads), bits);
+    return steps.ratio(TriedPlane(parts_, areas, *beside_, purpose_.threads), bits);
   }
 
   /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
@@ -265,7 +265,7 @@ class FlatTrials {
   const PlaneView<const int32_t>& heights_;
   const HeightPurpose& purpose_;
   FlatFinder finder_;
-  std::vector<Tile> tiles_;
+  std::vector<CopiedPart> parts_;
   std::map<double, double> price_of_held_;
   WaveletHeader wavelet_;                ///< of the plane as it is
   std::optional<WaveletHeader> beside_;  ///< that suits what the first areas leave

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes made for the weights of a surface (screen_weights.hpp), with edges that turn as it does.
+// Meshes made for the weights of a surface (screen/screen_weights.hpp), with edges that turn as it
+// does.
 #pragma once
 
 #include <cstdint>

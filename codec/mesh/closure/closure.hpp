@@ -2,7 +2,7 @@
 // The best 4-8 meshes of a surface, which no order of decimation can beat: the corners of the lower
 // convex hull of all of its meshes.
 //
-// By the diamond form of the error (gains.hpp) the mesh of a closed set S has D + lambda R =
+// By the diamond form of the error (gains/gains.hpp) the mesh of a closed set S has D + lambda R =
 // constant - sum over S of (g - lambda c): for one lambda the best mesh is a maximum closure of the
 // parent graph. Over all lambda the best sets are nested, so each vertex has one slope at which it
 // enters: x(v) >= x(child of v). These x are the isotonic regression of g / c with weights c

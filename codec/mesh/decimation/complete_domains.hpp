@@ -11,7 +11,7 @@
 namespace tetrakis::inline decimation {
 
 /// Returns u(M_v) of every vertex v while no vertex is removed. gains: one for each vertex; their
-/// sums are exact in any order (gains.hpp).
+/// sums are exact in any order (gains/gains.hpp).
 std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
                                          const VertexCosts& costs);
 

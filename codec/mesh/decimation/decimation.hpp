@@ -44,9 +44,9 @@ class MeshSequence {
 
 /// Orders all vertices by general decimation (general_decimation.hpp). The coarsest meshes of the
 /// order, those of up to 4096 triangles and of no more than one for each 8 samples, pass through
-/// the corners of the hull of the meshes within them (closure.hpp). Fails with the errors of
-/// Lattice::make, and with TKS_USAGE for weights that are not one for each sample, negative or not
-/// finite.
+/// the corners of the hull of the meshes within them (closure/closure.hpp). Fails with the errors
+/// of Lattice::make, and with TKS_USAGE for weights that are not one for each sample, negative or
+/// not finite.
 Result<MeshSequence> decimate(const SurfaceView& surface);
 
 }  // namespace tetrakis::inline mesh

@@ -12,7 +12,7 @@
 
 namespace tetrakis::inline decimation {
 
-/// Returns all vertices, those removed last first. gains: one for each vertex (gains.hpp).
+/// Returns all vertices, those removed last first. gains: one for each vertex (gains/gains.hpp).
 /// prompt_levels (merging_domains.hpp) changes the time that decimation takes, but not the order.
 /// steps: takes the number of vertices that each step removes, first step first; nullptr: none.
 std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const VertexCosts& costs,

@@ -3,7 +3,7 @@
 // save. The values are kept up to date while vertices are removed (thesis 5.3.1): the worth of a
 // removed vertex is subtracted from the domain of each of its ancestors exactly once, which is the
 // inclusion and exclusion over intersections of domains (thesis 3.4.4). Sums of gains are exact
-// (gains.hpp), and so are all values at all times.
+// (gains/gains.hpp), and so are all values at all times.
 #pragma once
 
 #include <cstdint>

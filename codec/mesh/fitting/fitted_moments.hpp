@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moments of the triangles of one mesh against planes through heights of one's choice.
 //
-// They are the moments of moments.hpp, but the heights h at the vertices need not be samples. The
-// samples at vertices belong to no triangle: a vertex adds the error z - h of its own sample. When
-// a vertex is removed, its sample goes to the triangles on either side of the edge that it split,
-// half to each. Coarsening the mesh merges triangles upwards, so that all stages of a decimation
-// together cost one descent over the surface.
+// They are the moments of gains/moments.hpp, but the heights h at the vertices need not be samples.
+// The samples at vertices belong to no triangle: a vertex adds the error z - h of its own sample.
+// When a vertex is removed, its sample goes to the triangles on either side of the edge that it
+// split, half to each. Coarsening the mesh merges triangles upwards, so that all stages of a
+// decimation together cost one descent over the surface.
 #pragma once
 
 #include <array>
@@ -45,8 +45,8 @@ class FittedMoments {
   std::span<const double> heights() const { return heights_; }
   const WeightedSurface& surface() const { return surface_; }
 
-  /// The gain of each vertex of the mesh with the present heights (gains.hpp). vertices: those of
-  /// the mesh. Must not be called before coarsen().
+  /// The gain of each vertex of the mesh with the present heights (gains/gains.hpp). vertices:
+  /// those of the mesh. Must not be called before coarsen().
   std::vector<double> gains(std::span<const VertexId> vertices) const;
 
  private:

@@ -16,8 +16,8 @@ struct HeldTriangle {
   std::array<double, 3> heights;
 };
 
-/// Returns the moments (moments.hpp) of the samples in the triangle but those at its corners, which
-/// stand apart. Samples on an edge count half, on the border of the grid fully.
+/// Returns the moments (gains/moments.hpp) of the samples in the triangle but those at its corners,
+/// which stand apart. Samples on an edge count half, on the border of the grid fully.
 TriangleMoments momentsOf(const WeightedSurface& surface, const HeldTriangle& triangle);
 
 /// The energy of momentsOf() alone.

@@ -4,7 +4,7 @@
 
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
-#include "codec/geometry/flat/flat_tiles.hpp"
+#include "codec/geometry/flat/flat_parts.hpp"
 #include "codec/geometry/flat/opening.hpp"
 #include "codec/geometry/flat_choice.hpp"
 #include "conformance/samples/terrain_samples.hpp"
@@ -98,7 +98,7 @@ TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
             std::vector<int32_t>{17});
 }
 
-/// Large planes are tried on a few tiles; ponds that lie in some of them alone are found.
+/// Large planes are tried on a few parts; ponds that lie in some of them alone are found.
 TEST(FlatAreas, TilesStandForAPlane) {
   Random random(4);
   const Size size{900, 700};
@@ -115,9 +115,9 @@ TEST(FlatAreas, TilesStandForAPlane) {
   const FlatFinder finder({ponds, size.extent()});
   ASSERT_EQ(finder.samplesOf(64, {0, 0, size.width, size.height}), water);
   double stand_for = 0, flat = 0;
-  const auto tiles = sampleTiles(finder, 64, 8);
-  EXPECT_GT(tiles.size(), 1u);
-  for (const auto& [window, times] : tiles) {
+  const auto parts = sampleParts(finder, 64, 8);
+  EXPECT_GT(parts.size(), 1u);
+  for (const auto& [window, times] : parts) {
     ASSERT_TRUE(window.isInside(size.extent()));
     stand_for += times * static_cast<double>(window.extent().samples());
     flat += times * static_cast<double>(finder.samplesOf(64, window));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What flat areas are worth is decided where they and other heights meet: on a few tiles of a plane
+// What flat areas are worth is decided where they and other heights meet: on a few parts of a plane
 // that stand for the others. Encoder only.
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace tetrakis::inline flat {
 
-struct SampledTile {
+struct SampledPart {
   Window window;
   double stands_for;  ///< how many times its own samples
 };
 
-/// Returns one tile, the whole plane, if that is small; else tiles of each of three kinds: those
+/// Returns one part, the whole plane, if that is small; else parts of each of three kinds: those
 /// with samples of areas of at least `large` samples and others, those of the rest with samples of
 /// areas of at least `small`, and those without. They are taken at equal distances along the rows
-/// of tiles of their kind.
-std::vector<SampledTile> sampleTiles(const FlatFinder& finder, uint32_t large, uint32_t small);
+/// of parts of their kind.
+std::vector<SampledPart> sampleParts(const FlatFinder& finder, uint32_t large, uint32_t small);
 
 }  // namespace tetrakis::inline flat
