@@ -21,13 +21,13 @@ namespace {
 /// triangles are as small as samples are dense, so meshes want more samples here than elsewhere
 /// (budget_mesh.hpp).
 uint32_t spareLevels(const WeightedSurface& surface, uint32_t max_triangles) {
-  constexpr uint64_t kPerTriangle = 20;
+  constexpr uint64_t kValidPerTriangle = 20;
   if (!surface.view.weights.empty() || surface.known.empty()) return 0;
   const auto known = static_cast<uint64_t>(
       std::count_if(surface.known.begin(), surface.known.end(), [](uint8_t v) { return v != 0; }));
   const uint32_t shorter = std::min(surface.view.width, surface.view.height) - 1;
   uint32_t k = 0;
-  while (shorter >> (k + 1) > 0 && known >> (2 * (k + 1)) >= kPerTriangle * max_triangles) ++k;
+  while (shorter >> (k + 1) > 0 && known >> (2 * (k + 1)) >= kValidPerTriangle * max_triangles) ++k;
   return k;
 }
 
