@@ -115,6 +115,26 @@ test('aborting ends the request and what its worker was asked for', async () => 
   });
 });
 
+test('a server that calls modules something else is no trouble', async () => {
+  const plain = await serve(web, {types: {'.wasm': 'text/plain'}}), page = await browser.newPage();
+  try {
+    await page.goto(plain.url + 'test/core.html');
+    const heights = await page.evaluate(async () => {
+      const {open} = await import('/src/index.js');
+      const {encode} = await import('/src/encode.js');
+      const data = Uint8Array.from({length: 16}, (_, i) => i);
+      const terrain = await open(await encode({heights: {data, width: 4, height: 4}}));
+      const {surface} = await terrain.decode({mesh: false, surface: true});
+      terrain.dispose();
+      return [...surface.data];
+    });
+    assert.deepEqual(heights, Array.from({length: 16}, (_, i) => i));
+  } finally {
+    await page.close();
+    await plain.close();
+  }
+});
+
 test('a hundred terrains that are opened and disposed leave nothing', async () => {
   await withPage({headers: {'access-control-allow-origin': '*'}}, async (page, server) => {
     const devtools = await page.context().newCDPSession(page);
