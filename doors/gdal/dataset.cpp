@@ -65,8 +65,8 @@ std::optional<tks_part> partOf(const Name& name, const tks_info& info) {
   return std::nullopt;
 }
 
-/// Of a texture that has none: it reaches from the middle of the first sample of the heights to that
-/// of the last, as on all meshes.
+/// Of a texture that has none: it reaches from the middle of the first sample of the heights to
+/// that of the last, as on all meshes.
 std::array<double, 6> drapedTransform(const tks_info& info) {
   const auto& [x0, a, b, y0, c, d] = info.geotransform;
   const double across = std::max(info.width - 1.0, 1.0) / info.texture_width;
