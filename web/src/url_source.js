@@ -156,7 +156,9 @@ export class UrlSource {
     if (range && Number(range[1]) !== begin) {
       throw this.#error(`: the server was asked for byte ${begin} and sent byte ${range[1]}.`);
     }
-    const announced = range ? Number(range[2]) + 1 - begin : end - begin;
+    const size = range && range[3] !== '*' ? Number(range[3]) : Infinity;
+    // Some servers repeat the end that they were asked for, be it behind that of the file.
+    const announced = range ? Math.min(Number(range[2]) + 1, size) - begin : end - begin;
     const most = Math.min(announced, end - begin), reader = answer.body.getReader();
     let length = 0;
     for (;;) {
@@ -173,7 +175,7 @@ export class UrlSource {
     }
     // Servers may send less than was asked for (RFC 9110, section 15.3.7): only where no size is
     // stated does a short answer tell the end.
-    if (range && range[3] !== '*') this.size = Number(range[3]);
+    if (size < Infinity) this.size = size;
     else if (length < end - begin) this.size = begin + length;
   }
 

@@ -151,6 +151,11 @@ test('a server that sends less than was asked for is asked again', async () => {
   });
 });
 
+test('a server that repeats ends behind the end of the file is understood', async () => {
+  await withServer({overstated: true}, ({url}) =>
+    rejects(open(url + 'header.tks'), 'truncated', /ends after 30 bytes/));
+});
+
 test('a disposed terrain says so', async () => {
   await withServer({}, async (server) => {
     const terrain = await open(server.url + 'whole.tks');

@@ -14,8 +14,9 @@ const TYPES = {
 /**
  * Serves `folder`. Of `faults`: noRanges (200 and the whole file), etag (called for each answer),
  * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always),
- * types (content types by the ends of names), most (the bytes of an answer to a range, at most),
- * stall (so many bytes of an answer go out, the others never do). A request's `ended` resolves to whether all of its answer went out.
+ * types (content types by the ends of names), overstated (ranges are said to end where they were
+ * asked to), most (the bytes of an answer to a range, at most), stall (so many bytes of an answer go
+ * out, the others never do). A request's `ended` resolves to whether all of its answer went out.
  */
 export async function serve(folder, faults = {}) {
   const requests = [];
@@ -51,7 +52,8 @@ export async function serve(folder, faults = {}) {
       return response.end();
     }
     response.writeHead(206, {
-      ...headers, 'content-length': end - start + 1, 'content-range': `bytes ${start}-${end}/${size}`,
+      ...headers, 'content-length': end - start + 1,
+      'content-range': `bytes ${start}-${faults.overstated ? range[2] : end}/${size}`,
     });
     send(start, end);
   });
