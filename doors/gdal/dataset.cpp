@@ -34,7 +34,7 @@ std::optional<double> voidValueOf(const tks_info& info) {
 }
 
 struct Name {
-  std::string file, part;  ///< part: "", "heights" or "texture"
+  std::string file, part;  ///< part: "" where the name says none
 };
 
 /// TKS:"file":part, also without the quotes.
@@ -47,18 +47,31 @@ std::optional<Name> subdatasetName(const char* text) {
   Name name{rest.substr(0, colon), rest.substr(colon + 1)};
   if (name.file.size() >= 2 && name.file.front() == '"' && name.file.back() == '"')
     name.file = name.file.substr(1, name.file.size() - 2);
-  if (name.part != "heights" && name.part != "texture") return std::nullopt;
   return name;
 }
 
 /// The component that the name means, or that there is; nothing after a reported error.
 std::optional<tks_part> partOf(const Name& name, const tks_info& info) {
+  if (!name.part.empty() && name.part != "heights" && name.part != "texture") {
+    reportFailure(TKS_USAGE, name.file,
+                  "A subdataset is heights or texture, not '" + name.part + "'.");
+    return std::nullopt;
+  }
   const bool texture = name.part == "texture" || (name.part.empty() && !info.has_heights);
   if (texture ? info.has_texture : info.has_heights)
     return texture ? TKS_PART_TEXTURE : TKS_PART_HEIGHTS;
   reportFailure(TKS_USAGE, name.file,
                 texture ? "The stream has no texture." : "The stream has no heights.");
   return std::nullopt;
+}
+
+/// Of a texture that has none: it reaches from the middle of the first sample of the heights to
+/// that of the last, as on all meshes.
+std::array<double, 6> drapedTransform(const tks_info& info) {
+  const auto& [x0, a, b, y0, c, d] = info.geotransform;
+  const double across = std::max(info.width - 1.0, 1.0) / info.texture_width;
+  const double down = std::max(info.height - 1.0, 1.0) / info.texture_height;
+  return {x0 + (a + b) / 2, a * across, b * down, y0 + (c + d) / 2, c * across, d * down};
 }
 
 }  // namespace
@@ -101,6 +114,8 @@ GDALDataset* Dataset::Open(GDALOpenInfo* info) {
     dataset->SetSubdatasetName(name.part.c_str());
   }
   dataset->TryLoadXML(part ? nullptr : info->GetSiblingFiles());
+  // What is beside a file is about all of it, so statistics of a prefix are not kept.
+  if (settings->bytes) dataset->nPamFlags |= GPF_NOSAVE;
   return dataset.release();
 }
 
@@ -146,14 +161,25 @@ void Dataset::takeFacts(const tks_info& info, bool heights) {
 }
 
 void Dataset::takePlace(const tks_info& info, bool heights) {
-  const std::string& file = source_->name();
-  if (heights ? info.has_geotransform : info.texture_has_geotransform) {
+  const auto take = [this](const double(&transform)[6]) {
     transform_.emplace();
-    std::copy_n(heights ? info.geotransform : info.texture_geotransform, 6, transform_->begin());
+    std::copy_n(transform, 6, transform_->begin());
+  };
+  const std::string& file = source_->name();
+  if (heights) {
+    if (info.has_geotransform) take(info.geotransform);
+    crs_ = readCrs({info.crs, info.vertical_datum, info.geo_keys}, file);
+    return;
   }
-  const char* const datum = heights ? info.vertical_datum : "";
-  crs_ = heights ? readCrs({info.crs, datum, info.geo_keys}, file)
-                 : readCrs({info.texture_crs, datum, info.texture_geo_keys}, file);
+  const bool own = *info.texture_crs != '\0' || *info.texture_geo_keys != '\0';
+  if (info.texture_has_geotransform) {
+    take(info.texture_geotransform);
+  } else if (info.has_geotransform && !own) {
+    transform_ = drapedTransform(info);
+  }
+  crs_ = own ? readCrs({info.texture_crs, "", info.texture_geo_keys}, file)
+             : readCrs({info.crs, "", info.geo_keys}, file);
+  if (crs_ && !own) crs_->StripVertical();
 }
 
 /// Overview k is made of level k - 1.

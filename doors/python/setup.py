@@ -44,7 +44,9 @@ class BuildWithLibrary(build_py):
     def run(self):
         shutil.rmtree(self.build_lib, ignore_errors=True)  # modules that are gone
         super().run()
-        shutil.copy2(built_library(), Path(self.build_lib) / "tetrakis" / LIBRARY)
+        package = Path(self.build_lib) / "tetrakis"
+        shutil.copy2(built_library(), package / LIBRARY)
+        shutil.copy2(SOURCE / "LICENSE", package)
 
 
 class WithMachineCode(Distribution):

@@ -24,6 +24,22 @@ TEST_F(CliTest, HeightsForEnginesComeWithTheirScales) {
   EXPECT_EQ(cli("decode a.tks --height - --size unity").out, content("u.raw"));
 }
 
+TEST_F(CliTest, WhatIsGuessedOfTheGroundIsTold) {
+  tools::HeightFile bare = hills(17);
+  bare.unit = "";
+  bare.spacing_x = bare.spacing_y = 0;
+  ASSERT_TRUE(tools::writeHeights(path("bare.tif"), bare).ok());
+  ASSERT_EQ(cli("encode bare.tif --lossless -o bare.tks").code, 0);
+  for (const char* output : {"--mesh m.glb", "--normal-map n.png", "--height u.r16 --size unity"}) {
+    const Outcome run = cli(std::string("decode bare.tks ") + output);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("spacing of its samples, which counts as 30 m"), std::string::npos);
+    EXPECT_NE(run.err.find("unit of its heights, which counts as metres"), std::string::npos);
+    EXPECT_EQ(cli(std::string("-q decode -f bare.tks ") + output).err, "");
+  }
+  EXPECT_EQ(cli("decode bare.tks --height h.tif").err, "");
+}
+
 TEST_F(CliTest, OptionsForEnginesThatDoNotGoTogetherAreRefused) {
   makeStream();
   for (const char* wrong :

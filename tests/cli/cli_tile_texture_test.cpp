@@ -24,6 +24,18 @@ std::array<double, 2> colourAt(double longitude, double latitude) {
           (latitude - kSouth + kMargin) / (kTexels * kTexel) * 240 + 8};
 }
 
+using Point = std::array<double, 3>;
+
+Point difference(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 class CliTileTexture : public CliTest {
  protected:
   void SetUp() override {
@@ -81,6 +93,23 @@ class CliTileTexture : public CliTest {
       std::memcpy(values.data(), bytes.data(), bytes.size());
       return values;
     }
+    /// Of the vertices, in the axes of glTF.
+    std::vector<Point> places() const {
+      const std::vector<float> positions = attribute("POSITION");
+      const json& origin = document["nodes"][0]["translation"];
+      std::vector<Point> places(positions.size() / 3);
+      for (size_t i = 0; i < positions.size(); ++i)
+        places[i / 3][i % 3] = positions[i] + origin[i % 3].get<double>();
+      return places;
+    }
+    /// Of 16 bits.
+    std::vector<uint16_t> indices() const {
+      const json& number = document["meshes"][0]["primitives"][0]["indices"];
+      const std::string bytes = view(document["accessors"].at(number.get<size_t>())["bufferView"]);
+      std::vector<uint16_t> values(bytes.size() / sizeof(uint16_t));
+      std::memcpy(values.data(), bytes.data(), bytes.size());
+      return values;
+    }
   };
 
   tools::ImageFile pictureOf(const GlbFile& glb) {
@@ -106,13 +135,11 @@ class CliTileTexture : public CliTest {
 
   /// Its vertices have the colours of their places.
   static void expectPlaced(const GlbFile& glb, const tools::ImageFile& picture) {
-    const std::vector<float> positions = glb.attribute("POSITION");
+    const std::vector<Point> places = glb.places();
     const std::vector<float> texcoords = glb.attribute("TEXCOORD_0");
-    const json& origin = glb.document["nodes"][0]["translation"];
     constexpr double kDegrees = 180 / std::numbers::pi, kFlat = 1 / 298.257223563;
-    for (size_t i = 0; 3 * i < positions.size(); ++i) {
-      std::array<double, 3> p;
-      for (size_t k = 0; k < 3; ++k) p[k] = positions[3 * i + k] + origin[k].get<double>();
+    for (size_t i = 0; i < places.size(); ++i) {
+      const Point& p = places[i];
       const double longitude = std::atan2(-p[2], p[0]) * kDegrees;
       const double latitude =
           std::atan2(p[1] / ((1 - kFlat) * (1 - kFlat)), std::hypot(p[0], p[2])) * kDegrees;
@@ -141,6 +168,34 @@ TEST_F(CliTileTexture, MeshesHaveTheColoursOfTheirPlaces) {
     expectPlaced(glb, pictureOf(glb));
     EXPECT_EQ(glb.document["samplers"][0]["wrapS"], 33071);  // clamped
   }
+}
+
+TEST_F(CliTileTexture, SkirtsHangBelowTheEdgesOfTiles) {
+  encode(3);
+  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles -o t").code, 0);
+  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles --skirts -o skirts").code, 0);
+  size_t walls = 0;
+  for (const std::string& file : filesBelow("t", ".glb")) {
+    SCOPED_TRACE(file);
+    const std::vector<Point> ground = GlbFile(text(file)).places();
+    const GlbFile glb(text(path("skirts" + file.substr(path("t").size()))));
+    const std::vector<Point> places = glb.places();
+    ASSERT_TRUE(std::equal(ground.begin(), ground.end(), places.begin()));
+    const std::vector<uint16_t> indices = glb.indices();
+    for (size_t i = 0; i < indices.size(); i += 3) {
+      const Point &a = places.at(indices[i]), &b = places.at(indices[i + 1]);
+      const Point& c = places.at(indices[i + 2]);
+      if (std::max({indices[i], indices[i + 1], indices[i + 2]}) < ground.size()) continue;
+      ++walls;
+      // It is seen from where this tile has no ground; parallels bend by some metres.
+      const Point normal = cross(difference(b, a), difference(c, a));
+      for (const Point& place : ground)
+        EXPECT_LT(dot(normal, difference(place, a)), 10 * std::sqrt(dot(normal, normal)));
+    }
+    expectPlaced(glb, pictureOf(glb));
+  }
+  EXPECT_GT(walls, 50U);
+  EXPECT_EQ(cli("tiles s.tks --skirts -o q").code, 1);
 }
 
 TEST_F(CliTileTexture, CutOutsKeepTheirAlpha) {

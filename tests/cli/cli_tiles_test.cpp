@@ -123,6 +123,30 @@ TEST_F(CliTiles, CoverTheGroundAndShareTheirEdges) {
   }
 }
 
+TEST_F(CliTiles, GridsWithSamplesOnPolesAndAntimeridianAreTaken) {
+  const auto tile = [this](const tools::GeoTransform& transform, uint32_t width, uint32_t height) {
+    tools::HeightFile file = ramp(width, height, 0, 0);
+    file.geotransform = transform;
+    encode(file);
+    const Outcome run = cli("-q tiles s.tks -f -o t");
+    EXPECT_EQ(run.code, 0) << run.err;
+    auto tiles = readTiles("t");
+    expectSound(tiles);
+    return tiles;
+  };
+  // The Earth from pole to pole: from -180 to 180, and from 0 to 359.
+  for (const auto& [west, columns] : {std::pair(-180.5, 361U), {-0.5, 360U}}) {
+    const auto tiles = tile({west, 1, 0, 90.5, 0, -1}, columns, 181);
+    for (const auto& item : tiles) {
+      for (size_t i = 0; i < item.second.u.size(); ++i)
+        EXPECT_GT(item.second.metres(i), 900) << item.first[0];
+    }
+  }
+  // What begins, and what ends, with the antimeridian.
+  tile({179.9995, 0.001, 0, 10, 0, -0.001}, 30, 30);
+  tile({179.9705, 0.001, 0, 10, 0, -0.001}, 30, 30);
+}
+
 TEST_F(CliTiles, HaveTheHeightsOfTheStreamAtTheRightPlace) {
   encode(ramp(130, 110, 7.31, 46.2));
   ASSERT_EQ(cli("-q tiles s.tks -o t").code, 0);

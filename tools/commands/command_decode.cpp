@@ -9,11 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/length_unit.hpp"
 #include "tools/commands/decode_arguments.hpp"
 #include "tools/commands/engine_output.hpp"
 #include "tools/commands/output.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/plain_heights.hpp"
+#include "tools/files/text.hpp"
 #include "tools/report/draped_texture.hpp"
 #include "tools/report/surface_normals.hpp"
 #include "tools/report/viewed_mesh.hpp"
@@ -106,6 +108,18 @@ class Decoding {
     if (Status status = planFormats(); !status.ok()) return status;
     if (!texture_ || !info.has_texture) return Status();
     return checkImageFormat(texture_->name(), info.texture_channels, info.texture_sample);
+  }
+
+  /// What is guessed of the ground, where its proportions count.
+  void tellGuesses() const {
+    const tks_info& info = decoder_.info();
+    if (!info.has_heights || !(mesh_ || normals_ || engine_)) return;
+    if (*info.unit == '\0')
+      tellNote("the stream does not tell the unit of its heights, which counts as metres", quiet_);
+    if (info.spacing_x <= 0 && info.spacing_y <= 0)
+      tellNote("the stream does not tell the spacing of its samples, which counts as " +
+                   shortest(kUnknownSpacing) + " m",
+               quiet_);
   }
 
   Status writeHeightField() {
@@ -335,6 +349,7 @@ Status decode(const DecodeArguments& arguments, bool quiet) {
   Decoding decoding(arguments, *stream, quiet);
   if (Status status = decoding.plan(); !status.ok()) return status;
   if (Status status = decoding.checkMemory(); !status.ok()) return status;
+  decoding.tellGuesses();
   decoding.start();
   if (!arguments.height.empty())
     if (Status status = decoding.writeHeightField(); !status.ok()) return status;

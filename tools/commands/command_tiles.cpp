@@ -21,7 +21,7 @@ struct TilesArguments {
   StreamSource source;
   std::string folder, format = "quantized-mesh";
   uint32_t threads = hardwareThreads();
-  bool force = false;
+  bool skirts = false, force = false;
 };
 
 /// A folder that is written beside its place and appears whole or not at all. One that is not empty
@@ -73,16 +73,19 @@ class TileFolder {
 };
 
 Status makeTiles(const TilesArguments& arguments, bool quiet) {
+  TileOptions options;
+  if (arguments.format == "3dtiles") options.format = TileFormat::k3dTiles;
+  options.skirts = arguments.skirts;
+  if (options.skirts && options.format != TileFormat::k3dTiles)
+    return {TKS_USAGE, "--skirts are for --format 3dtiles: viewers make those of quantized-mesh"};
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
   stream->decoder.setThreads(arguments.threads);
   Result<TileFolder> folder = TileFolder::plan(arguments.folder, arguments.force);
   if (!folder.ok()) return folder.status();
-  const TileFormat format =
-      arguments.format == "3dtiles" ? TileFormat::k3dTiles : TileFormat::kQuantizedMesh;
   Progress progress("tiles", quiet);
   const Result<TileSetSize> written =
-      writeTerrainTiles(stream->decoder, format, folder->staging(),
+      writeTerrainTiles(stream->decoder, options, folder->staging(),
                         [&progress](double done) { Progress::report(&progress, done); });
   if (!written.ok()) return written.status();
   if (const Status status = folder->commit(); !status.ok()) return status;
@@ -110,6 +113,7 @@ void addTiles(CLI::App& app, CommandLine& line) {
                   "Of the tiles: quantized-mesh (default) or 3dtiles")
       ->check(silent(CLI::IsMember({"quantized-mesh", "3dtiles"})))
       ->type_name("NAME");
+  verb.add_flag("--skirts", arguments->skirts, "Hang walls below the edges of tiles (3dtiles)");
   addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] {

@@ -72,19 +72,24 @@ Status EarthGround::findBounds() {
       bounds_.north = std::max(bounds_.north, y);
     }
   }
+  // Grids of degrees with samples on a pole, or on the antimeridian, reach half a sample beyond it.
   constexpr double kSlack = 1e-6;
   const double width = bounds_.east - bounds_.west;
+  const double column = width / width_ / 2 + kSlack;
+  const double row = (bounds_.north - bounds_.south) / height_ / 2 + kSlack;
   west_ = bounds_.west;
-  if (bounds_.west >= 180 - kSlack) {
+  if (bounds_.west >= 180 - column) {
     bounds_.west -= 360;
     bounds_.east -= 360;
-  } else if (bounds_.west >= -kSlack && bounds_.east > 180 + kSlack && width > 180 &&
-             width <= 360 + kSlack) {
+  } else if (bounds_.west >= -column && bounds_.east > 180 + column && width > 180 &&
+             width <= 360 + 2 * column) {
     bounds_.west = -180;
     bounds_.east = 180;
   }
-  const bool on_earth = bounds_.west >= -180 - kSlack && bounds_.east <= 180 + kSlack &&
-                        bounds_.south >= -90 - kSlack && bounds_.north <= 90 + kSlack;
+  const bool on_earth = bounds_.west >= -180 - column && bounds_.east <= 180 + column &&
+                        bounds_.south >= -90 - row && bounds_.north <= 90 + row;
+  bounds_ = {std::max(bounds_.west, -180.0), std::max(bounds_.south, -90.0),
+             std::min(bounds_.east, 180.0), std::min(bounds_.north, 90.0)};
   // A raster in degrees may well go round the Earth; others of that width have come apart.
   const double first = place_.earthAt(0, 0)[0], last = place_.earthAt(width_, 0)[0];
   const bool whole = width <= 180 || std::abs(last - first) > width - 1;

@@ -96,6 +96,11 @@ void adopt(json& children, json tile) {
   }
 }
 
+bool onOneSide(const TileMesh::Vertex& a, const TileMesh::Vertex& b) {
+  const auto outer = [](uint32_t cells) { return cells == 0 || cells == kTileCells; };
+  return (a.column == b.column && outer(a.column)) || (a.row == b.row && outer(a.row));
+}
+
 }  // namespace
 
 TileMesh groundOf(const TileMesh& mesh) {
@@ -114,6 +119,27 @@ TileMesh groundOf(const TileMesh& mesh) {
     }
   }
   return ground;
+}
+
+void addSkirts(TileMesh& ground, double depth) {
+  std::vector<std::optional<uint32_t>> below(ground.vertices.size());
+  const auto under = [&](uint32_t corner) {
+    if (!below[corner]) {
+      below[corner] = static_cast<uint32_t>(ground.vertices.size());
+      TileMesh::Vertex foot = ground.vertices[corner];
+      foot.height -= static_cast<float>(depth);
+      ground.vertices.push_back(foot);
+    }
+    return *below[corner];
+  };
+  // The ground lies to the left of its edges.
+  for (size_t i = 0, end = ground.triangles.size(); i < end; ++i) {
+    const uint32_t a = ground.triangles[i];
+    const uint32_t b = ground.triangles[i % 3 == 2 ? i - 2 : i + 1];
+    if (!onOneSide(ground.vertices[a], ground.vertices[b])) continue;
+    const uint32_t wall[] = {b, a, under(a), b, under(a), under(b)};
+    ground.triangles.insert(ground.triangles.end(), std::begin(wall), std::end(wall));
+  }
 }
 
 GeographicBounds GroundTileset::groundIn(const GeographicTile& tile) const {

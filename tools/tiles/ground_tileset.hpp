@@ -26,6 +26,10 @@ struct TileErrors {
 /// The triangles whose corners are all ground.
 TileMesh groundOf(const TileMesh& mesh);
 
+/// Adds walls of this depth, seen from outside, below the edges on the sides of the tile: they fill
+/// the gaps to neighbours that are shown at another level.
+void addSkirts(TileMesh& ground, double depth);
+
 class GroundTileset {
  public:
   /// bounds: of the ground, beyond which no tile has any.

@@ -26,6 +26,8 @@ namespace fs = std::filesystem;
 constexpr uint32_t kDeepest = 24;
 /// Levels of availability in the metadata of a tile.
 constexpr uint32_t kMetadataLevels = 10;
+/// How deep skirts are, in errors of the level: as those that Cesium makes.
+constexpr double kSkirtErrors = 5;
 
 /// What Cesium takes the error of a level's tiles for: a quarter of a cell at the equator.
 double levelError(uint32_t level) {
@@ -54,10 +56,11 @@ Status noGround() {
 /// Writes level by level, from the deepest up.
 class TileWriter {
  public:
-  TileWriter(Decoder& decoder, const EarthGround& ground, TileFormat format, std::string folder)
+  TileWriter(Decoder& decoder, const EarthGround& ground, const TileOptions& options,
+             std::string folder)
       : decoder_(decoder),
         ground_(ground),
-        format_(format),
+        options_(options),
         folder_(std::move(folder)),
         tileset_(ground.bounds()) {}
 
@@ -112,7 +115,7 @@ class TileWriter {
   }
 
  private:
-  bool meshes() const { return format_ == TileFormat::k3dTiles; }
+  bool meshes() const { return options_.format == TileFormat::k3dTiles; }
 
   Status checkMemory() {
     const tks_info& info = decoder_.info();
@@ -161,7 +164,9 @@ class TileWriter {
     const TileMesh mesh = terrain.meshOf(tile);
     std::vector<std::byte> bytes;
     if (meshes()) {
-      Result<std::vector<std::byte>> glb = addGround(groundOf(mesh), tile);
+      TileMesh ground = groundOf(mesh);
+      if (options_.skirts) addSkirts(ground, kSkirtErrors * levelError(tile.level));
+      Result<std::vector<std::byte>> glb = addGround(ground, tile);
       if (!glb.ok()) return glb.status();
       if (glb->empty()) return {};
       bytes = std::move(*glb);
@@ -220,7 +225,7 @@ class TileWriter {
 
   Decoder& decoder_;
   const EarthGround& ground_;
-  TileFormat format_;
+  TileOptions options_;
   std::string folder_;
   GroundTileset tileset_;
   std::optional<TextureLevels> texture_;
@@ -234,12 +239,12 @@ class TileWriter {
 
 }  // namespace
 
-Result<TileSetSize> writeTerrainTiles(Decoder& decoder, TileFormat format,
+Result<TileSetSize> writeTerrainTiles(Decoder& decoder, const TileOptions& options,
                                       const std::string& folder,
                                       const std::function<void(double)>& progress) {
   const Result<EarthGround> ground = EarthGround::create(decoder.info());
   if (!ground.ok()) return ground.status();
-  TileWriter writer(decoder, *ground, format, folder);
+  TileWriter writer(decoder, *ground, options, folder);
   if (Status status = writer.prepare(); !status.ok()) return status;
   return writer.write(progress);
 }

@@ -18,6 +18,11 @@ struct TileSetSize {
 
 enum class TileFormat { kQuantizedMesh, k3dTiles };
 
+struct TileOptions {
+  TileFormat format = TileFormat::kQuantizedMesh;
+  bool skirts = false;  ///< walls below the edges of tiles (k3dTiles)
+};
+
 /// Writes tiles into an existing folder, down to the level whose grid is as fine as the samples.
 /// Level by level each height is within half of what Cesium takes a level's error for, of the mip
 /// level that is shown.
@@ -26,7 +31,7 @@ enum class TileFormat { kQuantizedMesh, k3dTiles };
 /// and LEVEL/X/Y.glb, of the ground alone and textured, from the deepest level of at most four
 /// tiles on.
 /// progress: done so far, in [0, 1]. Errors: those of EarthGround; TKS_LIMIT; TKS_IO.
-Result<TileSetSize> writeTerrainTiles(Decoder& decoder, TileFormat format,
+Result<TileSetSize> writeTerrainTiles(Decoder& decoder, const TileOptions& options,
                                       const std::string& folder,
                                       const std::function<void(double)>& progress);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where browsers find the modules and the worker. Bundlers know `new URL(..., import.meta.url)`.
+import {compileAt} from './compile.js';
 
 export const assets = {
-  full: () => WebAssembly.compileStreaming(fetch(new URL('../dist/tetrakis.wasm', import.meta.url))),
-  plain: () =>
-    WebAssembly.compileStreaming(fetch(new URL('../dist/tetrakis-plain.wasm', import.meta.url))),
+  full: () => compileAt(new URL('../dist/tetrakis.wasm', import.meta.url)),
+  plain: () => compileAt(new URL('../dist/tetrakis-plain.wasm', import.meta.url)),
   worker: () =>
     typeof Worker === 'undefined'
       ? null

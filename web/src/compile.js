@@ -6,8 +6,9 @@ import {hasVectors} from './module.js';
 const compiled = new Map();
 
 /** While it comes, where the server says that it is a module. */
-async function compileAt(url) {
+export async function compileAt(url) {
   const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${url}: the server answered ${answer.status}`);
   return answer.headers.get('content-type') === 'application/wasm'
     ? WebAssembly.compileStreaming(answer)
     : WebAssembly.compile(await answer.arrayBuffer());

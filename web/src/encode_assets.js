@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where browsers find the encoder: apart from the decoder, so that pages that only show terrain do
 // not carry it.
-
-const compile = (url) => WebAssembly.compileStreaming(fetch(url));
+import {compileAt} from './compile.js';
 
 export const assets = {
-  full: () => compile(new URL('../dist/tetrakis-encode.wasm', import.meta.url)),
-  plain: () => compile(new URL('../dist/tetrakis-encode-plain.wasm', import.meta.url)),
+  full: () => compileAt(new URL('../dist/tetrakis-encode.wasm', import.meta.url)),
+  plain: () => compileAt(new URL('../dist/tetrakis-encode-plain.wasm', import.meta.url)),
   worker: () =>
     typeof Worker === 'undefined'
       ? null

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
+declare global {
+  interface SymbolConstructor {
+    readonly dispose: unique symbol;
+  }
+}
+
 export type TksCode =
   | 'usage' | 'io' | 'corrupt' | 'truncated' | 'unsupported' | 'limit' | 'memory' | 'changed'
   | 'mismatch';
@@ -163,6 +169,7 @@ export interface Terrain {
     part?: 'heights' | 'texture'; window: {x: number; y: number; width: number; height: number};
   }): Promise<[number, number][]>;
   dispose(): void;
+  [Symbol.dispose](): void;
 }
 
 /** Options of `decode` for a frame that is to be soon: what the first bytes tell. */

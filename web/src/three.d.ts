@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Camera, DataTexture, Loader, Material, Mesh} from 'three';
+import type {
+  BufferGeometry, Camera, DataTexture, Loader, Material, Mesh, Object3DEventMap,
+} from 'three';
 import type {Frame, OpenOptions, Raster, Terrain, View} from './index.js';
 
 export interface TerrainOptions {
@@ -13,8 +15,13 @@ export interface TerrainOptions {
   material?: Material;
 }
 
+export interface TksTerrainEventMap extends Object3DEventMap {
+  frame: {frame: Frame};
+  error: {error: unknown};
+}
+
 /** x along the rows, y up, z down the rows; metres; the middle of the terrain at x = z = 0. */
-export class TksTerrain extends Mesh {
+export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMap> {
   constructor(terrain: Terrain, options?: TerrainOptions);
   readonly terrain: Terrain;
   readonly frame: Frame | null;

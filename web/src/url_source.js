@@ -15,6 +15,14 @@ export function checkMagic(bytes, what) {
   throw new TksError('corrupt', `${what} is not a Tetrakis stream: it begins with "${text}".`);
 }
 
+function addressOf(text, page) {
+  try {
+    return new URL(text, page);
+  } catch {
+    return null;
+  }
+}
+
 export class UrlSource {
   requests = 0;
   /** Of the file, as far as it is known. */
@@ -85,9 +93,14 @@ export class UrlSource {
   /** What there is to say where fetch() fails, which tells nobody why. */
   async #refusal({signal}) {
     const page = globalThis.document?.baseURI ?? globalThis.location?.href;
+    const address = addressOf(this.#url, page);
+    if (!address) return ' is no address. Outside of a page give all of it, or the bytes of a file.';
+    if (address.protocol === 'file:') {
+      return ' is a file, which cannot be fetched. Give its bytes or a Blob.';
+    }
     const origin = page && new URL(page).origin;
     // Of a server that lets no page read its answers a page still sees that it answers.
-    const answers = origin && new URL(this.#url, page).origin !== origin &&
+    const answers = origin && address.origin !== origin &&
       (await fetch(this.#url, {method: 'HEAD', mode: 'no-cors', signal}).catch(() => null));
     return answers
       ? ` cannot be read: its server answers, but does not allow pages of ${origin} to read what it ` +
@@ -143,7 +156,9 @@ export class UrlSource {
     if (range && Number(range[1]) !== begin) {
       throw this.#error(`: the server was asked for byte ${begin} and sent byte ${range[1]}.`);
     }
-    const announced = range ? Number(range[2]) + 1 - begin : end - begin;
+    const size = range && range[3] !== '*' ? Number(range[3]) : Infinity;
+    // Some servers repeat the end that they were asked for, be it behind that of the file.
+    const announced = range ? Math.min(Number(range[2]) + 1, size) - begin : end - begin;
     const most = Math.min(announced, end - begin), reader = answer.body.getReader();
     let length = 0;
     for (;;) {
@@ -160,7 +175,7 @@ export class UrlSource {
     }
     // Servers may send less than was asked for (RFC 9110, section 15.3.7): only where no size is
     // stated does a short answer tell the end.
-    if (range && range[3] !== '*') this.size = Number(range[3]);
+    if (size < Infinity) this.size = size;
     else if (length < end - begin) this.size = begin + length;
   }
 

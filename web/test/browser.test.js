@@ -114,3 +114,57 @@ test('aborting ends the request and what its worker was asked for', async () => 
     assert.ok(next < 20 * one, `${next} ms, ${one} ms alone`);
   });
 });
+
+test('a server that calls modules something else is no trouble', async () => {
+  const plain = await serve(web, {types: {'.wasm': 'text/plain'}}), page = await browser.newPage();
+  try {
+    await page.goto(plain.url + 'test/core.html');
+    const heights = await page.evaluate(async () => {
+      const {open} = await import('/src/index.js');
+      const {encode} = await import('/src/encode.js');
+      const data = Uint8Array.from({length: 16}, (_, i) => i);
+      const terrain = await open(await encode({heights: {data, width: 4, height: 4}}));
+      const {surface} = await terrain.decode({mesh: false, surface: true});
+      terrain.dispose();
+      return [...surface.data];
+    });
+    assert.deepEqual(heights, Array.from({length: 16}, (_, i) => i));
+  } finally {
+    await page.close();
+    await plain.close();
+  }
+});
+
+test('a hundred terrains that are opened and disposed leave nothing', async () => {
+  await withPage({headers: {'access-control-allow-origin': '*'}}, async (page, server) => {
+    const devtools = await page.context().newCDPSession(page);
+    const heap = async () => {
+      await devtools.send('HeapProfiler.collectGarbage');
+      const {usedSize, backingStorageSize} = await devtools.send('Runtime.getHeapUsage');
+      return usedSize + backingStorageSize;
+    };
+    const opened = (times, options) => page.evaluate(async ([address, count, given]) => {
+      const {open} = await import('/src/index.js');
+      for (let i = 0; i < count; ++i) {
+        const input = i % 2 ? address : await (await fetch(address)).arrayBuffer();
+        const terrain = await open(input, given);
+        await terrain.decode({normals: true, surface: true});
+        terrain.dispose();
+        // One that is aborted, and one that is no stream.
+        const stop = new AbortController();
+        const aborted = open(address, {...given, signal: stop.signal});
+        stop.abort();
+        await Promise.allSettled([aborted, open(new Uint8Array(100), given)]);
+      }
+    }, [server.url + 'a.tks', times, options]);
+    for (const options of [{}, {worker: false}]) {
+      await opened(5, options);
+      const before = await heap();
+      await opened(100, options);
+      const growth = await heap() - before;
+      assert.ok(growth < 2e5, `${growth} bytes, ${JSON.stringify(options)}`);
+      // Those that still end do so soon; of others this is never told.
+      await Promise.all(page.workers().map((worker) => worker.waitForEvent('close', {timeout: 5000})));
+    }
+  });
+});

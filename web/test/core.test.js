@@ -151,6 +151,11 @@ test('a server that sends less than was asked for is asked again', async () => {
   });
 });
 
+test('a server that repeats ends behind the end of the file is understood', async () => {
+  await withServer({overstated: true}, ({url}) =>
+    rejects(open(url + 'header.tks'), 'truncated', /ends after 30 bytes/));
+});
+
 test('a disposed terrain says so', async () => {
   await withServer({}, async (server) => {
     const terrain = await open(server.url + 'whole.tks');
@@ -180,6 +185,8 @@ test('what cannot be opened says why', async () => {
     rejects(open(url + 'page.tks'), 'corrupt', /\(text\/html\) is not a Tetrakis stream/));
   await rejects(open('http://127.0.0.1:9/closed.tks'), 'io',
     /cannot be fetched: its server cannot be reached/);
+  await rejects(open('folder/a.tks'), 'io', /is no address.*the bytes of a file/);
+  await rejects(open(new URL(import.meta.url)), 'io', /is a file, which cannot be fetched/);
   await rejects(open(new TextEncoder().encode('PK..')), 'corrupt', /not a Tetrakis stream/);
   await rejects(open(7), 'usage', /URL, bytes or a Blob/);
   const damaged = bytes.slice();

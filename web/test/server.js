@@ -14,8 +14,9 @@ const TYPES = {
 /**
  * Serves `folder`. Of `faults`: noRanges (200 and the whole file), etag (called for each answer),
  * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always),
- * most (the bytes of an answer to a range, at most), stall (so many bytes of an answer go out, the
- * others never do). A request's `ended` resolves to whether all of its answer went out.
+ * types (content types by the ends of names), overstated (ranges are said to end where they were
+ * asked to), most (the bytes of an answer to a range, at most), stall (so many bytes of an answer go
+ * out, the others never do). A request's `ended` resolves to whether all of its answer went out.
  */
 export async function serve(folder, faults = {}) {
   const requests = [];
@@ -36,7 +37,8 @@ export async function serve(folder, faults = {}) {
       if (end < start) return response.flushHeaders();
       createReadStream(file, {start, end}).pipe(response, {end: end === last});
     };
-    const headers = {'content-type': TYPES[extname(path)] ?? 'text/plain', ...faults.headers};
+    const type = {...TYPES, ...faults.types}[extname(path)] ?? 'text/plain';
+    const headers = {'content-type': type, ...faults.headers};
     if (faults.etag) headers.etag = faults.etag(requests.length);
     const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? '');
     if (!range || faults.noRanges) {
@@ -50,7 +52,8 @@ export async function serve(folder, faults = {}) {
       return response.end();
     }
     response.writeHead(206, {
-      ...headers, 'content-length': end - start + 1, 'content-range': `bytes ${start}-${end}/${size}`,
+      ...headers, 'content-length': end - start + 1,
+      'content-range': `bytes ${start}-${faults.overstated ? range[2] : end}/${size}`,
     });
     send(start, end);
   });

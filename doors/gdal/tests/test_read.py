@@ -46,8 +46,23 @@ def test_subdatasets(placed, texture):
     colours = [image.GetRasterBand(i).GetColorInterpretation() for i in range(1, 5)]
     assert colours == [gdal.GCI_RedBand, gdal.GCI_GreenBand, gdal.GCI_BlueBand, gdal.GCI_AlphaBand]
     assert image.GetRasterBand(1).GetMaskFlags() == gdal.GMF_ALPHA + gdal.GMF_PER_DATASET
-    with pytest.raises(RuntimeError):
-        gdal.Open(f'TKS:"{placed}":water')
+    refused(lambda: gdal.Open(f'TKS:"{placed}":water'), "heights or texture", "'water'")
+
+
+def test_a_texture_without_a_place_lies_as_on_meshes(tmp_path):
+    name = str(tmp_path / "a.tks")
+    transform = (400000, 10, 2, 3800000, 3, -10)
+    image = str(tmp_path / "image.png")
+    gdal.GetDriverByName("PNG").CreateCopy(image, memory(np.stack([terrain(90, 170, "u1")] * 3)))
+    heights = memory(terrain(31, 35), transform=transform, crs="EPSG:32611+5773")
+    copy(heights, name, "TEXTURE=" + image)
+    texture = gdal.Open(f'TKS:"{name}":texture')
+    assert texture.GetSpatialRef().GetAuthorityCode(None) == "32611"
+    assert not texture.GetSpatialRef().IsCompound()
+    # Its outer corners are the middles of the outer samples.
+    for corner, sample in (((0, 0), (0.5, 0.5)), ((170, 90), (34.5, 30.5))):
+        ground = gdal.ApplyGeoTransform(transform, *sample)
+        assert gdal.ApplyGeoTransform(texture.GetGeoTransform(), *corner) == pytest.approx(ground)
 
 
 def test_missing_components(tmp_path):
@@ -244,6 +259,16 @@ def test_statistics_go_beside(tmp_path):
     dataset.SetGeoTransform((7, 1, 0, 9, 0, -1))
     del dataset
     assert gdal.Open(name).GetGeoTransform() == (7, 1, 0, 9, 0, -1)
+
+
+def test_statistics_of_a_prefix_are_not_kept(tmp_path):
+    name = str(tmp_path / "a.tks")
+    copy(terrain(40, 50), name)
+    prefix = gdal.OpenEx(name, open_options=["BYTES=400"])
+    rough = prefix.GetRasterBand(1).ComputeStatistics(False)
+    del prefix
+    assert not (tmp_path / "a.tks.aux.xml").exists()
+    assert first_band(gdal.Open(name)).ComputeStatistics(False) != rough
 
 
 def test_gdalwarp(placed, tmp_path):

@@ -4,6 +4,7 @@
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,6 +37,11 @@ def test_what_the_readme_shows_runs(tmp_path, monkeypatch):
         if "zarr" in block:
             pytest.importorskip("zarr")
         exec(block, names)
+
+
+def test_the_licence_comes_along():
+    installed = Path(tetrakis.__file__).with_name("LICENSE")
+    assert installed.read_bytes() == (REPOSITORY / "LICENSE").read_bytes()
 
 
 def test_all_that_is_public_is_described():

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What users write in TypeScript; types.test.js has it checked, nobody runs it.
+import type {Scene as Globe} from '@cesium/engine';
+import {load, loadInBatches} from '@loaders.gl/core';
+import {Map as WebMap, addProtocol} from 'maplibre-gl';
+import {FIRST_FRAME, TksError, groundScale, open, type Frame} from 'tetrakis';
+import {TksTerrainProvider} from 'tetrakis/cesium';
+import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
+import {encode} from 'tetrakis/encode';
+import {TksProtocol} from 'tetrakis/maplibre';
+import {TksLoader, textureOf, type TksTerrain} from 'tetrakis/three';
+import {PerspectiveCamera, Scene} from 'three';
+
+export async function core(): Promise<Frame> {
+  const {signal} = new AbortController();
+  const terrain = await open('a.tks', {signal, worker: false, request: {credentials: 'include'}});
+  try {
+    for await (const frame of terrain.refine({triangles: 20000, bytes: 1e6, signal})) {
+      console.log(frame.mesh?.triangles.length, frame.texture?.data, frame.info.heightsRmse);
+    }
+    const view = {clip: new Float32Array(16), width: 640, height: 480};
+    return await terrain.decode({...FIRST_FRAME, normals: true, view});
+  } catch (error) {
+    if (error instanceof TksError && error.code === 'memory') console.log(error.message);
+    throw error;
+  } finally {
+    console.log(groundScale(terrain.info).x, terrain.loaded.ranges[0], terrain.truncated);
+    terrain.dispose();
+  }
+}
+
+export async function three(scene: Scene, camera: PerspectiveCamera): Promise<void> {
+  const loader = new TksLoader().setTerrainOptions({triangles: 50000}).preload();
+  const terrain: TksTerrain = await loader.loadAsync('a.tks');
+  terrain.addEventListener('frame', ({frame}) => console.log(frame.bytes));
+  terrain.addEventListener('error', ({error}) => console.error(error));
+  scene.add(terrain);
+  terrain.update(camera, 480);
+  if (terrain.frame?.texture) terrain.material.needsUpdate = textureOf(terrain.frame.texture).flipY;
+}
+
+export async function maplibre(map: WebMap): Promise<void> {
+  const protocol = new TksProtocol();
+  addProtocol('tks', protocol.tile);
+  const alps = await protocol.add('alps', 'a.tks', {bounds: [8, 46, 9, 47]});
+  if (alps.heights) map.addSource('dem', alps.heights);
+  if (alps.texture) map.addSource('imagery', alps.texture);
+  await alps.refine(map, {bytes: 2e6});
+}
+
+export async function deck(): Promise<void> {
+  const mesh = await load('a.tks', DeckLoader, {tks: {origin: [8.2, 46.5], triangles: 50000}});
+  for await (const batch of await loadInBatches('a.tks', DeckLoader)) console.log(batch);
+  const frame = await core();
+  console.log(mesh.texture?.width, meshOf(frame, {origin: [0, 0]}), imageOf(frame.texture!));
+}
+
+export async function cesium(scene: Globe): Promise<void> {
+  const alps = await TksTerrainProvider.fromUrl('a.tks', {heightOffset: 52});
+  scene.terrainProvider = alps;
+  if (alps.imagery) scene.imageryLayers.addImageryProvider(alps.imagery);
+  await alps.refine(scene, {bytes: 2e6});
+}
+
+export async function scoped(): Promise<number> {
+  using terrain = await open(new Blob([]));
+  return terrain.info.streamBytes;
+}
+
+export function coded(image: ImageData): Promise<Uint8Array> {
+  const heights = {data: new Int16Array(4), width: 2, height: 2, unit: 'm', spacing: 30};
+  return encode({heights, texture: image, bytes: 2e5, index: true}, {progress: console.log});
+}
