@@ -106,6 +106,36 @@ TEST(FewValues, PrefixesAreGoodBeforeTheTable) {
   }
 }
 
+/// Terrain with holes of -9999 that nobody declared.
+Raster undeclaredHoles(uint32_t width, uint32_t height) {
+  Raster heights = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
+  for (size_t i = 0; i < size_t{width} * height; ++i) {
+    const double value = sampleAt(heights.data, TKS_I16, i);
+    const auto shown = static_cast<int16_t>(value < -4000 ? -9999 : std::lround(value / 40));
+    std::memcpy(heights.data.data() + 2 * i, &shown, 2);
+  }
+  return heights;
+}
+
+/// The table has -9999 beside the lowest ground, but for values that no sample has: a prefix that
+/// misses places by a few is not to show ground as holes.
+TEST(FewValues, PrefixesKeepGroundApartFromHoles) {
+  const Raster heights = undeclaredHoles(150, 140);
+  const Bytes stream = encode(&heights, nullptr, lossless());
+  ASSERT_GT(readHeader(stream)->header.layers.table_bytes, 0u);
+  EXPECT_TRUE(Stream(stream).heights() == heights.data);
+  const std::vector<std::byte> half = Stream(Prefix(stream).first(stream.size() / 2)).heights();
+  int holes = 0;
+  for (size_t i = 0; i < size_t{150} * 140; ++i) {
+    const double truth = sampleAt(heights.data, TKS_I16, i);
+    holes += truth == -9999;
+    if (truth > -9999) {
+      ASSERT_NEAR(sampleAt(half, TKS_I16, i), truth, 300) << i;
+    }
+  }
+  EXPECT_GT(holes, 1000);
+}
+
 TEST(FewValues, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
   const Raster whole = make({Pattern::kSteps, 61, 50, 1, TKS_U8, 3});
   tks_encode_options regions = lossless();
