@@ -66,6 +66,31 @@ TEST(FewValues, NoTargetTakesMoreBytesThanTheLastBit) {
   }
 }
 
+/// Rough tenths of a metre above another datum, as floats, of which lossy coding makes less than
+/// twice the bytes of exact ones.
+Raster tenths(uint32_t width, uint32_t height) {
+  const Raster whole = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
+  Raster heights = make({Pattern::kFlat, width, height, 1, TKS_F32});
+  for (size_t i = 0; i < size_t{width} * height; ++i) {
+    const double steps = std::round(sampleAt(whole.data, TKS_I16, i) / 16) +
+                         samples::hash(static_cast<uint32_t>(i), 5, 2) % 512;
+    const float metres = static_cast<float>(steps / 10) + 41.237f;
+    std::memcpy(heights.data.data() + 4 * i, &metres, 4);
+  }
+  return heights;
+}
+
+TEST(FewValues, AreExactInTwiceTheirBytes) {
+  const Raster heights = tenths(150, 140);
+  const Bytes stream = encode(&heights, nullptr, lossless());
+  ASSERT_GT(readHeader(stream)->header.layers.table_bytes, 0u);
+  for (const size_t times : {2, 3, 10}) {
+    const Bytes budgeted = encode(&heights, nullptr, budget(times * stream.size() + 32));
+    EXPECT_LE(budgeted.size(), stream.size() + 16) << times;
+    EXPECT_TRUE(Stream(budgeted).heights() == heights.data) << times;
+  }
+}
+
 /// Squared error of a prefix.
 double squaresOf(const Raster& truth, Prefix prefix) {
   const std::vector<std::byte> shown = Stream(prefix).heights();
