@@ -111,7 +111,7 @@ std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates
 
 /// Heights of few values to the last bit, in less than the budget. Lossy heights know nothing of
 /// drawings or tables of values, and may never come as near; so prefixes may be somewhat worse. A
-/// table has to save half of the bytes for that; a drawing has saved enough by what it is.
+/// table has to save half of the budget for that; a drawing has saved enough by what it is.
 std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
                                           const HeightsCandidate& lossy) {
   constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
@@ -127,7 +127,7 @@ std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
   if (!exact.coded) return {};
   const bool drawn = exact.coded->header.drawn;
   if (!drawn && exact.coded->layers.table_bytes == 0) return {};
-  if (exact.bytes() * (drawn ? 1 : 2) > room) return {};
+  if (drawn ? exact.bytes() > room : 2 * exact.bytes() > inputs.options.bytes) return {};
   exact.curve = curveOfHeights(inputs, *exact.coded);
   return exact;
 }

@@ -28,8 +28,8 @@ constexpr auto kM = static_cast<uint8_t>(FilterId::kSixTap);
 constexpr auto kO = static_cast<uint8_t>(FilterId::kOrthogonal);
 constexpr auto kQ = static_cast<uint8_t>(FilterId::kQuiet);
 constexpr auto kL = static_cast<uint8_t>(FilterId::kLong);
-constexpr std::array<Filters, 4> kLossyChoices = {
-    {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}}};
+constexpr std::array<Filters, 5> kLossyChoices = {
+    {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}, {kS, kS, kS}}};
 
 /// Filters for the last bit, and by how much the estimate of their bits counts more because of what
 /// prefixes are worth (docs/EXPERIMENTS.md, "Cuts of lossless streams"). The estimate makes
@@ -110,10 +110,14 @@ double bitsOf(const std::vector<float>& details, float step) {
 
 /// The estimate counts bits, not what their errors add up to, which is more where a filter is
 /// further from orthogonal: beside decoded results it favours kLong by about 1 % with each choice
-/// of it.
+/// of it, and kShort by more, the coarser the step is: that suits walls between flat ground and flat
+/// roofs, which alone take clearly fewer bits.
 double penaltyOf(const Filters& filters) {
-  constexpr double kPerChoice = 0.01;
-  return 1 + kPerChoice * static_cast<double>(std::count(filters.begin(), filters.end(), kL));
+  constexpr double kPerLong = 0.01, kPerShort = 0.035;
+  const auto choices = [&](uint8_t id) {
+    return static_cast<double>(std::count(filters.begin(), filters.end(), id));
+  };
+  return 1 + kPerLong * choices(kL) + kPerShort * choices(kS);
 }
 
 /// A choice, and about how many bits the details of the parts take.

@@ -66,6 +66,31 @@ TEST(FewValues, NoTargetTakesMoreBytesThanTheLastBit) {
   }
 }
 
+/// Rough tenths of a metre above another datum, as floats, of which lossy coding makes less than
+/// twice the bytes of exact ones.
+Raster tenths(uint32_t width, uint32_t height) {
+  const Raster whole = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
+  Raster heights = make({Pattern::kFlat, width, height, 1, TKS_F32});
+  for (size_t i = 0; i < size_t{width} * height; ++i) {
+    const double steps = std::round(sampleAt(whole.data, TKS_I16, i) / 16) +
+                         samples::hash(static_cast<uint32_t>(i), 5, 2) % 512;
+    const float metres = static_cast<float>(steps / 10) + 41.237f;
+    std::memcpy(heights.data.data() + 4 * i, &metres, 4);
+  }
+  return heights;
+}
+
+TEST(FewValues, AreExactInTwiceTheirBytes) {
+  const Raster heights = tenths(150, 140);
+  const Bytes stream = encode(&heights, nullptr, lossless());
+  ASSERT_GT(readHeader(stream)->header.layers.table_bytes, 0u);
+  for (const size_t times : {2, 3, 10}) {
+    const Bytes budgeted = encode(&heights, nullptr, budget(times * stream.size() + 32));
+    EXPECT_LE(budgeted.size(), stream.size() + 16) << times;
+    EXPECT_TRUE(Stream(budgeted).heights() == heights.data) << times;
+  }
+}
+
 /// Squared error of a prefix.
 double squaresOf(const Raster& truth, Prefix prefix) {
   const std::vector<std::byte> shown = Stream(prefix).heights();
@@ -104,6 +129,36 @@ TEST(FewValues, PrefixesAreGoodBeforeTheTable) {
           << part;
     }
   }
+}
+
+/// Terrain with holes of -9999 that nobody declared.
+Raster undeclaredHoles(uint32_t width, uint32_t height) {
+  Raster heights = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
+  for (size_t i = 0; i < size_t{width} * height; ++i) {
+    const double value = sampleAt(heights.data, TKS_I16, i);
+    const auto shown = static_cast<int16_t>(value < -4000 ? -9999 : std::lround(value / 40));
+    std::memcpy(heights.data.data() + 2 * i, &shown, 2);
+  }
+  return heights;
+}
+
+/// The table has -9999 beside the lowest ground, but for values that no sample has: a prefix that
+/// misses places by a few is not to show ground as holes.
+TEST(FewValues, PrefixesKeepGroundApartFromHoles) {
+  const Raster heights = undeclaredHoles(150, 140);
+  const Bytes stream = encode(&heights, nullptr, lossless());
+  ASSERT_GT(readHeader(stream)->header.layers.table_bytes, 0u);
+  EXPECT_TRUE(Stream(stream).heights() == heights.data);
+  const std::vector<std::byte> half = Stream(Prefix(stream).first(stream.size() / 2)).heights();
+  int holes = 0;
+  for (size_t i = 0; i < size_t{150} * 140; ++i) {
+    const double truth = sampleAt(heights.data, TKS_I16, i);
+    holes += truth == -9999;
+    if (truth > -9999) {
+      ASSERT_NEAR(sampleAt(half, TKS_I16, i), truth, 300) << i;
+    }
+  }
+  EXPECT_GT(holes, 1000);
 }
 
 TEST(FewValues, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {

@@ -43,6 +43,16 @@ Plane drawn() {
   });
 }
 
+/// Flat roofs on gentle, noisy ground.
+Plane town() {
+  Random random(7);
+  return planeOf(kSize, [&](uint32_t x, uint32_t y) {
+    const uint32_t lot = (x / 25) * 31 + (y / 23) * 17;
+    const bool roof = x % 25 < 9 + lot % 11 && y % 23 < 8 + lot % 13;
+    return (roof ? 3000 + 400 * (lot % 9) : 1000 + x + y / 2) + random() % 5;
+  });
+}
+
 std::array<uint8_t, 3> all(FilterId id) {
   const auto i = static_cast<uint8_t>(id);
   return {i, i, i};
@@ -56,6 +66,7 @@ TEST(FilterChoice, SuitsThePlane) {
   EXPECT_EQ(choose(oversampled(), Purpose::kLossless), all(FilterId::kLong));
   EXPECT_EQ(choose(oversampled(), Purpose::kLossy)[0], static_cast<uint8_t>(FilterId::kLong));
   EXPECT_NE(choose(drawn(), Purpose::kLossy), all(FilterId::kLong));
+  EXPECT_EQ(choose(town(), Purpose::kLossy), all(FilterId::kShort));
 }
 
 /// Coarse levels of images have the nearly orthogonal filter of little noise, level 2 only where

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "base/samples.hpp"
+#include "codec/geometry/quantiser/value_gaps.hpp"
+#include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
 #include "wavelet/filter_choice.hpp"
@@ -98,6 +100,7 @@ struct Exceptions {
   }
 };
 
+/// bits: the geometric mean of its own and of what its prefixes make of them.
 struct Candidate {
   HeightSteps steps;
   double bits = std::numeric_limits<double>::infinity();
@@ -186,22 +189,60 @@ class TableChoice {
     Candidate out;
     std::vector<uint32_t>& words = out.steps.table.words;
     std::vector<int32_t> place(values_.size());
+    std::vector<uint32_t> samples;  // that have each of them
     Exceptions exceptions;
     for (const uint32_t number : sorted_) {
       const Value& value = values_[number];
       if (value.samples >= least || words.empty()) {
         words.push_back(value.word);
+        samples.push_back(value.samples);
       } else {
         exceptions.add(value.word - words.back(), value.samples);
       }
       place[number] = static_cast<int32_t>(words.size()) - 1;
     }
     if (words.size() < 2) return {};
+    const ValueGaps gaps(samplesOf(words));
+    addBridges(gaps, words, place);
     describe(place, out.steps);
     out.steps.exact = exceptions.count == 0;
     const double table_bits = 8.0 * static_cast<double>(encodeValueTable(out.steps.table).size());
-    out.bits = bitsOf(out.steps) + table_bits + exceptions.bits(samples_);
+    const double bits = bitsOf(out.steps) + table_bits + exceptions.bits(samples_);
+    const double uneven = gaps.unevenness(samples) * static_cast<double>(samples_);
+    out.bits = std::sqrt(bits * (bits + uneven));
     return out;
+  }
+
+  std::vector<double> samplesOf(const std::vector<uint32_t>& words) const {
+    std::vector<double> samples;
+    withSampleType(heights_.sample, [&](auto type) {
+      for (const uint32_t word : words)
+        samples.push_back(static_cast<double>(fromOrder<decltype(type)>(word)));
+    });
+    return samples;
+  }
+
+  /// place: of each value, which moves behind the bridges before it.
+  void addBridges(const ValueGaps& gaps, std::vector<uint32_t>& words,
+                  std::vector<int32_t>& place) const {
+    std::vector<uint32_t> bridged;
+    std::vector<int32_t> moved;
+    withSampleType(heights_.sample, [&](auto type) {
+      using T = decltype(type);
+      for (size_t i = 0; i < words.size(); ++i) {
+        const T next = fromOrder<T>(words[i]);
+        for (const double value : gaps.bridge(i)) {
+          const T between = restore<T>(value, 0, 0);
+          if (between > fromOrder<T>(bridged.back()) && between < next)
+            bridged.push_back(orderOf(between));
+        }
+        moved.push_back(static_cast<int32_t>(bridged.size()));
+        bridged.push_back(words[i]);
+      }
+    });
+    if (bridged.size() > GeometryLayers::kMostValues) return;
+    words = std::move(bridged);
+    for (int32_t& p : place) p = moved[static_cast<size_t>(p)];
   }
 
   /// Steps that count from the middle of the table, and the line that comes nearest to its values.

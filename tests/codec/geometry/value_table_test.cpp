@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "codec/geometry/quantiser/value_gaps.hpp"
 #include "codec/geometry/values/value_table_decoder.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
 #include "conformance/samples/terrain_samples.hpp"
@@ -44,6 +45,27 @@ TEST(ValueTable, RegularGapsTakeLittle) {
   ValueTable feet{{1000}};
   for (uint32_t i = 1; i < 10000; ++i) feet.words.push_back(feet.words.back() + 3 + (i % 7 < 2));
   EXPECT_LT(encodeValueTable(feet).size(), 1000u);
+}
+
+TEST(ValueGaps, OnlyWideOnesHaveBridges) {
+  const ValueGaps gaps({-9999, 1, 2, 3, 7, 8, 9, 500, 501, 502});
+  for (size_t i = 0; i <= 10; ++i) EXPECT_EQ(gaps.bridge(i).empty(), i != 1 && i != 7) << i;
+  const std::vector<double> below = gaps.bridge(1), between = gaps.bridge(7);
+  EXPECT_TRUE(std::is_sorted(below.begin(), below.end()));
+  EXPECT_EQ(below.back(), 0);  // as far from the ground as its next value
+  EXPECT_GT(below.front(), -9999);
+  EXPECT_LT(below.front(), -4000);
+  EXPECT_TRUE(std::is_sorted(between.begin(), between.end()));
+  EXPECT_EQ(between.front(), 10);
+  EXPECT_EQ(between.back(), 499);
+  EXPECT_TRUE(ValueGaps({0, 10000}).bridge(1).empty());
+}
+
+TEST(ValueGaps, EvenOnesCostPrefixesNothing) {
+  const std::vector<uint32_t> samples(5, 10);
+  EXPECT_NEAR(ValueGaps({0, 3, 6, 9, 12}).unevenness(samples), 0, 1e-9);
+  EXPECT_NEAR(ValueGaps({-9999, 3, 6, 9, 12}).unevenness(samples), 0, 1e-9);
+  EXPECT_GT(ValueGaps({0, 1, 2, 12, 22}).unevenness(samples), 0.5);
 }
 
 }  // namespace

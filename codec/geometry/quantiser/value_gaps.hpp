@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the gaps between the values of a table do to prefixes, which miss the place of a value by a
+// few: errors are as large as the gaps there. Encoder only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tetrakis::inline quantiser {
+
+class ValueGaps {
+ public:
+  /// values: of a table, smallest first.
+  explicit ValueGaps(std::vector<double> values);
+
+  /// Values that no sample has, smallest first, to stand between values i - 1 and i where these are
+  /// far apart. Without them a prefix would take the lowest ground for what marks holes in it.
+  std::vector<double> bridge(size_t i) const;
+
+  /// By how many bits a sample prefixes are longer than those of even gaps that take as many bits.
+  /// samples: how many have each value. What lies behind a bridge by itself does not count.
+  double unevenness(const std::vector<uint32_t>& samples) const;
+
+ private:
+  /// Between values i - 1 and i; 0 at the ends.
+  double gap(size_t i) const;
+  bool isWide(size_t i) const;
+  /// The mean of the squared gaps around a value that are not wide; 0: there is none.
+  double squaredGap(size_t i) const;
+
+  std::vector<double> values_;
+  double usual_ = 0;  ///< the median gap
+};
+
+}  // namespace tetrakis::inline quantiser
