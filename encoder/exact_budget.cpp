@@ -182,12 +182,12 @@ std::vector<double> errorsWithin(const EncodeInputs& inputs, Selection selection
   return errorsOfPrefixes(inputs, selection, lengths);
 }
 
-/// Better with all bytes, by more than what is lost with fewer of them: the mean gain is positive.
+/// Better with all bytes, by more decibels than prefixes lose in all, up to what can be seen.
 bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
-  constexpr double kNone = 1e-6;  // squared parts of 255
+  constexpr double kUnseen = 65025e-6;  // 60 dB
   double logarithms = 0;
   for (size_t i = 0; i < lossy.size(); ++i)
-    logarithms += std::log(std::max(tried[i], kNone) / std::max(lossy[i], kNone));
+    logarithms += std::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));
   return tried.back() < lossy.back() && logarithms < 0;
 }
 
