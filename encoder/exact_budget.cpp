@@ -174,8 +174,7 @@ std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const Height
 
 /// What the picture lacks with rising parts of the budget, the last of which is all of it; nothing
 /// if nobody can look at the terrain.
-std::vector<double> errorsWithin(const EncodeInputs& inputs, const Candidates& candidates) {
-  Selection selection = orderPackets(candidates);
+std::vector<double> errorsWithin(const EncodeInputs& inputs, Selection selection) {
   selection.packets = joinNeighbours(selection.packets);
   std::vector<uint64_t> lengths;
   for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 3. / 4, 1.})
@@ -183,12 +182,21 @@ std::vector<double> errorsWithin(const EncodeInputs& inputs, const Candidates& c
   return errorsOfPrefixes(inputs, selection, lengths);
 }
 
-/// Better with all bytes, and hardly worse in the mean with fewer.
+/// Better with all bytes, by more decibels than prefixes lose in all, up to what can be seen.
 bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
-  constexpr double kHardly = 0.1;  // dB
-  double decibels = 0;
-  for (size_t i = 0; i + 1 < lossy.size(); ++i) decibels += 10 * std::log10(tried[i] / lossy[i]);
-  return tried.back() < lossy.back() && decibels <= kHardly * static_cast<double>(lossy.size() - 1);
+  constexpr double kUnseen = 65025e-6;  // 60 dB
+  double logarithms = 0;
+  for (size_t i = 0; i < lossy.size(); ++i)
+    logarithms += std::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));
+  return tried.back() < lossy.back() && logarithms < 0;
+}
+
+/// The packets in an order in which the heights end within the budget.
+Selection endWithin(const EncodeInputs& inputs, Selection selection) {
+  const uint64_t header = headerBytesOf(inputs, selection);
+  const uint64_t room = inputs.options.bytes - std::min(inputs.options.bytes, header);
+  selection.packets = endWithin(selection.packets, Component::kGeometry, room);
+  return selection;
 }
 
 /// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones.
@@ -200,7 +208,7 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
   const size_t of_many = ways.size();
   if (few) ways.push_back(*std::move(few));
   if (ways.empty()) return {};
-  const std::vector<double> of_lossy = errorsWithin(inputs, lossy);
+  const std::vector<double> of_lossy = errorsWithin(inputs, orderPackets(lossy));
   if (of_lossy.empty()) return {};
   double least = of_lossy.back();
   std::optional<Selection> best;
@@ -211,10 +219,11 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
       exact.errors = nullptr;  // pictures of a drawing are not those of coefficients
       exact = withCurves(inputs, std::move(exact));
     }
-    const std::vector<double> errors = errorsWithin(inputs, exact);
+    Selection selection = endWithin(inputs, orderPackets(exact));
+    const std::vector<double> errors = errorsWithin(inputs, selection);
     if (errors.back() >= least || (i < of_many && !pays(errors, of_lossy))) continue;
     least = errors.back();
-    best = orderPackets(exact);
+    best = std::move(selection);
   }
   return best;
 }

@@ -16,20 +16,17 @@
 #include "encoder/height_errors.hpp"
 #include "encoder/view_inputs.hpp"
 #include "ground/camera.hpp"
+#include "ratecontrol/outlines.hpp"
 #include "ratecontrol/screen_points.hpp"
 
 namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Points of pictures that show meshes: their outlines are no finer than those of coarser prefixes,
-/// which could otherwise stand for them (errorsOfOutlines()).
-constexpr size_t kMeshPoints = 8 * kViewPoints;
-/// Of prefixes of streams with other maps of priorities: the error of all heights does not say how
-/// far their outlines are off, so that they stand for themselves as well.
-constexpr size_t kPrefixPoints = 8 * kViewPoints;
-/// Points at outlines, over all cameras: they make the error of these right to an eighth.
-constexpr size_t kEnoughAtOutlines = 64;
+/// Points of pictures of prefixes of streams with other maps of priorities.
+constexpr size_t kPrefixPoints = 4 * kViewPoints;
+/// Columns in which outlines are followed, over all cameras.
+constexpr size_t kOutlineColumns = 256;
 
 /// Those of the options, or for any viewer; none if the terrain has no bounds.
 std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& ground) {
@@ -65,24 +62,12 @@ std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t
 /// The pairs that are looked at: points of either curve.
 struct Nodes {
   std::vector<RatePoint> heights, textures;
-  std::vector<double> square_metres;  ///< errors of the heights
 };
 
 std::vector<double> squaresAt(const std::vector<RatePoint>& nodes) {
   std::vector<double> squares;
   for (const RatePoint& node : nodes) squares.push_back(node.distortion);
   return squares;
-}
-
-/// Mean squared difference of two reliefs of all samples.
-double squaresBetween(const Relief& a, const Relief& b) {
-  assert(a.heights.size() == b.heights.size());
-  double squares = 0;
-  for (size_t i = 0; i < a.heights.size(); ++i) {
-    const double difference = double{a.heights[i]} - double{b.heights[i]};
-    squares += difference * difference;
-  }
-  return squares / static_cast<double>(a.heights.size());
 }
 
 /// What surfaces look like with one texture.
@@ -99,35 +84,25 @@ SeenColours coloursOf(const ScreenPoints& points, const std::vector<std::vector<
 /// Prefixes of the heights as viewers see them, and at last all heights.
 struct Surfaces {
   std::vector<std::vector<SeenPoint>> seen;
-  std::vector<double> square_metres;  ///< their errors
+  std::vector<double> outlines;  ///< their errors
 };
 
-Surfaces surfacesOf(const ScreenPoints& points, const GroundRays& ground, DecodedNodes& decoded,
-                    const Nodes& nodes, Extent texels) {
+/// truth: the ground of all heights, of which viewers may see a mesh.
+Surfaces surfacesOf(const ScreenPoints& points, const Outlines& outlines, const GroundRays& truth,
+                    DecodedNodes& decoded, const Nodes& nodes, Extent texels) {
   Surfaces surfaces;
-  std::optional<Relief> mesh = decoded.meshOfAll();
-  const Relief original = mesh ? decoded.original() : Relief();
-  const auto add = [&](Relief relief, double squares) {
-    surfaces.square_metres.push_back(mesh ? squaresBetween(relief, original) : squares);
-    surfaces.seen.push_back(points.seenOf(GroundRays(std::move(relief)), texels));
-  };
-  for (size_t g = 0; g < nodes.heights.size(); ++g)
-    add(decoded.shownAt(nodes.heights[g].bytes), nodes.square_metres[g]);
-  if (mesh) {
-    add(std::move(*mesh), 0);
-  } else {
+  const auto add = [&](const GroundRays& ground) {
+    surfaces.outlines.push_back(outlines.errorOf(ground));
     surfaces.seen.push_back(points.seenOf(ground, texels));
-    surfaces.square_metres.push_back(0);
+  };
+  for (const RatePoint& node : nodes.heights) add(GroundRays(decoded.shownAt(node.bytes)));
+  if (std::optional<Relief> mesh = decoded.meshOfAll()) {
+    add(GroundRays(*std::move(mesh)));
+  } else {
+    surfaces.seen.push_back(points.seenOf(truth, texels));
+    surfaces.outlines.push_back(0);
   }
   return surfaces;
-}
-
-std::vector<double> outlineErrors(const ScreenPoints& points, const ScreenPoints::Pictures& truth,
-                                  const Surfaces& surfaces, const SeenColours& colours) {
-  std::vector<ScreenPoints::Pictures> pictures;
-  for (size_t g = 0; g < colours.size(); ++g) pictures.push_back({surfaces.seen[g], colours[g]});
-  const size_t enough = surfaces.square_metres.back() > 0 ? 0 : kEnoughAtOutlines;
-  return points.errorsOfOutlines(truth, pictures, surfaces.square_metres, enough);
 }
 
 /// What a texture adds to the error of a picture changes little from one surface to the next. So
@@ -156,18 +131,18 @@ void fillBetween(const std::vector<double>& whole, std::vector<double>& errors) 
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
                                    DecodedNodes& decoded, const Nodes& nodes,
                                    const Texels& texels) {
-  const ScreenPoints points(cameras, decoded.showsMeshes() ? kMeshPoints : kViewPoints);
+  const ScreenPoints points(cameras, kViewPoints);
   const Extent extent = texels.extent();
-  const Surfaces surfaces = surfacesOf(points, ground, decoded, nodes, extent);
-  const std::vector<std::vector<SeenPoint>>& seen = surfaces.seen;
   const ScreenTexture original(texels, extent);
+  const Outlines outlines(cameras, kOutlineColumns, ground, original, extent);
+  const Surfaces surfaces = surfacesOf(points, outlines, ground, decoded, nodes, extent);
+  const std::vector<std::vector<SeenPoint>>& seen = surfaces.seen;
   const SeenColours whole = coloursOf(points, seen, original);
   const bool of_mesh = decoded.showsMeshes();
   const std::vector<SeenPoint> in_truth = of_mesh ? points.seenOf(ground, extent) : seen.back();
   const std::vector<Colour> true_colours =
       of_mesh ? points.coloursOf(in_truth, original) : whole.back();
   const ScreenPoints::Pictures truth{in_truth, true_colours};
-  const std::vector<double> outlines = outlineErrors(points, truth, surfaces, whole);
   std::vector<double> inside;
   for (size_t g = 0; g < seen.size(); ++g)
     inside.push_back(points.errorInside(truth, {seen[g], whole[g]}));
@@ -184,7 +159,9 @@ std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const Gro
       }
       fillBetween(inside, column);
     }
-    for (size_t g = 0; g < seen.size(); ++g) errors[g * columns + t] = column[g] + outlines[g];
+    for (size_t g = 0; g < seen.size(); ++g) {
+      errors[g * columns + t] = column[g] + surfaces.outlines[g];
+    }
   }
   return errors;
 }
@@ -223,10 +200,6 @@ std::vector<double> renderedErrors(const EncodeInputs& inputs, DecodedNodes& dec
     }
   }
   return errors;
-}
-
-double metresOfStep(const CodedHeights& coded) {
-  return coded.of->steps.step * coded.of->samples->scale * metresIn(coded.of->samples->unit);
 }
 
 /// A component's part of some prefixes of a stream, as points of a curve: one for each. With
@@ -277,11 +250,8 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   DecodedNodes decoded(inputs, heights, texture);
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
-  const double metres = metresOfStep(heights.coded);
-  Nodes nodes = {nodesOf(heights, ratio, budget), nodesOf(texture, ratio, budget), {}};
+  const Nodes nodes = {nodesOf(heights, ratio, budget), nodesOf(texture, ratio, budget)};
   PairNodes squares = {squaresAt(nodes.heights), squaresAt(nodes.textures)};
-  for (const double square : squares.heights)
-    nodes.square_metres.push_back(square * metres * metres);
   const bool exact = squares.heights.front() <= 0 || squares.textures.front() <= 0;
   if (exact) return unseen(heights.curve, texture.curve);
   std::vector<double> errors;
@@ -306,22 +276,19 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
   const std::vector<Camera> cameras = camerasOf(inputs, ground);
   if (cameras.empty()) return {};
   const Texels& texels = texture.of->texels;
+  const ScreenTexture original(texels, texels.extent());
   const ScreenPoints points(cameras, kPrefixPoints);
+  const Outlines outlines(cameras, kOutlineColumns, ground, original, texels.extent());
   const std::vector<SeenPoint> in_truth = points.seenOf(ground, texels.extent());
-  const std::vector<Colour> true_colours =
-      points.coloursOf(in_truth, ScreenTexture(texels, texels.extent()));
+  const std::vector<Colour> true_colours = points.coloursOf(in_truth, original);
   const ScreenPoints::Pictures truth{in_truth, true_colours};
   std::vector<double> errors;
   for (size_t i = 0; i < lengths.size(); ++i) {
-    const std::vector<SeenPoint> seen =
-        points.seenOf(GroundRays(decoded.shownAt(of_heights.points[i].bytes)), texels.extent());
+    const GroundRays shown(decoded.shownAt(of_heights.points[i].bytes));
+    const std::vector<SeenPoint> seen = points.seenOf(shown, texels.extent());
     const std::vector<Colour> colours =
         points.coloursOf(seen, decoded.textureAt(of_texture.points[i].bytes));
-    const ScreenPoints::Pictures shown{seen, colours};
-    const double square_metres =
-        of_heights.points[i].distortion * std::pow(metresOfStep(heights), 2);
-    errors.push_back(points.errorInside(truth, shown) +
-                     points.errorsOfOutlines(truth, {shown}, {square_metres}, 0).front());
+    errors.push_back(points.errorInside(truth, {seen, colours}) + outlines.errorOf(shown));
   }
   return errors;
 }

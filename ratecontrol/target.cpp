@@ -87,6 +87,26 @@ std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t b
   return {packets.begin(), packets.begin() + static_cast<ptrdiff_t>(kept)};
 }
 
+std::vector<Packet> endWithin(std::span<const Packet> packets, Component component,
+                              uint64_t budget) {
+  uint64_t whole = 0;  // bytes of the component
+  for (const Packet& packet : packets)
+    if (packet.component == component) whole += sizeOf(packet);
+  std::vector<Packet> order, behind;
+  uint64_t room = budget - std::min(budget, whole);  // for the other component
+  for (const Packet& packet : packets) {
+    const bool others = packet.component != component;
+    if (others && behind.empty() && sizeOf(packet) <= room) {
+      room -= sizeOf(packet);
+      order.push_back(packet);
+    } else {
+      (others ? behind : order).push_back(packet);
+    }
+  }
+  order.insert(order.end(), behind.begin(), behind.end());
+  return order;
+}
+
 uint64_t payloadOf(std::span<const Packet> packets) {
   uint64_t total = 0;
   for (const Packet& packet : packets) total += packet.end - packet.begin;

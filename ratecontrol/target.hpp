@@ -36,6 +36,11 @@ std::vector<Packet> keepNeeded(
 /// Those that begin within a budget of bytes, their heads counted.
 std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
 
+/// The same packets, those of the other component that would push the last one of this component
+/// out of a budget of bytes behind it.
+std::vector<Packet> endWithin(std::span<const Packet> packets, Component component,
+                              uint64_t budget);
+
 /// Bytes of the codewords that all packets hold.
 uint64_t payloadOf(std::span<const Packet> packets);
 

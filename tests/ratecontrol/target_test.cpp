@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include "ratecontrol/component_curve.hpp"
@@ -101,6 +102,38 @@ TEST(SentWith, EndsWithThePacketThatCompletesTheBytes) {
   EXPECT_EQ(sentWith(packets, g, 20), (Needs{20, 10}));
   EXPECT_EQ(sentWith(packets, g, 21), (Needs{30, 40}));
   EXPECT_EQ(sentWith(packets, g, 31), (Needs{30, 45}));
+}
+
+/// Both components stay in their order, all of one is within the budget where that can be, and as
+/// much of the other one stands before its end as was there and fits.
+TEST(EndWithin, PutsOneComponentBeforeWhatPushesItOut) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 300; ++round) {
+    const std::vector<Packet> packets = randomPackets(random, true);
+    const uint64_t budget = 1 + random() % (bytesOfPackets(packets) + 100);
+    const Component component = round % 2 ? Component::kGeometry : Component::kTexture;
+    const auto of_component = [&](const Packet& packet) { return packet.component == component; };
+    const std::vector<Packet> ordered = endWithin(packets, component, budget);
+    ASSERT_EQ(ordered.size(), packets.size());
+    std::vector<Packet> mine, others;
+    std::partition_copy(packets.begin(), packets.end(), std::back_inserter(mine),
+                        std::back_inserter(others), of_component);
+    std::vector<Packet> mine_ordered, others_ordered;
+    std::partition_copy(ordered.begin(), ordered.end(), std::back_inserter(mine_ordered),
+                        std::back_inserter(others_ordered), of_component);
+    const auto same = [](const Packet& a, const Packet& b) {
+      return a.begin == b.begin && a.end == b.end && a.track == b.track;
+    };
+    EXPECT_TRUE(std::equal(mine.begin(), mine.end(), mine_ordered.begin(), same));
+    EXPECT_TRUE(std::equal(others.begin(), others.end(), others_ordered.begin(), same));
+    if (bytesOfPackets(mine) > budget) continue;
+    const auto behind = std::find_if(ordered.rbegin(), ordered.rend(), of_component).base();
+    EXPECT_LE(bytesOfPackets({ordered.begin(), behind}), budget);
+    const auto end = std::find_if(packets.rbegin(), packets.rend(), of_component).base();
+    if (bytesOfPackets({packets.begin(), end}) <= budget) {
+      EXPECT_TRUE(std::equal(packets.begin(), packets.end(), ordered.begin(), same));
+    }
+  }
 }
 
 TEST(Budgets, KeepWhatBeginsWithinThemAndStateWhatEndsWithinThem) {
