@@ -21,7 +21,7 @@ GroundFrame frameOf(const tks_heights& heights);
 Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid);
 
 /// Points of all pictures together. Twice as many change the mean loss by less than 0.01 dB.
-inline constexpr size_t kViewPoints = 4096;
+inline constexpr size_t kViewPoints = 3072;
 
 std::vector<Camera> givenCameras(const tks_encode_options& options);
 
