@@ -48,6 +48,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
                         .shared = inputs.image != nullptr,
                         .order = trackOrderOf(inputs.options)};
   HeightsMemory memory;
+  memory.tracks.forgets = heights.tracks.size() > 1;
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
     return squaresOf(heights, prefixAfter(heights.rated(), packets, bytes), inputs.options.threads,
                      &memory);
@@ -59,6 +60,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
   TextureMemory memory;
+  memory.tracks.forgets = texture.tracks.size() > 1;
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
     return squaresOf(texture, prefixAfter(texture.rated(), packets, bytes), inputs.options.threads,
                      &memory);

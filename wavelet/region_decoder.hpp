@@ -24,6 +24,9 @@ namespace tetrakis::inline wavelet {
 struct TrackMemory {
   std::vector<std::optional<GrowingTrack>> tracks;
   bool all_levels = false;  ///< for calls with views of several levels
+  /// No track is left to the next call: states of all tracks together take twice the memory of a
+  /// plane, and those of one track at a time nearly none.
+  bool forgets = false;
   /// For calls with the whole codeword of the only track: the passes that begin within so many
   /// bytes of it count. Encoders look at prefixes so.
   std::optional<uint64_t> passes_within = {};

@@ -138,8 +138,8 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   return out;
 }
 
-std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded) {
-  std::vector<int32_t> steps = decoded.heights;
+std::vector<int32_t> wholeSteps(DecodedGeometry decoded) {
+  std::vector<int32_t> steps = std::move(decoded.heights);
   for (int32_t& q : steps) q = wholeStep(q, decoded.fraction_bits);
   return steps;
 }

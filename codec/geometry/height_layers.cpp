@@ -202,7 +202,7 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
     correctSteps(geometry, layers, taken.corrections);
     return decoded;
   }
-  const std::vector<uint8_t> hints = sampleHints(wholeSteps(geometry), header);
+  const std::vector<uint8_t> hints = sampleHints(geometry.heights, geometry.fraction_bits, header);
   addCorrections(
       decodeCorrections(taken.corrections, {hints, geometry.extent(), geometry.valid}).values,
       decoded.corrections);

@@ -2,6 +2,7 @@
 #include "codec/geometry/height_steps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -33,6 +34,43 @@ void restoreAll(std::span<const int32_t> heights, int fraction_bits, const Scale
   }
   for (size_t i = 0; i < heights.size(); ++i)
     samples[i] = restore<T>(scale.base, scale.step, wholeStep(heights[i], fraction_bits));
+}
+
+/// Some samples, corrections included.
+template <class T>
+void restoreCorrected(const DecodedHeights& decoded, size_t first, const Scale& scale,
+                      std::span<T> samples) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  restoreAll(std::span(geometry.heights).subspan(first, samples.size()), geometry.fraction_bits,
+             scale, samples.data());
+  if (decoded.corrections.empty()) return;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const auto correction = static_cast<uint32_t>(decoded.corrections[first + i]);
+    samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
+  }
+}
+
+/// Of samples that are restored a few at a time, so that nobody needs room for all of them.
+/// restoreSome(first, samples): writes those from `first` on.
+template <class T, class RestoreSome>
+StepErrors errorsOf(const tks_heights& heights, Mask valid, const SquareSum& sum,
+                    const RestoreSome& restoreSome) {
+  const auto* truth = static_cast<const T*>(heights.data);
+  const size_t count = size_t{heights.width} * heights.height;
+  std::array<T, 4096> restored;
+  StepErrors errors;
+  for (size_t first = 0; first < count; first += restored.size()) {
+    const size_t some = std::min(restored.size(), count - first);
+    restoreSome(first, std::span(restored).first(some));
+    for (size_t i = 0; i < some; ++i) {
+      if (!valid[first + i]) continue;
+      const double error =
+          std::abs(static_cast<double>(restored[i]) - static_cast<double>(truth[first + i]));
+      errors.largest = std::max(errors.largest, error);
+      errors.squares += sum.of(first + i, error);
+    }
+  }
+  return errors;
 }
 
 template <class T>
@@ -82,13 +120,9 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
   const DecodedGeometry& geometry = decoded.geometry;
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
-    T* samples = static_cast<T*>(out);
-    restoreAll(geometry.heights, geometry.fraction_bits, {header.base, header.step}, samples);
-    for (size_t i = 0; i < decoded.corrections.size(); ++i) {
-      const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
-      samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
-    }
-    markVoids(geometry.valid, layers, std::span(samples, geometry.heights.size()));
+    const std::span<T> samples(static_cast<T*>(out), geometry.heights.size());
+    restoreCorrected(decoded, 0, {header.base, header.step}, samples);
+    markVoids(geometry.valid, layers, samples);
   });
 }
 
@@ -104,12 +138,15 @@ std::vector<int32_t> drawnSteps(const HeightSteps& steps, const GeometryHeader& 
   return drawn;
 }
 
-std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header) {
-  std::vector<uint8_t> hints(steps.size());
+std::vector<uint8_t> sampleHints(std::span<const int32_t> heights, int fraction_bits,
+                                 const GeometryHeader& header) {
+  std::vector<uint8_t> hints(heights.size());
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
-    for (size_t i = 0; i < steps.size(); ++i)
-      hints[i] = openBits(restore<T>(header.base, header.step, steps[i]), header.step);
+    for (size_t i = 0; i < heights.size(); ++i) {
+      const int32_t q = wholeStep(heights[i], fraction_bits);
+      hints[i] = openBits(restore<T>(header.base, header.step, q), header.step);
+    }
   });
   return hints;
 }
@@ -134,47 +171,24 @@ std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightS
 StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps, const SquareSum& sum) {
   return withSampleType(heights.sample, [&](auto type) {
     using T = decltype(type);
-    const auto* samples = static_cast<const T*>(heights.data);
-    std::vector<T> restored(steps.steps.size());
-    if (steps.table.empty()) {
-      restoreAll(steps.steps, 0, {steps.base, steps.step}, restored.data());
-    } else {
-      std::transform(steps.steps.begin(), steps.steps.end(), restored.begin(),
+    return errorsOf<T>(heights, steps.valid, sum, [&](size_t first, std::span<T> samples) {
+      const auto some = std::span(steps.steps).subspan(first, samples.size());
+      if (steps.table.empty()) return restoreAll(some, 0, {steps.base, steps.step}, samples.data());
+      std::transform(some.begin(), some.end(), samples.begin(),
                      [&](int32_t q) { return fromOrder<T>(steps.table.wordOf(q)); });
-    }
-    StepErrors errors;
-    const Mask valid = steps.valid;
-    for (size_t i = 0; i < restored.size(); ++i) {
-      if (!valid[i]) continue;
-      const double error =
-          std::abs(static_cast<double>(restored[i]) - static_cast<double>(samples[i]));
-      errors.largest = std::max(errors.largest, error);
-      errors.squares += sum.of(i, error);
-    }
-    return errors;
+    });
   });
 }
 
 double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
                         const std::vector<uint8_t>& valid, const HeightSteps& scale,
                         const SquareSum& sum) {
-  const DecodedGeometry& geometry = decoded.geometry;
   return withSampleType(truth.sample, [&](auto type) {
     using T = decltype(type);
-    const auto* samples = static_cast<const T*>(truth.data);
-    double squares = 0;
-    for (size_t i = 0; i < geometry.heights.size(); ++i) {
-      if (!valid.empty() && !valid[i]) continue;
-      const int32_t q = wholeStep(geometry.heights[i], geometry.fraction_bits);
-      T restored = restore<T>(scale.base, scale.step, q);
-      if (!decoded.corrections.empty()) {
-        const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
-        restored = fromOrder<T>(orderOf(restored) + correction);
-      }
-      const double error = static_cast<double>(restored) - static_cast<double>(samples[i]);
-      squares += sum.of(i, error);
-    }
-    return squares;
+    const auto restoreSome = [&](size_t first, std::span<T> samples) {
+      restoreCorrected(decoded, first, {scale.base, scale.step}, samples);
+    };
+    return errorsOf<T>(truth, valid, sum, restoreSome).squares;
   });
 }
 
