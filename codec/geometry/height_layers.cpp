@@ -29,19 +29,20 @@ std::span<const uint8_t> firstOf(std::span<const uint8_t> bytes, uint64_t count)
 void correctSteps(DecodedGeometry& geometry, const GeometryLayers& layers,
                   std::span<const uint8_t> codeword) {
   const std::vector<uint8_t> hints = activityHints(geometry);
-  const auto [corrections, decided] =
-      decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid});
   const int fraction_bits = geometry.fraction_bits;
   const uint32_t unit = layers.correction_step << fraction_bits;
   geometry.quiet_levels = 0;
-  for (size_t i = 0; i < decided; ++i) {
-    int32_t& height = geometry.heights[i];
-    height = static_cast<int32_t>(static_cast<uint32_t>(height) +
-                                  static_cast<uint32_t>(corrections[i]) * unit);
-    if (layers.correction_step > 1) continue;
-    const auto whole = static_cast<uint32_t>(wholeStep(height, fraction_bits));
-    height = static_cast<int32_t>(whole << fraction_bits);
-  }
+  const auto add = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      int32_t& height = geometry.heights[first + x];
+      height = static_cast<int32_t>(static_cast<uint32_t>(height) +
+                                    static_cast<uint32_t>(row[x]) * unit);
+      if (layers.correction_step > 1) continue;
+      const auto whole = static_cast<uint32_t>(wholeStep(height, fraction_bits));
+      height = static_cast<int32_t>(whole << fraction_bits);
+    }
+  };
+  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
 }
 
 /// The tracks taken apart.
@@ -116,13 +117,20 @@ void applyTable(const TakenLayers& taken, const GeometryHeader& header,
   }
 }
 
-/// Adds corrections of the samples to those that the table has made.
-void addCorrections(const std::vector<int32_t>& more, std::vector<int32_t>& corrections) {
-  corrections.resize(more.size());
-  for (size_t i = 0; i < more.size(); ++i) {
-    corrections[i] = static_cast<int32_t>(static_cast<uint32_t>(corrections[i]) +
-                                          static_cast<uint32_t>(more[i]));
-  }
+/// Adds corrections of the samples to those that the table has made, if there is one.
+void addCorrections(std::span<const uint8_t> codeword, const GeometryHeader& header,
+                    DecodedHeights& decoded) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  const std::vector<uint8_t> hints = sampleHints(geometry.heights, geometry.fraction_bits, header);
+  std::vector<int32_t>& corrections = decoded.corrections;
+  corrections.resize(geometry.heights.size());
+  const auto add = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      int32_t& sum = corrections[first + x];
+      sum = static_cast<int32_t>(static_cast<uint32_t>(sum) + static_cast<uint32_t>(row[x]));
+    }
+  };
+  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
 }
 
 /// The window of heights that were decoded from the first row on, without the marks of their
@@ -202,10 +210,7 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
     correctSteps(geometry, layers, taken.corrections);
     return decoded;
   }
-  const std::vector<uint8_t> hints = sampleHints(geometry.heights, geometry.fraction_bits, header);
-  addCorrections(
-      decodeCorrections(taken.corrections, {hints, geometry.extent(), geometry.valid}).values,
-      decoded.corrections);
+  addCorrections(taken.corrections, header, decoded);
   return decoded;
 }
 
