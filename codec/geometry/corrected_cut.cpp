@@ -21,7 +21,7 @@ DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;
   DecodedGeometry geometry =
       decodeGeometry(header_, {std::span(coefficients_.codeword).first(bytes)},
-                     {steps_.valid, flat_}, {}, {1, &memory});
+                     {steps_.valid, flat_.held()}, {}, {1, &memory});
   known_[bytes] = std::move(memory);
   return geometry;
 }

@@ -95,14 +95,9 @@ std::vector<uint8_t> validityOf(const TakenLayers& taken, const GeometryHeader& 
 
 /// Of the whole plane.
 FlatAreas flatAreasOf(const TakenLayers& taken, const GeometryHeader& header,
-                      const GeometryLayers& layers, const std::vector<uint8_t>& valid,
-                      HeightsMemory* memory) {
+                      const GeometryLayers& layers, const std::vector<uint8_t>& valid) {
   if (layers.flat_bytes == 0 || taken.flat.empty()) return {};
-  const bool whole = memory != nullptr && taken.flat.size() == layers.flat_bytes;
-  if (whole && !memory->flat.empty()) return memory->flat;
-  FlatAreas flat = decodeFlatAreas(taken.flat, header.extent(), valid, layers.flat_areas);
-  if (whole) memory->flat = flat;
-  return flat;
+  return decodeFlatAreas(taken.flat, header.extent(), valid, layers.flat_areas);
 }
 
 /// Turns steps that count the values of a table into heights.
@@ -198,10 +193,12 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
   if (header.drawn) {
     geometry = decodeDrawnHeights(header, taken.coefficients.front(), valid, view.level);
   } else {
-    FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
-    const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
-                         taken.flat.size() == layers.flat_bytes;
-    geometry = decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
+    const bool flat_known = memory != nullptr && taken.flat.size() == layers.flat_bytes;
+    const bool growing = flat_known && taken.validity.size() == layers.validity_bytes;
+    FlatAreas of_this_call;
+    FlatAreas& flat = flat_known ? memory->flat : of_this_call;
+    if (flat.empty()) flat = flatAreasOf(taken, header, layers, valid);
+    geometry = decodeGeometry(header, taken.coefficients, {std::move(valid), flat.held()}, view,
                               {context.threads, growing ? &memory->tracks : nullptr});
   }
   applyTable(taken, header, layers, decoded);
