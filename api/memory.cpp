@@ -162,9 +162,9 @@ class HeightsBytes {
     constexpr uint64_t kArea = sizeof(int32_t) * (2 * kMaxLevels + 24);
     return flat_ ? area(header_) * sizeof(uint16_t) + layers_.flat_areas * kArea : 0;
   }
-  /// Validity, the mask, the first sample of each area and their numbers.
+  /// Validity, the mask, the numbers of areas and a label for at most every other sample.
   uint64_t flatOpeningBytes() const {
-    constexpr uint64_t kSample = 1 + sizeof(uint32_t) + sizeof(uint16_t);
+    constexpr uint64_t kSample = 1 + sizeof(uint32_t) / 2 + sizeof(uint16_t);
     return flat_ ? area(header_) * (kSample + (voids_ ? 1 : 0)) : 0;
   }
   uint64_t low() const { return area(Pyramid(header_.extent()).low(view_.level).extent); }

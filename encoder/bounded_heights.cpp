@@ -205,8 +205,7 @@ bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
 /// Exact steps leave an error of their own; what is left of the bound, in whole steps, the coding
 /// may use. Where floats are then rounded beyond the bound one step less will do; none, the exact
 /// steps, is always within.
-std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
-                                                       const Quantised& of) {
+std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs, Quantised of) {
   const double wanted = inputs.options.max_error / std::abs(inputs.heights->scale);
   assert(wanted > 0);
   const CoefficientOptions options = heightOptions(inputs);

@@ -20,8 +20,8 @@
 namespace tetrakis::inline encoder {
 
 /// of: from quantiseHeights(inputs). inputs: with a max_error.
-std::shared_ptr<const CodedHeights> codeBoundedHeights(
-    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
+std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
+                                                       std::shared_ptr<const QuantisedHeights> of);
 
 /// Heights to the last bit: coefficients without fraction bits, or corrections behind a cut of
 /// lossy coefficients, where these take fewer bytes.

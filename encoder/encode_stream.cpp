@@ -27,6 +27,7 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
+using Quantised = std::shared_ptr<const QuantisedHeights>;
 using Heights = std::shared_ptr<const CodedHeights>;
 using Texture = std::shared_ptr<const CodedTexture>;
 
@@ -39,13 +40,12 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
 }
 
 /// Codes the heights within the largest error, or exactly where that takes fewer bytes.
-Heights codeWithinBound(const EncodeInputs& inputs,
-                        const std::shared_ptr<const QuantisedHeights>& of) {
+Heights codeWithinBound(const EncodeInputs& inputs, Quantised of) {
   const double error = inputs.options.max_error / std::abs(inputs.heights->scale);
   if (leavesExactSteps(*of, error)) {
     if (Heights exact = exactHeightsFor(inputs, error, UINT64_MAX)) return exact;
   }
-  Heights bounded = codeBoundedHeights(inputs, of);
+  Heights bounded = codeBoundedHeights(inputs, std::move(of));
   const uint64_t bytes = bytesOf(bounded->tracks);
   Heights exact = exactHeightsFor(inputs, error, bytes);
   return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
@@ -53,8 +53,7 @@ Heights codeWithinBound(const EncodeInputs& inputs,
 
 /// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
 /// samples are rounded, which counts where few steps are left. Where that is not enough it goes on.
-CodedHeights codeUntilReached(const EncodeInputs& inputs,
-                              const std::shared_ptr<const QuantisedHeights>& of,
+CodedHeights codeUntilReached(const EncodeInputs& inputs, const Quantised& of,
                               HeightTarget target) {
   const SampleRange range = rangeOf(*inputs.heights, of->steps.valid);
   const double wanted =
@@ -71,9 +70,8 @@ CodedHeights codeUntilReached(const EncodeInputs& inputs,
 }
 
 /// Codes the heights as the target asks for them.
-Heights codeHeightsForTarget(const EncodeInputs& inputs,
-                             const std::shared_ptr<const QuantisedHeights>& of) {
-  if (inputs.options.max_error > 0) return codeWithinBound(inputs, of);
+Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised of) {
+  if (inputs.options.max_error > 0) return codeWithinBound(inputs, std::move(of));
   if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, of);
   HeightTarget target(of->restored() ? Purpose::kLossless : purposeOf(inputs));
   // What a texture leaves of a budget is not known yet; most of it is the texture's.
@@ -97,13 +95,13 @@ struct Components {
   Texture texture;  ///< null: there is none
 };
 
-/// Codes both components, at the same time if there are threads.
-Result<Components> codeComponents(const EncodeInputs& inputs,
-                                  const std::shared_ptr<const QuantisedHeights>& heights,
+/// Codes both components, at the same time if there are threads. Nothing that is given is kept for
+/// longer than it is needed.
+Result<Components> codeComponents(const EncodeInputs& inputs, Quantised heights,
                                   const std::shared_ptr<const TextureSource>& texture) {
   Components coded;
   const auto code_heights = [&] {
-    if (heights) coded.heights = codeHeightsForTarget(inputs, heights);
+    if (heights) coded.heights = codeHeightsForTarget(inputs, std::move(heights));
   };
   const auto code_texture = [&] {
     if (texture) coded.texture = codeTextureForTarget(inputs, texture);
@@ -123,9 +121,9 @@ Result<Components> quantiseAndCode(const EncodeInputs& inputs) {
   std::shared_ptr<const TextureSource> texture;
   if (inputs.image != nullptr) texture = quantiseTexture(*inputs.image);
   if (inputs.heights == nullptr) return codeComponents(inputs, nullptr, texture);
-  const Result<std::shared_ptr<const QuantisedHeights>> heights = quantiseHeights(inputs);
+  Result<Quantised> heights = quantiseHeights(inputs);
   if (!heights.ok()) return heights.status();
-  return codeComponents(inputs, *heights, texture);
+  return codeComponents(inputs, *std::move(heights), texture);
 }
 
 Result<Selection> codeAndSelect(const EncodeInputs& inputs) {

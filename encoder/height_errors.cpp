@@ -33,7 +33,7 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
   const QuantisedHeights& truth = *heights.of;
   const bool exact_at_the_end = heights.corrects() || heights.header.direct();
   if (exact_at_the_end && isWhole(prefix, heights.tracks)) return 0;
-  const DecodedHeights decoded = decodePrefix(heights, prefix, threads, memory);
+  DecodedHeights decoded = decodePrefix(heights, prefix, threads, memory);
   const std::vector<uint8_t>& known = decoded.geometry.valid;
   std::vector<uint8_t> counted = truth.steps.valid;
   assert(known.empty() || known.size() == counted.size());
@@ -43,12 +43,12 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
     unknown += truth.validityWorth();
     counted[i] = 0;
   }
-  const double squares = truth.squaresOf(decoded, std::move(counted));
+  const int fraction_bits = decoded.geometry.fraction_bits;
+  const double squares = truth.squaresOf(std::move(decoded), counted);
   // Fractions that round to the right samples are not exact as long as there are bytes to come:
   // meshes are made of them as they are.
   const bool may_be_exact =
-      decoded.geometry.fraction_bits <= heights.header.wavelet.fraction_bits ||
-      isWhole(prefix, heights.tracks);
+      fraction_bits <= heights.header.wavelet.fraction_bits || isWhole(prefix, heights.tracks);
   const double left = may_be_exact ? heights.left : QuantisedHeights::kInexact;
   return unknown + std::max(squares, std::min(left, QuantisedHeights::kInexact));
 }

@@ -18,6 +18,14 @@ AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletH
   return {samples, inputs.budgeted() && !lossless ? inputs.options.bytes : UINT64_MAX};
 }
 
+/// Whether the states of so many samples' tracks are decoded anew for each prefix: to remember them
+/// all takes eight bytes a sample beside what encoding takes, and saves some hundredths of its
+/// time.
+bool areTooLarge(const std::vector<EncodedTrack>& tracks, size_t samples) {
+  constexpr size_t kRemembered = size_t{1} << 22;
+  return tracks.size() > 1 && samples > kRemembered;
+}
+
 /// A stream with a front index is fetched by ranges.
 TrackOrder trackOrderOf(const tks_encode_options& options) {
   if (options.index == TKS_INDEX_WINDOWS) return TrackOrder::kTracks;
@@ -48,6 +56,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
                         .shared = inputs.image != nullptr,
                         .order = trackOrderOf(inputs.options)};
   HeightsMemory memory;
+  memory.tracks.forgets = areTooLarge(heights.tracks, source.steps.steps.size());
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
     return squaresOf(heights, prefixAfter(heights.rated(), packets, bytes), inputs.options.threads,
                      &memory);
@@ -59,6 +68,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
   TextureMemory memory;
+  memory.tracks.forgets = areTooLarge(texture.tracks, texture.of->texels.samples.size());
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
     return squaresOf(texture, prefixAfter(texture.rated(), packets, bytes), inputs.options.threads,
                      &memory);

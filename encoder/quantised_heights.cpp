@@ -75,7 +75,7 @@ void addCorrections(QuantisedHeights& heights) {
   const tks_heights& samples = *heights.samples;
   heights.layers.corrections = CorrectionKind::kSamples;
   const GeometryHeader header = headerOf(heights);
-  const std::vector<uint8_t> hints = sampleHints(decodedSteps(heights.steps, header), header);
+  const std::vector<uint8_t> hints = sampleHints(decodedSteps(heights.steps, header), 0, header);
   heights.corrections = encodeCorrections(sampleCorrections(samples, heights.steps),
                                           {hints, header.extent(), heights.steps.valid});
   heights.left = std::max(heights.squaresOf(heights.steps), QuantisedHeights::kInexact);
@@ -100,21 +100,12 @@ double QuantisedHeights::squaresOf(const HeightSteps& other) const {
   return errorsOf(*samples, other, {mostOfASample() * unit}).squares / unit;
 }
 
-double QuantisedHeights::squaresOf(const DecodedHeights& decoded,
-                                   std::vector<uint8_t> valid) const {
+double QuantisedHeights::squaresOf(DecodedHeights decoded,
+                                   const std::vector<uint8_t>& valid) const {
+  if (steps.table.empty()) decoded.corrections.clear();
   const double unit = steps.step * steps.step;
-  const SquareSum sum{mostOfASample() * unit, shown_by};
-  double squares = 0;
-  if (!steps.table.empty()) {
-    squares = squaresOfSamples(*samples, decoded, valid, steps, sum);
-  } else {
-    HeightSteps shown;
-    shown.steps = wholeSteps(decoded.geometry);
-    shown.valid = std::move(valid);
-    shown.base = steps.base;
-    shown.step = steps.step;
-    squares = errorsOf(*samples, shown, sum).squares;
-  }
+  const double squares =
+      squaresOfSamples(*samples, decoded, valid, steps, {mostOfASample() * unit, shown_by});
   if (shown_by.empty()) return squares / unit;
   const double all = std::accumulate(shown_by.begin(), shown_by.end(), 0.);
   return squares / unit * (static_cast<double>(shown_by.size()) / all);

@@ -54,7 +54,7 @@ struct QuantisedHeights {
   /// Squared error, in steps, of what is decoded from a prefix, over the samples that `valid` says.
   /// Samples that are shown more often than in the mean count more. Where steps are multiples,
   /// corrections are left out: they come all at once, behind all else.
-  double squaresOf(const DecodedHeights& decoded, std::vector<uint8_t> valid) const;
+  double squaresOf(DecodedHeights decoded, const std::vector<uint8_t>& valid) const;
 };
 
 /// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with

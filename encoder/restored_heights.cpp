@@ -17,10 +17,10 @@ namespace {
 
 /// What decoders make of all bytes.
 HeightSteps decodedSteps(const CodedHeights& heights, uint32_t threads) {
-  const DecodedHeights decoded = decodeHeights(heights.header, heights.layers,
-                                               codewordsOf(heights.tracks), {}, {threads, nullptr});
+  DecodedHeights decoded = decodeHeights(heights.header, heights.layers,
+                                         codewordsOf(heights.tracks), {}, {threads, nullptr});
   HeightSteps shown;
-  shown.steps = wholeSteps(decoded.geometry);
+  shown.steps = wholeSteps(std::move(decoded.geometry));
   shown.valid = heights.of->steps.valid;
   shown.base = heights.of->steps.base;
   shown.step = heights.of->steps.step;
@@ -41,7 +41,7 @@ CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy)
   auto of = std::make_shared<QuantisedHeights>(*lossy.of);
   of->corrections = encodeCorrections(
       sampleCorrections(*of->samples, shown),
-      {sampleHints(shown.steps, lossy.header), lossy.header.extent(), shown.valid});
+      {sampleHints(shown.steps, 0, lossy.header), lossy.header.extent(), shown.valid});
   of->layers.corrections = CorrectionKind::kSamples;
   of->left = std::max(of->squaresOf(shown), QuantisedHeights::kInexact);
   CodedHeights restored = lossy;

@@ -153,8 +153,6 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
   const std::array<double, kPriorities> worth =
       worthOf(priorityMapOf(header.priorities, header.extent()));
   assert(planes.size() == header.components());
-  std::vector<TrackSource> sources(plan.regions().size());
-  for (size_t i = 0; i < sources.size(); ++i) sources[i].plan = plan.bands(plan.parts(i));
   std::vector<int32_t*> pointers;
   for (std::vector<int32_t>& plane : planes) {
     clearUnmarked(std::span(plane), coded);
@@ -162,15 +160,27 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
     pointers.push_back(plane.data());
   }
   forwardColourLevels(colour, layout.pyramid(), pointers);
+  const auto add = [&](size_t c, size_t region, TrackSource& source) {
+    for (const BandPart& part : plan.parts(region)) {
+      const int level = layout.subbands()[part.subband].level;
+      const double energy = energiesOf(planes.size(), colour, level)[c];
+      source.bands.push_back(
+          {layout.gather(planes[c], part), layout.energy(part.subband) * energy * unit, worth});
+    }
+  };
+  const size_t regions = plan.regions().size();
+  if (regions > 1 && options.toTheEnd()) {
+    const auto source_of = [&](size_t region) {
+      TrackSource source{plan.bands(plan.parts(region)), {}};
+      for (size_t c = 0; c < planes.size(); ++c) add(c, region, source);
+      return source;
+    };
+    return encodeWholeTracks(regions, source_of, options.threads);
+  }
+  std::vector<TrackSource> sources(regions);
+  for (size_t i = 0; i < regions; ++i) sources[i].plan = plan.bands(plan.parts(i));
   for (size_t c = 0; c < planes.size(); ++c) {
-    parallelFor(options.threads, sources.size(), [&](size_t i) {
-      for (const BandPart& part : plan.parts(i)) {
-        const int level = layout.subbands()[part.subband].level;
-        const double energy = energiesOf(planes.size(), colour, level)[c];
-        sources[i].bands.push_back(
-            {layout.gather(planes[c], part), layout.energy(part.subband) * energy * unit, worth});
-      }
-    });
+    parallelFor(options.threads, regions, [&](size_t i) { add(c, i, sources[i]); });
     planes[c] = std::vector<int32_t>();  // {} would keep its memory
   }
   return encodeTracks(sources, options);

@@ -60,7 +60,8 @@ Precision RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of,
                              const Take& take) const {
   assert(!codewords.empty());
   // Windows do not decode all tracks, so that only the bytes say how much is known.
-  TrackMemory* const memory = context.memory;
+  TrackMemory* const memory =
+      context.memory != nullptr && !context.memory->forgets ? context.memory : nullptr;
   const uint64_t bytes = memory != nullptr ? memory->knownBytes(codewords) : bytesOf(codewords);
   const Precision precision = precisionOf(wavelet, bit_planes, bytes, level);
   const int more_bits = precision.fraction_bits - wavelet.fraction_bits;

@@ -177,6 +177,14 @@ RatePoint nothingOf(const TrackSource& track) {
   return {0, energy, false, squares - energy};
 }
 
+/// Bit-planes of its largest coefficient. Those that do not exist are 0.
+int planesOf(const TrackSource& track) {
+  uint32_t all = 0;
+  for (const BandSource& band : track.bands)
+    for (const int32_t value : band.values) all |= magnitudeOf(value);
+  return std::bit_width(all);
+}
+
 /// Drops what is no improvement: a later point with no more bytes or no less distortion wins or
 /// loses.
 void append(std::vector<RatePoint>& points, RatePoint point) {
@@ -287,9 +295,8 @@ void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOpti
     }
     return !done && bytes <= options.limit && distortion > options.enough;
   };
-  const bool to_the_end = options.limit == UINT64_MAX && options.enough == TrackOptions::kNever;
   for (; open(); key -= kBitPlane) {
-    const int least = to_the_end ? TrackCoder::kNoKey : key;
+    const int least = options.toTheEnd() ? TrackCoder::kNoKey : key;
     parallelFor(options.threads, coders.size(),
                 [&](size_t i) { coders[i]->run(least, UINT64_MAX, TrackOptions::kNever); });
   }
@@ -330,6 +337,24 @@ std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
   }
   std::vector<EncodedTrack> tracks;
   for (auto& coder : coders) tracks.push_back(coder->finish());
+  return tracks;
+}
+
+std::vector<EncodedTrack> encodeWholeTracks(size_t count,
+                                            const std::function<TrackSource(size_t)>& source_of,
+                                            uint32_t threads) {
+  assert(count > 0);
+  std::vector<int> planes(count);
+  parallelFor(threads, count, [&](size_t i) { planes[i] = planesOf(source_of(i)); });
+  const int most = *std::max_element(planes.begin(), planes.end());
+  std::vector<EncodedTrack> tracks(count);
+  parallelFor(threads, count, [&](size_t i) {
+    const TrackSource source = source_of(i);
+    TrackCoder coder(source);
+    coder.start(most);
+    coder.run(TrackCoder::kNoKey, UINT64_MAX, TrackOptions::kNever);
+    tracks[i] = coder.finish();
+  });
   return tracks;
 }
 

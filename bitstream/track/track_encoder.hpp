@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -68,6 +69,9 @@ struct TrackOptions {
   uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
   uint32_t threads = 1;         ///< nothing depends on them
   double enough = kNever;       ///< distortion of all tracks together below which coding ends
+
+  /// Nothing ends it but the last bit.
+  bool toTheEnd() const { return limit == UINT64_MAX && enough == kNever; }
 };
 
 /// The tracks of one component, all with the bit-planes of its largest coefficient. Several tracks
@@ -75,5 +79,11 @@ struct TrackOptions {
 /// together pass the limit, or their error is small enough.
 std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
                                        const TrackOptions& options);
+
+/// The same to the end, where each track is coded by itself: only those that are being coded take
+/// memory. source_of: is asked for every track twice, by several threads at a time.
+std::vector<EncodedTrack> encodeWholeTracks(size_t count,
+                                            const std::function<TrackSource(size_t)>& source_of,
+                                            uint32_t threads);
 
 }  // namespace tetrakis::inline track

@@ -22,7 +22,7 @@ DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;
   DecodedGeometry geometry =
       decodeGeometry(header_, {std::span(coefficients_.codeword).first(bytes)},
-                     {steps_.valid, flat_}, {}, {1, &memory});
+                     {steps_.valid, flat_.held()}, {}, {1, &memory});
   known_[bytes] = std::move(memory);
   return geometry;
 }
@@ -48,13 +48,13 @@ uint64_t CorrectedCut::total(uint64_t bytes) {
 }
 
 Corrected CorrectedCut::correct(uint64_t bytes) {
-  const DecodedGeometry decoded = this->decoded(bytes);
-  const std::vector<int32_t> steps = wholeSteps(decoded);
+  DecodedGeometry decoded = this->decoded(bytes);
+  const std::vector<uint8_t> hints = activityHints(decoded);
+  std::vector<int32_t> corrections = wholeSteps(std::move(decoded));
   Corrected result;
-  std::vector<int32_t> corrections(steps.size());
   bool any = false;
   for (size_t i = 0; i < corrections.size(); ++i) {
-    const int64_t error = int64_t{steps_.steps[i]} - steps[i];
+    const int64_t error = int64_t{steps_.steps[i]} - corrections[i];
     corrections[i] = nearestMultiple(error, largest_);
     any |= corrections[i] != 0;
     const auto rest = static_cast<double>(error - int64_t{corrections[i]} * (2 * largest_ + 1));
@@ -62,7 +62,6 @@ Corrected CorrectedCut::correct(uint64_t bytes) {
     result.after += rest * rest;
   }
   if (!any) return result;
-  const std::vector<uint8_t> hints = activityHints(decoded);
   result.codeword = encodeCorrections(corrections, {hints, header_.extent(), steps_.valid});
   return result;
 }

@@ -74,13 +74,13 @@ class Significance {
 };
 
 /// Where the plane is flat, its heights are exact at all mip levels.
-void holdShown(const FlatAreas& flat, Extent plane, const View& view,
+void holdShown(const HeldSamples& flat, Extent plane, const View& view,
                std::vector<int32_t>& heights) {
-  if (flat.empty()) return;
+  if (flat.none()) return;
   const Extent extent = view.extentIn(plane);
   for (uint32_t y = 0; y < extent.height; ++y) {
     const size_t row = (view.firstRow() + size_t{y} * view.step()) * plane.width;
-    hold({flat.numbers.data() + row + view.firstColumn(), view.step()}, flat.heights,
+    hold({flat.numbers.data() + row + view.firstColumn(), view.step()}, flat.values,
          std::span(heights).subspan(size_t{y} * extent.width, extent.width));
   }
 }
@@ -101,9 +101,11 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
 DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
                                KnownSamples known, const View& view,
                                const DecodeContext<TrackMemory>& context) {
-  auto& [valid, flat] = known;
+  std::vector<uint8_t>& valid = known.valid;
+  std::vector<int32_t> area_heights(known.flat.values.begin(), known.flat.values.end());
+  const HeldSamples flat{known.flat.numbers, area_heights};
   const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.extent(), valid, flat.held(),
+  const PlaneLayout layout(spec, header.extent(), valid, flat,
                            priorityMapOf(header.priorities, header.extent()));
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
@@ -124,7 +126,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
         if (significance) significance->take(i, state, parts);
       });
   out.fraction_bits = precision.fraction_bits;
-  for (int32_t& height : flat.heights)  // of what the layout holds, as it is needed from here on
+  for (int32_t& height : area_heights)  // of what the layout holds, as it is needed from here on
     height = static_cast<int32_t>(static_cast<uint32_t>(height) << out.fraction_bits);
   out.heights = synthesis.run(context.threads, precision.rounds);
   if (significance) significance->giveTo(out);

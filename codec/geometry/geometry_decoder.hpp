@@ -18,11 +18,11 @@ namespace tetrakis::inline geometry {
 /// What is known of a plane before its coefficients.
 struct KnownSamples {
   std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
-  FlatAreas flat = {};
+  HeldSamples flat = {};       ///< of flat areas, which outlive the call
 
   KnownSamples() = default;
-  KnownSamples(std::vector<uint8_t> valid_samples, FlatAreas flat_areas = {})
-      : valid(std::move(valid_samples)), flat(std::move(flat_areas)) {}
+  KnownSamples(std::vector<uint8_t> valid_samples, HeldSamples flat_samples = {})
+      : valid(std::move(valid_samples)), flat(flat_samples) {}
 };
 
 /// Decodes what a view shows; in a window the time follows its size if the plane has regions.

@@ -36,10 +36,9 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   const std::array<double, kPriorities> worth = worthOf(priorities);
   const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);
   assert(!regions.empty());
-  std::vector<TrackSource> tracks(regions.size());
-  parallelFor(options.threads, regions.size(), [&](size_t i) {
-    const std::vector<BandPart> parts = layout.parts(regions[i]);
-    TrackSource& track = tracks[i];
+  const auto source_of = [&](size_t region) {
+    const std::vector<BandPart> parts = layout.parts(regions[region]);
+    TrackSource track;
     track.plan = layout.plan(parts, 0, 0, 0);
     layout.markAbsent(parts, track.plan);
     layout.markTiers(parts, track.plan);
@@ -48,8 +47,15 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
           {layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit, worth});
       clearAbsent(track.plan[k], track.bands[k].values);
     }
-  });
-  return encodeTracks(tracks, {options.limit, options.threads, options.enough});
+    return track;
+  };
+  const TrackOptions tracks{options.limit, options.threads, options.enough};
+  if (regions.size() > 1 && tracks.toTheEnd())
+    return encodeWholeTracks(regions.size(), source_of, options.threads);
+  std::vector<TrackSource> sources(regions.size());
+  parallelFor(options.threads, sources.size(), [&](size_t i) { sources[i] = source_of(i); });
+  plane = std::vector<int32_t>();  // {} would keep its memory
+  return encodeTracks(sources, tracks);
 }
 
 }  // namespace tetrakis::inline geometry

@@ -29,19 +29,20 @@ std::span<const uint8_t> firstOf(std::span<const uint8_t> bytes, uint64_t count)
 DecodedGeometry correctedSteps(DecodedGeometry geometry, const GeometryLayers& layers,
                                std::span<const uint8_t> codeword) {
   const std::vector<uint8_t> hints = activityHints(geometry);
-  const auto [corrections, decided] =
-      decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid});
   const int fraction_bits = geometry.fraction_bits;
   const uint32_t unit = layers.correction_step << fraction_bits;
   geometry.quiet_levels = 0;
-  for (size_t i = 0; i < decided; ++i) {
-    int32_t& height = geometry.heights[i];
-    height = static_cast<int32_t>(static_cast<uint32_t>(height) +
-                                  static_cast<uint32_t>(corrections[i]) * unit);
-    if (layers.correction_step > 1) continue;
-    const auto whole = static_cast<uint32_t>(wholeStep(height, fraction_bits));
-    height = static_cast<int32_t>(whole << fraction_bits);
-  }
+  const auto add = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      int32_t& height = geometry.heights[first + x];
+      height = static_cast<int32_t>(static_cast<uint32_t>(height) +
+                                    static_cast<uint32_t>(row[x]) * unit);
+      if (layers.correction_step > 1) continue;
+      const auto whole = static_cast<uint32_t>(wholeStep(height, fraction_bits));
+      height = static_cast<int32_t>(whole << fraction_bits);
+    }
+  };
+  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
   return geometry;
 }
 
@@ -95,14 +96,9 @@ std::vector<uint8_t> validityOf(const TakenLayers& taken, const GeometryHeader& 
 
 /// The flat areas of the whole plane.
 FlatAreas flatAreasOf(const TakenLayers& taken, const GeometryHeader& header,
-                      const GeometryLayers& layers, const std::vector<uint8_t>& valid,
-                      HeightsMemory* memory) {
+                      const GeometryLayers& layers, const std::vector<uint8_t>& valid) {
   if (layers.flat_bytes == 0 || taken.flat.empty()) return {};
-  const bool whole = memory != nullptr && taken.flat.size() == layers.flat_bytes;
-  if (whole && !memory->flat.empty()) return memory->flat;
-  FlatAreas flat = decodeFlatAreas(taken.flat, header.extent(), valid, layers.flat_areas);
-  if (whole) memory->flat = flat;
-  return flat;
+  return decodeFlatAreas(taken.flat, header.extent(), valid, layers.flat_areas);
 }
 
 /// The heights that decoded steps are: places in a table, if there is one, else themselves.
@@ -114,14 +110,22 @@ DecodedHeights heightsOf(DecodedGeometry steps, const TakenLayers& taken,
   return heightsOf(table, header, std::move(steps));
 }
 
-/// The corrections of samples that the table has made, and those that are decoded.
-std::vector<int32_t> summed(std::vector<int32_t> corrections, const std::vector<int32_t>& more) {
-  corrections.resize(more.size());
-  for (size_t i = 0; i < more.size(); ++i) {
-    corrections[i] = static_cast<int32_t>(static_cast<uint32_t>(corrections[i]) +
-                                          static_cast<uint32_t>(more[i]));
-  }
-  return corrections;
+/// The heights with the corrections of samples that are decoded beside those that the table has
+/// made, if there is one.
+DecodedHeights correctedSamples(DecodedHeights decoded, const GeometryHeader& header,
+                                std::span<const uint8_t> codeword) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  const std::vector<uint8_t> hints = sampleHints(geometry.heights, geometry.fraction_bits, header);
+  std::vector<int32_t>& corrections = decoded.corrections;
+  corrections.resize(geometry.heights.size());
+  const auto add = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      int32_t& sum = corrections[first + x];
+      sum = static_cast<int32_t>(static_cast<uint32_t>(sum) + static_cast<uint32_t>(row[x]));
+    }
+  };
+  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
+  return decoded;
 }
 
 /// The window of heights that were decoded from the first row on, without the marks of their
@@ -185,10 +189,12 @@ DecodedGeometry decodeSteps(const GeometryHeader& header, const GeometryLayers& 
   taken.join(joined);
   if (header.drawn)
     return decodeDrawnHeights(header, taken.coefficients.front(), valid, view.level);
-  FlatAreas flat = flatAreasOf(taken, header, layers, valid, memory);
-  const bool growing = memory != nullptr && taken.validity.size() == layers.validity_bytes &&
-                       taken.flat.size() == layers.flat_bytes;
-  return decodeGeometry(header, taken.coefficients, {std::move(valid), std::move(flat)}, view,
+  const bool flat_known = memory != nullptr && taken.flat.size() == layers.flat_bytes;
+  const bool growing = flat_known && taken.validity.size() == layers.validity_bytes;
+  FlatAreas of_this_call;
+  FlatAreas& flat = flat_known ? memory->flat : of_this_call;
+  if (flat.empty()) flat = flatAreasOf(taken, header, layers, valid);
+  return decodeGeometry(header, taken.coefficients, {std::move(valid), flat.held()}, view,
                         {context.threads, growing ? &memory->tracks : nullptr});
 }
 
@@ -202,17 +208,12 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
   }
   DecodedHeights decoded =
       heightsOf(decodeSteps(header, layers, taken, view, context), taken, header, layers);
-  DecodedGeometry& geometry = decoded.geometry;
   if (taken.corrections.empty() || view.level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
-    geometry = correctedSteps(std::move(geometry), layers, taken.corrections);
+    decoded.geometry = correctedSteps(std::move(decoded.geometry), layers, taken.corrections);
     return decoded;
   }
-  const std::vector<uint8_t> hints = sampleHints(wholeSteps(geometry), header);
-  decoded.corrections = summed(
-      std::move(decoded.corrections),
-      decodeCorrections(taken.corrections, {hints, geometry.extent(), geometry.valid}).values);
-  return decoded;
+  return correctedSamples(std::move(decoded), header, taken.corrections);
 }
 
 /// Decodes a view of the coded lines; a window is cut out of what decodedView() says.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What encoding takes at most: 16 bytes a sample beside the stream and the caller's samples. Each
+// What encoding takes at most beside the stream and the caller's samples, for each sample. Each
 // encoding runs in a process of its own, because a peak never falls.
 #include <malloc.h>
 #include <sys/resource.h>
@@ -44,22 +44,37 @@ double peakOf(Work work) {
   return child_peak(work) - idle;
 }
 
-TEST(EncodeMemory, TakesNoMoreThanSixteenBytesASample) {
+constexpr double kOnceForAll = 4 << 20;  // tables, code that is touched for the first time
+
+TEST(EncodeMemory, IsBoundedByTheSamples) {
   if (kSanitized) GTEST_SKIP();
   constexpr uint32_t kSide = 700;
   const Raster image = make({Pattern::kRidges, kSide, kSide, 3, TKS_U8});
   const Raster heights = make({Pattern::kRidges, kSide, kSide, 1, TKS_U16});
   constexpr double kImageSamples = 3.0 * kSide * kSide, kHeightSamples = 1.0 * kSide * kSide;
-  constexpr double kOnceForAll = 4 << 20;  // tables, code that is touched for the first time
   for (const tks_encode_options& options : {lossless(), budget(kSide * kSide / 8)}) {
     const auto stream = static_cast<double>(encode(nullptr, &image, options).size());
     EXPECT_LE(peakOf([&] { encode(nullptr, &image, options); }),
               16 * kImageSamples + 2 * stream + kOnceForAll)
         << (options.lossless ? "lossless" : "lossy");
     EXPECT_LE(peakOf([&] { encode(&heights, nullptr, options); }),
-              28 * kHeightSamples + kOnceForAll)
+              24 * kHeightSamples + kOnceForAll)
         << (options.lossless ? "lossless heights" : "lossy heights");
   }
+}
+
+TEST(EncodeMemory, OfRegionsIsThatOfOneForEachThread) {
+  if (kSanitized) GTEST_SKIP();
+  constexpr uint32_t kImageSide = 1200, kSide = 2100;  // of more than 2^22 samples
+  const Raster image = make({Pattern::kRidges, kImageSide, kImageSide, 3, TKS_U8});
+  tks_encode_options options = lossless();
+  options.regions = 128;
+  options.threads = 2;
+  EXPECT_LE(peakOf([&] { encode(nullptr, &image, options); }),
+            13.0 * 3 * kImageSide * kImageSide + kOnceForAll);
+  const Raster heights = make({Pattern::kRidges, kSide, kSide, 1, TKS_U16});
+  EXPECT_LE(peakOf([&] { encode(&heights, nullptr, options); }),
+            15.0 * kSide * kSide + kOnceForAll);
 }
 
 }  // namespace

@@ -23,8 +23,10 @@ Status failure(const char* verb, const std::string& path, int error) {
   return {TKS_IO, std::string("cannot ") + verb + " " + quoted(path) + ": " + std::strerror(error)};
 }
 
-Result<std::vector<std::byte>> readAll(std::FILE* file, const std::string& path) {
+/// size: of the file, if it is known.
+Result<std::vector<std::byte>> readAll(std::FILE* file, const std::string& path, uint64_t size) {
   std::vector<std::byte> bytes;
+  bytes.reserve(size);
   std::array<std::byte, 1 << 16> block;
   while (const size_t count = std::fread(block.data(), 1, block.size(), file)) {
     bytes.insert(bytes.end(), block.begin(), block.begin() + count);
@@ -48,10 +50,12 @@ std::string formatOf(const std::string& path, const std::string& format) {
 }
 
 Result<std::vector<std::byte>> readBytes(const std::string& path) {
-  if (path == "-") return readAll(stdin, path);
+  if (path == "-") return readAll(stdin, path, 0);
   const File file(std::fopen(path.c_str(), "rb"));
   if (!file) return failure("read", path, errno);
-  return readAll(file.get(), path);
+  std::error_code unknown;
+  const bool regular = std::filesystem::is_regular_file(path, unknown);
+  return readAll(file.get(), path, regular ? std::filesystem::file_size(path) : 0);
 }
 
 Status writeBytes(const std::string& path, std::span<const std::byte> bytes) {

@@ -9,25 +9,26 @@ namespace {
 
 class DecodingIo {
  public:
-  explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  DecodingIo(std::span<const uint8_t> codeword, const TakeCorrections& take)
+      : decoder_(codeword), take_(take) {}
   bool more(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
   bool negative(AdaptiveBit& model, size_t, bool flip) { return decoder_.decode(model) != flip; }
   bool high(AdaptiveBit& model, size_t, int) { return decoder_.decode(model); }
   bool low(size_t, int) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
+  void take(size_t first, std::span<const int32_t> row) { take_(first, row); }
 
  private:
   RangeDecoder decoder_;
+  const TakeCorrections& take_;
 };
 
 }  // namespace
 
-DecodedCorrections decodeCorrections(std::span<const uint8_t> codeword,
-                                     const CorrectionHints& hints) {
-  DecodedCorrections corrections{std::vector<int32_t>(hints.extent().samples(), 0)};
-  DecodingIo io(codeword);
-  corrections.decided = CorrectionPass<DecodingIo>(hints, io).run(corrections.values);
-  return corrections;
+void decodeCorrections(std::span<const uint8_t> codeword, const CorrectionHints& hints,
+                       const TakeCorrections& take) {
+  DecodingIo io(codeword, take);
+  CorrectionPass<DecodingIo>(hints, io).run();
 }
 
 }  // namespace tetrakis::inline corrections

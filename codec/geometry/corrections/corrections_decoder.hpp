@@ -4,23 +4,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
-#include <vector>
 
 #include "codec/geometry/corrections/corrections_pass.hpp"
 
 namespace tetrakis::inline corrections {
 
-/// One integer for each sample, modulo 2^32, which is 0 where the sample is void and where the
-/// codeword ends early: from sample `decided` on, row by row.
-struct DecodedCorrections {
-  std::vector<int32_t> values;
-  size_t decided = 0;
-};
+/// Takes corrections from sample `first` on, all of one row: integers modulo 2^32, 0 where samples
+/// are void.
+using TakeCorrections = std::function<void(size_t first, std::span<const int32_t> row)>;
 
-/// codeword: any prefix of one that encodeCorrections() made. Safe on any
-/// bytes.
-DecodedCorrections decodeCorrections(std::span<const uint8_t> codeword,
-                                     const CorrectionHints& hints);
+/// Hands over the corrections row by row, as far as they are decided. codeword: any prefix of one
+/// that encodeCorrections() made. Safe on any bytes.
+void decodeCorrections(std::span<const uint8_t> codeword, const CorrectionHints& hints,
+                       const TakeCorrections& take);
 
 }  // namespace tetrakis::inline corrections

@@ -33,6 +33,7 @@ class EncodingIo {
     return bit;
   }
   bool stopped() const { return false; }
+  void take(size_t, std::span<const int32_t>) {}
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
  private:
@@ -50,9 +51,8 @@ class EncodingIo {
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
                                        const CorrectionHints& hints) {
   assert(corrections.size() == hints.extent().samples());
-  std::vector<int32_t> known(corrections.size(), 0);
   EncodingIo io(corrections);
-  CorrectionPass<EncodingIo>(hints, io).run(known);
+  CorrectionPass<EncodingIo>(hints, io).run();
   return io.finish();
 }
 

@@ -38,31 +38,31 @@ inline constexpr int kHints = 32;
 ///   bool high(AdaptiveBit&, size_t sample, int position)    bit `position` of the magnitude
 ///   bool low(size_t sample, int position)                   the same at even odds
 ///   bool stopped()                                          the last decision did not count
-/// Corrections after the first undecided one are 0.
+///   void take(size_t first, std::span<const int32_t> row)   corrections from sample `first` on
 template <class Io>
 class CorrectionPass {
  public:
   CorrectionPass(const CorrectionHints& hints, Io& io)
       : hints_(hints), io_(io), any_(size_t{kHints} * kQuiet), more_(size_t{kHints} * kNeighbour) {}
 
-  /// Returns how many samples, row by row, come before the first undecided one.
-  size_t run(std::span<int32_t> corrections) {
+  /// Io takes the corrections row by row, up to the first undecided one.
+  void run() {
+    std::vector<int32_t> row(hints_.width);
     // The row before and this one, with a margin on both sides.
-    assert(corrections.size() == hints_.extent().samples());
     std::vector<Known> above(size_t{hints_.width} + 2), here(above);
     for (uint32_t y = 0; y < hints_.height; ++y) {
+      const size_t first = size_t{y} * hints_.width;
       for (uint32_t x = 0; x < hints_.width; ++x) {
-        const size_t sample = size_t{y} * hints_.width + x;
         here[x + 1] = {};
-        if (!hints_.valid[sample]) continue;
-        const int32_t correction = code(sample, {here[x], above[x + 1], above[x], above[x + 2]});
-        if (io_.stopped()) return sample;
-        corrections[sample] = correction;
-        here[x + 1] = Known(correction);
+        row[x] = 0;
+        if (!hints_.valid[first + x]) continue;
+        row[x] = code(first + x, {here[x], above[x + 1], above[x], above[x + 2]});
+        if (io_.stopped()) return io_.take(first, std::span(row).first(x));
+        here[x + 1] = Known(row[x]);
       }
+      io_.take(first, row);
       std::swap(above, here);
     }
-    return corrections.size();
   }
 
  private:

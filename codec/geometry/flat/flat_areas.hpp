@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/plane.hpp"
@@ -24,36 +25,31 @@ struct FlatAreas {
   HeldSamples held() const { return {numbers, heights}; }
 };
 
-/// Returns for each sample the index of the first sample of its area, which is its own index where
-/// it is alone.
-/// alike(i, j): whether sample i and j, the one before it or above it, are of one area.
-template <class Alike>
-std::vector<uint32_t> firstSamples(Extent plane, const Alike& alike) {
-  std::vector<uint32_t> first(plane.samples());
-  std::iota(first.begin(), first.end(), 0u);
-  // Until the end an entry is any earlier sample of the same area (R. E. Tarjan's disjoint sets).
-  const auto find = [&](uint32_t i) {
-    while (first[i] != i) {
-      first[i] = first[first[i]];
-      i = first[i];
-    }
-    return i;
-  };
-  const auto join = [&](uint32_t i, uint32_t above) {
-    const uint32_t a = find(i), b = find(above);
-    (a < b ? first[b] : first[a]) = a < b ? a : b;
-  };
-  uint32_t i = 0;
-  for (uint32_t y = 0; y < plane.height; ++y) {
-    for (uint32_t x = 0; x < plane.width; ++x, ++i) {
-      if (x > 0 && alike(i, i - 1)) first[i] = first[i - 1];
-      if (y > 0 && alike(i, i - plane.width) && first[i] != first[i - plane.width])
-        join(i, i - plane.width);
-    }
+/// Labels that stand for one thing where they are joined (R. E. Tarjan's disjoint sets).
+class JoinedLabels {
+ public:
+  explicit JoinedLabels(size_t count) : earlier_(count) {
+    std::iota(earlier_.begin(), earlier_.end(), 0u);
   }
-  for (uint32_t& earlier : first) earlier = first[earlier];
-  return first;
-}
+  uint32_t first(uint32_t label) {
+    while (earlier_[label] != label) {
+      earlier_[label] = earlier_[earlier_[label]];
+      label = earlier_[label];
+    }
+    return label;
+  }
+  void join(uint32_t a, uint32_t b) {
+    if (earlier_[a] == earlier_[b]) return;
+    a = first(a);
+    b = first(b);
+    (a < b ? earlier_[b] : earlier_[a]) = a < b ? a : b;
+  }
+  /// Of each label an earlier one that it is joined with; itself where it is the first.
+  std::vector<uint32_t> earlier() && { return std::move(earlier_); }
+
+ private:
+  std::vector<uint32_t> earlier_;
+};
 
 /// The numbers of the areas of a mask of flat samples, and how many areas there are; no numbers if
 /// these are too many.

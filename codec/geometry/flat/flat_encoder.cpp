@@ -16,11 +16,27 @@ FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heigh
   const Extent extent = heights.extent();
   if (extent.samples() > GeometryLayers::kMostFlatSamples) return;
   const std::span<const int32_t> values = heights.values();
-  first_ = firstSamples(extent, [&](uint32_t i, uint32_t j) {
-    return values[i] == values[j] && heights.valid[i] && heights.valid[j];
-  });
-  sizes_.resize(first_.size());
-  for (size_t i = 0; i < first_.size(); ++i) sizes_[first_[i]] += heights.valid[i];
+  JoinedLabels joined(extent.samples());
+  const auto join = [&](uint32_t i, uint32_t j) {
+    if (values[i] == values[j] && heights.valid[i] && heights.valid[j]) joined.join(i, j);
+  };
+  uint32_t i = 0;
+  for (uint32_t y = 0; y < extent.height; ++y) {
+    for (uint32_t x = 0; x < extent.width; ++x, ++i) {
+      if (x > 0) join(i, i - 1);
+      if (y > 0) join(i, i - extent.width);
+    }
+  }
+  areas_ = std::move(joined).earlier();
+  for (i = 0; i < areas_.size(); ++i) {
+    if (areas_[i] == i) {
+      areas_[i] = kFirst + (heights.valid[i] ? 1 : 0);
+      continue;
+    }
+    if ((areas_[areas_[i]] & kFirst) == 0) areas_[i] = areas_[areas_[i]];
+    uint32_t& first = areas_[areas_[i]];
+    if (first < kFirst + kMostSize) ++first;
+  }
 }
 
 uint64_t FlatFinder::samplesOf(uint32_t least, const Window& window) const {
@@ -65,10 +81,12 @@ FlatAreas FlatFinder::areas(const FlatShape& shape, const Window& window) const 
   NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, window.extent()));
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
-  const std::vector<int32_t> shown =
-      cut(std::span<const int32_t>(heights_.values()), extent(), {0, window});
-  for (size_t i = 0; i < shown.size(); ++i) {
-    if (areas.numbers[i] != 0) areas.heights[areas.numbers[i] - 1u] = shown[i];
+  const uint16_t* number = areas.numbers.data();
+  for (uint32_t y = 0; y < window.height; ++y) {
+    const int32_t* const shown = heights_.row(window.y + y) + window.x;
+    for (uint32_t x = 0; x < window.width; ++x, ++number) {
+      if (*number != 0) areas.heights[*number - 1u] = shown[x];
+    }
   }
   return areas;
 }

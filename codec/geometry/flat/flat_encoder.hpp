@@ -33,12 +33,19 @@ class FlatFinder {
 
  private:
   std::vector<uint8_t> marked(uint32_t least, const Window& window) const;
-  bool none() const { return first_.empty(); }
-  uint32_t sizeAt(size_t sample) const { return sizes_[first_[sample]]; }
+  static constexpr uint32_t kFirst = uint32_t{1} << 31;
+  static constexpr uint32_t kMostSize = kFirst - 1;
+
+  bool none() const { return areas_.empty(); }
+  uint32_t sizeAt(size_t sample) const {
+    const uint32_t area = areas_[sample];
+    return (area >= kFirst ? area : areas_[area]) & kMostSize;
+  }
 
   PlaneView<const int32_t> heights_;
-  std::vector<uint32_t> first_;  ///< of each sample: the first one of its area
-  std::vector<uint32_t> sizes_;  ///< of each area, at its first sample
+  /// Of the first sample of an area kFirst and the area's size, at most kMostSize; of another
+  /// sample the place of the first one.
+  std::vector<uint32_t> areas_;
 };
 
 /// valid: the samples that are not void. There are areas.

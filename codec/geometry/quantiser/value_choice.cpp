@@ -44,19 +44,18 @@ class Values {
  public:
   explicit Values(size_t most) : most_(most), slots_(1024, kEmpty) {}
 
-  /// Counts a word and returns the number of its value.
-  uint32_t numberOf(uint32_t word) {
-    uint32_t& slot = slotOf(word);
-    const uint32_t number = slot;
-    if (number != kEmpty) {
-      ++values_[number].samples;
-      return number;
+  void count(uint32_t word) {
+    uint32_t& slot = slots_[slotOf(word)];
+    if (slot != kEmpty) {
+      ++values_[slot].samples;
+      return;
     }
     slot = static_cast<uint32_t>(values_.size());
     values_.push_back({word, 1});
     if (2 * values_.size() > slots_.size()) grow();
-    return static_cast<uint32_t>(values_.size() - 1);
   }
+  /// The number of the value of a word that was counted.
+  uint32_t numberOf(uint32_t word) const { return slots_[slotOf(word)]; }
   bool tooMany() const { return values_.size() > most_; }
   size_t size() const { return values_.size(); }
   const Value& operator[](size_t number) const { return values_[number]; }
@@ -65,15 +64,16 @@ class Values {
   static constexpr uint32_t kEmpty = UINT32_MAX;
 
   /// Where the word is, or may go.
-  uint32_t& slotOf(uint32_t word) {
+  size_t slotOf(uint32_t word) const {
     const size_t last = slots_.size() - 1;
     size_t at = (word * 0x9e3779b1u >> 11) & last;
     while (slots_[at] != kEmpty && values_[slots_[at]].word != word) at = (at + 1) & last;
-    return slots_[at];
+    return at;
   }
   void grow() {
     slots_.assign(2 * slots_.size(), kEmpty);
-    for (size_t i = 0; i < values_.size(); ++i) slotOf(values_[i].word) = static_cast<uint32_t>(i);
+    for (size_t i = 0; i < values_.size(); ++i)
+      slots_[slotOf(values_[i].word)] = static_cast<uint32_t>(i);
   }
 
   size_t most_;
@@ -116,13 +116,12 @@ class TableChoice {
 
   /// Whether a table is worth a closer look.
   bool hasFewValues() {
-    number_.resize(multiples_.steps.size());
     int32_t low = INT32_MAX, high = INT32_MIN;
     withSampleType(heights_.sample, [&](auto type) {
       const auto* samples = static_cast<const decltype(type)*>(heights_.data);
-      for (size_t i = 0; i < number_.size() && !values_.tooMany(); ++i) {
+      for (size_t i = 0; i < multiples_.steps.size() && !values_.tooMany(); ++i) {
         if (!isValid(i)) continue;
-        number_[i] = values_.numberOf(orderOf(samples[i]));
+        values_.count(orderOf(samples[i]));
         low = std::min(low, multiples_.steps[i]);
         high = std::max(high, multiples_.steps[i]);
       }
@@ -256,11 +255,13 @@ class TableChoice {
       out.step =
           range > 0 ? range / static_cast<double>(words.size() - 1) : 1;  // 0: it is 0 and -0
       out.base = value(words[static_cast<size_t>(middle)]);
+      out.valid = multiples_.valid;
+      out.steps.resize(multiples_.steps.size());
+      const auto* samples = static_cast<const T*>(heights_.data);
+      for (size_t i = 0; i < out.steps.size(); ++i) {
+        if (isValid(i)) out.steps[i] = place[values_.numberOf(orderOf(samples[i]))] - middle;
+      }
     });
-    out.valid = multiples_.valid;
-    out.steps.resize(number_.size());
-    for (size_t i = 0; i < number_.size(); ++i)
-      out.steps[i] = isValid(i) ? place[number_[i]] - middle : 0;
     out.range_bits = static_cast<int>(std::bit_width(words.size()));
   }
 
@@ -268,7 +269,6 @@ class TableChoice {
   const HeightSteps& multiples_;
   size_t samples_;
   Values values_;
-  std::vector<uint32_t> number_;  ///< of each sample's value
   std::vector<uint32_t> sorted_;  ///< numbers of values, smallest sample first
 };
 

@@ -28,15 +28,16 @@ Result<std::vector<uint8_t>> findVoids(const tks_heights& heights) {
     const double nodata = std::is_floating_point_v<T>
                               ? static_cast<double>(static_cast<float>(heights.nodata))
                               : heights.nodata;
-    std::vector<uint8_t> valid(count);
-    bool voids = false;
+    std::vector<uint8_t> valid;  // takes no memory before the first void
     for (size_t i = 0; i < count; ++i) {
       const auto value = static_cast<double>(samples[i]);
-      valid[i] = !(std::isnan(value) || (heights.has_nodata && value == nodata));
-      voids |= !valid[i];
-      if (valid[i] && std::isinf(value)) return notFinite(heights, i);
+      if (std::isnan(value) || (heights.has_nodata && value == nodata)) {
+        if (valid.empty()) valid.assign(count, 1);
+        valid[i] = 0;
+      } else if (std::isinf(value)) {
+        return notFinite(heights, i);
+      }
     }
-    if (!voids) valid.clear();
     return valid;
   });
 }

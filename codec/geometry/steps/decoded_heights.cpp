@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/steps/decoded_heights.hpp"
 
+#include <utility>
+
 namespace tetrakis::inline steps {
 
-std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded) {
-  std::vector<int32_t> steps = decoded.heights;
+std::vector<int32_t> wholeSteps(DecodedGeometry decoded) {
+  std::vector<int32_t> steps = std::move(decoded.heights);
   for (int32_t& q : steps) q = wholeStep(q, decoded.fraction_bits);
   return steps;
 }

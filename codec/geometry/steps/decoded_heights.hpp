@@ -36,6 +36,6 @@ inline int32_t wholeStep(int32_t height, int fraction_bits) {
 }
 
 /// Returns all heights in whole steps.
-std::vector<int32_t> wholeSteps(const DecodedGeometry& decoded);
+std::vector<int32_t> wholeSteps(DecodedGeometry decoded);
 
 }  // namespace tetrakis::inline steps

@@ -56,22 +56,21 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
   const DecodedGeometry& geometry = decoded.geometry;
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
-    T* samples = static_cast<T*>(out);
-    restoreAll(geometry.heights, geometry.fraction_bits, {header.base, header.step}, samples);
-    for (size_t i = 0; i < decoded.corrections.size(); ++i) {
-      const auto correction = static_cast<uint32_t>(decoded.corrections[i]);
-      samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
-    }
-    markVoids(geometry.valid, layers, std::span(samples, geometry.heights.size()));
+    const std::span<T> samples(static_cast<T*>(out), geometry.heights.size());
+    restoreCorrected(decoded, 0, {header.base, header.step}, samples);
+    markVoids(geometry.valid, layers, samples);
   });
 }
 
-std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header) {
-  std::vector<uint8_t> hints(steps.size());
+std::vector<uint8_t> sampleHints(std::span<const int32_t> heights, int fraction_bits,
+                                 const GeometryHeader& header) {
+  std::vector<uint8_t> hints(heights.size());
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
-    for (size_t i = 0; i < steps.size(); ++i)
-      hints[i] = openBits(restore<T>(header.base, header.step, steps[i]), header.step);
+    for (size_t i = 0; i < heights.size(); ++i) {
+      const int32_t q = wholeStep(heights[i], fraction_bits);
+      hints[i] = openBits(restore<T>(header.base, header.step, q), header.step);
+    }
   });
   return hints;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bitstream/stream/geometry_header.hpp"
@@ -18,7 +19,8 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
                const GeometryLayers& layers, void* out);
 
 /// The hints (codec/geometry/corrections/corrections_pass.hpp) of corrections to samples that these
-/// steps become. steps: whole, as decoders know them.
-std::vector<uint8_t> sampleHints(const std::vector<int32_t>& steps, const GeometryHeader& header);
+/// heights become, as decoders know them.
+std::vector<uint8_t> sampleHints(std::span<const int32_t> heights, int fraction_bits,
+                                 const GeometryHeader& header);
 
 }  // namespace tetrakis::inline steps

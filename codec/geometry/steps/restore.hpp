@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/geometry/steps/integer_scale.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
 
 namespace tetrakis::inline steps {
 
@@ -45,6 +47,20 @@ void restoreAll(std::span<const int32_t> heights, int fraction_bits, const Scale
   }
   for (size_t i = 0; i < heights.size(); ++i)
     samples[i] = restore<T>(scale.base, scale.step, wholeStep(heights[i], fraction_bits));
+}
+
+/// Restores the samples from `first` on, corrections included, as many as `samples` has room for.
+template <class T>
+void restoreCorrected(const DecodedHeights& decoded, size_t first, const Scale& scale,
+                      std::span<T> samples) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  restoreAll(std::span(geometry.heights).subspan(first, samples.size()), geometry.fraction_bits,
+             scale, samples.data());
+  if (decoded.corrections.empty()) return;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const auto correction = static_cast<uint32_t>(decoded.corrections[first + i]);
+    samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
+  }
 }
 
 }  // namespace tetrakis::inline steps
