@@ -28,7 +28,7 @@ constexpr size_t kPrefixPoints = 4 * kViewPoints;
 /// Columns in which outlines are followed, over all cameras.
 constexpr size_t kOutlineColumns = 256;
 
-/// Those of the options, or for any viewer; none if the terrain has no bounds.
+/// The cameras of the options, or those for any viewer; none if the terrain has no bounds.
 std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& ground) {
   if (inputs.options.camera_count > 0) return givenCameras(inputs.options);
   const Result<std::vector<Camera>> cameras = unknownViewer(ground.bounds());
@@ -229,7 +229,7 @@ ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& pa
   return curve;
 }
 
-/// As if both errors were seen as large as they are at first, and added.
+/// Errors as if those of both components were seen as large as they are at first, and added.
 PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
   const auto first = [](const ComponentCurve& curve) {
     const double square = curve.points[curve.opened].distortion;
