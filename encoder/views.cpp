@@ -23,8 +23,8 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Points of pictures of prefixes of streams with other maps of priorities.
-constexpr size_t kPrefixPoints = 4 * kViewPoints;
+/// Pixels for whole streams, which differ by less than pairs of prefixes do.
+constexpr size_t kPrefixPixels = 4 * kViewPixels;
 /// Columns in which outlines are followed, over all cameras.
 constexpr size_t kOutlineColumns = 256;
 
@@ -131,7 +131,7 @@ void fillBetween(const std::vector<double>& whole, std::vector<double>& errors) 
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
                                    DecodedNodes& decoded, const Nodes& nodes,
                                    const Texels& texels) {
-  const ScreenPoints points(cameras, kViewPoints);
+  const ScreenPoints points(cameras, kViewPixels);
   const Extent extent = texels.extent();
   const ScreenTexture original(texels, extent);
   const Outlines outlines(cameras, kOutlineColumns, ground, original, extent);
@@ -277,7 +277,7 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
   if (cameras.empty()) return {};
   const Texels& texels = texture.of->texels;
   const ScreenTexture original(texels, texels.extent());
-  const ScreenPoints points(cameras, kPrefixPoints);
+  const ScreenPoints points(cameras, kPrefixPixels);
   const Outlines outlines(cameras, kOutlineColumns, ground, original, texels.extent());
   const std::vector<SeenPoint> in_truth = points.seenOf(ground, texels.extent());
   const std::vector<Colour> true_colours = points.coloursOf(in_truth, original);
