@@ -50,7 +50,7 @@ Status checkCameras(const EncodeInputs& inputs) {
     if (camera.eye[1] < height.value_or(ground.bounds().low[1]))
       return blames(camera, "is below the ground");
   }
-  const ScreenPoints points(cameras, kViewPoints);
+  const ScreenPoints points(cameras, kViewPixels);
   for (const size_t i : points.blindCameras(points.seenOf(ground, {1, 1}))) {
     if (seesNothing(cameras[i], ground)) return blames(cameras[i], "sees no ground");
   }

@@ -11,7 +11,7 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Of lossless coefficients the budget is no bound: they are sent whole or not at all. Lossy ones
+/// The budget is no bound of lossless coefficients: they are sent whole or not at all. Lossy ones
 /// of 20 bits have no fraction bits either.
 AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletHeader& wavelet) {
   const bool lossless = wavelet.fraction_bits == 0 && wavelet.bits > 0 && wavelet.bits < 20;

@@ -20,8 +20,8 @@ GroundFrame frameOf(const tks_heights& heights);
 /// samples: of the type and size of `like`. valid: as findVoids() has it.
 Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid);
 
-/// Points of all pictures together. Twice as many change the mean loss by less than 0.01 dB.
-inline constexpr size_t kViewPoints = 3072;
+/// Pixels that are looked at, of all pictures together.
+inline constexpr size_t kViewPixels = 3072;
 
 std::vector<Camera> givenCameras(const tks_encode_options& options);
 

@@ -23,12 +23,12 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-/// Points of pictures of prefixes of streams with other maps of priorities.
-constexpr size_t kPrefixPoints = 4 * kViewPoints;
+/// Pixels for whole streams, which differ by less than pairs of prefixes do.
+constexpr size_t kPrefixPixels = 4 * kViewPixels;
 /// Columns in which outlines are followed, over all cameras.
 constexpr size_t kOutlineColumns = 256;
 
-/// Those of the options, or for any viewer; none if the terrain has no bounds.
+/// The cameras of the options, or those for any viewer; none if the terrain has no bounds.
 std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& ground) {
   if (inputs.options.camera_count > 0) return givenCameras(inputs.options);
   const Result<std::vector<Camera>> cameras = unknownViewer(ground.bounds());
@@ -131,7 +131,7 @@ void fillBetween(const std::vector<double>& whole, std::vector<double>& errors) 
 std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const GroundRays& ground,
                                    DecodedNodes& decoded, const Nodes& nodes,
                                    const Texels& texels) {
-  const ScreenPoints points(cameras, kViewPoints);
+  const ScreenPoints points(cameras, kViewPixels);
   const Extent extent = texels.extent();
   const ScreenTexture original(texels, extent);
   const Outlines outlines(cameras, kOutlineColumns, ground, original, extent);
@@ -229,7 +229,7 @@ ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& pa
   return curve;
 }
 
-/// As if both errors were seen as large as they are at first, and added.
+/// Errors as if those of both components were seen as large as they are at first, and added.
 PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
   const auto first = [](const ComponentCurve& curve) {
     const double square = curve.points[curve.opened].distortion;
@@ -277,7 +277,7 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
   if (cameras.empty()) return {};
   const Texels& texels = texture.of->texels;
   const ScreenTexture original(texels, texels.extent());
-  const ScreenPoints points(cameras, kPrefixPoints);
+  const ScreenPoints points(cameras, kPrefixPixels);
   const Outlines outlines(cameras, kOutlineColumns, ground, original, texels.extent());
   const std::vector<SeenPoint> in_truth = points.seenOf(ground, texels.extent());
   const std::vector<Colour> true_colours = points.coloursOf(in_truth, original);

@@ -103,7 +103,8 @@ std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScop
   return records.take();
 }
 
-/// Of estimates: where one rises above those before it, nobody has seen a prefix dip.
+/// Estimates say nothing of dips: where one rises above those before it, nobody has seen a prefix
+/// that does.
 std::vector<RatePoint> falling(std::span<const RatePoint> points) {
   Records records;
   for (const RatePoint& point : points) records.add(point, std::numeric_limits<double>::infinity());

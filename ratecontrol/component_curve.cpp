@@ -61,7 +61,7 @@ std::vector<uint64_t> divided(uint64_t begin, uint64_t end) {
   return ends;
 }
 
-/// Of the last point within so many bytes.
+/// The quality that the last point within so many bytes states.
 uint8_t qualityWithin(const std::map<uint64_t, uint8_t>& quality, uint64_t bytes) {
   return std::prev(quality.upper_bound(bytes))->second;
 }

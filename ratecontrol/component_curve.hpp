@@ -22,7 +22,7 @@ struct ComponentCurve {
   std::vector<RatePoint> points;  ///< from {0, ...}; convex; fewer than two: no packets
   std::vector<Packet> packets;
   size_t opened = 0;  ///< the first point behind the opening
-  /// Of a large component in one track: the points of its account, which are ends of passes, behind
+  /// A large component in one track has the points of its account, which are ends of passes, behind
   /// the opening. A point within a pass takes longer to decode. Else empty.
   std::vector<RatePoint> passes = {};
 };

@@ -41,7 +41,7 @@ std::array<CellPlane, 2> planesOf(const Corners& h, bool even) {
 
 }  // namespace
 
-/// In columns, rows and metres of height.
+/// A ray in columns, rows and metres of height.
 struct GroundRays::Path {
   Vec3 origin, direction;  ///< column, height, row
 

@@ -29,7 +29,7 @@ struct Relief {
   uint32_t along(uint32_t size) const { return size < 2 ? size : (size - 2) / step + 2; }
 };
 
-/// In the axes of GroundFrame.
+/// A half-line in the axes of GroundFrame.
 struct Ray {
   Vec3 origin{}, direction{};
 };
@@ -65,7 +65,7 @@ class GroundRays {
   };
   struct Path;  ///< a ray in columns and rows
 
-  /// In the columns and rows of the relief's own heights, as hitInCell().
+  /// Hits are in the columns and rows of the relief's own heights, as those of hitInCell().
   std::optional<GroundHit> firstHit(const Path& path) const;
   std::optional<GroundHit> hitInCell(uint32_t column, uint32_t row, const Path& path, double enter,
                                      double leave) const;

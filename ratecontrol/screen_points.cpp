@@ -23,8 +23,8 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// Of a pixel whose samples are those from `first` on, as if all four had been taken; the sum of R,
-/// G and B.
+/// The squared error, over R, G and B, of a pixel whose two samples begin at `first`, as if all
+/// four had been taken.
 double squaredErrorOf(const std::vector<Colour>& truth, const std::vector<Colour>& other,
                       size_t first) {
   double squares = 0, product = 0;

@@ -27,7 +27,7 @@ class ScreenPoints {
   /// count: of pixels, over all cameras, shared by their weights. At least one weight is positive.
   ScreenPoints(const std::vector<Camera>& cameras, size_t count);
 
-  /// Of the two samples of each pixel, one behind the other. texture: its size in texels.
+  /// What the two samples of each pixel show, one behind the other. texture: its size in texels.
   std::vector<SeenPoint> seenOf(const GroundRays& ground, Extent texture) const;
 
   /// What each point looks like.

@@ -33,11 +33,11 @@ std::vector<Packet> keepNeeded(
     std::span<const Packet> packets, const Needs& needs,
     const std::function<uint8_t(Component component, uint64_t bytes)>& quality_after);
 
-/// Those that begin within a budget of bytes, their heads counted.
+/// Keeps the packets that begin within a budget of bytes, their heads counted.
 std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
 
-/// The same packets, those of the other component that would push the last one of this component
-/// out of a budget of bytes behind it.
+/// Orders packets so that those of a component end within a budget of bytes, if it has room for
+/// them: what of the other component would push the last of them out comes behind it.
 std::vector<Packet> endWithin(std::span<const Packet> packets, Component component,
                               uint64_t budget);
 

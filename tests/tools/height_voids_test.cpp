@@ -95,6 +95,23 @@ TEST_F(HeightVoids, FloatsThatGdalTakesForNodataBecomeIt) {
   EXPECT_FALSE(read(tiff)->nodata);
 }
 
+TEST_F(HeightVoids, FloatsThatNoHeightCanBeAreVoidIfTheyHaveOneValue) {
+  const TinyTiff tiff = tiffOf<float>({1, kLowest, 7, kLowest, 3});
+  const auto heights = read(tiff);
+  ASSERT_TRUE(heights.ok() && heights->nodata);
+  EXPECT_EQ(*heights->nodata, double{kLowest});
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].text.find("6 samples are -3.4028235e+38"), std::string::npos) << notes[0].text;
+  const auto kept = read(tiff, std::numeric_limits<double>::quiet_NaN());
+  ASSERT_TRUE(kept.ok());
+  EXPECT_TRUE(std::isnan(*kept->nodata));
+  EXPECT_EQ(samplesOf<float>(*kept)[1], kLowest);
+  for (const auto& row : {std::vector<float>{1, kLowest, 2e30F, 3}, {kLowest, kLowest, kLowest}}) {
+    notes.clear();
+    EXPECT_FALSE(read(tiffOf(row))->nodata) << "several values, or nothing else";
+  }
+}
+
 TEST_F(HeightVoids, NodataInWordsOfOldLibrariesIsNoNumber) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   TinyTiff tiff = tiffOf<float>({1, -1, nan, 5});
@@ -227,8 +244,8 @@ TEST_F(HeightVoids, IsolatedValuesAreNotedUnlessDeclared) {
     ASSERT_TRUE(read(tiff).ok());
     EXPECT_TRUE(notes.empty());
   };
-  expectNote(tiffOf<float>({1, 2, kLowest, 3}), "-3.4028235e+38");
-  expectNote(tiffOf<float>({1, 2, 1e33F, 3}), "1e+33");
+  expectNote(tiffOf<float>({1, 2, kLowest, 3, 1e32F}), "-3.4028235e+38");
+  expectNote(tiffOf<float>({1, 2, 1e33F, 3, 2e30F}), "1e+33");
   expectNote(tiffOf<int16_t>({-400, 8848, -32768, 3}), "-32768");
   expectNote(tiffOf<uint16_t>({0, 9000, 65535, 3}), "65535");
   expectNote(tiffOf<int32_t>({0, 100000, std::numeric_limits<int32_t>::min()}), "-2147483648");

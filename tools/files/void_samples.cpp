@@ -58,8 +58,9 @@ std::string textOf(double value, tks_sample sample) {
 
 struct Outliers {
   uint64_t count = 0, others = 0;
-  double value = 0;  ///< the outermost
-  double range = 0;  ///< of the others
+  double value = 0;   ///< the outermost
+  double range = 0;   ///< of the others
+  bool equal = true;  ///< all outliers have that value
 };
 
 /// Finite floats that no height in any unit can be.
@@ -72,6 +73,7 @@ Outliers hugeFloats(std::span<const float> samples) {
       ++found.others;
       continue;
     }
+    found.equal = found.equal && (found.count == 0 || double{sample} == found.value);
     ++found.count;
     if (std::abs(sample) > std::abs(found.value)) found.value = sample;
   }
@@ -219,6 +221,20 @@ std::optional<Note> noteOnNodata(const HeightFile& heights) {
   return Note{"no sample of its type can have the nodata value " + shortest(*heights.nodata) +
                   ", which makes nothing void",
               ""};
+}
+
+std::optional<Note> takeHugeAsVoid(HeightFile& heights) {
+  if (heights.nodata || heights.sample != TKS_F32) return std::nullopt;
+  const Outliers found = visitSamples(std::as_const(heights), [](auto samples) {
+    using T = std::remove_cvref_t<decltype(samples[0])>;
+    if constexpr (std::is_same_v<T, float>) return hugeFloats(samples);
+    return Outliers{};
+  });
+  if (found.count == 0 || found.others == 0 || !found.equal) return std::nullopt;
+  heights.nodata = found.value;
+  return Note{counted(found.count, "sample is ", "samples are ") +
+                  textOf(found.value, heights.sample) + ", which no height is: taken as void",
+              "--nodata"};
 }
 
 std::optional<Note> noteOnOutliers(const HeightFile& heights) {
