@@ -110,8 +110,8 @@ double bitsOf(const std::vector<float>& details, float step) {
 
 /// The estimate counts bits, not what their errors add up to, which is more where a filter is
 /// further from orthogonal: beside decoded results it favours kLong by about 1 % with each choice
-/// of it, and kShort by more, the coarser the step is: that suits walls between flat ground and flat
-/// roofs, which alone take clearly fewer bits.
+/// of it, and kShort by more, the coarser the step is: kShort suits walls between flat ground and
+/// flat roofs, which alone take clearly fewer bits by it.
 double penaltyOf(const Filters& filters) {
   constexpr double kPerLong = 0.01, kPerShort = 0.035;
   const auto choices = [&](uint8_t id) {
