@@ -24,7 +24,7 @@ namespace tetrakis::inline wavelet {
 struct TrackMemory {
   std::vector<std::optional<GrowingTrack>> tracks;
   bool all_levels = false;  ///< for calls with views of several levels
-  /// No track is left to the next call: the states of all tracks together take twice the memory of a
+  /// No track is left to the next call: states of all tracks together take twice the memory of a
   /// plane, and those of one track at a time nearly none.
   bool forgets = false;
   /// Where there is but one track and calls have its whole codeword, only the passes count that
