@@ -2,18 +2,12 @@
 #include "encoder/views.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "base/length_unit.hpp"
 #include "base/samples.hpp"
-#include "encoder/height_errors.hpp"
 #include "encoder/view_inputs.hpp"
 #include "ground/camera.hpp"
 #include "ratecontrol/outlines.hpp"

@@ -4,11 +4,11 @@
 // renderer would find, to some percent, and the same pixels for all surfaces and textures make
 // their differences much better than that.
 //
-// A pixel is the mean of four samples, whose errors partly cancel: of fine errors half remains. Two
-// of the four tell how much, as long as all six pairs take turns. With the errors d and e of the
-// two, the squared error of the mean of four is
-//   |d1 + d2 + d3 + d4|^2 / 16 = (sum of four |d|^2 + twice the sum of six d.e) / 16,
-// whose expectation is (|d|^2 + |e|^2) / 8 + 3/4 d.e.
+// A pixel is the mean of four samples, whose errors d1 ... d4 partly cancel: half or less of fine
+// errors remains. Two of the four samples tell how much, as long as all six pairs take turns. The
+// squared error of the mean is
+//   |d1 + d2 + d3 + d4|^2 / 16 = (the sum of |di|^2 + twice that of the six di.dj) / 16,
+// which (|d|^2 + |e|^2) / 8 + 3/4 d.e has for its mean over the six pairs of errors d and e.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ namespace tetrakis::inline ratecontrol {
 
 class ScreenPoints {
  public:
-  /// count: of pixels, over all cameras, shared by their weights. At least one weight is positive.
+  /// count: the pixels of all cameras, shared by their weights. At least one weight is positive.
   ScreenPoints(const std::vector<Camera>& cameras, size_t count);
 
   /// What the two samples of each pixel show, one behind the other. texture: its size in texels.
