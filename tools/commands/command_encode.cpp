@@ -206,8 +206,8 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
 }
 
 /// What encoding takes at most beside the samples, of each (tests/api/encode_memory_test.cpp), and
-/// those. Floats with a budget take most. Within a largest error several cuts of all heights are kept
-/// at a time.
+/// those. Floats with a budget take most. Within a largest error several cuts of all heights are
+/// kept at a time.
 Status checkMemory(const EncodeArguments& arguments, const Reference& inputs) {
   constexpr uint64_t kHeight = 30, kBoundedHeight = 34, kTexelChannel = 18;
   const uint64_t height = arguments.max_error.empty() ? kHeight : kBoundedHeight;
