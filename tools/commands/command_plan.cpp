@@ -96,7 +96,7 @@ Status plan(const PlanArguments& arguments, bool quiet) {
 
 void addPlan(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<PlanArguments>();
-  CLI::App& verb = *app.add_subcommand("plan", "How much of a stream serves a receiver");
+  CLI::App& verb = *app.add_subcommand("plan", "Say how much of a stream serves a receiver");
   addSource(verb, arguments->source);
   verb.add_option("--channel", arguments->channel, "Bits a second: 256k/s")->type_name("RATE");
   verb.add_option("--renderer", arguments->renderer, "Triangles a second: 200k/s")

@@ -129,7 +129,7 @@ Status profile(const ProfileArguments& arguments, bool quiet) {
 
 void addProfile(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<ProfileArguments>();
-  CLI::App& verb = *app.add_subcommand("profile", "Heights along a line, in few points");
+  CLI::App& verb = *app.add_subcommand("profile", "Print the heights along a line, in few points");
   addSource(verb, arguments->source);
   verb.add_option("--line", arguments->line, "Where it runs, in columns and rows of the heights")
       ->required()

@@ -45,7 +45,7 @@ Status reorder(const ReorderArguments& arguments) {
 void addReorder(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<ReorderArguments>();
   CLI::App& verb =
-      *app.add_subcommand("reorder", "The same packets in the order that serves cameras");
+      *app.add_subcommand("reorder", "Put the packets in the order that serves cameras");
   addSource(verb, arguments->source);
   addCameraOptions(verb, arguments->cameras);
   verb.add_option("-o,--output", arguments->output, "Where to write; - is standard output")
