@@ -5,20 +5,20 @@
  * One call encodes a height field, a texture or both into one embedded stream (.tks). Any prefix of
  * that stream is legal input to the decoder and yields the best surface and image its bytes buy.
  *
- * Trust contract: every decoding function is safe on untrusted input. It returns TKS_OK and fully
- * written outputs, or an error, arrays as they were, and structs that hand over memory empty; it
- * never prints, exits or throws. Truncation behind the header is no error. All functions are
- * reentrant; one handle serves one thread at once. Samples and structs that are handed over lie at
- * addresses that are multiples of their type's alignment.
+ * Trust contract: every decoding function is safe on untrusted input. It returns TKS_OK and has
+ * written its outputs fully, or it returns an error, has left arrays as they were, and has emptied
+ * structs that hand over memory. It never prints, exits or throws. Truncation behind the header is
+ * no error. All functions are reentrant; one handle serves one thread at a time. Samples and
+ * structs that you hand over must be aligned as their type is.
  *
- * Structs that begin with their `size` may grow at their end; programs compiled before keep
- * working. Set it to sizeof: fields that a shorter struct lacks count as 0, which is every default.
- * One that is too short for its first fields gives TKS_USAGE (through tks_encode_options.triangles,
- * tks_heights.offset, tks_image.data, tks_limits.size, tks_info.level). In a longer one this
- * library leaves 0 what it does not know of tks_info; elsewhere such fields must be 0, else
- * TKS_UNSUPPORTED.
+ * Structs that begin with their `size` may grow at their end in later versions; programs that were
+ * compiled before keep working. Set `size` to sizeof the struct: fields that a shorter struct lacks
+ * count as 0, which is every default. A struct that is too short for its first fields (through
+ * tks_encode_options.triangles, tks_heights.offset, tks_image.data, tks_limits.size,
+ * tks_info.level) gives TKS_USAGE. Of a struct that is longer than this library knows, it sets the
+ * unknown fields of tks_info to 0; in other structs these must be 0, else TKS_UNSUPPORTED.
  *
- * C99 or any C++.
+ * docs/GLOSSARY.md says what the words mean. C99 or any C++.
  */
 #ifndef TETRAKIS_TETRAKIS_H
 #define TETRAKIS_TETRAKIS_H
@@ -216,7 +216,8 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size);
 
-/* Beyond them is TKS_LIMIT, before anything is allocated. 0 in a field: its default. */
+/* What a decoder may take. It refuses more with TKS_LIMIT, before it allocates anything. A field of
+ * 0 means its default. */
 typedef struct tks_limits {
   size_t size;          /* sizeof(tks_limits) */
   uint64_t max_samples; /* heights, refused by tks_open; default 2^28 */
@@ -243,22 +244,22 @@ void tks_close(tks_decoder* decoder);
  * none for this library. */
 tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
 
-/* More bytes of the stream have come: those that follow what the decoder has. It keeps a copy, and
- * from then on needs the bytes given to tks_open no more. Every call decodes what it would of a
- * decoder opened on all bytes. Tracks go on where they were, so that decoding takes time for the
- * new bytes and for one inverse transform; this call copies all bytes that are there. For that the
- * decoder keeps the coefficients of each level that is decoded, about 16 bytes a sample; where
- * limits.max_memory does not allow for them, it decodes from the beginning. tks_get_info tells what
- * is known now. TKS_CORRUPT: these bytes belong to no stream. TKS_LIMIT: as of tks_open. In both
- * cases the decoder goes on with what it had, and takes no more bytes. */
+/* Gives the decoder more bytes of the stream: those that follow what it has. It copies all bytes
+ * that are there, and no longer needs those given to tks_open. From then on every call decodes what
+ * it would decode of a decoder opened on all bytes. Decoding goes on where it was, so that it takes
+ * time for the new bytes and for one inverse transform. For that the decoder keeps the coefficients
+ * of each level that it decodes, about 16 bytes a sample; where limits.max_memory does not allow
+ * for them, it decodes from the beginning. tks_get_info tells what is known now. TKS_CORRUPT: these
+ * bytes belong to no stream. TKS_LIMIT: as of tks_open. In both cases the decoder goes on with what
+ * it had, and takes no more bytes. */
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
 
-/* The same with bytes from anywhere in a stream that has a front index (tks_encode_options.index):
- * `size` bytes from `offset` on. Bytes that are there already are left as they are. Of each track
- * counts what is there without a gap; of streams in regions, whose byte ranges the packets of the
- * index tell, any regions can thus come first. Tracks other than a component's first count once
- * that has its masks. info.available_bytes and info.packets are those up to the first gap.
- * TKS_USAGE: there is no index, and `offset` lies behind a gap. */
+/* Gives the decoder bytes from anywhere in a stream that has a front index
+ * (tks_encode_options.index): `size` bytes from `offset` on. Bytes that are there already are left
+ * as they are. Each track is decoded up to its first gap. So of a stream in regions any regions may
+ * come first: the index tells the byte ranges of their packets. The other tracks of a component are
+ * decoded once the first one has its masks. info.available_bytes and info.packets count up to the
+ * first gap. TKS_USAGE: there is no index, and `offset` lies behind a gap. */
 tks_status tks_put(tks_decoder* decoder, uint64_t offset, const uint8_t* data, size_t size);
 
 /* Bytes of a stream: `size` of them from `offset` on. */
@@ -268,9 +269,9 @@ typedef struct tks_range {
                   picture, beside other ranges of the plan; 0: nothing of it is seen */
 } tks_range;
 
-/* Many runs at once: data[i] holds the ranges[i].size bytes from ranges[i].offset on. As tks_put of
- * one after the other, but what is there is looked at once and not for each of them. The library
- * keeps none of the arrays. With TKS_USAGE none of the bytes has been taken. */
+/* Does what tks_put does for many ranges, in less time: data[i] holds the ranges[i].size bytes from
+ * ranges[i].offset on. The library keeps none of the arrays. After TKS_USAGE it has taken none of
+ * the bytes. */
 tks_status tks_put_ranges(tks_decoder* decoder, const tks_range* ranges, const uint8_t* const* data,
                           size_t count);
 
@@ -332,13 +333,13 @@ typedef struct tks_info {
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 
-/* From here on heights and texture are those of mip levels: level k, of W x H samples, is the image
- * of ceil(W / 2^k) x ceil(H / 2^k) whose sample (x, y) lies on sample (x 2^k, y 2^k), low-pass
- * filtered; 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A level
- * takes no inverse transform of the finer ones, and reads the stream only up to the last byte that
- * concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed above
- * level 0, and meshes are made of level 0 only. TKS_USAGE beyond the coarsest levels (those of a
- * missing part: 0); the levels are then as before. */
+/* Sets the mip levels that calls decode from now on. Level k of W x H samples is the image of
+ * ceil(W / 2^k) x ceil(H / 2^k) whose sample (x, y) lies on sample (x 2^k, y 2^k), low-pass
+ * filtered; level 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A
+ * level takes no inverse transform of the finer ones, and reads the stream only up to the last byte
+ * that concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed
+ * above level 0, and meshes are made of level 0 only. TKS_USAGE beyond the coarsest levels (those
+ * of a missing part: 0); the levels are then as before. */
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 
 /* Writes width * height samples of info.sample; bytes must be their exact size. Voids: info.nodata,
@@ -362,11 +363,12 @@ typedef struct tks_window {
   uint32_t x, y, width, height;
 } tks_window;
 
-/* These write what tks_decode_heights, _surface and _texture would write there, and nothing else:
- * window->width * window->height samples, row by row. The window has to lie inside and to hold a
- * sample, else TKS_USAGE. Of a stream with regions only those are decoded that reach the window;
- * where it holds corrections, those that reach the window's rows or any before them (corrections of
- * floats that no step restores), or all regions (corrections to a largest error). */
+/* These write what tks_decode_heights, _surface and _texture would write in the window, and nothing
+ * else: window->width * window->height samples, row by row. The window must lie inside and hold a
+ * sample, else TKS_USAGE. Of a stream in regions they decode only those that reach the window. With
+ * corrections they decode more: those that reach the window's rows or any rows before them
+ * (corrections of floats that no step restores), or all regions (corrections to a largest error).
+ * */
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
 tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
@@ -383,12 +385,12 @@ typedef enum tks_part {
   TKS_PART_BUDGET_MESH = 4  /* the same, TKS_MESH_BUDGET */
 } tks_part;
 
-/* Says whether tks_limits.max_memory suffices for a call that decodes `part`, before there is an
- * array for it: TKS_LIMIT and a sentence if the decoder, the call and `beside` bytes (that array,
- * say) take more together. window: NULL for all of the level that is set; max_triangles: of a
- * budget mesh. bytes, unless NULL: an upper bound of what the call itself allocates, meshes that it
- * hands over included; more threads take more. Calls check the same with `beside` 0. TKS_USAGE:
- * there is no such part or window. */
+/* Says whether tks_limits.max_memory suffices for a call that decodes `part`, before you allocate
+ * an array for it. TKS_LIMIT, and a sentence in tks_message: the decoder, the call and `beside`
+ * bytes (that array, say) together take more. window: NULL for all of the level that is set.
+ * max_triangles: of a budget mesh. *bytes, unless NULL, becomes an upper bound of what the call
+ * itself allocates, meshes that it hands over included; more threads take more. Calls check the
+ * same with `beside` 0. TKS_USAGE: there is no such part or window. */
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes);
 
@@ -399,11 +401,11 @@ typedef struct tks_ranges {
 } tks_ranges;
 void tks_free_ranges(tks_ranges* ranges);
 
-/* Lists the bytes behind the header of a stream with a front index that a call needs to give what
- * it would give of the complete stream: the packets of the tracks that it decodes, in their order.
- * Given to tks_put_ranges they suffice: what else is missing counts as there. A window needs some
- * regions; a level from 3 on needs none of the finest levels. For rougher terrain take what lies
- * before some byte; of streams for windows a first part of each range, which is a region.
+/* Lists which bytes of a stream with a front index a call needs, behind the header, to give what it
+ * would give of the complete stream: the packets of the tracks that it decodes, in their order.
+ * Once tks_put_ranges has them the call decodes as if nothing were missing. A window needs some
+ * regions; a level from 3 on needs none of the finest levels. For rougher terrain take only what
+ * lies before some byte, or, of streams for windows, a first part of each range, which is a region.
  * TKS_USAGE: there is no index, part or window. TKS_LIMIT: as the call. */
 tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
                              tks_ranges* out);
@@ -520,11 +522,11 @@ tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const t
                     tks_ranges* out);
 
 /* Writes the open stream with its packets in the order that helps these cameras most: as tks_plan
- * chooses, by what they see together, with their weights and the stream's own triangle budget. In
- * packets only the stated errors change: the whole decodes to the same; every prefix is a stream.
- * What a prefix lacks stays behind what it has. Bytes beyond a gap are left out. TKS_USAGE: there
- * is no front index, or no camera; else as tks_plan. The library that only decodes lacks this
- * function. */
+ * chooses, by what they see together, with their weights and the stream's own triangle budget. The
+ * complete stream decodes to the same samples: in packets only the stated errors change. Every
+ * prefix of the result is a stream. If the open stream is a prefix, only what is there is ordered;
+ * bytes beyond a gap are left out. TKS_USAGE: there is no front index, or no camera; else as
+ * tks_plan. The library that only decodes lacks this function. */
 tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
                        uint32_t camera_count, tks_buffer* out);
 
