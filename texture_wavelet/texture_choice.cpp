@@ -30,6 +30,16 @@ double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
   return (above - 1)->distortion;
 }
 
+/// By how many dB one error is worse than another.
+double lossOf(double squares, double other) {
+  return 10 * std::log10((1 + squares) / (1 + other));
+}
+
+/// A wavelet that takes more than so many bytes has lost to a drawing of `bytes`.
+uint64_t withinReach(uint64_t bytes) {
+  return bytes + bytes / 2;
+}
+
 /// So few bytes are not worth the time of another attempt.
 constexpr uint64_t kFewBytes = 1024;
 
@@ -38,46 +48,120 @@ TextureOptions oneTrack(TextureOptions options) {
   return options;
 }
 
+/// By how many dB prefixes of `a` are worse than those of `b`: the mean over a half, a quarter, an
+/// eighth and a sixteenth of the bytes. What is drawn shows little until it is nearly whole, and an
+/// overlay lies ahead of all else.
+double prefixLoss(const EncodedTexture& a, const EncodedTexture& b, uint64_t bytes) {
+  constexpr int kHalvings = 4;
+  double loss = 0;
+  for (int k = 1; k <= kHalvings; ++k)
+    loss += lossOf(distortionAt(a, bytes >> k), distortionAt(b, bytes >> k)) / kHalvings;
+  return loss;
+}
+
+/// Bytes from which on the error is no larger than that; all of them if it never is, and no number
+/// of bytes if coding ended before.
+uint64_t bytesFor(const EncodedTexture& encoded, double squares) {
+  const EncodedTrack& track = encoded.tracks.front();
+  const auto reached = std::find_if(track.points.begin(), track.points.end(),
+                                    [&](const RatePoint& p) { return p.distortion <= squares; });
+  if (reached != track.points.end()) return reached->bytes;
+  return track.complete ? track.codeword.size() : UINT64_MAX;
+}
+
+bool isWhole(const EncodedTexture& encoded, uint64_t room) {
+  return encoded.tracks.front().complete && bytesOf(encoded.tracks) <= room;
+}
+
+/// Whether a shows the image better than b where they will be cut: in fewer bytes if there is an
+/// error aimed at, or if both are whole, else by less error in as many bytes. What shorter prefixes
+/// show counts as well, least where somebody asks for an error. samples: that count.
+bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TextureOptions& options,
+                 uint64_t samples) {
+  constexpr double kWholePerDb = 0.04, kAimedPerDb = 0.01, kEndPerPrefix = 2;
+  const bool aimed = options.mean_square > 0;
+  if (aimed || (isWhole(a, options.room) && isWhole(b, options.room))) {
+    const double squares = options.mean_square * static_cast<double>(samples);
+    const uint64_t bytes_a = bytesFor(a, squares), bytes_b = bytesFor(b, squares);
+    const double loss = prefixLoss(a, b, std::min(bytes_a, bytes_b));
+    const double price = 1 - (aimed ? kAimedPerDb : kWholePerDb) * loss;
+    return static_cast<double>(bytes_a) < static_cast<double>(bytes_b) * price;
+  }
+  const uint64_t reach = std::min({options.room, bytesOf(a.tracks), bytesOf(b.tracks)});
+  const double loss = lossOf(distortionAt(a, reach), distortionAt(b, reach));
+  return kEndPerPrefix * loss + prefixLoss(a, b, reach) < 0;
+}
+
+/// What is made of a photograph in one track: as it is, and with an overlay.
+struct Attempts {
+  std::optional<EncodedTexture> plain, overlaid;
+};
+
+/// Codes what is not there yet. photograph: empty, there is no overlay.
+void attempt(const TextureSource& source, Purpose purpose, const TextureOptions& options,
+             const std::vector<uint8_t>& photograph, Attempts& attempts) {
+  const TextureOptions one_track = oneTrack(options);
+  if (!attempts.plain) attempts.plain = encodeByWavelet(source, purpose, one_track);
+  if (!attempts.overlaid && !photograph.empty())
+    attempts.overlaid = encodeByWavelet(source, purpose, one_track, photograph);
+}
+
+bool overlayPays(const TextureSource& source, Purpose purpose, const TextureOptions& options,
+                 const Attempts& attempts) {
+  const Mask seen = source.counted(purpose == Purpose::kLossy);
+  return attempts.overlaid && showsBetter(*attempts.overlaid, *attempts.plain, options,
+                                          countedSamples(source.texels, seen));
+}
+
 /// What a drawn texture and the wavelet make of an image, side by side.
 struct Contest {
   bool drawn_wins;
-  /// What encodePhotograph() would make of the image without an overlay, if that is one track.
-  std::optional<EncodedTexture> plain;
+  /// What encodePhotograph() would make itself.
+  Attempts attempts;
 };
 
+/// An overlay of nearly everything is the drawing once more.
+bool isMostlyPhotograph(const std::vector<uint8_t>& photograph) {
+  const auto left = std::count(photograph.begin(), photograph.end(), 1);
+  return 4 * static_cast<size_t>(left) >= photograph.size();
+}
+
+std::vector<uint8_t> photographOf(const TextureSource& source, Purpose purpose) {
+  return photographOf(source.texels, source.counted(purpose == Purpose::kLossy));
+}
+
+/// The better attempt of the wavelet, and all of them.
+const EncodedTexture& challenge(const TextureSource& source, Purpose purpose,
+                                const TextureOptions& options, Attempts& attempts) {
+  std::vector<uint8_t> photograph = photographOf(source, purpose);
+  if (!isMostlyPhotograph(photograph)) photograph.clear();
+  attempt(source, purpose, options, photograph, attempts);
+  return overlayPays(source, purpose, options, attempts) ? *attempts.overlaid : *attempts.plain;
+}
+
+/// Attempts that the limit of a contest ended early are no use.
+Attempts completeOnes(Attempts attempts) {
+  for (std::optional<EncodedTexture>* encoded : {&attempts.plain, &attempts.overlaid})
+    if (*encoded && !(*encoded)->tracks.front().complete) encoded->reset();
+  return attempts;
+}
+
 /// A drawn texture wins if it takes too few bytes for the wavelet to restore every sample within
-/// them, or within twice as many if that is not asked for.
+/// about as many, or within twice as many if that is not asked for.
 Contest contestWhole(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
                      const TextureOptions& options) {
   const uint64_t bytes = bytesOf(drawn.tracks);
   if (bytes <= kFewBytes) return {true, {}};
   const bool lossless = purpose == Purpose::kLossless;
-  EncodedTexture wavelet = encodeByWavelet(source, Purpose::kLossless,
-                                           {lossless ? bytes : 2 * bytes, 0, options.threads});
+  const TextureOptions until = {.limit = lossless ? withinReach(bytes) : 2 * bytes,
+                                .threads = options.threads};
+  Contest contest{true, {}};
+  const EncodedTexture& wavelet = challenge(source, Purpose::kLossless, until, contest.attempts);
   if (!wavelet.tracks.front().complete) return {true, {}};
-  if (!lossless || options.visual) return {false, {}};
-  return {false, std::move(wavelet)};
-}
-
-/// Bytes from which on the error is no larger than that; all of them if it never is.
-uint64_t bytesFor(const EncodedTexture& encoded, double squares) {
-  const EncodedTrack& track = encoded.tracks.front();
-  const auto reached = std::find_if(track.points.begin(), track.points.end(),
-                                    [&](const RatePoint& p) { return p.distortion <= squares; });
-  return reached == track.points.end() ? track.codeword.size() : reached->bytes;
-}
-
-/// Whether a shows the image better than b where they will be cut: in fewer bytes if there is an
-/// error aimed at, else by less error in as many bytes. samples: that count.
-bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TextureOptions& options,
-                 uint64_t samples) {
-  if (options.mean_square > 0) {
-    const double squares = options.mean_square * static_cast<double>(samples);
-    return bytesFor(a, squares) < bytesFor(b, squares);
-  }
-  const uint64_t reach = std::min({options.room, bytesOf(a.tracks), bytesOf(b.tracks)});
-  const double error_a = distortionAt(a, reach), error_b = distortionAt(b, reach);
-  return error_a != error_b ? error_a < error_b : bytesOf(a.tracks) < bytesOf(b.tracks);
+  contest.drawn_wins = lossless && showsBetter(drawn, wavelet, until, source.texels.samples.size());
+  if (!lossless || options.visual) return {contest.drawn_wins, {}};
+  contest.attempts = completeOnes(std::move(contest.attempts));
+  return contest;
 }
 
 /// The contest for a drawn texture whose end will not be sent. Alpha of a cut-out would not be
@@ -86,49 +170,65 @@ Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Pur
                    const TextureOptions& options) {
   if (!source.cutout.empty()) return {false, {}};
   TextureOptions one_track = oneTrack(options);
-  if (options.mean_square > 0) one_track.limit = bytesOf(drawn.tracks);
-  EncodedTexture wavelet = encodeByWavelet(source, purpose, one_track);
-  if (showsBetter(drawn, wavelet, options, source.texels.samples.size())) return {true, {}};
-  const bool limited = one_track.limit < options.limit && !wavelet.tracks.front().complete;
-  if (limited) return {false, {}};
-  return {false, std::move(wavelet)};
+  if (options.mean_square > 0) one_track.limit = withinReach(bytesOf(drawn.tracks));
+  Contest contest{false, {}};
+  const EncodedTexture& wavelet = challenge(source, purpose, one_track, contest.attempts);
+  contest.drawn_wins = showsBetter(drawn, wavelet, options, source.texels.samples.size());
+  if (one_track.limit < options.limit) contest.attempts = completeOnes(std::move(contest.attempts));
+  return contest;
 }
 
 /// Codes the image by wavelet, with an overlay or without. Both are coded in one track to compare
-/// them: all of it for the last bit, else what a budget has room for. plain: the image without an
-/// overlay, in one track, if that was coded already.
+/// them: all of it for the last bit, else what a budget has room for. attempts: those that were
+/// made with the same purpose and options, in one track.
 EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
-                                const TextureOptions& options,
-                                std::optional<EncodedTexture> plain) {
-  const Mask seen = source.counted(purpose == Purpose::kLossy);
-  const std::vector<uint8_t> photograph = photographOf(source.texels, seen);
+                                const TextureOptions& options, Attempts attempts) {
+  const std::vector<uint8_t> photograph = photographOf(source, purpose);
   const bool one_track = options.region_log2 == 0;
-  if (photograph.empty()) {
-    if (plain && one_track) return std::move(*plain);
-    return encodeByWavelet(source, purpose, options, {}, plain ? &plain->header : nullptr);
-  }
-  if (!plain) plain = encodeByWavelet(source, purpose, oneTrack(options));
-  EncodedTexture overlaid = encodeByWavelet(source, purpose, oneTrack(options), photograph);
-  const bool pays = showsBetter(overlaid, *plain, options, countedSamples(source.texels, seen));
-  EncodedTexture& better = pays ? overlaid : *plain;
+  if (photograph.empty() && !one_track)
+    return encodeByWavelet(source, purpose, options, {},
+                           attempts.plain ? &attempts.plain->header : nullptr);
+  attempt(source, purpose, options, photograph, attempts);
+  const bool pays = overlayPays(source, purpose, options, attempts);
+  EncodedTexture& better = pays ? *attempts.overlaid : *attempts.plain;
   if (one_track) return std::move(better);
   const TextureHeader like = std::move(better.header);
   return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
 }
 
-/// Drawn, or by wavelet: without priorities then, because drawn textures have none, and what counts
+/// Drawn, or by wavelet: without priorities, because drawn textures have none, and what counts
 /// differently cannot be compared.
+Contest contestOf(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
+                  TextureOptions options) {
+  options.priorities = nullptr;
+  const bool whole = bytesOf(drawn.tracks) <= options.room && options.mean_square == 0;
+  return (whole ? contestWhole : contestCut)(drawn, source, purpose, options);
+}
+
+/// What does not look drawn has to save a fifth of the photograph's bytes, or to fit whole into the
+/// budget, to be tried. Lossy tracks without an aim have bits behind the last one of the texels.
+uint64_t mostToTry(const EncodedTexture& photograph, Purpose purpose,
+                   const TextureOptions& options) {
+  const uint64_t bytes = bytesOf(photograph.tracks);
+  if (options.room < bytes) return options.room;
+  const bool aimed = purpose == Purpose::kLossless || options.mean_square > 0;
+  return aimed && bytes > kFewBytes ? bytes - bytes / 5 : 0;
+}
+
 EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
                               TextureOptions options) {
-  std::optional<EncodedTexture> drawn = encodeDrawn(source.texels);
-  if (!drawn) return encodePhotograph(source, purpose, options, {});
-  options.priorities = nullptr;
-  const bool whole = bytesOf(drawn->tracks) <= options.room && options.mean_square == 0;
-  const auto contest = whole ? contestWhole : contestCut;
-  Contest result = contest(*drawn, source, purpose, options);
-  if (result.drawn_wins) return std::move(*drawn);
-  drawn.reset();
-  return encodePhotograph(source, purpose, options, std::move(result.plain));
+  if (std::optional<EncodedTexture> drawn = encodeDrawn(source.texels)) {
+    Contest contest = contestOf(*drawn, source, purpose, options);
+    if (contest.drawn_wins) return std::move(*drawn);
+    drawn.reset();
+    options.priorities = nullptr;
+    return encodePhotograph(source, purpose, options, std::move(contest.attempts));
+  }
+  EncodedTexture photograph = encodePhotograph(source, purpose, options, {});
+  const uint64_t most = mostToTry(photograph, purpose, options);
+  std::optional<EncodedTexture> drawn = encodeDrawn(source.texels, most);
+  const bool drawn_wins = drawn && contestOf(*drawn, source, purpose, options).drawn_wins;
+  return drawn_wins ? std::move(*drawn) : std::move(photograph);
 }
 
 }  // namespace

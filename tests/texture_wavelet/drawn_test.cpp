@@ -227,6 +227,73 @@ TEST(Drawn, IsChosenForDrawingsAndNotForLakesInPhotographs) {
   }
 }
 
+/// Few colours without runs: a dithered wave, noise of four greys, a wave of 60 colours with grain.
+std::vector<Texels> fewColours() {
+  Texels dithered{160, 120, 1, 8, {}}, noisy = dithered, grainy{160, 120, 3, 8, {}};
+  constexpr std::array<int, 16> kBayer = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+  std::mt19937 random(6);
+  for (uint32_t i = 0; i < 160 * 120; ++i) {
+    const uint32_t x = i % 160, y = i / 160;
+    const double wave = 0.5 + 0.4 * std::sin(0.05 * x) * std::cos(0.07 * y);
+    dithered.samples.push_back(16 * wave > kBayer[y % 4 * 4 + x % 4] ? 255 : 0);
+    noisy.samples.push_back(static_cast<uint16_t>(80 * (random() % 4)));
+    const auto colour = static_cast<uint32_t>(56 * wave) + static_cast<uint32_t>(random() % 4);
+    for (const uint32_t factor : {1u, 13u, 29u})
+      grainy.samples.push_back(static_cast<uint16_t>(colour * factor % 64 * 4));
+  }
+  return {dithered, noisy, grainy};
+}
+
+/// What the wavelet and its overlays make of it at their best.
+size_t waveletBytes(const Texels& texels) {
+  size_t bytes = bytesOf(encodeByWavelet(texels, Purpose::kLossless, {}).tracks);
+  const std::vector<uint8_t> photograph = photographOf(texels);
+  if (photograph.empty()) return bytes;
+  return std::min(bytes,
+                  bytesOf(encodeByWavelet(texels, Purpose::kLossless, {}, photograph).tracks));
+}
+
+TEST(Drawn, FewColoursAreTriedWhateverTheirNeighbours) {
+  for (const Texels& texels : fewColours()) {
+    EXPECT_FALSE(encodeDrawn(texels)) << "not alike";
+    const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossless, {});
+    EXPECT_TRUE(encoded.header.drawn());
+    EXPECT_LT(bytesOf(encoded.tracks), waveletBytes(texels) / 2);
+    TextureOptions budget{.limit = 40000, .room = 20000}, psnr{.mean_square = 1};
+    EXPECT_TRUE(encodeTexture(texels, Purpose::kLossy, budget).header.drawn()) << "fits whole";
+    EXPECT_TRUE(encodeTexture(texels, Purpose::kLossy, psnr).header.drawn());
+    budget.room = bytesOf(encoded.tracks) / 4;
+    EXPECT_FALSE(encodeTexture(texels, Purpose::kLossy, budget).header.drawn());
+  }
+}
+
+/// Steep ground with its flats in one value, whose borders are ragged.
+Texels flats() {
+  Texels texels{240, 180, 1, 8, {}};
+  std::mt19937 random(8);
+  for (uint32_t i = 0; i < 240 * 180; ++i) {
+    const uint32_t x = i % 240, y = i / 240;
+    const double wave = std::sin(0.09 * x + 0.03 * y) * std::cos(0.08 * y);
+    const bool flat = wave < 0.1 + 0.0005 * static_cast<double>(random() % 100);
+    const double slope = 60 + 170 * wave + static_cast<double>(random() % 20);
+    texels.samples.push_back(flat ? uint16_t{0} : static_cast<uint16_t>(slope));
+  }
+  return texels;
+}
+
+TEST(Drawn, LosesToAnOverlayOverThePhotograph) {
+  const Texels texels = flats();
+  const auto drawn = encodeDrawn(texels);
+  ASSERT_TRUE(drawn);
+  const EncodedTexture plain = encodeByWavelet(texels, Purpose::kLossless, {});
+  ASSERT_LT(bytesOf(drawn->tracks), bytesOf(plain.tracks)) << "better than the wavelet alone";
+  const EncodedTexture encoded = encodeTexture(texels, Purpose::kLossless, {});
+  EXPECT_GT(encoded.header.overlay_bytes, 0u);
+  EXPECT_LT(bytesOf(encoded.tracks), bytesOf(drawn->tracks));
+  EXPECT_EQ(decodeTexture(encoded.header, {encoded.tracks.front().codeword}).samples,
+            texels.samples);
+}
+
 /// A grainy slope in pairs of texels alike. Every colour is as frequent as any other, so that none
 /// fills enough for an overlay.
 Texels slopeOfPairs() {

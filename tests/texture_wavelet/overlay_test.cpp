@@ -104,6 +104,22 @@ TEST(Overlay, IsExactFromItsLastByteOn) {
   }
 }
 
+/// It lies ahead of everything, so that of a budget of which it takes most the prefixes are poor:
+/// there a better end alone does not pay.
+TEST(Overlay, IsLeftOutWhereItTakesMostOfTheBudget) {
+  Texels texels = photograph(1, 8);
+  std::mt19937 random(3);
+  for (uint16_t& texel : texels.samples)
+    if (texel < 90 + random() % 30) texel = 80;
+  const auto overlayIn = [&](uint64_t room) {
+    const TextureOptions options{.limit = 2 * room, .room = room};
+    return encodeTexture(texels, Purpose::kLossy, options).header.overlay_bytes;
+  };
+  const uint64_t overlay = overlayIn(12000);
+  ASSERT_GT(overlay, 0u);
+  EXPECT_EQ(overlayIn(overlay + overlay / 4), 0u);
+}
+
 TEST(Overlay, EveryPrefixOfItDecodes) {
   Texels texels = photograph(2, 8);
   drawBars(texels);

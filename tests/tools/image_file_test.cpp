@@ -277,6 +277,40 @@ TEST_F(ScratchFolder, CmykIsConvertedAndTold) {
   EXPECT_NE(note.find("CMYK"), std::string::npos);
 }
 
+/// What users would not see otherwise: near infrared becomes alpha, nodata becomes a colour.
+TEST_F(ScratchFolder, WhatATiffMeansOtherwiseIsTold) {
+  const auto noteOn = [this](const TinyTiff& tiff) {
+    std::string note;
+    EXPECT_TRUE(readImage(save("a.tif", tiff.bytes()), &note).ok());
+    return note;
+  };
+  for (const uint16_t channels : {uint16_t{2}, uint16_t{4}}) {
+    TinyTiff tiff(1, 1, channels, 8, std::vector<uint8_t>(channels, 9));
+    EXPECT_NE(noteOn(tiff).find("taken for alpha"), std::string::npos);
+    tiff.shorts(TinyTiff::kExtraSamples, {0});
+    EXPECT_NE(noteOn(tiff).find("taken for alpha"), std::string::npos);
+    tiff.shorts(TinyTiff::kExtraSamples, {2});
+    EXPECT_EQ(noteOn(tiff), "");
+  }
+  constexpr uint16_t kNodata = 42113;
+  TinyTiff tiff(1, 1, 3, 8, {1, 2, 3});
+  EXPECT_EQ(noteOn(tiff), "");
+  tiff.ascii(kNodata, "255");
+  EXPECT_NE(noteOn(tiff).find("nodata"), std::string::npos);
+}
+
+TEST_F(ScratchFolder, SixteenBitsThatHoldEightAreTold) {
+  for (const uint16_t odd : {uint16_t{0}, uint16_t{1}}) {
+    ImageFile image = randomImage(5, 4, 1, TKS_U16);
+    for (size_t i = 0; i < image.data.size(); i += 2) image.data[i + 1] = image.data[i];
+    image.data[8] ^= std::byte(odd);
+    ASSERT_TRUE(writeImage(path("a.png"), image).ok());
+    std::string note;
+    ASSERT_TRUE(readImage(path("a.png"), &note).ok());
+    EXPECT_EQ(note.find("16 bits say no more than 8") != std::string::npos, odd == 0) << note;
+  }
+}
+
 TEST_F(ScratchFolder, FewBitsAreWidenedToFullRange) {
   const TinyTiff tiff(4, 1, 1, 4, {0x0F, 0x50});
   expectPixels(readImage(save("a.tif", tiff.bytes())), {0, 255, 85, 0});

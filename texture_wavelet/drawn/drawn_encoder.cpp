@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/drawing/drawing_encoding.hpp"
+#include "codec/drawing/drawing_estimate.hpp"
 #include "codec/drawing/drawing_pass.hpp"
 #include "texture_wavelet/drawn/drawn_fill.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
@@ -59,6 +60,14 @@ bool looksDrawn(const NumberedColours& image, size_t width) {
   return 2 * alike >= n.size();
 }
 
+/// Noise has next to no texels like their neighbours, and dithers have few; where colours are few
+/// their numbers still take fewer bits than what a wavelet makes of them.
+bool mayFit(const NumberedColours& image, const Texels& texels, uint64_t bytes) {
+  if (bytes == 0) return false;
+  const PlaneView<const DrawnIndex> plane(image.numbers, texels.extent());
+  return estimateDrawing(plane, Alone::kValue) <= static_cast<double>(bytes);
+}
+
 /// Codes the image into what `io` ends with.
 void draw(const Texels& texels, std::vector<DrawnIndex>& indices, DrawnColours& colours,
           ColourEncoding& io) {
@@ -68,9 +77,10 @@ void draw(const Texels& texels, std::vector<DrawnIndex>& indices, DrawnColours& 
 
 }  // namespace
 
-std::optional<EncodedTexture> encodeDrawn(const Texels& texels) {
+std::optional<EncodedTexture> encodeDrawn(const Texels& texels, uint64_t most) {
   const std::optional<NumberedColours> image = number(texels, {});
-  if (!image || !looksDrawn(*image, texels.width)) return {};
+  if (!image) return {};
+  if (!looksDrawn(*image, texels.width) && !mayFit(*image, texels, most)) return {};
   std::vector<DrawnIndex> indices(image->numbers.size(), kNoIndex);
   DrawnColours colours(texels);
   const std::vector<Level> levels = levelsOf(texels.width, texels.height);

@@ -12,9 +12,10 @@
 
 namespace tetrakis::inline drawn {
 
-/// Lossless, whole. Nothing if there are more than kMostDrawnValues colours, or if fewer than half
-/// of the texels are like the one before or above them: that is no drawing.
-std::optional<EncodedTexture> encodeDrawn(const Texels& texels);
+/// Lossless, whole. Nothing if there are more than kMostDrawnValues colours; or if fewer than half
+/// of the texels are like the one before or above them, unless so the drawing takes about `most`
+/// bytes or fewer: else that is no drawing.
+std::optional<EncodedTexture> encodeDrawn(const Texels& texels, uint64_t most = 0);
 
 /// Returns the codeword of an overlay: which texels the photograph does not mark, and the colours
 /// of those. There are fewer than kMostDrawnValues colours.

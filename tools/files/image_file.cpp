@@ -25,18 +25,30 @@ Result<tks_sample> sampleOf(const Raster& raster) {
     case PictureSample::kHalf:
     case PictureSample::kFloat:
     case PictureSample::kDouble:
-      return Status(TKS_USAGE, raster.name + " holds floats: a texture is 8 or 16 bits");
+      return Status(TKS_USAGE, raster.name +
+                                   " holds floats: a texture has unsigned integers, which "
+                                   "gdal_translate -ot Byte -scale makes of them");
     case PictureSample::kI8:
     case PictureSample::kI16:
     case PictureSample::kI32:
-      return Status(TKS_USAGE, raster.name + " holds signed samples: a texture is 8 or 16 bits");
+      return Status(TKS_USAGE, raster.name +
+                                   " holds signed samples: a texture has unsigned ones, which "
+                                   "gdal_translate -ot UInt16 makes of them");
     case PictureSample::kOther:
       break;
   }
   return Status(TKS_USAGE, raster.name + " holds samples of 64 bits: a texture is 8 or 16 bits");
 }
 
-std::string noteOn(const Raster& raster) {
+/// Whether all samples are what 8 bits become as 16.
+bool isWidened(const ImageFile& image) {
+  if (image.sample != TKS_U16) return false;
+  for (size_t i = 0; i < image.data.size(); i += 2)
+    if (image.data[i] != image.data[i + 1]) return false;
+  return true;
+}
+
+std::string noteOn(const Raster& raster, bool widened) {
   std::string note;
   const auto add = [&note](const char* text) {
     note += (note.empty() ? "" : ", ") + std::string(text);
@@ -47,6 +59,12 @@ std::string noteOn(const Raster& raster) {
   if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
   if (raster.orientation != 1) add("turned upright as its orientation tag says");
   if (raster.profile) add("colour profile not applied and not kept");
+  const int bits = raster.stored_bits;
+  if (widened) add("its 16 bits say no more than 8, which would take far fewer bytes");
+  if (raster.shape.sample == PictureSample::kU16 && bits > 8 && bits < 16)
+    add((std::to_string(bits) + " bits stretched to 16").c_str());
+  if (raster.unnamed_alpha) add("last channel taken for alpha, which the file does not call it");
+  if (raster.nodata) add("nodata value not applied and not kept");
   if (raster.mask) add("mask not applied and not kept");
   if (raster.further_pages) add("further pages left out");
   return note.empty() ? note : raster.name + ": " + note;
@@ -105,7 +123,8 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   const PictureShape& shape = raster->shape;
   if (shape.channels > 4) {
     return Status(TKS_USAGE, raster->name + " has " + std::to_string(shape.channels) +
-                                 " channels: a texture has 1 to 4");
+                                 " channels: a texture has 1 to 4, which gdal_translate -b 1 -b 2 "
+                                 "-b 3 picks");
   }
   if (raster->sparse)
     return Status(TKS_IO, "cannot read " + raster->name + ": a part of its samples is missing");
@@ -121,7 +140,7 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
                                  "it to PNG");
   }
   if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
-  if (note) *note = noteOn(*raster);
+  if (note) *note = noteOn(*raster, isWidened(image));
   if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
   Notes notes;
   auto place = placeOf(*raster, path, notes);

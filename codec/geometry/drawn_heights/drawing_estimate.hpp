@@ -5,12 +5,15 @@
 #include <cstdint>
 
 #include "base/plane.hpp"
+#include "codec/drawing/drawing_estimate.hpp"
 
 namespace tetrakis::inline drawn_heights {
 
 /// About how many bytes the steps take as a drawing. Drawings take 0.7 to 1.05 times as many;
 /// terrain, 1.7 times.
-double estimateDrawing(const PlaneView<const int32_t>& heights);
+inline double estimateDrawing(const PlaneView<const int32_t>& heights) {
+  return estimateDrawing(heights, Alone::kDifference);
+}
 
 /// Whether they may take at most so many bytes. Shapes whose borders the estimate sees as noise
 /// take two thirds of it.

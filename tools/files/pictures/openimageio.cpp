@@ -83,6 +83,9 @@ OIIO::ImageSpec specOf(const PictureToWrite& picture) {
   const PictureShape& shape = picture.shape;
   OIIO::ImageSpec spec(shape.width, shape.height, shape.channels, typeOf(shape.sample));
   spec["oiio:UnassociatedAlpha"] = 1;
+  // OpenImageIO calls only the fourth channel so.
+  constexpr int kGreyAlpha = 2;
+  if (shape.channels == kGreyAlpha) spec.alpha_channel = 1;
   if (!picture.compression.empty()) spec["compression"] = picture.compression;
   return spec;
 }

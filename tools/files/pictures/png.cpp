@@ -8,6 +8,8 @@
 #include <array>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "tools/files/pictures/exif.hpp"
 #include "tools/files/pictures/raster.hpp"
@@ -49,8 +51,20 @@ Status unreadable(const std::string& name, int error) {
   return {TKS_IO, "cannot read " + name + ": PNG " + spng_strerror(error)};
 }
 
+/// Whether the chunk of animations is there (APNG), which libspng does not know.
+bool isAnimated(spng_ctx* context) {
+  uint32_t count = 0;
+  if (spng_get_unknown_chunks(context, nullptr, &count) != 0) return false;
+  std::vector<spng_unknown_chunk> chunks(count);
+  if (spng_get_unknown_chunks(context, chunks.data(), &count) != 0) return false;
+  return std::any_of(chunks.begin(), chunks.end(), [](const spng_unknown_chunk& chunk) {
+    return std::string_view(reinterpret_cast<const char*>(chunk.type), 4) == "acTL";
+  });
+}
+
 /// The profile, and the orientation; libspng has read all chunks by then.
 void noteChunks(spng_ctx* context, DecodedPng& png) {
+  png.animated = isAnimated(context);
   spng_iccp profile{};
   png.profile = spng_get_iccp(context, &profile) == 0;
   spng_exif exif{};
@@ -71,7 +85,8 @@ Result<DecodedPng> decodePng(std::span<const std::byte> bytes, const std::string
   const Context context(spng_ctx_new(0));
   if (!context) return Status(TKS_NO_MEMORY, "out of memory");
   spng_ihdr header{};
-  int error = spng_set_png_buffer(context.get(), bytes.data(), bytes.size());
+  int error = spng_set_option(context.get(), SPNG_KEEP_UNKNOWN_CHUNKS, 1);
+  if (!error) error = spng_set_png_buffer(context.get(), bytes.data(), bytes.size());
   if (!error) error = spng_get_ihdr(context.get(), &header);
   if (error) return unreadable(name, error);
   spng_trns colour{};

@@ -18,10 +18,11 @@ bool isPng(std::span<const std::byte> bytes);
 
 struct DecodedPng {
   ImageFile image;
-  int stored_bits = 0;   ///< 1, 2, 4, 8, 16; fewer than 8 were widened to full range
-  bool palette = false;  ///< expanded to RGB or RGBA
-  bool profile = false;  ///< an ICC profile, not applied
-  int orientation = 1;   ///< of the EXIF data, not applied
+  int stored_bits = 0;    ///< 1, 2, 4, 8, 16; fewer than 8 were widened to full range
+  bool palette = false;   ///< expanded to RGB or RGBA
+  bool profile = false;   ///< an ICC profile, not applied
+  bool animated = false;  ///< further frames are not read
+  int orientation = 1;    ///< of the EXIF data, not applied
 };
 
 /// name: for the message.

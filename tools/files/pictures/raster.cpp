@@ -47,6 +47,7 @@ Result<Raster> openPng(InputFile file, const std::string& name) {
   raster.palette = png->palette;
   raster.profile = png->profile;
   raster.orientation = png->orientation;
+  raster.further_pages = png->animated;
   raster.decoded = std::move(png->image.data);
   return raster;
 }

@@ -29,9 +29,11 @@ struct Raster {
   bool white_is_zero = false;             ///< inverted by reading
   bool further_pages = false;             ///< pages or frames that are not read
   bool mask = false;                      ///< a TIFF's mask page, which is not applied by reading
-  bool sparse = false;   ///< parts of a TIFF are missing, which reading leaves at 0
-  bool profile = false;  ///< an ICC profile that is not applied
-  int orientation = 1;   ///< as TIFF counts; not applied by reading
+  bool nodata = false;         ///< a TIFF's nodata value, which says nothing of a texture
+  bool unnamed_alpha = false;  ///< the last of two or four channels, not said to be alpha
+  bool sparse = false;         ///< parts of a TIFF are missing, which reading leaves at 0
+  bool profile = false;        ///< an ICC profile that is not applied
+  int orientation = 1;         ///< as TIFF counts; not applied by reading
   /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
   enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
   std::vector<std::byte> decoded{};  ///< samples of a PNG

@@ -36,6 +36,8 @@ Status noteTiff(Raster& raster) {
   }
   raster.further_pages = form->further_pages;
   raster.mask = form->mask;
+  raster.nodata = form->nodata;
+  raster.unnamed_alpha = form->unnamed_alpha;
   if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
   const std::string colours = raster.reader->text("tiff:ColorSpace");
   raster.palette = colours == "palette";
@@ -120,10 +122,10 @@ Status noteStoredForm(Raster& raster) {
   if (format == "webp") return noteWebp(raster);
   raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   if (format == "pnm") return notePnm(raster);
-  if (format == "gif") {
+  if (format == "gif" || format == "ico") {
     const auto formats = pictureFormats();
     raster.further_pages = formats.ok() && (*formats)->hasSecond(raster.file.path());
-    raster.palette = true;
+    raster.palette = format == "gif";
   }
   if (format == "bmp") noteBmp(raster);
   return {};

@@ -78,6 +78,8 @@ struct TiffForm {
   bool whole = true;    ///< all strips or tiles lie inside the file, but for those that are missing
   bool sparse = false;  ///< some, not all, are missing
   bool associated_alpha = false;
+  bool unnamed_alpha = false;  ///< the last of two or four samples is not said to be alpha
+  bool nodata = false;         ///< GDAL's nodata value is declared
   bool mask = false;           ///< there is a mask page for the first
   bool further_pages = false;  ///< other than that, and smaller versions of the first (overviews)
 };

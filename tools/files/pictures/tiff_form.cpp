@@ -23,11 +23,28 @@ void noteBlocks(TIFF* tiff, uint64_t file_bytes, TiffForm& form) {
   if (missing == count) form.whole = false;
 }
 
-bool associatedAlpha(TIFF* tiff) {
+/// What the first sample beside the colours is.
+uint16_t extraSample(TIFF* tiff) {
   uint16_t count = 0;
   const uint16_t* kinds = nullptr;
-  return TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) && count > 0 &&
-         kinds[0] == EXTRASAMPLE_ASSOCALPHA;
+  const bool told = TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) && count > 0;
+  return told ? kinds[0] : uint16_t{EXTRASAMPLE_UNSPECIFIED};
+}
+
+bool hasAlphaUnnamed(TIFF* tiff) {
+  uint16_t samples = 1, photometric = PHOTOMETRIC_MINISBLACK;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+  return (samples == 2 || samples == 4) && photometric != PHOTOMETRIC_SEPARATED &&
+         extraSample(tiff) == EXTRASAMPLE_UNSPECIFIED;
+}
+
+/// Of those that libtiff does not know itself.
+bool hasTag(TIFF* tiff, uint32_t tag) {
+  const int count = TIFFGetTagListCount(tiff);
+  for (int i = 0; i < count; ++i)
+    if (TIFFGetTagListEntry(tiff, i) == tag) return true;
+  return false;
 }
 
 uint32_t kindOf(TIFF* tiff) {
@@ -77,7 +94,9 @@ Result<TiffForm> tiffForm(const std::string& path) {
   uint16_t bits = 0;
   TiffForm form;
   form.states_bits = TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits) != 0;
-  form.associated_alpha = associatedAlpha(tiff);
+  form.associated_alpha = extraSample(tiff) == EXTRASAMPLE_ASSOCALPHA;
+  form.unnamed_alpha = hasAlphaUnnamed(tiff);
+  form.nodata = hasTag(tiff, kGdalNodataTag);
   noteBlocks(tiff, unknown_size ? UINT64_MAX : bytes, form);
   notePages(tiff, form);
   return form;
