@@ -53,8 +53,10 @@ Status describe(const EncodeArguments& arguments, HeightFile& heights) {
 /// Notes that an option does not answer.
 void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet) {
   for (const auto& [text, option] : notes) {
-    const bool answered = (option == "--spacing" && !arguments.spacing.empty()) ||
-                          (option == "--unit" && arguments.unit);
+    const bool answered =
+        (option == "--spacing" && !arguments.spacing.empty()) ||
+        (option == "--unit" && arguments.unit) || (option == "--nodata" && arguments.nodata) ||
+        (option == "--scale" && arguments.scale) || (option == "--offset" && arguments.offset);
     if (!answered) tellNote(quoted(arguments.height) + ": " + text, quiet);
   }
 }
@@ -205,6 +207,24 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   return std::move(*stream);
 }
 
+/// Cells that the bands of a transform of a plane take: their rows are padded to words of 32 and
+/// two more, and have rows of margins around them. That counts where a plane is narrow or low.
+uint64_t cellsOf(uint32_t width, uint32_t height) {
+  constexpr uint64_t kWord = 32, kMarginColumns = 2, kMarginRows = 4;
+  const auto cells = [](uint64_t rows, uint64_t columns) {
+    if (rows == 0 || columns == 0) return uint64_t{0};
+    return (rows + kMarginRows) * ((columns + kWord - 1) / kWord * kWord + kMarginColumns);
+  };
+  uint64_t all = 0;
+  for (uint64_t columns = width, rows = height; columns > 1 || rows > 1;) {
+    const uint64_t right = columns / 2, below = rows / 2;
+    columns -= right;
+    rows -= below;
+    all += cells(rows, right) + cells(below, columns) + cells(below, right);
+  }
+  return std::max(all, uint64_t{width} * height);
+}
+
 /// What encoding takes at most beside the samples, of each (tests/api/encode_memory_test.cpp), and
 /// those. Floats with a budget take most. Within a largest error several cuts of all heights are
 /// kept at a time.
@@ -213,9 +233,11 @@ Status checkMemory(const EncodeArguments& arguments, const Reference& inputs) {
   const uint64_t height = arguments.max_error.empty() ? kHeight : kBoundedHeight;
   uint64_t bytes = 0;
   if (inputs.heights)
-    bytes += height * inputs.heights->width * inputs.heights->height + inputs.heights->data.size();
+    bytes += height * cellsOf(inputs.heights->width, inputs.heights->height) +
+             inputs.heights->data.size();
   if (inputs.image)
-    bytes += kTexelChannel * inputs.image->width * inputs.image->height * inputs.image->channels +
+    bytes += kTexelChannel * cellsOf(inputs.image->width, inputs.image->height) *
+                 inputs.image->channels +
              inputs.image->data.size();
   return checkMemoryFor("encoding so many samples", bytes);
 }
