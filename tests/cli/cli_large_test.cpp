@@ -107,5 +107,14 @@ TEST_F(CliLarge, MemoryOfNarrowPlanesIsLimitedToo) {
   }
 }
 
+/// Small regions and meshes take more than the samples do.
+TEST_F(CliLarge, MemoryOfRegionsAndMeshesIsLimitedToo) {
+  write("a.raw", std::string(2 * 256 * 256, '\0'));
+  const std::string verb = "encode a.raw:256x256:i16 -f -o b.tks --bytes 1k --max-memory 3M";
+  EXPECT_EQ(cli(verb).code, 0);
+  EXPECT_EQ(cli(verb + " --regions 16").code, 6);
+  EXPECT_EQ(cli(verb + " --triangles 100").code, 6);
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -225,20 +225,42 @@ uint64_t cellsOf(uint32_t width, uint32_t height) {
   return std::max(all, uint64_t{width} * height);
 }
 
-/// What encoding takes at most beside the samples, of each (tests/api/encode_memory_test.cpp), and
-/// those. Floats with a budget take most. Within a largest error several cuts of all heights are
-/// kept at a time.
+/// Regions of a plane, at most: where their side is not given, it is no less than kChosen.
+uint64_t regionsOf(const EncodeArguments& arguments, uint32_t width, uint32_t height) {
+  constexpr uint32_t kChosen = 256, kLeast = 16;
+  const Result<uint32_t> given = parseRegions(arguments.regions);
+  const uint64_t side = given.ok() && *given > 1 ? std::max(*given, kLeast) : kChosen;
+  return ((width + side - 1) / side) * ((height + side - 1) / side);
+}
+
+/// Measured: what encoding takes at most beside the samples, for each cell and each region.
+struct EncodingBytes {
+  uint64_t cell, region;
+  uint64_t of(const EncodeArguments& arguments, uint32_t width, uint32_t height) const {
+    return cell * cellsOf(width, height) + region * regionsOf(arguments, width, height);
+  }
+};
+
+/// Most is taken by floats with voids that lie in a table, which are tried exactly as well. Within
+/// a largest error several cuts of all heights are kept at a time; with a budget of triangles
+/// prefixes are seen as the best mesh of all heights shows them.
+EncodingBytes heightsTake(const EncodeArguments& arguments, bool beside_texture) {
+  constexpr uint64_t kAlone = 32, kCompared = 50, kMeshes = 62, kRegion = 36 << 10;
+  const bool compared = !arguments.max_error.empty() || (arguments.bytes > 0 && beside_texture);
+  return {arguments.triangles > 0 ? kMeshes : compared ? kCompared : kAlone, kRegion};
+}
+
 Status checkMemory(const EncodeArguments& arguments, const Reference& inputs) {
-  constexpr uint64_t kHeight = 30, kBoundedHeight = 34, kTexelChannel = 18;
-  const uint64_t height = arguments.max_error.empty() ? kHeight : kBoundedHeight;
+  constexpr EncodingBytes kTexelChannel = {18, 48 << 10};
   uint64_t bytes = 0;
-  if (inputs.heights)
-    bytes += height * cellsOf(inputs.heights->width, inputs.heights->height) +
-             inputs.heights->data.size();
-  if (inputs.image)
-    bytes += kTexelChannel * cellsOf(inputs.image->width, inputs.image->height) *
-                 inputs.image->channels +
-             inputs.image->data.size();
+  if (const auto& heights = inputs.heights) {
+    bytes += heights->data.size() + heightsTake(arguments, inputs.image.has_value())
+                                        .of(arguments, heights->width, heights->height);
+  }
+  if (const auto& image = inputs.image) {
+    bytes += image->data.size() +
+             image->channels * kTexelChannel.of(arguments, image->width, image->height);
+  }
   return checkMemoryFor("encoding so many samples", bytes);
 }
 
