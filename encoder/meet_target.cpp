@@ -78,6 +78,20 @@ HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy)
   return fewestBytes<CodedHeights>({std::move(lossy), {exact}});
 }
 
+/// Heights of the PSNR: to the last bit where nothing lossy reaches it, as of floats that are on no
+/// grid, unless the caller's step forbids it.
+Result<HeightsCandidate> reachingPsnr(const EncodeInputs& inputs, HeightsCandidate lossy) {
+  if (const std::optional<uint64_t> need = heightsNeed(inputs, lossy)) {
+    lossy.need = *need;
+    return preferExact(inputs, std::move(lossy));
+  }
+  const bool any_step = inputs.heights->step == 0;
+  if (const auto exact = any_step ? exactHeightsFor(inputs, 0, UINT64_MAX) : nullptr)
+    return HeightsCandidate{exact};
+  return Status(TKS_USAGE,
+                "This PSNR is above what the step of the heights allows; give a smaller step.");
+}
+
 /// The candidate, or its lossless sibling if the need lies next to the last bit and that takes
 /// fewer bytes.
 TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy) {
@@ -92,16 +106,9 @@ Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
   candidates = withCurves(inputs, std::move(candidates));
   auto& [heights, texture, errors] = candidates;
   if (heights.coded) {
-    const std::optional<uint64_t> need = heightsNeed(inputs, heights);
-    if (!need) {
-      return Status(TKS_USAGE,
-                    inputs.heights->step > 0
-                        ? "This PSNR is above what the step of the heights allows; give a smaller "
-                          "step."
-                        : "No lossy heights reach this PSNR; ask for lossless ones.");
-    }
-    heights.need = *need;
-    heights = storedIfShorter(inputs, preferExact(inputs, std::move(heights)));
+    Result<HeightsCandidate> reaching = reachingPsnr(inputs, std::move(heights));
+    if (!reaching.ok()) return reaching.status();
+    heights = storedIfShorter(inputs, *std::move(reaching));
   }
   if (texture.coded) {
     texture.need = textureNeed(inputs, texture);

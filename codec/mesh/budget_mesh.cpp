@@ -8,6 +8,7 @@
 
 #include "codec/mesh/fitted_heights.hpp"
 #include "codec/mesh/fitting/height_range.hpp"
+#include "codec/mesh/needless_vertices.hpp"
 
 namespace tetrakis::inline mesh {
 
@@ -34,17 +35,25 @@ void skipQuiet(KnownSurface& known, uint32_t level) {
   known.level = level;
 }
 
+Result<std::vector<VertexId>> chosenVertices(const SurfaceView& surface, uint32_t max_triangles) {
+  const Result<FittedSequence> sequence = FittedSequence::makeFor({surface, {}}, max_triangles);
+  if (!sequence.ok()) return sequence.status();
+  std::vector<VertexId> vertices = sequence->order();
+  vertices.resize(sequence->longestPrefix(max_triangles));
+  return vertices;
+}
+
 Result<BudgetMesh> fittedVertices(const CoarseSurface& surface, bool choose_coarser,
                                   uint32_t max_triangles) {
   const SurfaceView fine = surface.view();
   const CoarseSurface coarser = choose_coarser ? smoothed(fine) : CoarseSurface();
-  const Result<FittedSequence> sequence =
-      FittedSequence::makeFor({choose_coarser ? coarser.view() : fine, {}}, max_triangles);
-  if (!sequence.ok()) return sequence.status();
-  std::vector<VertexId> vertices = sequence->order();
-  vertices.resize(sequence->longestPrefix(max_triangles));
+  Result<std::vector<VertexId>> chosen =
+      chosenVertices(choose_coarser ? coarser.view() : fine, max_triangles);
+  if (!chosen.ok()) return chosen.status();
+  std::vector<VertexId>& vertices = *chosen;
   const Result<Lattice> lattice = Lattice::make(fine.width, fine.height);
   if (!lattice.ok()) return lattice.status();
+  dropNeedless(*lattice, fine, vertices);
   FittedMesh fitted = fitMesh(*lattice, {fine, {}}, vertices);
   keepWithinRange({fine, {}}, fitted.heights);
   return BudgetMesh{std::move(vertices), std::move(fitted.mesh), std::move(fitted.heights)};

@@ -3,8 +3,10 @@
 
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "codec/mesh/fitting/height_range.hpp"
+#include "codec/mesh/needless_vertices.hpp"
 #include "codec/mesh/turned_edges.hpp"
 #include "codec/mesh/void_mesh.hpp"
 
@@ -21,7 +23,10 @@ Result<FittedMesh> latticeMesh(const Lattice& lattice, const WeightedSurface& su
   }
   const Result<FittedSequence> sequence = FittedSequence::makeFor(surface, max_triangles);
   if (!sequence.ok()) return sequence.status();
-  return sequence->mesh(sequence->longestPrefix(max_triangles));
+  std::vector<VertexId> vertices = sequence->order();
+  vertices.resize(sequence->longestPrefix(max_triangles));
+  dropNeedless(lattice, surface.view, vertices);
+  return fitMesh(lattice, surface, vertices);
 }
 
 }  // namespace

@@ -110,6 +110,32 @@ TEST(BudgetMesh, StaysWithinTheRangeOfTheSurface) {
   }
 }
 
+/// What is under water shows nothing, however much the budget has left.
+TEST(BudgetMesh, HasNoVerticesOnWaterThatNothingNeeds) {
+  for (const auto& [width, height] :
+       {std::pair{129u, 129u}, {150u, 131u}, {97u, 200u}, {70u, 33u}}) {
+    Raster island = samples::make({Pattern::kFlat, width, height, 1, TKS_I16});
+    const Bytes plane = encode(&island, nullptr, lossless());
+    for (uint32_t y = 0; y < height; ++y)
+      for (uint32_t x = width - 20; x < width - 3; ++x)
+        island.data[2 * (size_t{y} * width + x)] = static_cast<std::byte>(x * x + 7 * y);
+    const std::vector<int32_t> surface = heightsOf(island);
+    const Bytes bytes = encode(&island, nullptr, lossless());
+    const uint64_t all = uint64_t{2} * (width - 1) * (height - 1);
+    for (const uint32_t triangles : {1000u, 1u << 20}) {
+      SCOPED_TRACE(testing::Message() << width << " x " << height << ", " << triangles);
+      Stream water(plane), land(bytes);
+      const DrawnMesh flat = decode(water, triangles), drawn = decode(land, triangles);
+      checks::expectConforming(flat.mesh, width, height);
+      checks::expectConforming(drawn.mesh, width, height);
+      EXPECT_LE(flat.mesh.triangleCount(), 2 * (width / (height - 1) + height / (width - 1) + 1));
+      if (triangles < all) continue;
+      EXPECT_EQ(errorOf(drawn, surface, width), 0);
+      EXPECT_LT(drawn.mesh.triangleCount(), all * 9 / 10);
+    }
+  }
+}
+
 TEST(BudgetMesh, PlanesComeBackFromAnyLevel) {
   for (const auto& [width, height] : kSizes) {
     const Raster raster = samples::make({Pattern::kRamp, width, height, 1, TKS_U16, 1});

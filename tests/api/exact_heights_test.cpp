@@ -65,5 +65,22 @@ TEST(ExactHeights, TakeLittleFromPrefixes) {
   EXPECT_LT(logarithms / 4, std::log(1.25));
 }
 
+/// Floats that are on no grid have no lossy coding of any PSNR; every bit has.
+TEST(ExactHeights, ReachEveryPsnr) {
+  constexpr double kRange = 300, kBeyond = 1000;  // metres, at least; dB of no float
+  const Raster surface = hills(false);
+  for (const double psnr : {100.0, kBeyond}) {
+    tks_encode_options options = budget(0);
+    options.psnr = psnr;
+    Stream alone(encode(&surface, nullptr, options));
+    Stream both(encode(&surface, &picture(), options));
+    for (Stream* stream : {&alone, &both}) {
+      const double squares = squaredError(surface, stream->heights());
+      EXPECT_LE(squares, kWidth * kHeight * kRange * kRange * std::pow(10, -psnr / 10)) << psnr;
+      EXPECT_TRUE(psnr < kBeyond || stream->heights() == surface.data);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -280,5 +280,20 @@ TEST_F(CliFiles, WeightsChangeWhatComesFirst) {
   EXPECT_EQ(cli(encode + "--weights loud -o loud.tks").code, 1);
 }
 
+TEST_F(CliFiles, PipesAreReadAsStandardInputIs) {
+  makeStream();
+  const std::string options = " --lossless -q -f -o b.tks";
+  ASSERT_EQ(shell("cat height.tif | \"$TETRAKIS\" encode /dev/stdin" + options).code, 0);
+  const std::string heights = content("b.tks");
+  ASSERT_EQ(cli("encode height.tif" + options).code, 0);
+  EXPECT_EQ(heights, content("b.tks"));
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  ASSERT_EQ(shell("cat texture.png > pipe & \"$TETRAKIS\" encode --texture pipe" + options).code,
+            0);
+  const std::string texture = content("b.tks");
+  ASSERT_EQ(cli("encode --texture texture.png" + options).code, 0);
+  EXPECT_EQ(texture, content("b.tks"));
+}
+
 }  // namespace
 }  // namespace tetrakis::test

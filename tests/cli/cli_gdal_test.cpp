@@ -241,5 +241,19 @@ TEST_F(CliGdal, SystemsThatAreGivenReachTheFile) {
   EXPECT_NE(written.find("\"Latitude of natural origin\",50"), std::string::npos) << written;
 }
 
+TEST_F(CliGdal, WhatIsNotKeptIsTold) {
+  run("gdal_translate -q -gcp 0 0 5 50 -gcp 30 0 6 50 -gcp 0 20 5 49 base.tif points.tif");
+  run("gdal_translate -q -a_offset inf base.tif infinite.tif");
+  const std::pair<const char*, const char*> files[] = {{"points.tif", "gdalwarp"},
+                                                       {"infinite.tif", "--offset"}};
+  for (const auto& [file, word] : files) {
+    const Outcome told = cli(std::string("encode ") + file + " --lossless -f -o s.tks");
+    EXPECT_EQ(told.code, 0) << told.err;
+    EXPECT_NE(told.err.find(word), std::string::npos) << told.err;
+  }
+  EXPECT_EQ(cli("encode infinite.tif --offset 3 --lossless -f -o s.tks").err.find("note"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace tetrakis::test

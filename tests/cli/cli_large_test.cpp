@@ -95,5 +95,26 @@ TEST_F(CliLarge, MemoryIsLimitedByOption) {
   EXPECT_EQ(cli("decode a.tks --max-memory much --height c.tif").code, 1);
 }
 
+/// Bands of one column have rows of a whole word.
+TEST_F(CliLarge, MemoryOfNarrowPlanesIsLimitedToo) {
+  write("a.raw", std::string(200000, '\0'));
+  for (const char* shape : {"100000x1", "1x100000", "3x33333"}) {
+    const bool all = std::string(shape).find("33333") == std::string::npos;
+    if (!all) write("a.raw", std::string(3 * 33333 * 2, '\0'));
+    const std::string verb = std::string("encode a.raw:") + shape + ":i16 --lossless -f -o b.tks";
+    EXPECT_EQ(cli(verb + " --max-memory 8M").code, 6) << shape;
+    EXPECT_EQ(cli(verb + " --max-memory 256M").code, 0) << shape;
+  }
+}
+
+/// Small regions and meshes take more than the samples do.
+TEST_F(CliLarge, MemoryOfRegionsAndMeshesIsLimitedToo) {
+  write("a.raw", std::string(2 * 256 * 256, '\0'));
+  const std::string verb = "encode a.raw:256x256:i16 -f -o b.tks --bytes 1k --max-memory 3M";
+  EXPECT_EQ(cli(verb).code, 0);
+  EXPECT_EQ(cli(verb + " --regions 16").code, 6);
+  EXPECT_EQ(cli(verb + " --triangles 100").code, 6);
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -67,6 +67,23 @@ TEST_F(CliUsage, UnknownCommandsAreNamed) {
   EXPECT_EQ(cli("--fly").err.find("command 'fly'"), std::string::npos);
 }
 
+TEST_F(CliUsage, MisspeltOptionsAreNamed) {
+  makeInputs();
+  const Outcome run = cli("encode height.tif --lossles -o b.tks");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.err, "tetrakis: there is no option '--lossles'; --help shows the usage\n");
+}
+
+TEST_F(CliUsage, FilesWithoutAHeaderNeedAShape) {
+  for (const char* name : {"a.raw", "a.r16", "a.r32", "a.R16", "a.raw:2x2", "a.raw:2x2:f64"}) {
+    write("a.raw", "12345678");
+    const Outcome run = cli(std::string("encode ") + name + " --lossless -o b.tks");
+    EXPECT_EQ(run.code, 1) << name;
+    const std::string bare = std::string(name).substr(0, 5);
+    EXPECT_NE(run.err.find(" give " + bare + ":WIDTHxHEIGHT:TYPE "), std::string::npos) << run.err;
+  }
+}
+
 TEST_F(CliUsage, MessagesAboutNumbersAreShort) {
   makeInputs();
   const std::string encode = "encode height.tif -o b.tks ";

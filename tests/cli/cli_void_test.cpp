@@ -151,5 +151,15 @@ TEST_F(CliVoids, OptionDeclaresThemForAnyFormat) {
   EXPECT_EQ(cli("compare v.tks --height v.png").code, 0) << "the bound holds for valid samples";
 }
 
+TEST_F(CliVoids, WhatLeavesNoTriangleIsTold) {
+  write("a.raw", std::string({0, 0, 7, 0, 0, 0, 7, 0}));  // every other sample
+  ASSERT_EQ(cli("encode a.raw:2x2:i16 --nodata 0 --lossless -o a.tks").code, 0);
+  for (const char* mesh : {"a.glb", "a.ply --triangles 9", "a.obj --coded-mesh"}) {
+    const Outcome run = cli(std::string("decode a.tks --mesh ") + mesh);
+    EXPECT_EQ(run.code, 1);
+    EXPECT_NE(run.err.find("voids"), std::string::npos) << run.err;
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test

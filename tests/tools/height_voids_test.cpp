@@ -364,5 +364,42 @@ TEST_F(HeightVoids, GreymapsAreReadExactlyOrRefused) {
   }
 }
 
+/// OpenImageIO 2.4 takes one off those above 32768.
+TEST_F(HeightVoids, GreymapsOf16BitsAreReadExactly) {
+  const std::vector<uint16_t> expected{0, 255, 256, 32768, 32769, 65535};
+  const std::string head = "\n# of a mountain\n3 2\n65535\n";
+  std::string text = "P2" + head, binary = "P5" + head;
+  for (const uint16_t sample : expected) {
+    text += std::to_string(sample) + " # here\n";
+    binary += {static_cast<char>(sample >> 8), static_cast<char>(sample)};
+  }
+  for (const std::string& file : {text, binary}) {
+    const auto heights = readHeights(save("a.pgm", std::vector(file.begin(), file.end())));
+    ASSERT_TRUE(heights.ok()) << heights.status().message();
+    EXPECT_EQ(heights->width, 3U);
+    EXPECT_EQ(heights->sample, TKS_U16);
+    EXPECT_TRUE(test::sameBytes(heights->data, std::as_bytes(std::span(expected))));
+    const std::vector<char> cut(file.begin(), file.end() - (file == text ? 13 : 1));
+    EXPECT_EQ(readHeights(save("b.pgm", cut)).status().code(), TKS_IO);
+  }
+  const std::string above = "P2\n1 2\n65535\n7 65536\n";
+  const auto damaged = readHeights(save("c.pgm", std::vector(above.begin(), above.end())));
+  EXPECT_EQ(damaged.status().code(), TKS_IO);
+}
+
+TEST_F(HeightVoids, FitsIsRefused) {
+  std::string fits;
+  for (std::string card : {"SIMPLE  =                    T", "BITPIX  =                    8",
+                           "NAXIS   =                    2", "NAXIS1  =                    3",
+                           "NAXIS2  =                    2", "END"}) {
+    card.resize(80, ' ');
+    fits += card;
+  }
+  fits.resize(2880, ' ');
+  fits.resize(2 * size_t{2880});
+  const auto heights = readHeights(save("a.fits", std::vector(fits.begin(), fits.end())));
+  EXPECT_EQ(heights.status().code(), TKS_USAGE) << heights.status().message();
+}
+
 }  // namespace
 }  // namespace tetrakis::tools

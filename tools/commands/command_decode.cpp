@@ -156,6 +156,10 @@ class Decoding {
     }
     const Result<Mesh> mesh = chosenMesh(texture);
     if (!mesh.ok()) return mesh.status();
+    if (mesh->triangleCount() == 0) {
+      return Status(TKS_USAGE,
+                    "the voids leave no mesh: no three neighbouring samples have heights");
+    }
     Result<std::vector<float>> normals = surfaceNormals(decoder_, mesh->gridIndices());
     if (!normals.ok()) return normals.status();
     tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);

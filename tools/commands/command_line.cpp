@@ -114,6 +114,11 @@ int runCommandLine(int argc, const char* const* argv) {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::Success& asked_for_help) {
     return app.exit(asked_for_help);
+  } catch (const CLI::RequiredError& error) {
+    const std::vector<std::string> unknown = app.remaining(true);  // a misspelt option, perhaps
+    return report(Status(TKS_USAGE, (unknown.empty() ? std::string(error.what())
+                                                     : "there is no option '" + unknown[0] + "'") +
+                                        "; --help shows the usage"));
   } catch (const CLI::ParseError& error) {
     return report(Status(TKS_USAGE, std::string(error.what()) + "; --help shows the usage"));
   }

@@ -76,7 +76,8 @@ void reorderBytes(std::span<std::byte> items, size_t item_bytes, std::endian ord
 }
 
 Result<InputFile> InputFile::open(const std::string& path) {
-  if (path != "-") {
+  std::error_code none;
+  if (std::filesystem::is_regular_file(path, none) || std::filesystem::is_directory(path, none)) {
     const File file(std::fopen(path.c_str(), "rb"));
     char first = 0;
     // Reading one byte also tells a directory from a file.

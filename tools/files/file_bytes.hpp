@@ -30,8 +30,8 @@ Status writeBytes(const std::string& path, std::span<const std::byte> bytes);
 /// Turns items between the byte order of a file and that of this machine, in place.
 void reorderBytes(std::span<std::byte> items, size_t item_bytes, std::endian order);
 
-/// A readable file with a name of its own, for libraries that open by name: the path itself, or for
-/// "-" a temporary copy of standard input that lives as long as this object.
+/// A readable file with a name of its own, for libraries that open by name, and more than once: the
+/// path itself, or for "-", pipes and devices a temporary copy that lives as long as this object.
 class InputFile {
  public:
   static Result<InputFile> open(const std::string& path);

@@ -47,7 +47,8 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
     return Status(TKS_USAGE, raster.name + " has a palette: heights are no colours");
   if (shape.channels != 1) {
     return Status(TKS_USAGE, raster.name + " has " + std::to_string(shape.channels) +
-                                 " channels: heights are one channel");
+                                 " channels, heights have one: choose it (gdal_translate -b 1); "
+                                 "colours that stand for heights have to be decoded first");
   }
   if (raster.white_is_zero) {
     return Status(TKS_USAGE, raster.name + " stores white as 0: heights are no shades");
@@ -58,13 +59,14 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
                                  "16 bits: convert it to TIFF");
   }
   const int bits = static_cast<int>(8 * sizeOf(shape.sample));
+  const int stored = raster.stored_bits ? raster.stored_bits : bits;
   const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(),
                                   [&](const auto& known) { return known.stored == shape.sample; });
   if (type == kSampleTypes.end() || (raster.stored_bits != 0 && raster.stored_bits != bits)) {
-    return Status(TKS_USAGE,
-                  raster.name + " has samples of " +
-                      std::to_string(raster.stored_bits ? raster.stored_bits : bits) +
-                      " bits: heights are integers of 8, 16 or 32 bits, or 32-bit floats");
+    return Status(TKS_USAGE, raster.name + " has samples of " + std::to_string(stored) +
+                                 " bits, heights have 8, 16 or 32: convert it (gdal_translate -co "
+                                 "NBITS=" +
+                                 (stored < 8 ? "8)" : "16)"));
   }
   return type->sample;
 }
@@ -168,16 +170,23 @@ Result<Reading> readPlain(Result<HeightFile> heights) {
   return Reading{std::move(*heights), {}};
 }
 
+/// The name of a file that has no header, less what is said of its shape; nothing for others.
+std::optional<std::string> withoutHeader(const std::string& path) {
+  const std::string name = path.substr(0, path.find(':', path.rfind('.')));
+  for (const char* format : {"raw", "r16", "r32"})
+    if (formatOf(name, "") == format) return name;
+  return {};
+}
+
 Result<Reading> readAnyHeights(const std::string& path, const std::optional<double>& nodata,
                                Notes& notes) {
   if (const auto raw = parseRawName(path)) return readPlain(readRaw(*raw));
   const std::string format = formatOf(path, "");
   if (format == "hgt") return readPlain(readHgt(path));
-  if (format == "raw") {
-    return Status(TKS_USAGE, quoted(path) + " needs its shape: give " + path +
-                                 ":WIDTHxHEIGHT:TYPE with type u8, i8, u16, i16, u32, i32 or f32");
-  }
-  return readRasterHeights(path, nodata, notes);
+  const auto shapeless = withoutHeader(path);
+  if (!shapeless) return readRasterHeights(path, nodata, notes);
+  return Status(TKS_USAGE, quoted(path) + " needs its shape: give " + *shapeless +
+                               ":WIDTHxHEIGHT:TYPE with type u8, i8, u16, i16, u32, i32 or f32");
 }
 
 /// Tags go before a world file beside.

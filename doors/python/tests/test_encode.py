@@ -190,6 +190,7 @@ REFUSED = [
     (dict(heights=np.zeros((4, 4), "f4"), index="windows", bytes=900), "lossless"),
     (dict(heights=np.zeros((4, 4), "f4"), geotransform=(1, 2)), "6 numbers"),
     (dict(heights=np.zeros((4, 4), "f4"), geotransform=(1, 2, 3, 4, 5, 1e200)), "."),
+    (dict(heights=np.zeros((4, 4), "f4"), spacing=(1, 2, 3)), "one number or two"),
     (dict(heights=np.zeros((4, 4), "f4"), registration="pixel"), "one of"),
     (dict(heights=np.zeros((4, 4), "f4"), weights="none"), "one of"),
     (dict(heights=np.zeros((4, 4), "f4"), nodata="x"), "number"),

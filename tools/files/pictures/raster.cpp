@@ -57,9 +57,11 @@ Result<std::unique_ptr<PictureReader>> openByOpenImageIo(const std::string& path
   if (!formats.ok()) return formats.status();
   auto reader = (*formats)->open(path);
   if (!reader.ok() &&
-      reader.status().message().find("could not find a format reader") != std::string::npos)
-    return Status(
-        TKS_IO, "it is in no known picture format; gdal_translate makes TIFFs of what GDAL reads");
+      reader.status().message().find("could not find a format reader") != std::string::npos) {
+    return Status(TKS_IO,
+                  "it is in no known picture format; of what GDAL reads gdal_translate IN OUT.tif "
+                  "makes a TIFF");
+  }
   return reader;
 }
 

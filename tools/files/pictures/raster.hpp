@@ -19,7 +19,7 @@ namespace tetrakis::tools {
 struct Raster {
   InputFile file;
   std::string name;                       ///< for messages
-  std::unique_ptr<PictureReader> reader;  ///< null for a PNG, which is decoded already
+  std::unique_ptr<PictureReader> reader;  ///< null where the samples are `decoded` already
   PictureShape shape;                     ///< what reading gives
   bool plain = false;                     ///< a TIFF that libtiff reads alone
   int stored_bits = 0;                    ///< of one sample in the file; 0: as shape.sample
@@ -36,15 +36,15 @@ struct Raster {
   int orientation = 1;         ///< as TIFF counts; not applied by reading
   /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
   enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
-  std::vector<std::byte> decoded{};  ///< samples of a PNG
+  std::vector<std::byte> decoded{};  ///< samples of a PNG or of a PNM of 16 bits
   bool is_tiff() const { return reader && reader->format() == "tiff"; }
 };
 
 /// Opens the file (or standard input for "-") by its content, whatever it is called.
 Result<Raster> openRaster(const std::string& path);
 
-/// Hands over all samples, converted to `type`, interleaved. Call once. A PNG has its own type
-/// only.
+/// Hands over all samples, converted to `type`, interleaved. Call once. What is decoded already
+/// has its own type only.
 Result<std::vector<std::byte>> readSamples(Raster& raster, PictureSample type);
 
 /// Of its samples.

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <regex>
-#include <sstream>
 #include <string>
+#include <utility>
 
 #include "tools/files/pictures/exif.hpp"
 #include "tools/files/pictures/jpeg.hpp"
+#include "tools/files/pictures/pnm.hpp"
 #include "tools/files/pictures/tiff.hpp"
 
 namespace tetrakis::tools {
@@ -75,20 +75,19 @@ Status noteJpeg2000(Raster& raster) {
   return {};
 }
 
-/// Portable greymaps say which value is white, and OpenImageIO stretches the others to that. The
-/// header is the magic number, width, height and that value, with comments from # to line ends.
+/// Greymaps say which value is white, and OpenImageIO stretches the others to that.
 Status notePnm(Raster& raster) {
+  constexpr uint64_t kWhite8 = 255, kWhite16 = 65535;
   const auto bytes = readBytes(raster.file.path());
   if (!bytes.ok()) return bytes.status();
-  constexpr size_t kMaxHeader = 4096;
-  const std::string head(reinterpret_cast<const char*>(bytes->data()),
-                         std::min(bytes->size(), kMaxHeader));
-  std::istringstream text(std::regex_replace(head, std::regex("#[^\n\r]*"), " "));
-  std::string magic;
-  uint64_t width = 0, height = 0, white = 0;
-  text >> magic >> width >> height >> white;
-  const bool has_white = magic == "P2" || magic == "P3" || magic == "P5" || magic == "P6";
-  raster.stretched = has_white && white != 255 && white != 65535;
+  const auto header = readPnmHeader(*bytes);
+  if (!header) return {};
+  raster.stretched = header->white != kWhite8 && header->white != kWhite16;
+  if (header->white != kWhite16) return {};
+  auto samples = readWidePnm(*bytes, *header, raster.shape.samples(), raster.name);
+  if (!samples.ok()) return samples.status();
+  raster.decoded = std::move(*samples);
+  raster.reader = nullptr;
   return {};
 }
 
@@ -120,6 +119,12 @@ Status noteStoredForm(Raster& raster) {
   if (format == "jpeg") return noteJpeg(raster);
   if (format == "jpeg2000") return noteJpeg2000(raster);
   if (format == "webp") return noteWebp(raster);
+  // OpenImageIO 2.4 reads each row of these from where the next one lies.
+  if (format == "fits") {
+    return {TKS_USAGE, raster.name +
+                           " is a FITS file, which is not read exactly: convert it to "
+                           "TIFF (gdal_translate)"};
+  }
   raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   if (format == "pnm") return notePnm(raster);
   if (format == "gif" || format == "ico") {

@@ -110,6 +110,14 @@ Status checkTiffSamples(const std::string& path, const std::string& name) {
   TIFFGetFieldDefaulted(file->get(), TIFFTAG_BITSPERSAMPLE, &bits);
   if (format == SAMPLEFORMAT_COMPLEXINT || format == SAMPLEFORMAT_COMPLEXIEEEFP)
     return {TKS_USAGE, name + " holds complex numbers: heights and textures are real ones"};
+  // OpenImageIO knows even numbers of bits.
+  if (format != SAMPLEFORMAT_IEEEFP && bits != 1 && (bits % 2 != 0 || (bits > 16 && bits < 32))) {
+    return {TKS_USAGE, name + " has samples of " + std::to_string(bits) +
+                           " bits: convert it (gdal_translate -co NBITS=" +
+                           (bits < 8    ? "8)"
+                            : bits < 16 ? "16)"
+                                        : "32)")};
+  }
   if (format != SAMPLEFORMAT_IEEEFP && bits == 64) {
     return {TKS_USAGE, name +
                            " holds integers of 64 bits: convert it to 32 bits (gdal_translate "

@@ -65,6 +65,8 @@ std::optional<GeoTransform> readTransform(TIFF* tiff, bool point, Notes& notes) 
     t = {m[3], m[0], m[1], m[7], m[4], m[5]};
   } else {
     if (scale.size() >= 2) unusable();
+    if (scale.empty() && tie.size() > 6)
+      notes.push_back({"its ground control points are not kept: gdalwarp applies them", ""});
     return std::nullopt;
   }
   GeoTransform stated = t;

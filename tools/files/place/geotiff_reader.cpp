@@ -148,6 +148,9 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml, Notes& notes) 
       notes.push_back(
           {"its scale " + quoted(text) + " is none and is not used: give --scale", "--scale"});
     if (role == "offset" && std::isfinite(value)) heights.offset = value;
+    if (role == "offset" && heights.offset != value)
+      notes.push_back(
+          {"its offset " + quoted(text) + " is none and is not used: give --offset", "--offset"});
     if (role == "unittype") heights.unit = canonicalUnit(text);
     if (role == "description") heights.description = text;
   }

@@ -61,6 +61,8 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
     if data.ndim != 2:
         raise TksUsageError(f"Heights are (rows, columns), not an array of shape {data.shape}.")
     spacing = place["spacing"]
+    if np.shape(spacing) not in ((), (2,)):
+        raise TksUsageError(f"spacing takes one number or two, (x, y), not {spacing!r}.")
     spacing_x, spacing_y = spacing if np.ndim(spacing) else (spacing, spacing)
     transform, has_transform = values.geotransform(place["geotransform"], "geotransform")
     return c.Heights(

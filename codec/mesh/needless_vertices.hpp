@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// On water vertices take triangles and no error. Decimation puts them last, so they come into a
+// mesh where its budget is more than the ground around the water can use.
+#pragma once
+
+#include <vector>
+
+#include "codec/mesh/surface/surface_view.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+
+namespace tetrakis::inline mesh {
+
+/// Takes those out of a closed set around which all samples have one height, as far as they and
+/// their descendants reach. What is left is closed.
+void dropNeedless(const Lattice& lattice, const SurfaceView& surface,
+                  std::vector<VertexId>& vertices);
+
+}  // namespace tetrakis::inline mesh

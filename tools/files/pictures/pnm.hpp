@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Portable greymaps and pixmaps (pgm(5) and ppm(5) of Netpbm). OpenImageIO reads those of 8 bits
+// exactly; its 2.4 multiplies samples of 16 bits in signed 32 bits, so that all above 32768 come
+// out one too low.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+
+namespace tetrakis::tools {
+
+struct PnmHeader {
+  bool text = false;   ///< samples are decimal numbers, not bytes
+  uint64_t white = 0;  ///< the largest sample that there may be
+  size_t end = 0;      ///< where the samples begin
+};
+
+/// Nothing for other files: bitmaps have no white, floats another header.
+std::optional<PnmHeader> readPnmHeader(std::span<const std::byte> file);
+
+/// So many samples, in 16 bits and host byte order. TKS_IO if the file holds fewer, or one above
+/// white. name: for messages.
+Result<std::vector<std::byte>> readWidePnm(std::span<const std::byte> file, const PnmHeader& header,
+                                           size_t samples, const std::string& name);
+
+}  // namespace tetrakis::tools
