@@ -9,7 +9,7 @@
 #include "base/status.hpp"
 #include "base/texels.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
-#include "encoder/repeated_lines.hpp"
+#include "encoder/coded_lines.hpp"
 #include "tetrakis/tetrakis.h"
 #include "texture_wavelet/texture_source.hpp"
 #include "wavelet/filter_choice.hpp"

@@ -5,10 +5,11 @@
 #include <cassert>
 #include <cstring>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "codec/geometry/repeats/line_repeats_encoder.hpp"
 #include "encoder/inputs.hpp"
-#include "ground/frame.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -101,18 +102,6 @@ uint32_t even(std::vector<uint8_t>& repeated, uint32_t least) {
 }
 
 }  // namespace
-
-tks_heights CodedLines::of(const tks_heights& whole) const {
-  tks_heights coded = whole;
-  coded.width = extent.width;
-  coded.height = extent.height;
-  coded.data = samples.data();
-  const GroundFrame frame =
-      knownFrame({whole.width, whole.height, whole.spacing_x, whole.spacing_y, 1});
-  coded.spacing_x = frame.spacing_x * whole.width / extent.width;
-  coded.spacing_y = frame.spacing_y * whole.height / extent.height;
-  return coded;
-}
 
 CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least) {
   constexpr double kPays = 0.9;  // of the samples are left
