@@ -10,7 +10,7 @@
 #include "bitstream/stream/indexed_packets.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/repeats/shown_lines.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline api {

@@ -12,7 +12,7 @@
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 #include "texture_wavelet/stored_texture_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline texture {

@@ -11,8 +11,8 @@
 
 #include "codec/geometry/corrected_cut.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
-#include "wavelet/filter_choice.hpp"
-#include "wavelet/typical_parts.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline geometry {
 

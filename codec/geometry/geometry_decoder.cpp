@@ -10,7 +10,7 @@
 
 #include "wavelet/band_plan.hpp"
 #include "wavelet/held_lifting.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {

@@ -14,8 +14,8 @@
 #include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "ratecontrol/coded_tracks.hpp"
-#include "wavelet/filter_choice.hpp"
-#include "wavelet/rounding_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/rounding_choice.hpp"
 
 namespace tetrakis::inline heights {
 

@@ -6,7 +6,7 @@
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/bounded_heights.hpp"
 #include "encoder/heights/quantised_heights.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline heights {
 

@@ -12,7 +12,7 @@
 #include "encoder/inputs/coded_lines.hpp"
 #include "tetrakis/tetrakis.h"
 #include "texture_wavelet/texture_source.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline inputs {

@@ -8,7 +8,7 @@
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/window_synthesis.hpp"
+#include "wavelet/synthesis/window_synthesis.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "codec/geometry/geometry_encoder.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wavelet/window_synthesis.hpp"
+#include "wavelet/synthesis/window_synthesis.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@
 #include "bitstream/track/reconstruction.hpp"
 #include "wavelet/held_lifting.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline synthesis {
 
 namespace {
 
@@ -209,4 +209,4 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t, bool rounds) {
   return low;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline synthesis

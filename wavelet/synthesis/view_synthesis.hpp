@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ViewSynthesis is the inverse wavelet of what a view shows of a plane: coefficients go in, and the
 // samples of the view come out. A view of a whole plane, or of one of its levels, is worked out in
-// place (wavelet/plane_synthesis.hpp). A window is worked out from the coefficients that reach it
-// (wavelet/window_synthesis.hpp), and has the same samples that the whole plane has there.
+// place (plane_synthesis.hpp). A window is worked out from the coefficients that reach it
+// (window_synthesis.hpp), and has the same samples that the whole plane has there.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "wavelet/plane_synthesis.hpp"
-#include "wavelet/window_synthesis.hpp"
+#include "wavelet/synthesis/plane_synthesis.hpp"
+#include "wavelet/synthesis/window_synthesis.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline synthesis {
 
 class ViewSynthesis {
  public:
@@ -79,4 +79,4 @@ class ViewSynthesis {
 void keepNeeded(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
                 std::vector<BandPlan>& bands);
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline synthesis

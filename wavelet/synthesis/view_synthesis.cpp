@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 
 #include <cassert>
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline synthesis {
 
 void keepNeeded(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
                 std::vector<BandPlan>& bands) {
@@ -17,4 +17,4 @@ void keepNeeded(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
   if (!any) bands.clear();
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline synthesis

@@ -15,9 +15,9 @@
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline synthesis {
 
-/// The functions are those of ViewSynthesis (wavelet/view_synthesis.hpp), which says what they do.
+/// The functions are those of ViewSynthesis (view_synthesis.hpp), which says what they do.
 class PlaneSynthesis {
  public:
   PlaneSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, int level);
@@ -64,4 +64,4 @@ size_t thin(const Pyramid& pyramid, int level, std::span<T> low) {
   return wanted.samples();
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline synthesis

@@ -12,7 +12,7 @@
 #include "bitstream/track/track_encoder.hpp"
 #include "wavelet/held_samples.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 /// The squares that coefficients may still be off by for the inverse to be better with roundings
 /// than without; 0: none. Measured on typical parts of the plane. wavelet: without fraction bits.
@@ -32,4 +32,4 @@ uint64_t roundedBytes(std::span<const Account> accounts, double squares);
 /// never are.
 uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double squares);
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wavelet/typical_parts.hpp"
+#include "wavelet/choice/typical_parts.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::vector<Window> typicalParts(Extent plane, uint32_t side, const IsCoded& is_
   return parts.empty() ? empty : parts;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice

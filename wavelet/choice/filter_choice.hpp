@@ -8,10 +8,10 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/coding_headers.hpp"
+#include "wavelet/choice/plane_cost.hpp"
 #include "wavelet/held_samples.hpp"
-#include "wavelet/plane_cost.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 /// What a plane is coded for.
 enum class Purpose : uint8_t {
@@ -45,4 +45,4 @@ PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double st
 /// About how many bits the coefficients of a plane take that is coded to the last bit.
 double losslessBits(const PlaneView<const int32_t>& plane, int bits);
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice

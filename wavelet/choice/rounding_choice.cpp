@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wavelet/rounding_choice.hpp"
+#include "wavelet/choice/rounding_choice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +11,11 @@
 
 #include "bitstream/track/track_decoder.hpp"
 #include "wavelet/band_plan.hpp"
-#include "wavelet/typical_parts.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/choice/typical_parts.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 namespace {
 
@@ -154,4 +154,4 @@ uint64_t roundedBytes(std::span<const EncodedTrack> tracks, double squares) {
   return exact > bytesOf(tracks) ? exact : roundedBytes(accountsOf(tracks), squares);
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice

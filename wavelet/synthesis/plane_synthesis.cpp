@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wavelet/plane_synthesis.hpp"
+#include "wavelet/synthesis/plane_synthesis.hpp"
 
 #include <cassert>
 
 #include "bitstream/track/reconstruction.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline synthesis {
 
 PlaneSynthesis::PlaneSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, int level)
     : spec_(spec), pyramid_(&pyramid), level_(level) {
@@ -58,4 +58,4 @@ void PlaneSynthesis::normalise() {
   for (int32_t& v : values_) v = static_cast<int32_t>((v * weight + half) >> shift);
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline synthesis

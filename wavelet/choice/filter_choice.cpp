@@ -4,7 +4,7 @@
 // lose besides. For lossy streams, against the best of the choices, found by coding with each, that
 // loses up to 0.3 % of the bytes on nine aerial images and maps and on seven DEMs; were kLong not
 // made larger, up to 2.5 %.
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "wavelet/band_plan.hpp"
-#include "wavelet/typical_parts.hpp"
+#include "wavelet/choice/typical_parts.hpp"
 #include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 namespace {
 
@@ -235,4 +235,4 @@ double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
   return chooseAmong(parts, bits, Purpose::kLossless).bits * whole;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wavelet/plane_cost.hpp"
+#include "wavelet/choice/plane_cost.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 namespace {
 
@@ -132,4 +132,4 @@ PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficient
   return cost;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice

@@ -9,7 +9,7 @@
 
 #include "wavelet/band_plan.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 struct PlaneCost {
   double bits = 0;
@@ -25,4 +25,4 @@ struct PlaneCost {
 /// bits. Those of samples that do not exist or are held cost nothing.
 PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficients, double step);
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice

@@ -13,9 +13,9 @@
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline synthesis {
 
-/// The functions are those of ViewSynthesis (wavelet/view_synthesis.hpp), which says what they do.
+/// The functions are those of ViewSynthesis (view_synthesis.hpp), which says what they do.
 class WindowSynthesis {
  public:
   WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, const Window& window);
@@ -83,4 +83,4 @@ class WindowSynthesis {
   std::vector<int32_t> ll_;
 };
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline synthesis

@@ -12,7 +12,7 @@
 #include "base/view.hpp"
 #include "wavelet/held_samples.hpp"
 
-namespace tetrakis::inline wavelet {
+namespace tetrakis::inline choice {
 
 /// Whether a sample, by its place in the plane, has to be coded; empty: all have to.
 using IsCoded = std::function<bool(size_t)>;
@@ -41,4 +41,4 @@ std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> 
 /// How many of a plane's samples the mask marks.
 size_t markedIn(Extent plane, const Mask& mask);
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline choice
