@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether the outputs of one command get in each other's way.
-#include "tools/commands/output_names.hpp"
+#include "tools/output/output_names.hpp"
 
 #include <filesystem>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Results on standard output: JSON for programs, the same as a table for people.
-#include "tools/commands/json.hpp"
+#include "tools/output/json.hpp"
 
 #include <algorithm>
 #include <cerrno>

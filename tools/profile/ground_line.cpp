@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/ground_line.hpp"
+#include "tools/profile/ground_line.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/commands/ground_line.hpp"
+#include "tools/profile/ground_line.hpp"
 
 namespace tetrakis::tools {
 

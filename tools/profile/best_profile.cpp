@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/best_profile.hpp"
+#include "tools/profile/best_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

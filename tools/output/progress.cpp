@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A progress bar on standard error, shown only where a person can see it.
-#include "tools/commands/progress.hpp"
+#include "tools/output/progress.hpp"
 
 #include <unistd.h>
 

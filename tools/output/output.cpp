@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Output that appears whole or not at all: a staging folder on the same file system, then
 // rename(2), which POSIX makes atomic.
-#include "tools/commands/output.hpp"
+#include "tools/output/output.hpp"
 
 #include <unistd.h>
 
@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "tools/commands/output_names.hpp"
 #include "tools/files/file_bytes.hpp"
+#include "tools/output/output_names.hpp"
 
 namespace tetrakis::tools {
 namespace fs = std::filesystem;
