@@ -17,6 +17,7 @@
 #include "codec/geometry/quantiser/voids.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 #include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/height_options.hpp"
 #include "ratecontrol/candidate.hpp"
 #include "wavelet/priority_map_encoder.hpp"
 

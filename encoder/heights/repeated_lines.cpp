@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "codec/geometry/quantiser/voids.hpp"
 #include "codec/geometry/repeats/line_repeats_encoder.hpp"
-#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/heights/height_options.hpp"
 
 namespace tetrakis::inline heights {
 
@@ -101,8 +102,7 @@ uint32_t even(std::vector<uint8_t>& repeated, uint32_t least) {
   return 1;
 }
 
-}  // namespace
-
+/// least: how many columns, and how many rows, are coded at least where there are as many.
 CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least) {
   constexpr double kPays = 0.9;  // of the samples are left
   assert(heights.width > 0 && heights.height > 0 && least > 0);
@@ -126,6 +126,22 @@ CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least) {
       lines.shown_by.push_back(rows_of_one * columns_of_one);
   }
   lines.repeats = encodeRepeats(std::move(columns), std::move(rows));
+  return lines;
+}
+
+}  // namespace
+
+/// Beside a texture cameras look at the coded heights: two lines have an area, one has none.
+CodedLines linesToCode(const EncodeInputs& inputs) {
+  const tks_encode_options& options = inputs.options;
+  if (inputs.heights == nullptr || options.picture_error != nullptr) return {};
+  CodedLines lines = findRepeatedLines(*inputs.heights, inputs.image == nullptr ? 1 : 2);
+  if (lines.repeats.none()) return lines;
+  const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
+  const bool has_voids = !valid.ok() || !valid->empty();
+  if (options.psnr > 0 && (has_voids || lines.heaviest > 1.1)) return {};
+  constexpr uint64_t kMostOfBudget = 8;
+  if (inputs.budgeted() && lines.repeats.code.size() > options.bytes / kMostOfBudget) return {};
   return lines;
 }
 

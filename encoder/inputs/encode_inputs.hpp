@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file holds what one encoding is given, and translates its options for the codecs of the
-// components.
+// This file holds what one encoding is given, and what follows from it for both components.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "base/status.hpp"
-#include "base/texels.hpp"
-#include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/inputs/coded_lines.hpp"
 #include "tetrakis/tetrakis.h"
-#include "texture_wavelet/texture_source.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline inputs {
-
-/// Heights of more samples are coded in regions unless the caller says otherwise.
-constexpr uint64_t kOneRegionHeights = 1025 * 1025;
 
 /// What comes earlier in each component; empty maps: nothing.
 struct ViewPriorities {
@@ -45,6 +38,16 @@ struct EncodeInputs {
   std::span<const uint32_t> shownBy() const {
     return lines != nullptr ? std::span(lines->shown_by) : std::span<const uint32_t>();
   }
+  /// The same inputs with some lines of the heights alone, which are `coded`; both outlive the
+  /// result.
+  EncodeInputs ofLines(const tks_heights& coded, const CodedLines& some) const {
+    return {.heights = &coded,
+            .image = image,
+            .options = options,
+            .priorities = priorities,
+            .whole = heights,
+            .lines = &some};
+  }
   /// The same inputs under other options, which outlive the result, and with other priorities.
   EncodeInputs with(const tks_encode_options& other, const ViewPriorities* others) const {
     return {.heights = heights,
@@ -59,11 +62,10 @@ struct EncodeInputs {
 /// What components are coded for unless they have reasons of their own.
 Purpose purposeOf(const EncodeInputs& inputs);
 
-/// inputs: with heights.
-CoefficientOptions heightOptions(const EncodeInputs& inputs);
-
-/// inputs: with an image, which is `texels`.
-TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels);
+/// Bytes worth coding of a component: beyond the budget, because the slopes of the last packets
+/// within it depend on the points that follow, and the order should hardly depend on the budget.
+/// Two components share it: either gets less, and has as much more behind it.
+uint64_t limitOf(const EncodeInputs& inputs);
 
 /// The mean squared error that is a PSNR in dB. peak: the range that it refers to.
 double worstMeanSquare(double peak, double psnr);

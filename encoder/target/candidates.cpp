@@ -9,6 +9,7 @@
 
 #include "codec/geometry/stored_heights_encoder.hpp"
 #include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/height_options.hpp"
 #include "encoder/target/component_curves.hpp"
 #include "encoder/views/views.hpp"
 #include "ratecontrol/allocation.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/samples.hpp"
+#include "encoder/textures/texture_options.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 
@@ -47,10 +48,12 @@ CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& loss
   return codedBy(lossy.of, encodeReversibly(*lossy.of, lossy.header, options));
 }
 
-CodedTexture codeFurtherIfNeeded(const EncodeInputs& inputs, CodedTexture coded) {
-  assert(inputs.options.psnr > 0);
-  const bool complete = coded.tracks.front().complete;
-  if (complete || reachesPsnr(inputs, coded, codewordsOf(coded.tracks))) return coded;
+/// Coding for a PSNR ends by the account, which the samples may miss: then it goes on.
+CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
+                                  std::shared_ptr<const TextureSource> of) {
+  CodedTexture coded = codeTexture(inputs, std::move(of), purposeOf(inputs));
+  if (inputs.options.psnr <= 0 || coded.tracks.front().complete) return coded;
+  if (reachesPsnr(inputs, coded, codewordsOf(coded.tracks))) return coded;
   TextureOptions to_the_end = textureOptions(inputs, coded.of->texels);
   to_the_end.mean_square = 0;
   return codedBy(coded.of, encodeTexture(*coded.of, purposeOf(inputs), to_the_end));

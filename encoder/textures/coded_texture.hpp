@@ -37,13 +37,13 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> of,
                          Purpose purpose);
 
+/// Codes the texture as the target of the options asks for it. of: as above.
+CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
+                                  std::shared_ptr<const TextureSource> of);
+
 /// Codes the same texture to the last bit, with the colours and filters of `lossy`, which is
 /// neither drawn nor stored.
 CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy);
-
-/// Returns `coded`, or the texture coded to the end if the samples of `coded` miss the PSNR that
-/// its account meets.
-CodedTexture codeFurtherIfNeeded(const EncodeInputs& inputs, CodedTexture coded);
 
 /// The samples written as they are.
 CodedTexture storeTexture(std::shared_ptr<const TextureSource> of);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/texels.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/mesh/screen/surface_picture.hpp"
 #include "codec/mesh/surface/coarse_surface.hpp"
