@@ -40,42 +40,56 @@ uint64_t bytesBeforeTable(const EncodedTrack& coefficients, size_t bytes, double
   return before;
 }
 
-/// Puts the table to its place within the coefficients, and into their account.
-void putTable(const QuantisedHeights& heights, GeometryLayers& layers, EncodedTrack& track) {
+/// Coefficients with the table behind the first `before` bytes of them, and in their account.
+EncodedTrack withTable(const QuantisedHeights& heights, EncodedTrack coefficients,
+                       uint64_t before) {
   const std::vector<uint8_t>& table = heights.table;
-  if (table.empty()) return;
-  layers.table_after = bytesBeforeTable(track, table.size(), heights.without_table);
-  track.codeword.insert(track.codeword.begin() + static_cast<ptrdiff_t>(layers.table_after),
-                        table.begin(), table.end());
   std::vector<RatePoint> points;
-  for (const RatePoint& point : track.points) {
-    const bool before = point.bytes <= layers.table_after;
-    if (before) {
+  for (const RatePoint& point : coefficients.points) {
+    if (point.bytes <= before) {
       points.push_back(
           {point.bytes, point.distortion + heights.without_table, point.dips, point.beyond});
     }
-    if (point.bytes >= layers.table_after)
+    if (point.bytes >= before)
       points.push_back({point.bytes + table.size(), point.distortion, point.dips, point.beyond});
   }
-  track.points = std::move(points);
+  std::vector<uint8_t> codeword = std::move(coefficients.codeword);
+  codeword.insert(codeword.begin() + static_cast<ptrdiff_t>(before), table.begin(), table.end());
+  return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
 }
 
-/// Moves the account of the coefficients to behind the opening, and lets it end with the
-/// corrections.
-void joinAccount(const QuantisedHeights& heights, const HeightLayers& layers, EncodedTrack& track) {
+/// The account of such a track of coefficients, behind the opening and before the corrections. all:
+/// bytes of the whole track.
+std::vector<RatePoint> accountAmid(const QuantisedHeights& heights, const HeightLayers& layers,
+                                   const std::vector<RatePoint>& coefficients, uint64_t all) {
   const uint64_t opening = layers.layers.openingBytes();
-  for (RatePoint& point : track.points) {
-    point.bytes += opening;
-    point.distortion += heights.left;
-  }
+  std::vector<RatePoint> points;
   if (opening > 0) {
+    const RatePoint& first = coefficients.front();
     const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
     const double unknown =
-        track.points.front().distortion + voids * heights.validityWorth() + squaresOf(layers.flat);
-    track.points.insert(track.points.begin(), {0, unknown, false, track.points.front().beyond});
+        first.distortion + heights.left + voids * heights.validityWorth() + squaresOf(layers.flat);
+    points.push_back({0, unknown, false, first.beyond});
   }
-  if (!layers.corrections.empty())
-    track.points.push_back({track.codeword.size(), layers.corrected_to});
+  for (const RatePoint& point : coefficients) {
+    points.push_back(
+        {point.bytes + opening, point.distortion + heights.left, point.dips, point.beyond});
+  }
+  if (!layers.corrections.empty()) points.push_back({all, layers.corrected_to});
+  return points;
+}
+
+/// The track of all layers: the coefficients, a table among them, amid the others.
+EncodedTrack amidLayers(const QuantisedHeights& heights, const HeightLayers& layers,
+                        const EncodedTrack& coefficients) {
+  std::vector<uint8_t> codeword = heights.validity;
+  for (const std::span<const uint8_t> layer :
+       {std::span(layers.flat.codeword), std::span(coefficients.codeword), layers.corrections})
+    codeword.insert(codeword.end(), layer.begin(), layer.end());
+  std::vector<RatePoint> points =
+      accountAmid(heights, layers, coefficients.points, codeword.size());
+  assert(points.back().bytes == codeword.size());
+  return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
 }
 
 /// An account with a point for the mask and for each plane of bytes.
@@ -141,26 +155,23 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
                         std::vector<EncodedTrack> coefficients, int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
   const QuantisedHeights& heights = *of;
-  const std::span<const uint8_t> corrections = layers.corrections;
-  const std::vector<uint8_t>& flat = layers.flat.codeword;
-  CodedHeights coded{.of = std::move(of),
-                     .header = headerOf(heights, layers, coefficients.front().planes),
-                     .layers = layers.layers,
-                     .tracks = std::move(coefficients),
-                     .closing = corrections.size(),
-                     .left = heights.left,
-                     .flat = layers.flat};
-  coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  EncodedTrack& track = coded.tracks.front();
-  std::vector<uint8_t>& codeword = track.codeword;
-  if (!corrections.empty()) coded.layers.coefficient_bytes = codeword.size();
-  putTable(heights, coded.layers, track);
-  codeword.insert(codeword.begin(), flat.begin(), flat.end());
-  codeword.insert(codeword.begin(), heights.validity.begin(), heights.validity.end());
-  codeword.insert(codeword.end(), corrections.begin(), corrections.end());
-  joinAccount(heights, layers, track);
-  assert(track.points.back().bytes == codeword.size());
-  return coded;
+  EncodedTrack first = std::move(coefficients.front());
+  GeometryHeader header = headerOf(heights, layers, first.planes);
+  header.regions.side_log2 = static_cast<uint8_t>(region_log2);
+  GeometryLayers described = layers.layers;
+  if (!layers.corrections.empty()) described.coefficient_bytes = first.codeword.size();
+  if (!heights.table.empty()) {
+    described.table_after = bytesBeforeTable(first, heights.table.size(), heights.without_table);
+    first = withTable(heights, std::move(first), described.table_after);
+  }
+  coefficients.front() = amidLayers(heights, layers, first);
+  return {.of = std::move(of),
+          .header = std::move(header),
+          .layers = std::move(described),
+          .tracks = std::move(coefficients),
+          .closing = layers.corrections.size(),
+          .left = heights.left,
+          .flat = layers.flat};
 }
 
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
@@ -210,27 +221,23 @@ std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> 
   return drawn;
 }
 
-CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads) {
-  CodedHeights stored{replaced.of, replaced.header,           replaced.layers, {},
-                      0,           QuantisedHeights::kInexact};
-  stored.header.wavelet = {};
-  stored.header.regions = {};
-  stored.header.priorities = {};
-  stored.header.planes = GeometryHeader::kDirectPlanes;
-  stored.header.drawn = false;
-  stored.layers.corrections = CorrectionKind::kNone;
-  stored.layers.coefficient_bytes = 0;
-  stored.layers.table_bytes = stored.layers.table_values = 0;
-  stored.layers.table_after = 0;
-  stored.layers.table_knots.clear();
-  stored.layers.flat_bytes = stored.layers.flat_areas = 0;
-  const QuantisedHeights& heights = *stored.of;
-  EncodedTrack& track = stored.tracks.emplace_back();
-  track.codeword = heights.validity;
+CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t threads) {
+  const QuantisedHeights& heights = *of;
+  GeometryHeader header = headerOf(heights);
+  header.planes = GeometryHeader::kDirectPlanes;
+  std::vector<uint8_t> codeword = heights.validity;
   const std::vector<uint8_t> samples = storeSamples(*heights.samples, heights.steps.valid);
-  track.codeword.insert(track.codeword.end(), samples.begin(), samples.end());
-  track.planes = GeometryHeader::kDirectPlanes;
-  track.points = accountOfStored(stored, threads);
+  codeword.insert(codeword.end(), samples.begin(), samples.end());
+  std::vector<EncodedTrack> tracks;
+  tracks.push_back({std::move(codeword), {}, GeometryHeader::kDirectPlanes});
+  CodedHeights stored{.of = std::move(of),
+                      .header = std::move(header),
+                      .layers = {.validity_bytes = heights.layers.validity_bytes,
+                                 .has_nodata = heights.layers.has_nodata,
+                                 .nodata = heights.layers.nodata},
+                      .tracks = std::move(tracks),
+                      .left = QuantisedHeights::kInexact};
+  stored.tracks.front().points = accountOfStored(stored, threads);
   return stored;
 }
 

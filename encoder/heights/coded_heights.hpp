@@ -99,8 +99,7 @@ CodedHeights withRounding(CodedHeights coded);
 /// values for one.
 std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of);
 
-/// Codes the heights with their samples written as they are, in the place of coefficients and
-/// corrections. The header keeps its base and step. threads: nothing depends on them.
-CodedHeights storeHeights(const CodedHeights& replaced, uint32_t threads);
+/// The samples written as they are. threads: nothing depends on them.
+CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t threads);
 
 }  // namespace tetrakis::inline heights

@@ -47,20 +47,31 @@ Result<ChosenSteps> chooseSteps(const EncodeInputs& inputs) {
   return ChosenSteps{std::move(*steps), true};
 }
 
-void addValidity(QuantisedHeights& heights) {
-  const tks_heights& samples = *heights.samples;
+/// What the header says of voids. validity_bytes: 0 if there are none.
+GeometryLayers layersOf(const tks_heights& samples, uint64_t validity_bytes) {
   const bool infinite_integer = samples.sample != TKS_F32 && !std::isfinite(samples.nodata);
-  GeometryLayers& layers = heights.layers;
-  layers.has_nodata = samples.has_nodata != 0 && !std::isnan(samples.nodata) && !infinite_integer;
-  if (layers.has_nodata) layers.nodata = samples.nodata + 0.0;  // -0 equals 0: one of them
-  if (heights.steps.valid.empty()) return;
-  heights.validity = encodeValidity({heights.steps.valid, extentOf(samples)});
-  layers.validity_bytes = heights.validity.size();
+  const bool has_nodata =
+      samples.has_nodata != 0 && !std::isnan(samples.nodata) && !infinite_integer;
+  return {.validity_bytes = validity_bytes,
+          .has_nodata = has_nodata,
+          .nodata = has_nodata ? samples.nodata + 0.0 : 0};  // -0 equals 0: one of them
 }
 
-void addTable(QuantisedHeights& heights) {
+QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps) {
+  const tks_heights& samples = *inputs.heights;
+  std::vector<uint8_t> validity;
+  if (!steps.valid.empty()) validity = encodeValidity({steps.valid, extentOf(samples)});
+  return {.samples = &samples,
+          .steps = std::move(steps),
+          .layers = layersOf(samples, validity.size()),
+          .validity = std::move(validity),
+          .shown_by = inputs.shownBy()};
+}
+
+/// The heights with the table of their values, if they have one.
+QuantisedHeights withTable(QuantisedHeights heights) {
   const ValueTable& table = heights.steps.table;
-  if (table.empty()) return;
+  if (table.empty()) return heights;
   heights.table = encodeValueTable(table);
   heights.layers.table_bytes = heights.table.size();
   heights.layers.table_values = static_cast<uint32_t>(table.words.size());
@@ -68,17 +79,7 @@ void addTable(QuantisedHeights& heights) {
                                          heights.mostOfASample());
   heights.layers.table_knots = std::move(stand_in.knots);
   heights.without_table = std::max(stand_in.squares, QuantisedHeights::kInexact);
-}
-
-/// What restores the samples behind the steps.
-void addCorrections(QuantisedHeights& heights) {
-  const tks_heights& samples = *heights.samples;
-  heights.layers.corrections = CorrectionKind::kSamples;
-  const GeometryHeader header = headerOf(heights);
-  const std::vector<uint8_t> hints = sampleHints(decodedSteps(heights.steps, header), 0, header);
-  heights.corrections = encodeCorrections(sampleCorrections(samples, heights.steps),
-                                          {hints, header.extent(), heights.steps.valid});
-  heights.left = std::max(heights.squaresOf(heights.steps), QuantisedHeights::kInexact);
+  return heights;
 }
 
 }  // namespace
@@ -115,15 +116,28 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
   assert(inputs.heights != nullptr);
   Result<ChosenSteps> chosen = chooseSteps(inputs);
   if (!chosen.ok()) return chosen.status();
-  auto heights = std::make_shared<QuantisedHeights>();
-  heights->samples = inputs.heights;
-  heights->shown_by = inputs.shownBy();
-  heights->steps = std::move(chosen->steps);
-  addValidity(*heights);
-  addTable(*heights);
-  if (chosen->restore && !heights->steps.exact) addCorrections(*heights);
-  assert(heights->restored() || heights->corrections.empty());
-  return std::shared_ptr<const QuantisedHeights>(std::move(heights));
+  QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps)));
+  if (chosen->restore && !heights.steps.exact) {
+    SampleCorrections corrections = correctionsBehind(heights, heights.steps);
+    heights = withCorrections(std::move(heights), std::move(corrections));
+  }
+  assert(heights.restored() || heights.corrections.empty());
+  return std::make_shared<const QuantisedHeights>(std::move(heights));
+}
+
+SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown) {
+  const GeometryHeader header = headerOf(heights);
+  const std::vector<uint8_t> hints = sampleHints(decodedSteps(shown, header), 0, header);
+  return {encodeCorrections(sampleCorrections(*heights.samples, shown),
+                            {hints, header.extent(), shown.valid}),
+          std::max(heights.squaresOf(shown), QuantisedHeights::kInexact)};
+}
+
+QuantisedHeights withCorrections(QuantisedHeights heights, SampleCorrections corrections) {
+  heights.layers.corrections = CorrectionKind::kSamples;
+  heights.corrections = std::move(corrections.codeword);
+  heights.left = corrections.left;
+  return heights;
 }
 
 GeometryHeader headerOf(const QuantisedHeights& heights) {

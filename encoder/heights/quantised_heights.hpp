@@ -23,10 +23,10 @@ struct QuantisedHeights {
 
   const tks_heights* samples = nullptr;  ///< the input, which outlives this
   HeightSteps steps;
-  GeometryLayers layers;             ///< the bytes of coefficients are not known yet
-  std::vector<uint8_t> validity;     ///< codeword; empty: all samples are valid
-  std::vector<uint8_t> table;        ///< codeword; empty: steps are multiples
-  std::vector<uint8_t> corrections;  ///< codeword; restores the samples
+  GeometryLayers layers;                  ///< the bytes of coefficients are not known yet
+  std::vector<uint8_t> validity = {};     ///< codeword; empty: all samples are valid
+  std::vector<uint8_t> table = {};        ///< codeword; empty: steps are multiples
+  std::vector<uint8_t> corrections = {};  ///< codeword; restores the samples
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
   double left = 0;
@@ -60,6 +60,17 @@ struct QuantisedHeights {
 /// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with
 /// heights.
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs);
+
+/// What restores the samples behind steps.
+struct SampleCorrections {
+  std::vector<uint8_t> codeword;
+  double left;  ///< QuantisedHeights::left
+};
+
+/// shown: what decoders make of all coefficients, in steps of these heights.
+SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown);
+
+QuantisedHeights withCorrections(QuantisedHeights heights, SampleCorrections corrections);
 
 /// What the header says of the heights before their coefficients are coded.
 GeometryHeader headerOf(const QuantisedHeights& heights);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/heights/restored_heights.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 
@@ -27,6 +25,14 @@ HeightSteps decodedSteps(const CodedHeights& heights, uint32_t threads) {
   return shown;
 }
 
+/// The track with the corrections behind all else.
+EncodedTrack withCorrections(EncodedTrack track, const QuantisedHeights& of) {
+  track.codeword.insert(track.codeword.end(), of.corrections.begin(), of.corrections.end());
+  for (RatePoint& point : track.points) point.distortion += of.left;
+  track.points.push_back({track.codeword.size(), 0});
+  return track;
+}
+
 }  // namespace
 
 bool canBeRestored(const CodedHeights& lossy) {
@@ -38,23 +44,19 @@ bool canBeRestored(const CodedHeights& lossy) {
 CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy) {
   assert(canBeRestored(lossy));
   const HeightSteps shown = decodedSteps(lossy, inputs.options.threads);
-  auto of = std::make_shared<QuantisedHeights>(*lossy.of);
-  of->corrections = encodeCorrections(
-      sampleCorrections(*of->samples, shown),
-      {sampleHints(shown.steps, 0, lossy.header), lossy.header.extent(), shown.valid});
-  of->layers.corrections = CorrectionKind::kSamples;
-  of->left = std::max(of->squaresOf(shown), QuantisedHeights::kInexact);
-  CodedHeights restored = lossy;
-  EncodedTrack& track = restored.tracks.front();
-  restored.layers.corrections = CorrectionKind::kSamples;
-  restored.layers.coefficient_bytes = track.codeword.size() - lossy.layers.openingBytes();
-  restored.closing = of->corrections.size();
-  restored.left = of->left;
-  track.codeword.insert(track.codeword.end(), of->corrections.begin(), of->corrections.end());
-  for (RatePoint& point : track.points) point.distortion += of->left;
-  track.points.push_back({track.codeword.size(), 0});
-  restored.of = std::move(of);
-  return restored;
+  const auto of = std::make_shared<const QuantisedHeights>(
+      withCorrections(*lossy.of, correctionsBehind(*lossy.of, shown)));
+  const EncodedTrack& track = lossy.tracks.front();
+  GeometryLayers layers = lossy.layers;
+  layers.corrections = CorrectionKind::kSamples;
+  layers.coefficient_bytes = track.codeword.size() - layers.openingBytes();
+  return {.of = of,
+          .header = lossy.header,
+          .layers = std::move(layers),
+          .tracks = {withCorrections(track, *of)},
+          .closing = of->corrections.size(),
+          .left = of->left,
+          .flat = lossy.flat};
 }
 
 }  // namespace tetrakis::inline heights

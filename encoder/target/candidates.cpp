@@ -89,7 +89,7 @@ HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate he
   const CodedHeights& coded = *heights.coded;
   const uint64_t samples = storedBytes(*inputs.heights, coded.of->steps.validCount());
   const bool shorter = samples > 0 && samples + coded.layers.validity_bytes < heights.bytes();
-  return shorter ? candidateOf(storeHeights(coded, inputs.options.threads)) : std::move(heights);
+  return shorter ? candidateOf(storeHeights(coded.of, inputs.options.threads)) : std::move(heights);
 }
 
 TextureCandidate storedIfShorter(TextureCandidate texture) {
