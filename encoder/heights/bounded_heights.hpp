@@ -6,8 +6,8 @@
 //             to the last bit. This is best where the error wanted is near the noise of the
 //             heights.
 //   correct   the coefficients are cut, and what then is off by more than e gets a correction in
-//             multiples of 2 e + 1. This is best above: at 5 m on mountains it takes half the bytes
-//             of rounding.
+//             multiples of 2 e + 1 (corrected_heights.hpp). This is best above: at 5 m on mountains
+//             it takes half the bytes of rounding.
 //
 // Cutting so late that nothing is off by more than e takes up to twice the bytes of either.
 #pragma once
@@ -22,15 +22,5 @@ namespace tetrakis::inline heights {
 /// of: from quantiseHeights(inputs). inputs: with a max_error.
 std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
                                                        std::shared_ptr<const QuantisedHeights> of);
-
-/// Heights to the last bit: coefficients without fraction bits, or corrections behind a cut of
-/// lossy coefficients, where these take fewer bytes.
-std::shared_ptr<const CodedHeights> codeLosslessHeights(
-    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
-
-/// Lossy heights cut at an RMSE, in steps, and corrections of all that are still off. Prefixes up
-/// to the cut are those of the lossy heights, and the end is exact. lossy: of one track, of exact
-/// steps without a table.
-CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut);
 
 }  // namespace tetrakis::inline heights

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
-#include "encoder/heights/bounded_heights.hpp"
+#include "encoder/heights/lossless_heights.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 

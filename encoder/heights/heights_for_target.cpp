@@ -9,6 +9,7 @@
 #include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/lossless_heights.hpp"
 
 namespace tetrakis::inline heights {
 

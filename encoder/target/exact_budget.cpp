@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
-#include "encoder/heights/bounded_heights.hpp"
+#include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/restored_heights.hpp"
