@@ -84,10 +84,8 @@ class ComponentPlanes {
         coefficients,
         [&](size_t track) {
           const std::vector<BandPart> parts = plan_.parts(track);
-          std::vector<BandPlan> bands;
-          if (needsAny(parts)) bands = plan_.bands(parts);
-          keepNeeded(synthesis_.front(), parts, bands);
-          return bands;
+          if (!needsAny(parts)) return std::vector<BandPlan>();
+          return withNeeds(synthesis_.front(), parts, plan_.bands(parts));
         },
         [&](size_t track, const TrackState& state, int more_bits) {
           const std::vector<BandPart> parts = plan_.parts(track);

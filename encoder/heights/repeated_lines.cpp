@@ -82,11 +82,15 @@ uint32_t codedOf(const std::vector<uint8_t>& repeated) {
   return static_cast<uint32_t>(std::count(repeated.begin(), repeated.end(), 0));
 }
 
+struct EvenLines {
+  std::vector<uint8_t> repeated;
+  uint32_t longest;  ///< of their runs
+};
+
 /// Breaks runs that are longer than 19 of 20 runs are, and such as would leave fewer than `least`
 /// lines: lines in them are coded though they repeat others. Where the longest run that is left is
-/// still more than twice the mean, no line counts as repeated. Returns the length of the longest
-/// run.
-uint32_t even(std::vector<uint8_t>& repeated, uint32_t least) {
+/// still more than twice the mean, no line counts as repeated.
+EvenLines evened(std::vector<uint8_t> repeated, uint32_t least) {
   std::vector<uint32_t> runs = runsOf(repeated);
   const auto usual = runs.begin() + static_cast<ptrdiff_t>((runs.size() - 1) * 19 / 20);
   std::nth_element(runs.begin(), usual, runs.end());
@@ -97,9 +101,9 @@ uint32_t even(std::vector<uint8_t>& repeated, uint32_t least) {
     if (run == most) repeat = 0;
     run = repeat ? run + 1 : 1;
   }
-  if (size_t{most} * codedOf(repeated) <= 2 * repeated.size()) return most;
-  std::fill(repeated.begin(), repeated.end(), uint8_t{0});
-  return 1;
+  const bool uneven = size_t{most} * codedOf(repeated) > 2 * repeated.size();
+  if (uneven) return {std::vector<uint8_t>(repeated.size()), 1};
+  return {std::move(repeated), most};
 }
 
 /// least: how many columns, and how many rows, are coded at least where there are as many.
@@ -107,8 +111,8 @@ CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least) {
   constexpr double kPays = 0.9;  // of the samples are left
   assert(heights.width > 0 && heights.height > 0 && least > 0);
   const SampleBytes samples(heights);
-  std::vector<uint8_t> columns = samples.repeatedColumns(), rows = samples.repeatedRows();
-  const uint64_t heaviest = uint64_t{even(columns, least)} * even(rows, least);
+  auto [columns, most_columns] = evened(samples.repeatedColumns(), least);
+  auto [rows, most_rows] = evened(samples.repeatedRows(), least);
   CodedLines lines;
   lines.extent = {codedOf(columns), codedOf(rows)};
   const uint64_t samples_of_all = uint64_t{heights.width} * heights.height;
@@ -118,7 +122,7 @@ CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least) {
   const auto all = static_cast<double>(samples_of_all);
   const double left = static_cast<double>(lines.extent.samples()) / all;
   if (left > kPays) return {};
-  lines.heaviest = static_cast<double>(heaviest) * left;
+  lines.heaviest = static_cast<double>(uint64_t{most_columns} * most_rows) * left;
   lines.samples = samples.without(columns, rows);
   const std::vector<uint32_t> across = runsOf(columns), down = runsOf(rows);
   for (const uint32_t rows_of_one : down) {

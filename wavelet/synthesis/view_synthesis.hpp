@@ -74,9 +74,9 @@ class ViewSynthesis {
   Kernel kernel_;
 };
 
-/// Says of every band of a track whether the view needs it. bands: one or more planes of as many
-/// parts. Without any band that is needed, none are left.
-void keepNeeded(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
-                std::vector<BandPlan>& bands);
+/// The bands of a track with whether the view needs each; none if it needs none. bands: one or more
+/// planes of as many parts.
+std::vector<BandPlan> withNeeds(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
+                                std::vector<BandPlan> bands);
 
 }  // namespace tetrakis::inline synthesis
