@@ -61,11 +61,8 @@ constexpr double kFewBits = 1.6, kFewQuietBits = 1.15;
 void appendDetails(const PlanePart& part, const WaveletHeader& header, bool plain,
                    std::vector<float>& details) {
   const WaveletSpec spec = specOf(header);
-  std::vector<int32_t> plane = part.values, areas(part.area_values.begin(), part.area_values.end());
-  for (std::vector<int32_t>* values : {&plane, &areas}) {
-    for (int32_t& v : *values)
-      v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
-  }
+  std::vector<int32_t> plane = withFractions(part.values, header.fraction_bits);
+  const std::vector<int32_t> areas = withFractions(part.area_values, header.fraction_bits);
   const PlaneLayout layout(spec, part.extent, part.valid, {part.held, areas});
   forwardWavelet(spec, layout.pyramid(), plane);
   for (size_t i = 1; i < layout.subbands().size(); ++i) {
@@ -214,9 +211,7 @@ PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double st
   const double unit = std::exp2(header.fraction_bits);
   PlaneCost sum;
   for (const PlanePart& part : parts) {
-    std::vector<int32_t> values = part.values;
-    for (int32_t& v : values)
-      v = static_cast<int32_t>(static_cast<uint32_t>(v) << header.fraction_bits);
+    std::vector<int32_t> values = withFractions(part.values, header.fraction_bits);
     const PlaneLayout layout(spec, part.extent, part.valid, {});
     forwardWavelet(spec, layout.pyramid(), values);
     const PlaneCost cost = costOf(layout, values, step * unit);

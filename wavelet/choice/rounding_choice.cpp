@@ -84,9 +84,7 @@ class CodedPart {
 
  private:
   double squaresWith(const TrackState& state, Precision precision) const {
-    std::vector<int32_t> areas(part_.area_values.begin(), part_.area_values.end());
-    for (int32_t& value : areas)
-      value = static_cast<int32_t>(static_cast<uint32_t>(value) << precision.fraction_bits);
+    const std::vector<int32_t> areas = withFractions(part_.area_values, precision.fraction_bits);
     const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, areas});
     ViewSynthesis synthesis(spec_, layout.pyramid(), {});
     synthesis.allocate();
