@@ -12,7 +12,7 @@
 #include "encoder/heights/repeated_lines.hpp"
 #include "encoder/selection/selection.hpp"
 #include "encoder/selection/write_stream.hpp"
-#include "encoder/target/meet_target.hpp"
+#include "encoder/targets/meet_target.hpp"
 #include "encoder/textures/coded_texture.hpp"
 #include "encoder/views/camera_checks.hpp"
 #include "encoder/views/map_worth.hpp"

@@ -8,10 +8,10 @@
 #include "encoder/textures/coded_texture.hpp"
 #include "ratecontrol/component_curve.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights);
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture);
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets

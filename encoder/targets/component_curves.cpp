@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/target/component_curves.hpp"
+#include "encoder/targets/component_curves.hpp"
 
 #include <cassert>
 
@@ -7,7 +7,7 @@
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/views/shown_mesh.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 namespace {
 
@@ -81,4 +81,4 @@ ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& te
                   .order = trackOrderOf(inputs.options)});
 }
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/target/meet_target.hpp"
+#include "encoder/targets/meet_target.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -12,13 +12,13 @@
 #include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/selection/write_stream.hpp"
-#include "encoder/target/candidates.hpp"
-#include "encoder/target/component_curves.hpp"
-#include "encoder/target/exact_budget.hpp"
+#include "encoder/targets/candidates.hpp"
+#include "encoder/targets/component_curves.hpp"
+#include "encoder/targets/exact_budget.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "ratecontrol/target.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 namespace {
 
@@ -146,4 +146,4 @@ Result<Selection> meetTarget(const EncodeInputs& inputs,
   return selection;
 }
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets

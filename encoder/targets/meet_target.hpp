@@ -10,7 +10,7 @@
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/selection/selection.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 /// heights, texture: null where there are none; coded for the target. TKS_USAGE: the PSNR is above
 /// what the step of the heights allows.
@@ -18,4 +18,4 @@ Result<Selection> meetTarget(const EncodeInputs& inputs,
                              std::shared_ptr<const CodedHeights> heights,
                              std::shared_ptr<const CodedTexture> texture);
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/target/candidates.hpp"
+#include "encoder/targets/candidates.hpp"
 
 #include <cassert>
 #include <cmath>
@@ -10,13 +10,13 @@
 #include "codec/geometry/stored_heights_encoder.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
-#include "encoder/target/component_curves.hpp"
+#include "encoder/targets/component_curves.hpp"
 #include "encoder/views/views.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "ratecontrol/packet_slopes.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 namespace {
 
@@ -97,4 +97,4 @@ TextureCandidate storedIfShorter(TextureCandidate texture) {
   return shorter ? candidateOf(storeTexture(texture.coded->of)) : std::move(texture);
 }
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets

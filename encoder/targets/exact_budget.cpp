@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/target/exact_budget.hpp"
+#include "encoder/targets/exact_budget.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -14,12 +14,12 @@
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
-#include "encoder/target/component_curves.hpp"
+#include "encoder/targets/component_curves.hpp"
 #include "encoder/views/views.hpp"
 #include "ratecontrol/allocation.hpp"
 #include "ratecontrol/target.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 namespace {
 
@@ -243,4 +243,4 @@ std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Can
   return exactHeightsIfTheyPay(inputs, lossy, std::move(few), nearly.heights);
 }
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets

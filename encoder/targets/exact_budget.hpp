@@ -8,9 +8,9 @@
 
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/selection/selection.hpp"
-#include "encoder/target/candidates.hpp"
+#include "encoder/targets/candidates.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 /// All packets of components that end exact: of both, if that fits the budget and takes nothing
 /// from prefixes, else of the heights, if the cameras see fewer errors for it. Nothing where it
@@ -18,4 +18,4 @@ namespace tetrakis::inline target {
 std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
                                            const Selection& selection);
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets

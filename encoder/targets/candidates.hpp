@@ -13,7 +13,7 @@
 #include "ratecontrol/candidate.hpp"
 #include "ratecontrol/pair_errors.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline targets {
 
 using HeightsCandidate = Candidate<CodedHeights>;
 using TextureCandidate = Candidate<CodedTexture>;
@@ -52,4 +52,4 @@ TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& te
 HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights);
 TextureCandidate storedIfShorter(TextureCandidate texture);
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline targets
