@@ -54,7 +54,7 @@ class PartTrial {
 
  private:
   EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
-    return encodeCoefficients({steps, header_.extent(), steps_.valid}, wavelet, {}).front();
+    return encodeGeometry({steps, header_.extent(), steps_.valid}, wavelet, {}).front();
   }
 
   HeightSteps steps_;

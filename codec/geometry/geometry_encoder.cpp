@@ -47,9 +47,9 @@ std::vector<int32_t> transformed(const PlaneView<const int32_t>& heights,
 
 }  // namespace
 
-std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
-                                             const WaveletHeader& wavelet,
-                                             const CoefficientOptions& options) {
+std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
+                                         const WaveletHeader& wavelet,
+                                         const CoefficientOptions& options) {
   static const FlatAreas kNone;
   static const PriorityMap kAlike;
   const FlatAreas& flat = options.flat == nullptr ? kNone : *options.flat;

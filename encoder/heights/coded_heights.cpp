@@ -126,8 +126,7 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            const CoefficientOptions& options) {
   const HeightSteps& steps = heights.steps;
-  return encodeCoefficients({steps.steps, extentOf(*heights.samples), steps.valid}, wavelet,
-                            options);
+  return encodeGeometry({steps.steps, extentOf(*heights.samples), steps.valid}, wavelet, options);
 }
 
 HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
@@ -226,7 +225,7 @@ CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t t
   GeometryHeader header = headerOf(heights);
   header.planes = GeometryHeader::kDirectPlanes;
   std::vector<uint8_t> codeword = heights.validity;
-  const std::vector<uint8_t> samples = storeSamples(*heights.samples, heights.steps.valid);
+  const std::vector<uint8_t> samples = encodeStoredHeights(*heights.samples, heights.steps.valid);
   codeword.insert(codeword.end(), samples.begin(), samples.end());
   std::vector<EncodedTrack> tracks;
   tracks.push_back({std::move(codeword), {}, GeometryHeader::kDirectPlanes});

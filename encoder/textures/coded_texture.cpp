@@ -60,7 +60,7 @@ CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
 }
 
 CodedTexture storeTexture(std::shared_ptr<const TextureSource> of) {
-  EncodedTexture stored = storeTexture(of->texels);
+  EncodedTexture stored = encodeStoredTexture(of->texels);
   return codedBy(std::move(of), std::move(stored));
 }
 

@@ -34,7 +34,7 @@ void PlaneSynthesis::put(const Band& band, int fraction_bits, const BandPart& pa
 }
 
 std::vector<int32_t> PlaneSynthesis::run(uint32_t threads, bool rounds) {
-  inverseWavelet(spec_, *pyramid_, level_, values_, threads, rounds);
+  inverseWavelet(spec_, *pyramid_, values_, {level_, rounds, threads});
   normalise();
   values_.resize(thin(*pyramid_, level_, std::span(values_)));
   return std::move(values_);

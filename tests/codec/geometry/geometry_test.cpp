@@ -35,7 +35,7 @@ Coded encode(const Plane& heights, const Size& size, const WaveletHeader& wavele
   coded.header.width = size.width;
   coded.header.height = size.height;
   coded.header.wavelet = wavelet;
-  coded.track = encodeCoefficients({heights, size.extent(), valid}, wavelet, {limit}).front();
+  coded.track = encodeGeometry({heights, size.extent(), valid}, wavelet, {limit}).front();
   coded.header.planes = static_cast<uint8_t>(coded.track.planes);
   return coded;
 }
