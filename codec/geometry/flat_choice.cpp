@@ -54,8 +54,8 @@ struct CopiedPart {
 class TriedPart {
  public:
   TriedPart(const CopiedPart& part, const FlatAreas& flat, const WaveletHeader& wavelet)
-      : values_(withFractions(part.heights, wavelet.fraction_bits)),
-        area_heights_(withFractions(flat.heights, wavelet.fraction_bits)),
+      : values_(scaled(part.heights, wavelet)),
+        area_heights_(scaled(flat.heights, wavelet)),
         layout_(specOf(wavelet), part.extent(), part.valid, {flat.numbers, area_heights_}) {
     clearUnmarked(std::span(values_), part.valid);
     forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
@@ -63,6 +63,14 @@ class TriedPart {
   PlaneCost cost(double step) const { return costOf(layout_, values_, step); }
 
  private:
+  static std::vector<int32_t> scaled(std::span<const int32_t> heights,
+                                     const WaveletHeader& wavelet) {
+    std::vector<int32_t> values(heights.begin(), heights.end());
+    for (int32_t& h : values)
+      h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
+    return values;
+  }
+
   std::vector<int32_t> values_, area_heights_;
   PlaneLayout layout_;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <utility>
 
 namespace tetrakis::inline flat {
 
@@ -43,19 +42,19 @@ class Slide {
   std::vector<uint32_t> before_;
 };
 
-std::vector<uint8_t> slid(std::vector<uint8_t> marks, Extent plane, uint32_t reach, Enough enough) {
+void slide(std::vector<uint8_t>& marks, Extent plane, uint32_t reach, Enough enough) {
   Slide lines(reach, enough);
   for (uint32_t y = 0; y < plane.height; ++y)
     lines.run(marks, {size_t{y} * plane.width, 1, plane.width});
   for (uint32_t x = 0; x < plane.width; ++x) lines.run(marks, {x, plane.width, plane.height});
-  return marks;
 }
 
 }  // namespace
 
-std::vector<uint8_t> openedMask(std::vector<uint8_t> marks, Extent plane, uint32_t reach) {
+void openMask(std::vector<uint8_t>& marks, Extent plane, uint32_t reach) {
   assert(marks.size() == plane.samples());
-  return slid(slid(std::move(marks), plane, reach, Enough::kAll), plane, reach, Enough::kAny);
+  slide(marks, plane, reach, Enough::kAll);
+  slide(marks, plane, reach, Enough::kAny);
 }
 
 }  // namespace tetrakis::inline flat

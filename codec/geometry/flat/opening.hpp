@@ -13,6 +13,6 @@ namespace tetrakis::inline flat {
 
 /// marks: 0 or 1, of each sample of the plane. The squares have sides of 2 reach + 1 samples;
 /// beyond the border all is marked.
-std::vector<uint8_t> openedMask(std::vector<uint8_t> marks, Extent plane, uint32_t reach);
+void openMask(std::vector<uint8_t>& marks, Extent plane, uint32_t reach);
 
 }  // namespace tetrakis::inline flat
