@@ -12,6 +12,7 @@
 #include "api/message.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/texture_header.hpp"
 #include "encoder/encode_stream.hpp"

@@ -11,7 +11,7 @@
 #include "codec/mesh/screen/screen_weights.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 #include "wavelet/region_decoder.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline api {

@@ -10,7 +10,7 @@
 #include "bitstream/stream/indexed_packets.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/repeats/shown_lines.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline api {
@@ -75,36 +75,14 @@ Result<View> viewOfPart(const tks_decoder& decoder, tks_part part, const tks_win
   return viewOf(decoder, part, window);
 }
 
-/// A decoder that has but the front of a stream decodes it as a prefix, whose samples are rounded
-/// otherwise. If no gap would tell that what is missing is not needed, the last byte does.
-void showGap(const tks_decoder& decoder, std::vector<tks_range>& ranges) {
-  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
-  uint64_t known = decoder.parsed.bytes;
-  for (const tks_range& range : ranges) {
-    if (range.offset != known) return;
-    known += range.size;
-  }
-  if (ranges.empty()) return;
-  if (known + 1 < end) ranges.push_back({end - 1, 1, 0});
-  if (known + 1 == end) ++ranges.back().size;
-}
-
-Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* window,
-                    std::vector<tks_range>& ranges) {
-  if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
-    return {TKS_USAGE, "There is no such part."};
-  const Result<View> view = viewOfPart(decoder, part, window);
-  if (!view.ok()) return view.status();
+/// The ranges of the packets of such tracks; of streams for windows each track has its own.
+std::vector<tks_range> rangesOfTracks(const tks_decoder& decoder, Component component,
+                                      const std::vector<bool>& needed) {
   const StreamHeader& header = decoder.parsed.header;
-  if (header.index.empty() && header.payload_bytes > 0)
-    return {TKS_USAGE, "The stream has no front index, which would tell where its packets lie."};
-  if (Status status = checkMemory(decoder, {part, *view, 0}); !status.ok()) return status;
-  const Component component = part == TKS_PART_TEXTURE ? Component::kTexture : Component::kGeometry;
-  std::vector<bool> needed = neededTracks(header, component, *view);
-  if (part == TKS_PART_VALIDITY) needed.assign(1, true);
   const bool regions_apart = decoder.index == TKS_INDEX_WINDOWS;
-  std::optional<uint32_t> last;
   const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
+  std::vector<tks_range> ranges;
+  std::optional<uint32_t> last;
   for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
     const PacketHead& head = packet.entry.packet;
     if (head.component() != component || head.track >= needed.size() || !needed[head.track])
@@ -118,8 +96,39 @@ Status neededRanges(tks_decoder& decoder, tks_part part, const tks_window* windo
       ranges.push_back({packet.begin, size, 0});
     }
   }
-  showGap(decoder, ranges);
-  return {};
+  return ranges;
+}
+
+/// The ranges, and the last byte if no gap would tell that what is missing is not needed: a decoder
+/// that has but the front of a stream decodes it as a prefix, whose samples are rounded otherwise.
+std::vector<tks_range> withGap(const tks_decoder& decoder, std::vector<tks_range> ranges) {
+  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
+  uint64_t known = decoder.parsed.bytes;
+  for (const tks_range& range : ranges) {
+    if (range.offset != known) return ranges;
+    known += range.size;
+  }
+  if (ranges.empty()) return ranges;
+  if (known + 1 < end) ranges.push_back({end - 1, 1, 0});
+  if (known + 1 == end) ++ranges.back().size;
+  return ranges;
+}
+
+Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
+                                            const tks_window* window) {
+  if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
+    return Status(TKS_USAGE, "There is no such part.");
+  const Result<View> view = viewOfPart(decoder, part, window);
+  if (!view.ok()) return view.status();
+  const StreamHeader& header = decoder.parsed.header;
+  if (header.index.empty() && header.payload_bytes > 0)
+    return Status(TKS_USAGE,
+                  "The stream has no front index, which would tell where its packets lie.");
+  if (Status status = checkMemory(decoder, {part, *view, 0}); !status.ok()) return status;
+  const Component component = part == TKS_PART_TEXTURE ? Component::kTexture : Component::kGeometry;
+  std::vector<bool> needed = neededTracks(header, component, *view);
+  if (part == TKS_PART_VALIDITY) needed.assign(1, true);
+  return withGap(decoder, rangesOfTracks(decoder, component, needed));
 }
 
 }  // namespace
@@ -140,9 +149,9 @@ tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_wind
   if (out == nullptr) return TKS_USAGE;
   *out = {};
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
-    std::vector<tks_range> ranges;
-    const tetrakis::Status status = tetrakis::neededRanges(*decoder, part, window, ranges);
-    if (status.ok()) tetrakis::giveRanges(ranges, *out);
-    return status;
+    const auto ranges = tetrakis::neededRanges(*decoder, part, window);
+    if (!ranges.ok()) return ranges.status();
+    tetrakis::giveRanges(*ranges, *out);
+    return {};
   });
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/status.hpp"
-#include "encoder/inputs.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
 
 namespace tetrakis::inline encoder {
 

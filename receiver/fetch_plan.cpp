@@ -39,7 +39,7 @@ Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
     if (!placed.ok()) return placed.status();
     packets = std::move(*placed);
   }
-  boundOpenings(packets, limits.request_bytes);
+  packets = withFiniteOpenings(std::move(packets), limits.request_bytes);
   const std::vector<Piece> pieces = piecesOf(packets, missing, end);
   const std::vector<uint32_t> order = rankedPieces(pieces);
   const Choice chosen = choosePieces(pieces, order, limits);

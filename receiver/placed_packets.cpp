@@ -68,13 +68,15 @@ Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint
   return packets;
 }
 
-void boundOpenings(std::vector<PlacedPacket>& packets, uint64_t request_bytes) {
+std::vector<PlacedPacket> withFiniteOpenings(std::vector<PlacedPacket> packets,
+                                             uint64_t request_bytes) {
   double most = std::numeric_limits<double>::min();
   for (const PlacedPacket& packet : packets)
     if (packet.worth.all < kOpening) most = std::max(most, packet.worth.all);
   const double opening = 2 * most * (static_cast<double>(request_bytes) + 2);
   for (PlacedPacket& packet : packets)
     if (packet.worth.all == kOpening) packet.worth = {opening, opening, opening};
+  return packets;
 }
 
 }  // namespace tetrakis::inline receiver

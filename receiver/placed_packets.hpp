@@ -43,7 +43,9 @@ bool helpsMore(const PacketWorth& a, const PacketWorth& b);
 Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint64_t begin,
                                                 std::span<const WeightedSighting> sightings);
 
-/// Openings are worth more than any request costs, and yet finite, so that sums are.
-void boundOpenings(std::vector<PlacedPacket>& packets, uint64_t request_bytes);
+/// Packets whose openings are worth more than any request costs, and yet finitely much, so that
+/// sums are finite.
+std::vector<PlacedPacket> withFiniteOpenings(std::vector<PlacedPacket> packets,
+                                             uint64_t request_bytes);
 
 }  // namespace tetrakis::inline receiver

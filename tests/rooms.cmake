@@ -18,10 +18,12 @@ tks_wall(tetrakis "study" "tks_files" "tks_conformance" "tks_cli" "PkgConfig" "G
 tks_wall(tks_stream "lattice" "wavelet" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_receiver "lattice" "wavelet" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_lattice "wavelet" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")
-tks_wall(tks_wavelet "lattice" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")
+tks_wall(tks_synthesis "lattice" "geometry" "mesh" "texture" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_geometry "texture" "mesh" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_quadtree "track" "geometry" "texture" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_texture "geometry" "mesh" "ratecontrol" "tetrakis" "::")
+tks_wall(tks_encoder_heights "texture" "mesh" "tetrakis" "::")
+tks_wall(tks_encoder_textures "geometry" "mesh" "heights$" "tetrakis" "::")
 tks_wall(tks_encoder "tetrakis" "::")
 if(TARGET tks_reference)
   tks_wall(tks_reference

@@ -14,7 +14,7 @@ uint64_t storedBytes(const Texels& texels) {
   return texels.samples.size() * static_cast<uint64_t>(texels.bits / 8);
 }
 
-EncodedTexture storeTexture(const Texels& texels) {
+EncodedTexture encodeStoredTexture(const Texels& texels) {
   EncodedTexture encoded;
   TextureHeader& header = encoded.header;
   header.width = texels.width;

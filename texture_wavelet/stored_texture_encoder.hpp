@@ -11,6 +11,6 @@ namespace tetrakis::inline texture {
 uint64_t storedBytes(const Texels& texels);
 
 /// One track, lossless.
-EncodedTexture storeTexture(const Texels& texels);
+EncodedTexture encodeStoredTexture(const Texels& texels);
 
 }  // namespace tetrakis::inline texture

@@ -238,7 +238,7 @@ EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, Textu
   EncodedTexture encoded = encodeModelled(source, purpose, options);
   const uint64_t stored = storedBytes(source.texels);
   const bool shorter = stored < bytesOf(encoded.tracks) && stored <= options.room;
-  return purpose == Purpose::kLossless && shorter ? storeTexture(source.texels)
+  return purpose == Purpose::kLossless && shorter ? encodeStoredTexture(source.texels)
                                                   : std::move(encoded);
 }
 

@@ -12,7 +12,7 @@
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 #include "texture_wavelet/stored_texture_decoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline texture {
@@ -84,10 +84,8 @@ class ComponentPlanes {
         coefficients,
         [&](size_t track) {
           const std::vector<BandPart> parts = plan_.parts(track);
-          std::vector<BandPlan> bands;
-          if (needsAny(parts)) bands = plan_.bands(parts);
-          keepNeeded(synthesis_.front(), parts, bands);
-          return bands;
+          if (!needsAny(parts)) return std::vector<BandPlan>();
+          return withNeeds(synthesis_.front(), parts, plan_.bands(parts));
         },
         [&](size_t track, const TrackState& state, int more_bits) {
           const std::vector<BandPart> parts = plan_.parts(track);

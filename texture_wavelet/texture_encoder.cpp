@@ -15,8 +15,8 @@
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "texture_wavelet/visual_weights.hpp"
+#include "wavelet/choice/rounding_choice.hpp"
 #include "wavelet/priority_map_encoder.hpp"
-#include "wavelet/rounding_choice.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline texture {

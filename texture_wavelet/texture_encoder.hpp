@@ -7,7 +7,7 @@
 
 #include "bitstream/stream/encoded_texture.hpp"
 #include "texture_wavelet/texture_source.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline texture {
 

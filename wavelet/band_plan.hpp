@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // This file says how a transformed plane becomes the bands of a track. Encoders gather coefficients
-// here; decoders put them back with wavelet/view_synthesis.hpp.
+// here; decoders put them back with wavelet/synthesis/view_synthesis.hpp.
 #pragma once
 
 #include <cstdint>

@@ -55,7 +55,7 @@ HeldLadder::HeldLadder(const WaveletSpec& spec, const Pyramid& pyramid)
     const std::span<const int32_t> low = states.after(false, false);
     std::vector<int32_t>& next = values_.emplace_back(low.begin(), low.end());
     if (!spec.doubles(l)) continue;
-    for (int32_t& v : next) v = static_cast<int32_t>(static_cast<uint32_t>(v) << 1);
+    for (int32_t& v : next) v <<= 1;
   }
 }
 

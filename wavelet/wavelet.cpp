@@ -282,14 +282,15 @@ void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, ui
   forwardWavelet(spec, Pyramid(plane.extent(), plane.valid), plane.values(), threads);
 }
 
-void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
-                    std::span<int32_t> values, uint32_t threads, bool rounds) {
+void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
+                    const InverseOptions& options) {
+  const int level = options.level;
   const std::optional<HeldLadder> ladder = ladderOf(spec, pyramid);
-  const int carried = rounds && level == 0 ? carriedTo(spec, pyramid) : 0;
+  const int carried = options.rounds && level == 0 ? carriedTo(spec, pyramid) : 0;
   std::vector<std::vector<uint8_t>> fractions(static_cast<size_t>(std::max(carried, 1)));
   const auto transformOf = [&](int split) {
     const bool in = split > 1 && split <= carried;
-    return LevelTransform(spec, split, Direction::kSynthesis, threads)
+    return LevelTransform(spec, split, Direction::kSynthesis, options.threads)
         .carry({in, split < carried,
                 in ? std::span<const uint8_t>(fractions[static_cast<size_t>(split - 1)])
                    : std::span<const uint8_t>()});
@@ -305,7 +306,7 @@ void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
 }
 
 void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads) {
-  inverseWavelet(spec, Pyramid(plane.extent(), plane.valid), 0, plane.values(), threads);
+  inverseWavelet(spec, Pyramid(plane.extent(), plane.valid), plane.values(), {.threads = threads});
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -71,12 +71,19 @@ void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
 /// Turns coefficients into samples, in place. Defined for all values.
 void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
-/// Turns coefficients into the low band of a level, which is a plane of its own: undoes the coarser
-/// levels alone. low: the values of that low band. Where samples are held any values will do.
-/// rounds: the values are whole coefficients, known to the last bit or nearly, and roundings are
-/// undone. Else fractions are not carried; nor are they where level > 0.
-void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, int level,
-                    std::span<int32_t> low, uint32_t threads, bool rounds = true);
+/// How coefficients become samples.
+struct InverseOptions {
+  int level = 0;  ///< whose low band they become: the coarser levels alone are undone
+  /// The values are whole coefficients, known to the last bit or nearly, and roundings are undone.
+  /// Else fractions are not carried; nor are they where level > 0.
+  bool rounds = true;
+  uint32_t threads = 1;  ///< nothing depends on them
+};
+
+/// Turns coefficients into the low band of a level, which is a plane of its own. low: the values of
+/// that low band. Where samples are held any values will do.
+void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> low,
+                    const InverseOptions& options = {});
 
 class HeldBlock;
 

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "bitstream/stream/coding_headers.hpp"
 #include "wavelet/wavelet.hpp"
@@ -17,6 +20,13 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   spec.bits = header.bits;
   spec.first_doubled = header.first_doubled;
   return spec;
+}
+
+/// Values as the transform takes them.
+inline std::vector<int32_t> withFractions(std::span<const int32_t> values, int fraction_bits) {
+  std::vector<int32_t> scaled(values.begin(), values.end());
+  for (int32_t& value : scaled) value <<= fraction_bits;
+  return scaled;
 }
 
 /// The binary places of coefficients of samples without fraction bits in an inverse that does not

@@ -11,8 +11,8 @@
 
 #include "codec/geometry/corrected_cut.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
-#include "wavelet/filter_choice.hpp"
-#include "wavelet/typical_parts.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline geometry {
 
@@ -54,7 +54,7 @@ class PartTrial {
 
  private:
   EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
-    return encodeCoefficients({steps, header_.extent(), steps_.valid}, wavelet, {}).front();
+    return encodeGeometry({steps, header_.extent(), steps_.valid}, wavelet, {}).front();
   }
 
   HeightSteps steps_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plane is transformed as it is, and with areas held; what its coefficients cost
-// (wavelet/plane_cost.hpp) decides, with the bytes of the areas: at the step of the target, and at
-// coarser ones, because every prefix pays for the areas first. Large areas are tried first; then
-// smaller ones are added, or shapes are simplified, whichever gains.
+// (wavelet/choice/plane_cost.hpp) decides, with the bytes of the areas: at the step of the target,
+// and at coarser ones, because every prefix pays for the areas first. Large areas are tried first;
+// then smaller ones are added, or shapes are simplified, whichever gains.
 #include "codec/geometry/flat_choice.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 #include "base/parallel.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
-#include "wavelet/plane_cost.hpp"
+#include "wavelet/choice/plane_cost.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {

@@ -9,7 +9,7 @@
 #include "base/plane.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline geometry {
 

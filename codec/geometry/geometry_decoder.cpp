@@ -10,7 +10,7 @@
 
 #include "wavelet/band_plan.hpp"
 #include "wavelet/held_lifting.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {
@@ -88,8 +88,7 @@ void holdShown(const HeldSamples& flat, Extent plane, const View& view,
 /// What a track holds, and which bands of it the view needs; empty: none.
 std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart> parts,
                              const ViewSynthesis& synthesis) {
-  std::vector<BandPlan> plan = layout.plan(parts, 0, 0, 0);
-  keepNeeded(synthesis, parts, plan);
+  std::vector<BandPlan> plan = withNeeds(synthesis, parts, layout.plan(parts, 0, 0, 0));
   if (plan.empty()) return plan;
   layout.markAbsent(parts, plan);
   layout.markTiers(parts, plan);
@@ -127,7 +126,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
       });
   out.fraction_bits = precision.fraction_bits;
   for (int32_t& height : area_heights)  // of what the layout holds, as it is needed from here on
-    height = static_cast<int32_t>(static_cast<uint32_t>(height) << out.fraction_bits);
+    height <<= out.fraction_bits;
   out.heights = synthesis.run(context.threads, precision.rounds);
   if (significance) significance->giveTo(out);
   const Extent extent = view.extentIn(header.extent());

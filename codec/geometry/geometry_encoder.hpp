@@ -27,8 +27,8 @@ struct CoefficientOptions {
 
 /// Codes heights in steps. Returns one track for each of regionsOf(). wavelet: from
 /// chooseWavelet(). Distortion is in squared units of the heights, summed over the valid samples.
-std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
-                                             const WaveletHeader& wavelet,
-                                             const CoefficientOptions& options);
+std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
+                                         const WaveletHeader& wavelet,
+                                         const CoefficientOptions& options);
 
 }  // namespace tetrakis::inline geometry

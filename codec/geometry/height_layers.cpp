@@ -72,14 +72,14 @@ struct TakenLayers {
     first = ahead;
   }
 
-  /// Makes the coefficients of the first track one codeword, which `joined` holds from then on.
-  void join(std::vector<uint8_t>& joined) {
-    if (behind_table.empty()) return;
-    std::span<const uint8_t>& ahead = coefficients.front();
-    joined.reserve(ahead.size() + behind_table.size());
-    joined.assign(ahead.begin(), ahead.end());
-    joined.insert(joined.end(), behind_table.begin(), behind_table.end());
-    ahead = joined;
+  /// The coefficients of the first track as one codeword, if a table parts them; else nothing.
+  std::vector<uint8_t> aroundTable() const {
+    if (behind_table.empty()) return {};
+    std::vector<uint8_t> joined;
+    joined.reserve(coefficients.front().size() + behind_table.size());
+    for (const std::span<const uint8_t> part : {coefficients.front(), behind_table})
+      joined.insert(joined.end(), part.begin(), part.end());
+    return joined;
   }
 };
 
@@ -181,20 +181,20 @@ namespace {
 
 /// The steps that the first codewords hold: a drawing, or coefficients beside flat areas.
 DecodedGeometry decodeSteps(const GeometryHeader& header, const GeometryLayers& layers,
-                            TakenLayers taken, const View& view,
+                            const TakenLayers& taken, const View& view,
                             const DecodeContext<HeightsMemory>& context) {
   HeightsMemory* const memory = context.memory;
   std::vector<uint8_t> valid = validityOf(taken, header, layers, memory);
-  std::vector<uint8_t> joined;
-  taken.join(joined);
-  if (header.drawn)
-    return decodeDrawnHeights(header, taken.coefficients.front(), valid, view.level);
+  const std::vector<uint8_t> around_table = taken.aroundTable();
+  Codewords coefficients = taken.coefficients;
+  if (!around_table.empty()) coefficients.front() = around_table;
+  if (header.drawn) return decodeDrawnHeights(header, coefficients.front(), valid, view.level);
   const bool flat_known = memory != nullptr && taken.flat.size() == layers.flat_bytes;
   const bool growing = flat_known && taken.validity.size() == layers.validity_bytes;
   FlatAreas of_this_call;
   FlatAreas& flat = flat_known ? memory->flat : of_this_call;
   if (flat.empty()) flat = flatAreasOf(taken, header, layers, valid);
-  return decodeGeometry(header, taken.coefficients, {std::move(valid), flat.held()}, view,
+  return decodeGeometry(header, coefficients, {std::move(valid), flat.held()}, view,
                         {context.threads, growing ? &memory->tracks : nullptr});
 }
 

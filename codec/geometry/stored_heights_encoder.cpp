@@ -11,7 +11,7 @@ uint64_t storedBytes(const tks_heights& heights, size_t valid_samples) {
   return uint64_t{valid_samples} * tks_sample_bytes(heights.sample);
 }
 
-std::vector<uint8_t> storeSamples(const tks_heights& heights, Mask valid) {
+std::vector<uint8_t> encodeStoredHeights(const tks_heights& heights, Mask valid) {
   std::vector<uint32_t> words;
   withSampleType(heights.sample, [&](auto type) {
     const auto* samples = static_cast<const decltype(type)*>(heights.data);

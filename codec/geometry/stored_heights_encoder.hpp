@@ -15,6 +15,6 @@ namespace tetrakis::inline geometry {
 uint64_t storedBytes(const tks_heights& heights, size_t valid_samples);
 
 /// Returns the codeword of the valid samples.
-std::vector<uint8_t> storeSamples(const tks_heights& heights, Mask valid);
+std::vector<uint8_t> encodeStoredHeights(const tks_heights& heights, Mask valid);
 
 }  // namespace tetrakis::inline geometry

@@ -122,7 +122,7 @@ Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, in
   coded.header.wavelet.first_doubled =
       static_cast<uint8_t>(fraction_bits > 0 ? 0 : spec.first_doubled);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  const std::vector<EncodedTrack> tracks = encodeCoefficients(
+  const std::vector<EncodedTrack> tracks = encodeGeometry(
       {heights, size.extent(), valid}, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
   coded.header.planes = static_cast<uint8_t>(tracks.front().planes);
   for (const EncodedTrack& track : tracks) {
@@ -235,7 +235,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const WaveletHeader wavelet{{1, 1, 1}, 0, 10};
   for (const uint64_t limit : {UINT64_MAX, uint64_t{6000}}) {
-    const auto one = encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, 1});
+    const auto one = encodeGeometry({heights, size.extent()}, wavelet, {limit, 5, 1});
     uint64_t bytes = 0;
     for (const EncodedTrack& track : one) bytes += track.codeword.size();
     EXPECT_EQ(one.front().complete, limit == UINT64_MAX);
@@ -244,7 +244,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
       EXPECT_LT(bytes, 20000u);
     }
     for (const uint32_t threads : {2u, 5u}) {
-      const auto many = encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, threads});
+      const auto many = encodeGeometry({heights, size.extent()}, wavelet, {limit, 5, threads});
       ASSERT_EQ(one.size(), many.size());
       for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].codeword, many[i].codeword);
     }
@@ -258,7 +258,7 @@ TEST(Tracks, AreOrderedBySlope) {
   const Size size{150, 130};
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const auto tracks =
-      encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
+      encodeGeometry({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
   const OrderedTracks order = orderTracks({Component::kGeometry, tracks}, TrackOrder::kSlopes);
   std::vector<uint64_t> sent(tracks.size());
   ASSERT_EQ(order.points.size(), order.packets.size() + 1);
@@ -285,7 +285,7 @@ TEST(Tracks, KeepTogether) {
   const Size size{150, 130};
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const auto tracks =
-      encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
+      encodeGeometry({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
   const CodedTracks coded{Component::kGeometry, tracks};
   const auto changes = [&](TrackOrder by) {
     const OrderedTracks order = orderTracks(coded, by);

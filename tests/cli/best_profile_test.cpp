@@ -7,7 +7,7 @@
 #include <random>
 
 #include "codec/polyline/algorithms.hpp"
-#include "tools/commands/best_profile.hpp"
+#include "tools/profile/best_profile.hpp"
 
 namespace tetrakis::test {
 namespace {

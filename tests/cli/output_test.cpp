@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Output: staged, committed, or gone.
-#include "tools/commands/output.hpp"
+#include "tools/output/output.hpp"
 
 #include "tests/cli/cli_fixture.hpp"
 #include "tools/files/temporary.hpp"

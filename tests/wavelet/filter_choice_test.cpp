@@ -9,8 +9,8 @@
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/filter_choice.hpp"
-#include "wavelet/typical_parts.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/window_synthesis.hpp"
+#include "wavelet/synthesis/window_synthesis.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -58,7 +58,7 @@ TEST(HeldWavelet, IsReversibleFromFreeCoefficients) {
           const Pyramid pyramid(size.extent(), {}, plane.held());
           const WaveletSpec exact = withBits(spec, bits);
           Plane decoded = coded(exact, pyramid, plane);
-          inverseWavelet(exact, pyramid, 0, decoded, 1);
+          inverseWavelet(exact, pyramid, decoded);
           for (size_t i = 0; i < decoded.size() && pyramid.levels() == 0; ++i) {
             if (plane.numbers[i] != 0) decoded[i] = plane.samples[i];
           }
@@ -78,7 +78,7 @@ TEST(HeldWavelet, IsReversibleBesideVoidsAndWithThreads) {
       const std::vector<uint8_t> valid = validity(VoidShape::kSpeckle, size.width, size.height);
       const Pyramid pyramid(size.extent(), valid, plane.held());
       Plane decoded = coded(spec, pyramid, plane);
-      inverseWavelet(spec, pyramid, 0, decoded, 3);
+      inverseWavelet(spec, pyramid, decoded, {.threads = 3});
       for (size_t i = 0; i < decoded.size(); ++i) {
         if (!valid[i]) decoded[i] = plane.samples[i];
       }

@@ -8,7 +8,7 @@
 
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::test {

@@ -82,7 +82,7 @@ void addCentre(int32_t* plane, size_t count, uint32_t centre) {
 
 void addFraction(int32_t* plane, size_t count, int fraction_bits) {
   for (size_t i = 0; i < count; ++i) {
-    plane[i] = static_cast<int32_t>(static_cast<uint32_t>(plane[i]) << fraction_bits);
+    plane[i] <<= fraction_bits;
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "texture_wavelet/colour/colour.hpp"
 #include "texture_wavelet/colour/colour_details.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline colour {
 

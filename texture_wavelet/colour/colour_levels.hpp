@@ -8,7 +8,7 @@
 #include <span>
 
 #include "texture_wavelet/colour/colour.hpp"
-#include "wavelet/view_synthesis.hpp"
+#include "wavelet/synthesis/view_synthesis.hpp"
 
 namespace tetrakis::inline colour {
 

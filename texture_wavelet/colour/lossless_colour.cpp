@@ -9,7 +9,7 @@
 #include "texture_wavelet/colour/colour_axes.hpp"
 #include "texture_wavelet/colour/colour_fit.hpp"
 #include "texture_wavelet/colour/colour_level_fit.hpp"
-#include "wavelet/typical_parts.hpp"
+#include "wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline colour {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/status.hpp"
-#include "tools/commands/output.hpp"
+#include "tools/output/output.hpp"
 #include "tools/render/render.hpp"
 
 namespace tetrakis::tools {

@@ -8,8 +8,8 @@
 
 #include "tools/commands/camera_pictures.hpp"
 #include "tools/commands/command.hpp"
-#include "tools/commands/json.hpp"
 #include "tools/files/text.hpp"
+#include "tools/output/json.hpp"
 #include "tools/report/comparison.hpp"
 
 namespace tetrakis::tools {

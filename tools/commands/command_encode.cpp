@@ -13,15 +13,15 @@
 
 #include "base/length_unit.hpp"
 #include "tools/commands/encode_arguments.hpp"
-#include "tools/commands/output.hpp"
-#include "tools/commands/output_names.hpp"
-#include "tools/commands/progress.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/memory_limit.hpp"
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/given_crs.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
+#include "tools/output/output.hpp"
+#include "tools/output/output_names.hpp"
+#include "tools/output/progress.hpp"
 #include "tools/report/picture_judge.hpp"
 #include "tools/report/report.hpp"
 

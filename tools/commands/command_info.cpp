@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "tools/commands/command.hpp"
-#include "tools/commands/json.hpp"
 #include "tools/files/plain_heights.hpp"
+#include "tools/output/json.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "tools/commands/command.hpp"
-#include "tools/commands/json.hpp"
 #include "tools/commands/receiver_plan.hpp"
+#include "tools/output/json.hpp"
 #include "tools/report/comparison.hpp"
 
 namespace tetrakis::tools {

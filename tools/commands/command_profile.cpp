@@ -5,11 +5,11 @@
 #include <memory>
 #include <utility>
 
-#include "tools/commands/best_profile.hpp"
 #include "tools/commands/command.hpp"
-#include "tools/commands/ground_line.hpp"
-#include "tools/commands/json.hpp"
 #include "tools/files/text.hpp"
+#include "tools/output/json.hpp"
+#include "tools/profile/best_profile.hpp"
+#include "tools/profile/ground_line.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "base/parallel.hpp"
 #include "tools/commands/command.hpp"
-#include "tools/commands/output.hpp"
+#include "tools/output/output.hpp"
 #include "tools/synth/synth.hpp"
 
 namespace tetrakis::tools {

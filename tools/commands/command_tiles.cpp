@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "tools/commands/command.hpp"
-#include "tools/commands/progress.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/temporary.hpp"
+#include "tools/output/progress.hpp"
 #include "tools/tiles/terrain_tiles.hpp"
 
 namespace tetrakis::tools {

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "tools/commands/command.hpp"
-#include "tools/commands/output.hpp"
-#include "tools/commands/output_names.hpp"
+#include "tools/output/output.hpp"
+#include "tools/output/output_names.hpp"
 
 namespace tetrakis::tools {
 namespace {

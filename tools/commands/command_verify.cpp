@@ -7,8 +7,8 @@
 
 #include "conformance/runner.hpp"
 #include "tools/commands/command.hpp"
-#include "tools/commands/json.hpp"
 #include "tools/files/file_bytes.hpp"
+#include "tools/output/json.hpp"
 
 namespace tetrakis::tools {
 namespace {

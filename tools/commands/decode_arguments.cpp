@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "tools/commands/output_names.hpp"
+#include "tools/output/output_names.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "tools/commands/json.hpp"
 #include "tools/files/engine_heights.hpp"
 #include "tools/files/stream.hpp"
+#include "tools/output/json.hpp"
 
 namespace tetrakis::tools {
 

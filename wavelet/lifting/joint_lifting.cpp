@@ -13,8 +13,7 @@ constexpr uint32_t kFraction = (1 << kJointPlaces) - 1;
 /// Gives values so many more binary places.
 void widen(std::span<const int32_t> values, int places, std::span<int32_t> out) {
   assert(values.size() == out.size());
-  for (size_t i = 0; i < values.size(); ++i)
-    out[i] = static_cast<int32_t>(static_cast<uint32_t>(values[i]) << places);
+  for (size_t i = 0; i < values.size(); ++i) out[i] = values[i] << places;
 }
 
 }  // namespace

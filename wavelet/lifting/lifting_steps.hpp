@@ -24,7 +24,7 @@ inline ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
 
 /// Doubles values of a low band.
 inline void doubleValues(std::span<int32_t> values) {
-  for (int32_t& v : values) v = static_cast<int32_t>(static_cast<uint32_t>(v) << 1);
+  for (int32_t& v : values) v <<= 1;
 }
 
 /// Undoes the doubling of a value of a low band; what is odd is rounded up.

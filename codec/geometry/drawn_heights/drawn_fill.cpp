@@ -81,9 +81,7 @@ std::vector<int32_t> DrawnSurface::heights() const {
   std::vector<int32_t> heights(indices.extent().samples());
   forEachVertex(*this, heights.data(), [&](size_t vertex, const auto& mean) {
     const DrawnIndex index = indices.data[vertex];
-    heights[vertex] = index != kNoIndex ? static_cast<int32_t>(static_cast<uint32_t>(steps[index])
-                                                               << kFractionBits)
-                                        : mean();
+    heights[vertex] = index != kNoIndex ? steps[index] << kFractionBits : mean();
   });
   return heights;
 }

@@ -16,7 +16,7 @@
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline quantiser {
 

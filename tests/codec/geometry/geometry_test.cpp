@@ -12,7 +12,7 @@
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/filter_choice.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -35,7 +35,7 @@ Coded encode(const Plane& heights, const Size& size, const WaveletHeader& wavele
   coded.header.width = size.width;
   coded.header.height = size.height;
   coded.header.wavelet = wavelet;
-  coded.track = encodeCoefficients({heights, size.extent(), valid}, wavelet, {limit}).front();
+  coded.track = encodeGeometry({heights, size.extent(), valid}, wavelet, {limit}).front();
   coded.header.planes = static_cast<uint8_t>(coded.track.planes);
   return coded;
 }

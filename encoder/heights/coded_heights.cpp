@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/coded_heights.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
+#include "codec/geometry/stored_heights_encoder.hpp"
+#include "encoder/heights/height_errors.hpp"
+#include "ratecontrol/hull.hpp"
+#include "wavelet/priority_map_encoder.hpp"
+
+namespace tetrakis::inline heights {
+
+namespace {
+
+/// Squared error, in steps, of flat areas that are not known.
+double squaresOf(const FlatLayer& flat) {
+  double squares = 0;
+  for (const uint16_t number : flat.areas.numbers) {
+    if (number == 0) continue;
+    const double height = flat.areas.heights[number - 1u];
+    squares += height * height;
+  }
+  return squares;
+}
+
+/// Bytes of coefficients that are to come before a table of so many bytes: all those that take off
+/// more error a byte than the table does, which leaves `error` while it is missing.
+uint64_t bytesBeforeTable(const EncodedTrack& coefficients, size_t bytes, double error) {
+  const double slope = error / static_cast<double>(bytes);
+  const std::vector<RatePoint> hull = lowerHull(coefficients.points, 0);
+  uint64_t before = 0;
+  for (size_t i = 1; i < hull.size(); ++i) {
+    const RatePoint &a = hull[i - 1], &b = hull[i];
+    if (a.distortion - b.distortion < slope * static_cast<double>(b.bytes - a.bytes)) break;
+    before = b.bytes;
+  }
+  return before;
+}
+
+/// Coefficients with the table behind the first `before` bytes of them, and in their account.
+EncodedTrack withTable(const QuantisedHeights& heights, EncodedTrack coefficients,
+                       uint64_t before) {
+  const std::vector<uint8_t>& table = heights.table;
+  std::vector<RatePoint> points;
+  for (const RatePoint& point : coefficients.points) {
+    if (point.bytes <= before) {
+      points.push_back(
+          {point.bytes, point.distortion + heights.without_table, point.dips, point.beyond});
+    }
+    if (point.bytes >= before)
+      points.push_back({point.bytes + table.size(), point.distortion, point.dips, point.beyond});
+  }
+  std::vector<uint8_t> codeword = std::move(coefficients.codeword);
+  codeword.insert(codeword.begin() + static_cast<ptrdiff_t>(before), table.begin(), table.end());
+  return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
+}
+
+/// The account of such a track of coefficients, behind the opening and before the corrections. all:
+/// bytes of the whole track.
+std::vector<RatePoint> accountAmid(const QuantisedHeights& heights, const HeightLayers& layers,
+                                   const std::vector<RatePoint>& coefficients, uint64_t all) {
+  const uint64_t opening = layers.layers.openingBytes();
+  std::vector<RatePoint> points;
+  if (opening > 0) {
+    const RatePoint& first = coefficients.front();
+    const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
+    const double unknown =
+        first.distortion + heights.left + voids * heights.validityWorth() + squaresOf(layers.flat);
+    points.push_back({0, unknown, false, first.beyond});
+  }
+  for (const RatePoint& point : coefficients) {
+    points.push_back(
+        {point.bytes + opening, point.distortion + heights.left, point.dips, point.beyond});
+  }
+  if (!layers.corrections.empty()) points.push_back({all, layers.corrected_to});
+  return points;
+}
+
+/// The track of all layers: the coefficients, a table among them, amid the others.
+EncodedTrack amidLayers(const QuantisedHeights& heights, const HeightLayers& layers,
+                        const EncodedTrack& coefficients) {
+  std::vector<uint8_t> codeword = heights.validity;
+  for (const std::span<const uint8_t> layer :
+       {std::span(layers.flat.codeword), std::span(coefficients.codeword), layers.corrections})
+    codeword.insert(codeword.end(), layer.begin(), layer.end());
+  std::vector<RatePoint> points =
+      accountAmid(heights, layers, coefficients.points, codeword.size());
+  assert(points.back().bytes == codeword.size());
+  return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
+}
+
+/// An account with a point for the mask and for each plane of bytes.
+std::vector<RatePoint> accountOfStored(const CodedHeights& stored, uint32_t threads) {
+  const std::span<const uint8_t> codeword = stored.tracks.front().codeword;
+  const auto at = [&](uint64_t bytes) {
+    return RatePoint{bytes, squaresOf(stored, {codeword.first(bytes)}, threads)};
+  };
+  const size_t sample_bytes = tks_sample_bytes(stored.of->samples->sample);
+  const uint64_t opening = stored.layers.validity_bytes;
+  assert(opening <= codeword.size() && (codeword.size() - opening) % sample_bytes == 0);
+  const uint64_t plane = (codeword.size() - opening) / sample_bytes;
+  std::vector<RatePoint> points = {at(0)};
+  for (uint64_t planes = 0; planes <= sample_bytes; ++planes) {
+    const RatePoint point = at(opening + planes * plane), &last = points.back();
+    if (point.bytes > last.bytes && point.distortion < last.distortion) points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace
+
+bool CodedHeights::restoresSamples() const {
+  return header.stored() || header.exact || corrects();
+}
+
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
+  const HeightSteps& steps = heights.steps;
+  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, steps.range_bits,
+                       purpose);
+}
+
+std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
+                                           const WaveletHeader& wavelet,
+                                           const CoefficientOptions& options) {
+  const HeightSteps& steps = heights.steps;
+  return encodeGeometry({steps.steps, extentOf(*heights.samples), steps.valid}, wavelet, options);
+}
+
+HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
+                          const PriorityMap* priorities) {
+  HeightLayers layers{
+      .layers = heights.layers,
+      .corrections = heights.corrections,
+      .wavelet = choice.wavelet,
+      .priorities = priorities != nullptr ? headerOf(*priorities) : PriorityHeader(),
+      .flat = std::move(choice.flat)};
+  layers.layers.flat_bytes = layers.flat.codeword.size();
+  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
+  return layers;
+}
+
+GeometryHeader headerOf(const QuantisedHeights& heights, const HeightLayers& layers, int planes) {
+  GeometryHeader header = headerOf(heights);
+  header.wavelet = layers.wavelet;
+  header.priorities = layers.priorities;
+  header.planes = static_cast<uint8_t>(planes);
+  return header;
+}
+
+CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
+                        std::vector<EncodedTrack> coefficients, int region_log2) {
+  assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
+  const QuantisedHeights& heights = *of;
+  EncodedTrack first = std::move(coefficients.front());
+  GeometryHeader header = headerOf(heights, layers, first.planes);
+  header.regions.side_log2 = static_cast<uint8_t>(region_log2);
+  GeometryLayers described = layers.layers;
+  if (!layers.corrections.empty()) described.coefficient_bytes = first.codeword.size();
+  if (!heights.table.empty()) {
+    described.table_after = bytesBeforeTable(first, heights.table.size(), heights.without_table);
+    first = withTable(heights, std::move(first), described.table_after);
+  }
+  coefficients.front() = amidLayers(heights, layers, first);
+  return {.of = std::move(of),
+          .header = std::move(header),
+          .layers = std::move(described),
+          .tracks = std::move(coefficients),
+          .closing = layers.corrections.size(),
+          .left = heights.left,
+          .flat = layers.flat};
+}
+
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
+                         const CoefficientOptions& options) {
+  const HeightSteps& steps = of->steps;
+  FlatChoice choice =
+      chooseFlatAreas({steps.steps, extentOf(*of->samples), steps.valid},
+                      {steps.range_bits, target.purpose, target.bytes, target.mean_square,
+                       options.threads, target.purpose == Purpose::kLossy});
+  if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
+  HeightLayers layers = layersAround(*of, std::move(choice), options.priorities);
+  std::vector<EncodedTrack> coefficients =
+      codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));
+  std::vector<Account> accounts = accountsOf(coefficients);
+  if (layers.wavelet.fraction_bits == 0) layers.wavelet.rounded_bytes = exactBytes(coefficients);
+  CodedHeights coded =
+      joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+  coded.accounts = std::move(accounts);
+  return target.tried ? coded : withRounding(std::move(coded));
+}
+
+CodedHeights withRounding(CodedHeights coded) {
+  const std::vector<Account> accounts = std::exchange(coded.accounts, {});
+  WaveletHeader& wavelet = coded.header.wavelet;
+  const auto complete = [](const EncodedTrack& track) { return track.complete; };
+  if (accounts.empty() || wavelet.fraction_bits > 0 ||
+      !std::all_of(coded.tracks.begin(), coded.tracks.end(), complete))
+    return coded;
+  const QuantisedHeights& of = *coded.of;
+  const PlaneView<const int32_t> plane(of.steps.steps, extentOf(*of.samples), of.steps.valid);
+  wavelet.rounded_bytes =
+      roundedBytes(accounts, roundedSquares(plane, coded.flat.areas.held(), wavelet));
+  return coded;
+}
+
+std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of) {
+  const HeightSteps& steps = of->steps;
+  std::optional<EncodedTrack> track =
+      encodeDrawnHeights({steps.steps, extentOf(*of->samples), steps.valid});
+  if (!track) return {};
+  const HeightLayers layers = layersAround(*of, {}, nullptr);
+  std::vector<EncodedTrack> tracks;
+  tracks.push_back(*std::move(track));
+  CodedHeights drawn = joinLayers(std::move(of), layers, std::move(tracks), 0);
+  assert(drawn.header.direct());
+  drawn.header.drawn = true;
+  return drawn;
+}
+
+CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t threads) {
+  const QuantisedHeights& heights = *of;
+  GeometryHeader header = headerOf(heights);
+  header.planes = GeometryHeader::kDirectPlanes;
+  std::vector<uint8_t> codeword = heights.validity;
+  const std::vector<uint8_t> samples = encodeStoredHeights(*heights.samples, heights.steps.valid);
+  codeword.insert(codeword.end(), samples.begin(), samples.end());
+  std::vector<EncodedTrack> tracks;
+  tracks.push_back({std::move(codeword), {}, GeometryHeader::kDirectPlanes});
+  CodedHeights stored{.of = std::move(of),
+                      .header = std::move(header),
+                      .layers = {.validity_bytes = heights.layers.validity_bytes,
+                                 .has_nodata = heights.layers.has_nodata,
+                                 .nodata = heights.layers.nodata},
+                      .tracks = std::move(tracks),
+                      .left = QuantisedHeights::kInexact};
+  stored.tracks.front().points = accountOfStored(stored, threads);
+  return stored;
+}
+
+}  // namespace tetrakis::inline heights

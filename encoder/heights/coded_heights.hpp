@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coded heights are a component of a stream: the codewords of the mask, the coefficients and the
+// corrections, joined into tracks, and what the header says of them. Such a value is not changed
+// once it is made; heights that are coded in another way are another value.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "codec/geometry/flat_choice.hpp"
+#include "codec/geometry/geometry_encoder.hpp"
+#include "encoder/heights/quantised_heights.hpp"
+#include "ratecontrol/coded_tracks.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/rounding_choice.hpp"
+
+namespace tetrakis::inline heights {
+
+struct CodedHeights {
+  std::shared_ptr<const QuantisedHeights> of;
+  GeometryHeader header;  ///< without max_error
+  GeometryLayers layers;
+  /// The first holds the codewords of validity and flat areas, coefficients with the table among
+  /// them, corrections; others coefficients alone.
+  std::vector<EncodedTrack> tracks;
+  uint64_t closing = 0;                ///< bytes of corrections
+  double left = 0;                     ///< QuantisedHeights::left, or what stored samples leave
+  FlatLayer flat = {};                 ///< beside which the coefficients were coded
+  std::vector<Account> accounts = {};  ///< of an attempt: of the coefficients of each track
+
+  /// The complete tracks restore every sample.
+  bool restoresSamples() const;
+  bool corrects() const { return layers.corrections == CorrectionKind::kSamples; }
+  /// Samples that count in the error.
+  double counted() const { return of->counted(); }
+  /// Behind the opening there is one codeword, of coefficients.
+  bool holdsCoefficientsAlone() const {
+    return tracks.size() == 1 && !header.direct() && !corrects() && layers.table_bytes == 0;
+  }
+  CodedTracks rated() const {
+    return {Component::kGeometry, tracks, layers.openingBytes(), closing};
+  }
+};
+
+/// The layers around coefficients, and how these are coded.
+struct HeightLayers {
+  GeometryLayers layers;
+  std::span<const uint8_t> corrections;  ///< codeword
+  double corrected_to = 0;               ///< the squared error that corrections leave
+  WaveletHeader wavelet;
+  PriorityHeader priorities;
+  FlatLayer flat = {};
+};
+
+/// The layers that the heights come with, which outlive the result, and flat areas.
+HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
+                          const PriorityMap* priorities);
+
+/// The header of heights whose coefficients, in so many bit-planes, have these layers around them.
+GeometryHeader headerOf(const QuantisedHeights& heights, const HeightLayers& layers, int planes);
+
+/// The filters that suit the heights.
+WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);
+
+/// The tracks of coefficients alone.
+std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
+                                           const WaveletHeader& wavelet,
+                                           const CoefficientOptions& options);
+
+/// Validity and flat areas before the coefficients of the first track, corrections behind them, a
+/// table within them, where its bytes take off as much error as theirs. region_log2: what the
+/// coefficients were coded with.
+CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
+                        std::vector<EncodedTrack> coefficients, int region_log2);
+
+/// What coefficients are coded for.
+struct HeightTarget {
+  Purpose purpose;
+  uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
+  double mean_square = 0;       ///< > 0: the error that is wanted, in squared steps
+  bool tried = false;           ///< one of several attempts: withRounding() follows for the best
+
+  HeightTarget(Purpose of) : purpose(of) {}
+};
+
+/// Codes the heights as a component: coefficients by the filters that suit them, beside the flat
+/// areas that pay, and the layers that the heights come with.
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
+                         const CoefficientOptions& options);
+
+/// The attempt with the byte from which on decoders round, which takes time to find. coded: an
+/// attempt.
+CodedHeights withRounding(CodedHeights coded);
+
+/// Codes the heights as a drawing, in the place of coefficients; nothing if they have too many
+/// values for one.
+std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of);
+
+/// The samples written as they are. threads: nothing depends on them.
+CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t threads);
+
+}  // namespace tetrakis::inline heights

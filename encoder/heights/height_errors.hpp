@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file decodes prefixes of coded heights, as a decoder would, and measures how far they are
+// from the heights that were coded.
+#pragma once
+
+#include <cstdint>
+
+#include "bitstream/stream/packet.hpp"
+#include "codec/geometry/height_layers.hpp"
+#include "encoder/heights/coded_heights.hpp"
+
+namespace tetrakis::inline heights {
+
+/// Sum of squared errors of the samples, in steps, voids that are not known among them. prefix: of
+/// the codeword of each track. memory: of calls for fewer bytes of a component with one track.
+double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
+                 HeightsMemory* memory = nullptr);
+
+/// Decoded samples against the input's, over the valid ones; in sample units.
+struct SampleErrors {
+  double mean_square = 0, largest = 0;
+};
+SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads);
+
+}  // namespace tetrakis::inline heights

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights to the last bit: coefficients without fraction bits, corrections behind a cut of lossy
+// coefficients, or a drawing, whichever takes the fewest bytes.
+#pragma once
+
+#include <memory>
+
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+
+namespace tetrakis::inline heights {
+
+/// of: from quantiseHeights(inputs).
+std::shared_ptr<const CodedHeights> codeLosslessHeights(
+    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
+
+}  // namespace tetrakis::inline heights

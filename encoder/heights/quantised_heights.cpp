@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/quantised_heights.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "codec/geometry/corrections/corrections_encoder.hpp"
+#include "codec/geometry/quantiser/stand_in_choice.hpp"
+#include "codec/geometry/quantiser/step_choice.hpp"
+#include "codec/geometry/quantiser/step_errors.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/values/value_table_encoder.hpp"
+#include "lattice/validity_encoder.hpp"
+
+namespace tetrakis::inline heights {
+
+namespace {
+
+/// Chosen for the target, and whether corrections are to restore what they do not show.
+struct ChosenSteps {
+  HeightSteps steps;
+  bool restore = false;
+};
+
+Result<ChosenSteps> chooseSteps(const EncodeInputs& inputs) {
+  const tks_heights& heights = *inputs.heights;
+  const double error = inputs.options.max_error / std::abs(heights.scale);
+  const bool lossless = inputs.options.lossless != 0;
+  Result<HeightSteps> steps = toSteps(heights, {.given = heights.step,
+                                                .lossless = lossless,
+                                                .table = lossless,
+                                                .error = error,
+                                                .leave_outliers = inputs.budgeted()});
+  if (!steps.ok()) return steps.status();
+  const bool too_coarse = error > 0 && errorsOf(heights, *steps).largest > error;
+  if (!too_coarse) return ChosenSteps{std::move(*steps), lossless};
+  if (heights.step > 0) {
+    return Status(TKS_USAGE,
+                  "The maximum error is below what the step of these heights allows; give a "
+                  "smaller step.");
+  }
+  steps = toSteps(heights, {.lossless = true});
+  if (!steps.ok()) return steps.status();
+  return ChosenSteps{std::move(*steps), true};
+}
+
+/// What the header says of voids. validity_bytes: 0 if there are none.
+GeometryLayers layersOf(const tks_heights& samples, uint64_t validity_bytes) {
+  const bool infinite_integer = samples.sample != TKS_F32 && !std::isfinite(samples.nodata);
+  const bool has_nodata =
+      samples.has_nodata != 0 && !std::isnan(samples.nodata) && !infinite_integer;
+  return {.validity_bytes = validity_bytes,
+          .has_nodata = has_nodata,
+          .nodata = has_nodata ? samples.nodata + 0.0 : 0};  // -0 equals 0: one of them
+}
+
+QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps) {
+  const tks_heights& samples = *inputs.heights;
+  std::vector<uint8_t> validity;
+  if (!steps.valid.empty()) validity = encodeValidity({steps.valid, extentOf(samples)});
+  return {.samples = &samples,
+          .steps = std::move(steps),
+          .layers = layersOf(samples, validity.size()),
+          .validity = std::move(validity),
+          .shown_by = inputs.shownBy()};
+}
+
+/// The heights with the table of their values, if they have one.
+QuantisedHeights withTable(QuantisedHeights heights) {
+  const ValueTable& table = heights.steps.table;
+  if (table.empty()) return heights;
+  heights.table = encodeValueTable(table);
+  heights.layers.table_bytes = heights.table.size();
+  heights.layers.table_values = static_cast<uint32_t>(table.words.size());
+  StandInChoice stand_in = chooseStandIn(heights.steps, headerOf(heights), heights.table.size(),
+                                         heights.mostOfASample());
+  heights.layers.table_knots = std::move(stand_in.knots);
+  heights.without_table = std::max(stand_in.squares, QuantisedHeights::kInexact);
+  return heights;
+}
+
+}  // namespace
+
+double QuantisedHeights::counted() const {
+  return static_cast<double>(std::max<size_t>(steps.validCount(), 1));
+}
+
+double QuantisedHeights::validityWorth() const {
+  return std::exp2(2.0 * steps.range_bits - 4);
+}
+
+double QuantisedHeights::mostOfASample() const {
+  return std::exp2(2.0 * steps.range_bits + 4);
+}
+
+double QuantisedHeights::squaresOf(const HeightSteps& other) const {
+  const double unit = other.step * other.step;
+  return errorsOf(*samples, other, {mostOfASample() * unit}).squares / unit;
+}
+
+double QuantisedHeights::squaresOf(DecodedHeights decoded,
+                                   const std::vector<uint8_t>& valid) const {
+  if (steps.table.empty()) decoded.corrections.clear();
+  const double unit = steps.step * steps.step;
+  const double squares =
+      squaresOfSamples(*samples, decoded, valid, steps, {mostOfASample() * unit, shown_by});
+  if (shown_by.empty()) return squares / unit;
+  const double all = std::accumulate(shown_by.begin(), shown_by.end(), 0.);
+  return squares / unit * (static_cast<double>(shown_by.size()) / all);
+}
+
+Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs) {
+  assert(inputs.heights != nullptr);
+  Result<ChosenSteps> chosen = chooseSteps(inputs);
+  if (!chosen.ok()) return chosen.status();
+  QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps)));
+  if (chosen->restore && !heights.steps.exact) {
+    SampleCorrections corrections = correctionsBehind(heights, heights.steps);
+    heights = withCorrections(std::move(heights), std::move(corrections));
+  }
+  assert(heights.restored() || heights.corrections.empty());
+  return std::make_shared<const QuantisedHeights>(std::move(heights));
+}
+
+SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown) {
+  const GeometryHeader header = headerOf(heights);
+  const std::vector<uint8_t> hints = sampleHints(decodedSteps(shown, header), 0, header);
+  return {encodeCorrections(sampleCorrections(*heights.samples, shown),
+                            {hints, header.extent(), shown.valid}),
+          std::max(heights.squaresOf(shown), QuantisedHeights::kInexact)};
+}
+
+QuantisedHeights withCorrections(QuantisedHeights heights, SampleCorrections corrections) {
+  heights.layers.corrections = CorrectionKind::kSamples;
+  heights.corrections = std::move(corrections.codeword);
+  heights.left = corrections.left;
+  return heights;
+}
+
+GeometryHeader headerOf(const QuantisedHeights& heights) {
+  GeometryHeader header;
+  header.width = heights.samples->width;
+  header.height = heights.samples->height;
+  header.sample = static_cast<uint8_t>(heights.samples->sample);
+  header.exact = heights.steps.exact;
+  header.base = heights.steps.base;
+  header.step = heights.steps.step;
+  return header;
+}
+
+}  // namespace tetrakis::inline heights

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quantised heights are integer steps together with all that does not depend on how their
+// coefficients are coded: the validity mask, and the corrections that restore samples which no
+// steps show. Every attempt to code the heights starts from such a value and leaves it as it is.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/status.hpp"
+#include "bitstream/stream/header.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+
+namespace tetrakis::inline heights {
+
+struct QuantisedHeights {
+  /// The least error of samples that are not exact: -0 in the place of 0 is no distance, but wrong.
+  static constexpr double kInexact = 1e-200;
+
+  const tks_heights* samples = nullptr;  ///< the input, which outlives this
+  HeightSteps steps;
+  GeometryLayers layers;                  ///< the bytes of coefficients are not known yet
+  std::vector<uint8_t> validity = {};     ///< codeword; empty: all samples are valid
+  std::vector<uint8_t> table = {};        ///< codeword; empty: steps are multiples
+  std::vector<uint8_t> corrections = {};  ///< codeword; restores the samples
+  /// Squared error that exact steps leave in the samples, in steps, until corrections of the
+  /// samples are complete.
+  double left = 0;
+  /// How many samples of the whole heights show each one, if lines repeat; outlives this.
+  std::span<const uint32_t> shown_by = {};
+  double without_table = 0;  ///< squared error, in steps, of complete coefficients without it
+
+  /// Corrections restore every sample.
+  bool restored() const { return layers.corrections == CorrectionKind::kSamples; }
+
+  /// Samples that count in the error; at least 1.
+  double counted() const;
+
+  /// What a sample costs whose validity is not yet known rightly, in squared steps: as much as a
+  /// height that is off by a quarter of their range.
+  double validityWorth() const;
+
+  /// Squared error, in steps, that a sample counts at most: four times the squared range. An
+  /// exception of the steps may be off by 1e38, beside which nothing else would count.
+  double mostOfASample() const;
+
+  /// Squared error of such steps, in steps.
+  double squaresOf(const HeightSteps& other) const;
+
+  /// Squared error, in steps, of what is decoded from a prefix, over the samples that `valid` says.
+  /// Samples that are shown more often than in the mean count more. Where steps are multiples,
+  /// corrections are left out: they come all at once, behind all else.
+  double squaresOf(DecodedHeights decoded, const std::vector<uint8_t>& valid) const;
+};
+
+/// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with
+/// heights.
+Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs);
+
+/// What restores the samples behind steps.
+struct SampleCorrections {
+  std::vector<uint8_t> codeword;
+  double left;  ///< QuantisedHeights::left
+};
+
+/// shown: what decoders make of all coefficients, in steps of these heights.
+SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown);
+
+QuantisedHeights withCorrections(QuantisedHeights heights, SampleCorrections corrections);
+
+/// What the header says of the heights before their coefficients are coded.
+GeometryHeader headerOf(const QuantisedHeights& heights);
+
+}  // namespace tetrakis::inline heights

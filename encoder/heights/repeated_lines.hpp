@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file finds the columns and rows of heights that repeat the one before them.
+#pragma once
+
+#include "encoder/inputs/coded_lines.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+
+namespace tetrakis::inline heights {
+
+/// The lines to code; none where all are. Lines are taken to repeat others where runs of them are
+/// about as long everywhere, so that all coded samples count alike: a sea in the first hundred rows
+/// is no reason to code one of them. A judge of pictures takes whole heights. A PSNR is that of all
+/// samples, of which those of long runs count more: with voids nobody knows by how much. Small
+/// budgets have no bytes for a long map.
+CodedLines linesToCode(const EncodeInputs& inputs);
+
+}  // namespace tetrakis::inline heights

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights that were enlarged by copying samples are coded without the columns and rows that repeat
+// the one before them (bitstream/stream/line_repeats.hpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/stream/line_repeats.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline inputs {
+
+/// Heights without the lines that repeat others.
+struct CodedLines {
+  LineRepeats repeats;             ///< none: it does not pay
+  std::vector<std::byte> samples;  ///< of the lines that are coded
+  Extent extent = {0, 0};          ///< of these
+  /// A coded sample counts as often as it is shown. This is the weight of the one that is shown
+  /// most often, beside the mean weight: the mean squared error of all samples is at most so many
+  /// times that of the coded ones.
+  double heaviest = 1;
+  std::vector<uint32_t> shown_by;  ///< how many samples each coded one stands for
+
+  /// The heights that are coded; their data is `samples`, which outlives them.
+  tks_heights of(const tks_heights& whole) const;
+};
+
+}  // namespace tetrakis::inline inputs

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file holds what one encoding is given, and what follows from it for both components.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/status.hpp"
+#include "encoder/inputs/coded_lines.hpp"
+#include "tetrakis/tetrakis.h"
+#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/priority_map.hpp"
+
+namespace tetrakis::inline inputs {
+
+/// What comes earlier in each component; empty maps: nothing.
+struct ViewPriorities {
+  PriorityMap heights, texture;
+};
+
+/// The caller's heights, image and options, which outlive this. Exactly one of bytes, psnr,
+/// max_error and lossless is set.
+struct EncodeInputs {
+  const tks_heights* heights;  ///< null: there are none
+  const tks_image* image;      ///< null: there is none
+  const tks_encode_options& options;
+  const ViewPriorities* priorities = nullptr;  ///< null: none; else it outlives this as well
+  /// The caller's heights, and those lines of them that `heights` are; null: they are all lines.
+  const tks_heights* whole = nullptr;
+  const CodedLines* lines = nullptr;
+
+  bool budgeted() const { return options.bytes != 0; }
+  /// The caller's heights with all their lines.
+  const tks_heights* allHeights() const { return lines != nullptr ? whole : heights; }
+  /// The mean squared error of all lines is at most so many times that of the coded ones.
+  double heaviest() const { return lines != nullptr ? lines->heaviest : 1; }
+  /// How many samples of all lines show each coded sample; empty: one.
+  std::span<const uint32_t> shownBy() const {
+    return lines != nullptr ? std::span(lines->shown_by) : std::span<const uint32_t>();
+  }
+  /// The same inputs with some lines of the heights alone, which are `coded`; both outlive the
+  /// result.
+  EncodeInputs ofLines(const tks_heights& coded, const CodedLines& some) const {
+    return {.heights = &coded,
+            .image = image,
+            .options = options,
+            .priorities = priorities,
+            .whole = heights,
+            .lines = &some};
+  }
+  /// The same inputs under other options, which outlive the result, and with other priorities.
+  EncodeInputs with(const tks_encode_options& other, const ViewPriorities* others) const {
+    return {.heights = heights,
+            .image = image,
+            .options = other,
+            .priorities = others,
+            .whole = whole,
+            .lines = lines};
+  }
+};
+
+/// What components are coded for unless they have reasons of their own.
+Purpose purposeOf(const EncodeInputs& inputs);
+
+/// Bytes worth coding of a component: beyond the budget, because the slopes of the last packets
+/// within it depend on the points that follow, and the order should hardly depend on the budget.
+/// Two components share it: either gets less, and has as much more behind it.
+uint64_t limitOf(const EncodeInputs& inputs);
+
+/// The mean squared error that is a PSNR in dB. peak: the range that it refers to.
+double worstMeanSquare(double peak, double psnr);
+
+/// done: from 0 to 1. TKS_USAGE if the caller wants no more.
+Status reportProgress(const tks_encode_options& options, double done);
+
+}  // namespace tetrakis::inline inputs

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a component is coded in regions (bitstream/track/regions.hpp), and in which.
+#pragma once
+
+#include "base/plane.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline inputs {
+
+struct RegionChoice {
+  int side_log2 = 0;     ///< 0: one region
+  bool windows = false;  ///< the stream is made to be read by windows of it
+};
+
+/// large: planes of that size are coded in regions unless the caller says otherwise.
+RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large);
+
+}  // namespace tetrakis::inline inputs

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// A selection says what a stream will hold: the components as they are coded, and the packets of
+// both in one order.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bitstream/stream/packet.hpp"
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/textures/coded_texture.hpp"
+
+namespace tetrakis::inline selection {
+
+struct Selection {
+  std::shared_ptr<const CodedHeights> heights;  ///< null: there are none
+  std::shared_ptr<const CodedTexture> texture;  ///< null: there is none
+  std::vector<Packet> packets;
+};
+
+}  // namespace tetrakis::inline selection

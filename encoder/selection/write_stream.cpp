@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/selection/write_stream.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <string>
+
+#include "bitstream/stream/header.hpp"
+#include "encoder/selection/georeference.hpp"
+#include "ratecontrol/target.hpp"
+
+namespace tetrakis::inline selection {
+
+namespace {
+
+/// Whether nothing is wrong before the first byte.
+bool nothingLeft(const std::vector<EncodedTrack>& tracks) {
+  return std::all_of(tracks.begin(), tracks.end(), [](const EncodedTrack& track) {
+    return track.points.front().distortion == 0;
+  });
+}
+
+Metadata metadataOf(const tks_heights& heights) {
+  const auto text = [](const char* s) { return std::string(s ? s : ""); };
+  return {heights.scale,     heights.offset,     heights.spacing_x,
+          heights.spacing_y, text(heights.unit), text(heights.vertical_datum),
+          text(heights.crs)};
+}
+
+std::vector<IndexEntry> indexOf(const std::vector<Packet>& packets) {
+  double steepest = 0;
+  for (const Packet& packet : packets) steepest = std::max(steepest, packet.slope);
+  std::vector<IndexEntry> index;
+  for (const Packet& packet : packets)
+    index.push_back({{packet.head(), packet.track.value_or(0), packet.quality},
+                     slopeByte(packet.slope, steepest)});
+  return index;
+}
+
+StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
+                        uint64_t payload_bytes, bool lossless) {
+  const tks_encode_options& options = inputs.options;
+  StreamHeader header;
+  header.payload_bytes = payload_bytes;
+  header.lossless = lossless;
+  header.triangles = options.triangles;
+  if (selection.heights) {
+    header.geometry = selection.heights->header;
+    header.geometry->max_error = options.max_error > 0 ? options.max_error : lossless ? 0 : -1;
+    header.layers = selection.heights->layers;
+    if (inputs.lines != nullptr) header.geometry->repeats = inputs.lines->repeats;
+    header.metadata = metadataOf(*inputs.allHeights());
+  }
+  if (selection.texture) header.texture = selection.texture->header;
+  header.georeference = georeferenceOf(inputs.allHeights(), inputs.image);
+  if (options.index != 0) header.index = indexOf(selection.packets);
+  return header;
+}
+
+/// The last packet of either component states that nothing is left, or there was nothing to send.
+bool restoresEverything(const Selection& selection) {
+  const auto& [heights, texture, packets] = selection;
+  std::array<bool, kComponents> exact = {!heights || nothingLeft(heights->tracks),
+                                         !texture || nothingLeft(texture->tracks)};
+  for (const Packet& packet : packets)
+    exact[static_cast<size_t>(packet.component)] = packet.quality == 0;
+  const bool restored = !heights || heights->restoresSamples();
+  const bool hidden = texture && texture->header.hidden;
+  return exact[0] && exact[1] && restored && !hidden;
+}
+
+}  // namespace
+
+uint64_t headerBytesOf(const EncodeInputs& inputs, const Selection& selection) {
+  const uint64_t payload = bytesOfPackets(selection.packets);
+  return writeHeader(makeHeader(inputs, selection, payload, false)).size();
+}
+
+bool isLossless(const EncodeInputs& inputs, const Selection& selection) {
+  if (!restoresEverything(selection)) return false;
+  if (!inputs.budgeted()) return true;
+  const uint64_t payload = bytesOfPackets(selection.packets);
+  const size_t header_bytes = writeHeader(makeHeader(inputs, selection, payload, true)).size();
+  return header_bytes + payload <= inputs.options.bytes;
+}
+
+Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selection& selection) {
+  assert(selection.heights || selection.texture);
+  const uint64_t budget = inputs.options.bytes;
+  const bool lossless = isLossless(inputs, selection);
+  uint64_t room = UINT64_MAX >> 1;
+  if (inputs.budgeted() && !lossless) {
+    const size_t header_bytes = writeHeader(makeHeader(inputs, selection, budget, false)).size();
+    if (budget < header_bytes) {
+      return Status(TKS_USAGE, "A budget of " + std::to_string(budget) +
+                                   " bytes is too small: the header of this stream takes " +
+                                   std::to_string(header_bytes) + ". Give at least that many.");
+    }
+    room = budget - header_bytes;
+  }
+  const uint64_t all_bytes = bytesOfPackets(selection.packets);
+  const uint64_t payload_bytes = std::min(room, all_bytes);
+  assert(!lossless || payload_bytes == all_bytes);
+  std::array<Codewords, kComponents> codewords;
+  if (selection.heights) codewords[0] = codewordsOf(selection.heights->tracks);
+  if (selection.texture) codewords[1] = codewordsOf(selection.texture->tracks);
+  std::vector<uint8_t> stream = writeHeader(makeHeader(inputs, selection, payload_bytes, lossless));
+  if (stream.size() > kMaxHeaderBytes) {
+    return Status(TKS_USAGE, "The front index of " + std::to_string(selection.packets.size()) +
+                                 " packets is too long: it makes a header of " +
+                                 std::to_string(stream.size()) + " bytes, and " +
+                                 std::to_string(kMaxHeaderBytes) +
+                                 " are the most. Take larger regions, or no index.");
+  }
+  const std::vector<uint8_t> payload = multiplex(selection.packets, codewords, payload_bytes);
+  assert(payload.size() == payload_bytes);
+  stream.insert(stream.end(), payload.begin(), payload.end());
+  assert(!inputs.budgeted() || stream.size() <= budget);
+  return stream;
+}
+
+}  // namespace tetrakis::inline selection

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file writes the finished stream: the header, its index, and the packets that fit.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/status.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/selection/selection.hpp"
+
+namespace tetrakis::inline selection {
+
+/// How many bytes the header of a stream of these packets takes that is not lossless.
+uint64_t headerBytesOf(const EncodeInputs& inputs, const Selection& selection);
+
+/// All samples come back, header and all within the budget.
+bool isLossless(const EncodeInputs& inputs, const Selection& selection);
+
+/// TKS_USAGE: the budget is too small for the header.
+Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selection& selection);
+
+}  // namespace tetrakis::inline selection

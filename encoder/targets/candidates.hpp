@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file takes candidates of both components on their way to a selection: it makes their curves,
+// orders their packets, and makes the attempts that come after the first one.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/selection/selection.hpp"
+#include "encoder/textures/coded_texture.hpp"
+#include "ratecontrol/candidate.hpp"
+#include "ratecontrol/pair_errors.hpp"
+
+namespace tetrakis::inline targets {
+
+using HeightsCandidate = Candidate<CodedHeights>;
+using TextureCandidate = Candidate<CodedTexture>;
+
+/// `coded` is null where there is no such component.
+struct Candidates {
+  HeightsCandidate heights;
+  TextureCandidate texture;
+  std::shared_ptr<const PairErrors> errors = {};  ///< of both; null where there is but one
+};
+
+/// RMSE in steps, or texel units, below which the last bit is worth a try.
+inline constexpr double kNearlyExact = 0.6;
+
+/// The candidates with the curves of both, and with what their errors are to a viewer: as it is
+/// known already, or as it is found for these candidates.
+Candidates withCurves(const EncodeInputs& inputs, Candidates candidates);
+
+/// All packets of both, which have curves, in their joint order.
+Selection orderPackets(const Candidates& candidates);
+
+/// What a component states after the first bytes of its packets. The candidate has a curve.
+uint8_t qualityAfter(const EncodeInputs& inputs, const HeightsCandidate& heights, uint64_t bytes);
+uint8_t qualityAfter(const EncodeInputs& inputs, const TextureCandidate& texture, uint64_t bytes);
+
+/// Whether coding without fraction bits restores every sample and is not what was done already.
+bool hasLosslessWay(const CodedHeights& heights);
+bool hasLosslessWay(const CodedTexture& texture);
+
+/// The component without fraction bits, which is the cheaper way to the last bit. It has that way.
+HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights);
+TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& texture);
+
+/// The candidate itself, or the samples as they are where these take fewer bytes: what no model
+/// helps, as noise, takes more bytes coded than stored.
+HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights);
+TextureCandidate storedIfShorter(TextureCandidate texture);
+
+}  // namespace tetrakis::inline targets

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/targets/component_curves.hpp"
+
+#include <cassert>
+
+#include "codec/mesh/decimation/decimation.hpp"
+#include "encoder/heights/height_errors.hpp"
+#include "encoder/views/shown_mesh.hpp"
+
+namespace tetrakis::inline targets {
+
+namespace {
+
+/// The budget is no bound of lossless coefficients: they are sent whole or not at all. Lossy ones
+/// of 20 bits have no fraction bits either.
+AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletHeader& wavelet) {
+  const bool lossless = wavelet.fraction_bits == 0 && wavelet.bits > 0 && wavelet.bits < 20;
+  return {samples, inputs.budgeted() && !lossless ? inputs.options.bytes : UINT64_MAX};
+}
+
+/// Whether the states of so many samples' tracks are decoded anew for each prefix: to remember them
+/// all takes eight bytes a sample beside what encoding takes, and saves some hundredths of its
+/// time.
+bool areTooLarge(const std::vector<EncodedTrack>& tracks, size_t samples) {
+  constexpr size_t kRemembered = size_t{1} << 22;
+  return tracks.size() > 1 && samples > kRemembered;
+}
+
+/// A stream with a front index is fetched by ranges.
+TrackOrder trackOrderOf(const tks_encode_options& options) {
+  if (options.index == TKS_INDEX_WINDOWS) return TrackOrder::kTracks;
+  return options.index != TKS_INDEX_NONE ? TrackOrder::kClasses : TrackOrder::kSlopes;
+}
+
+/// With a triangle budget, where cameras do not look at meshes (encoder/views/shown_mesh.hpp), the
+/// mean squared error of the heights (in steps) below which more bytes no longer help: a mesh of
+/// that many triangles is itself off by sixteen times as much, so that its RMSE would fall by 3 %
+/// at most. 0 without a budget.
+double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
+  if (triangles == 0) return 0;
+  const Result<MeshSequence> sequence =
+      decimate({heights.samples->width, heights.samples->height, heights.steps.steps});
+  if (!sequence.ok()) return 0;
+  const double squares = sequence->squaredError(sequence->bestPrefix(triangles));
+  assert(squares >= 0);
+  return squares / heights.counted() / 16;
+}
+
+}  // namespace
+
+ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights) {
+  const QuantisedHeights& source = *heights.of;
+  const bool modelled = looksAtMeshes(inputs, source);
+  const Pricing pricing{.samples = heights.counted() / inputs.heaviest(),
+                        .floor = modelled ? 0 : meshFloor(source, inputs.options.triangles),
+                        .shared = inputs.image != nullptr,
+                        .order = trackOrderOf(inputs.options)};
+  HeightsMemory memory;
+  memory.tracks.forgets = areTooLarge(heights.tracks, source.steps.steps.size());
+  const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
+    return squaresOf(heights, prefixAfter(heights.rated(), packets, bytes), inputs.options.threads,
+                     &memory);
+  };
+  return curveOf(heights.rated(),
+                 auditScope(inputs, source.steps.steps.size(), heights.header.wavelet), measure,
+                 pricing);
+}
+
+ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
+  TextureMemory memory;
+  memory.tracks.forgets = areTooLarge(texture.tracks, texture.of->texels.samples.size());
+  const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
+    return squaresOf(texture, prefixAfter(texture.rated(), packets, bytes), inputs.options.threads,
+                     &memory);
+  };
+  return curveOf(texture.rated(),
+                 auditScope(inputs, texture.of->texels.samples.size(), texture.header.wavelet),
+                 measure,
+                 {.samples = texture.counted(),
+                  .shared = inputs.heights != nullptr,
+                  .order = trackOrderOf(inputs.options)});
+}
+
+}  // namespace tetrakis::inline targets

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/targets/exact_budget.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
+#include "encoder/heights/corrected_heights.hpp"
+#include "encoder/heights/exact_heights.hpp"
+#include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/restored_heights.hpp"
+#include "encoder/selection/write_stream.hpp"
+#include "encoder/targets/component_curves.hpp"
+#include "encoder/views/views.hpp"
+#include "ratecontrol/allocation.hpp"
+#include "ratecontrol/target.hpp"
+
+namespace tetrakis::inline targets {
+
+namespace {
+
+/// The budget buys so much of a component, if there is one, that losslessness is in reach: all that
+/// there is of it, or nearly all that it shows.
+struct Nearly {
+  bool heights, texture;
+};
+
+Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
+  const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
+  const bool all = bytesOfPackets(selection.packets) <= inputs.options.bytes;
+  return {
+      !selection.heights || rmse[0] <= kNearlyExact || (all && canBeRestored(*selection.heights)),
+      !selection.texture || rmse[1] <= kNearlyExact};
+}
+
+/// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
+constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
+
+/// Whether prefixes of the first candidate are as good, in the mean, as prefixes of the second that
+/// have 3 % fewer bytes: those up to a part of it. Both have curves.
+template <class Coded>
+bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
+                   const Candidate<Coded>& lossy, double most) {
+  const auto squares_after = [&](const Candidate<Coded>& candidate, double bytes) {
+    const Codewords prefix = prefixAfter(candidate.coded->rated(), candidate.curve->packets,
+                                         static_cast<uint64_t>(bytes));
+    return squaresOf(*candidate.coded, prefix, inputs.options.threads);
+  };
+  double logarithms = 0;
+  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.}) {
+    const double bytes = part * most * static_cast<double>(tried.bytes());
+    logarithms += std::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
+  }
+  return logarithms <= 0;
+}
+
+bool canBeCorrected(const CodedHeights& heights) {
+  return hasLosslessWay(heights) && heights.tracks.size() == 1 && heights.of->table.empty();
+}
+
+/// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
+/// all, and behind coarser ones prefixes lose quality.
+constexpr double kExactCut = 0.3;
+/// Beside a texture that is not exact: it makes more of the 3 % of bytes than prefixes lose.
+constexpr double kSharedExactCut = 0.5;
+
+/// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
+/// of the lossy heights. Corrections come behind all coefficients: windows of heights in regions
+/// would need all of these.
+std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
+                                             const HeightsCandidate& lossy, uint64_t room) {
+  if (canBeRestored(*lossy.coded)) {
+    HeightsCandidate restored = candidateOf(codeRestored(inputs, *lossy.coded));
+    if (restored.bytes() < room) return restored;
+  }
+  if (!hasLosslessWay(*lossy.coded)) return {};
+  if (canBeCorrected(*lossy.coded)) {
+    HeightsCandidate corrected = candidateOf(codeCorrected(inputs, *lossy.coded, kExactCut));
+    if (corrected.bytes() < room) return corrected;
+  }
+  HeightsCandidate whole = codeLossless(inputs, *lossy.coded);
+  if (whole.bytes() >= room) return {};
+  whole.curve = curveOfHeights(inputs, *whole.coded);
+  if (!keepsPrefixes(inputs, whole, lossy, kMostOfHeights)) return {};
+  return whole;
+}
+
+/// The texture likewise. Drawn and stored ones are lossless as they stand.
+std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
+                                             const TextureCandidate& lossy, uint64_t room) {
+  if (!hasLosslessWay(*lossy.coded)) return lossy;
+  TextureCandidate whole = candidateOf(codeReversibly(inputs, *lossy.coded));
+  if (whole.bytes() >= room) return {};
+  whole.curve = curveOfTexture(inputs, *whole.coded);
+  if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
+  return whole;
+}
+
+/// All packets of the candidates, if they restore everything.
+std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates exact) {
+  Selection selection = orderPackets(withCurves(inputs, std::move(exact)));
+  Selection joined = selection;
+  joined.packets = joinNeighbours(selection.packets);
+  if (!isLossless(inputs, joined)) return {};
+  return selection;
+}
+
+/// Heights of few values to the last bit, in less than the budget. Lossy heights know nothing of
+/// drawings or tables of values, and may never come as near; so prefixes may be somewhat worse. A
+/// table has to save half of the budget for that; a drawing has saved enough by what it is.
+std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
+                                          const HeightsCandidate& lossy) {
+  constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
+  constexpr double kAnyError = std::numeric_limits<double>::infinity();
+  if (!lossy.coded) return {};
+  const uint64_t room = std::min(inputs.options.bytes, lossy.bytes());
+  const QuantisedHeights& of = *lossy.coded->of;
+  const bool generous =
+      static_cast<double>(inputs.options.bytes) >= kGenerous * lossy.coded->counted();
+  if (!generous && !drawingMayFit({of.steps.steps, extentOf(*of.samples), of.steps.valid}, room))
+    return {};
+  HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError, room)};
+  if (!exact.coded) return {};
+  const bool drawn = exact.coded->header.drawn;
+  if (!drawn && exact.coded->layers.table_bytes == 0) return {};
+  if (drawn ? exact.bytes() > room : 2 * exact.bytes() > inputs.options.bytes) return {};
+  exact.curve = curveOfHeights(inputs, *exact.coded);
+  return exact;
+}
+
+/// Everything to the last bit, if that fits the budget and takes nothing from prefixes. few:
+/// heights of few values, which are taken as they are.
+std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy,
+                                          const std::optional<HeightsCandidate>& few) {
+  const auto& [heights, texture, errors] = lossy;
+  if (!heights.coded && !hasLosslessWay(*texture.coded)) return {};
+  Candidates exact = lossy;
+  uint64_t room = inputs.options.bytes;
+  if (texture.coded) {
+    std::optional<TextureCandidate> whole = exactTexture(inputs, texture, room);
+    if (!whole || whole->bytes() >= room) return {};
+    exact.texture = *std::move(whole);
+    room -= exact.texture.bytes();
+  }
+  if (heights.coded) {
+    std::optional<HeightsCandidate> whole = few ? few : exactHeights(inputs, heights, room);
+    if (!whole || whole->bytes() >= room) return {};
+    exact.heights = *std::move(whole);
+    if (few) exact.errors = nullptr;
+  }
+  return selectIfLossless(inputs, std::move(exact));
+}
+
+/// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
+/// the lossy heights, which have a curve. Coefficients of a cut are those of the lossy heights.
+std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
+  std::vector<HeightsCandidate> ways;
+  const auto add = [&](HeightsCandidate way) {
+    if (way.bytes() >= inputs.options.bytes) return;
+    way.curve = curveOfHeights(inputs, *way.coded);
+    if (way.coded->closing == 0 && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
+    ways.push_back(std::move(way));
+  };
+  if (canBeRestored(*lossy.coded)) add(candidateOf(codeRestored(inputs, *lossy.coded)));
+  if (canBeCorrected(*lossy.coded))
+    add(candidateOf(codeCorrected(inputs, *lossy.coded, kSharedExactCut)));
+  if (hasLosslessWay(*lossy.coded)) add(codeLossless(inputs, *lossy.coded));
+  return ways;
+}
+
+/// What the picture lacks with rising parts of the budget, the last of which is all of it; nothing
+/// if nobody can look at the terrain.
+std::vector<double> errorsWithin(const EncodeInputs& inputs, Selection selection) {
+  selection.packets = joinNeighbours(selection.packets);
+  std::vector<uint64_t> lengths;
+  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 3. / 4, 1.})
+    lengths.push_back(static_cast<uint64_t>(part * static_cast<double>(inputs.options.bytes)));
+  return errorsOfPrefixes(inputs, selection, lengths);
+}
+
+/// Better with all bytes, by more decibels than prefixes lose in all, up to what can be seen.
+bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
+  constexpr double kUnseen = 65025e-6;  // 60 dB
+  double logarithms = 0;
+  for (size_t i = 0; i < lossy.size(); ++i)
+    logarithms += std::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));
+  return tried.back() < lossy.back() && logarithms < 0;
+}
+
+/// The packets in an order in which the heights end within the budget.
+Selection endWithin(const EncodeInputs& inputs, Selection selection) {
+  const uint64_t header = headerBytesOf(inputs, selection);
+  const uint64_t room = inputs.options.bytes - std::min(inputs.options.bytes, header);
+  selection.packets = endWithin(selection.packets, Component::kGeometry, room);
+  return selection;
+}
+
+/// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones.
+/// few: as above; of these only the end counts.
+std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const Candidates& lossy,
+                                               std::optional<HeightsCandidate> few, bool nearly) {
+  std::vector<HeightsCandidate> ways;
+  if (nearly) ways = exactWays(inputs, lossy.heights);
+  const size_t of_many = ways.size();
+  if (few) ways.push_back(*std::move(few));
+  if (ways.empty()) return {};
+  const std::vector<double> of_lossy = errorsWithin(inputs, orderPackets(lossy));
+  if (of_lossy.empty()) return {};
+  double least = of_lossy.back();
+  std::optional<Selection> best;
+  for (size_t i = 0; i < ways.size(); ++i) {
+    Candidates exact = lossy;
+    exact.heights = std::move(ways[i]);
+    if (i >= of_many) {
+      exact.errors = nullptr;  // pictures of a drawing are not those of coefficients
+      exact = withCurves(inputs, std::move(exact));
+    }
+    Selection selection = endWithin(inputs, orderPackets(exact));
+    const std::vector<double> errors = errorsWithin(inputs, selection);
+    if (errors.back() >= least || (i < of_many && !pays(errors, of_lossy))) continue;
+    least = errors.back();
+    best = std::move(selection);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
+                                           const Selection& selection) {
+  assert(inputs.budgeted());
+  std::optional<HeightsCandidate> few = fewValues(inputs, lossy.heights);
+  const Nearly nearly = nearlyExact(inputs, selection);
+  if ((few || nearly.heights) && nearly.texture) {
+    std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few);
+    if (exact) return exact;
+  }
+  if (!lossy.errors) return {};
+  return exactHeightsIfTheyPay(inputs, lossy, std::move(few), nearly.heights);
+}
+
+}  // namespace tetrakis::inline targets

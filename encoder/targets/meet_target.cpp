@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/targets/meet_target.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "codec/geometry/quantiser/voids.hpp"
+#include "encoder/heights/exact_heights.hpp"
+#include "encoder/heights/height_errors.hpp"
+#include "encoder/selection/write_stream.hpp"
+#include "encoder/targets/candidates.hpp"
+#include "encoder/targets/component_curves.hpp"
+#include "encoder/targets/exact_budget.hpp"
+#include "ratecontrol/allocation.hpp"
+#include "ratecontrol/target.hpp"
+
+namespace tetrakis::inline targets {
+
+namespace {
+
+/// The packets that the components need, in their joint order.
+Selection selectNeeded(const EncodeInputs& inputs, const Candidates& candidates) {
+  Selection selection = orderPackets(candidates);
+  const Needs needs = {candidates.heights.need, candidates.texture.need};
+  const auto quality_after = [&](Component component, uint64_t bytes) {
+    return component == Component::kGeometry ? qualityAfter(inputs, candidates.heights, bytes)
+                                             : qualityAfter(inputs, candidates.texture, bytes);
+  };
+  selection.packets = keepNeeded(selection.packets, needs, quality_after);
+  return selection;
+}
+
+/// Selects as much as the budget has room for.
+Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
+  lossy = withCurves(inputs, std::move(lossy));
+  Selection selection = orderPackets(lossy);
+  std::optional<Selection> exact = exactWithinBudget(inputs, lossy, selection);
+  return exact ? *std::move(exact) : selection;
+}
+
+/// The first bytes of the heights' packets that reach the PSNR. Where voids are belongs to what is
+/// asked for.
+std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCandidate& heights) {
+  const CodedHeights& coded = *heights.coded;
+  const SampleRange range = rangeOf(*inputs.heights, coded.of->steps.valid);
+  const double worst = worstMeanSquare(range.high - range.low, inputs.options.psnr);
+  const auto& packets = heights.curve->packets;
+  // The last bytes of a mask may change nothing, and then there are none of them.
+  const uint64_t validity = std::min(coded.layers.validity_bytes, payloadOf(packets));
+  return leastBytes(packets, [&](uint64_t bytes) {
+    if (bytes < validity) return false;
+    const Codewords prefix = prefixAfter(coded.rated(), packets, bytes);
+    const SampleErrors errors = sampleErrorsOf(coded, prefix, inputs.options.threads);
+    return errors.mean_square * inputs.heaviest() <= worst;
+  });
+}
+
+/// The first bytes of the texture's packets that reach the PSNR; all of them where none do.
+uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture) {
+  const CodedTexture& coded = *texture.coded;
+  const auto& packets = texture.curve->packets;
+  const std::optional<uint64_t> least = leastBytes(packets, [&](uint64_t bytes) {
+    return reachesPsnr(inputs, coded, prefixAfter(coded.rated(), packets, bytes));
+  });
+  return least.value_or(payloadOf(packets));
+}
+
+/// The first bytes that are needed of the heights, or heights to the last bit where these take
+/// fewer.
+HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy) {
+  const double steps = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
+  const auto exact = exactHeightsFor(inputs, steps * lossy.coded->of->steps.step, lossy.bytes());
+  if (!exact) return lossy;
+  return fewestBytes<CodedHeights>({std::move(lossy), {exact}});
+}
+
+/// Heights of the PSNR: to the last bit where nothing lossy reaches it, as of floats that are on no
+/// grid, unless the caller's step forbids it.
+Result<HeightsCandidate> reachingPsnr(const EncodeInputs& inputs, HeightsCandidate lossy) {
+  if (const std::optional<uint64_t> need = heightsNeed(inputs, lossy)) {
+    lossy.need = *need;
+    return preferExact(inputs, std::move(lossy));
+  }
+  const bool any_step = inputs.heights->step == 0;
+  if (const auto exact = any_step ? exactHeightsFor(inputs, 0, UINT64_MAX) : nullptr)
+    return HeightsCandidate{exact};
+  return Status(TKS_USAGE,
+                "This PSNR is above what the step of the heights allows; give a smaller step.");
+}
+
+/// The candidate, or its lossless sibling if the need lies next to the last bit and that takes
+/// fewer bytes.
+TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy) {
+  if (!hasLosslessWay(*lossy.coded)) return lossy;
+  if (rmseOf(qualityAfter(inputs, lossy, lossy.bytes())) > kNearlyExact) return lossy;
+  TextureCandidate lossless = codeLossless(inputs, *lossy.coded);
+  return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)});
+}
+
+/// Each component reaches the PSNR by itself.
+Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
+  candidates = withCurves(inputs, std::move(candidates));
+  auto& [heights, texture, errors] = candidates;
+  if (heights.coded) {
+    Result<HeightsCandidate> reaching = reachingPsnr(inputs, std::move(heights));
+    if (!reaching.ok()) return reaching.status();
+    heights = storedIfShorter(inputs, *std::move(reaching));
+  }
+  if (texture.coded) {
+    texture.need = textureNeed(inputs, texture);
+    texture = storedIfShorter(preferExact(inputs, std::move(texture)));
+  }
+  return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
+}
+
+/// Heights whole, because they were made for the target. Unless all is to be lossless, the texture
+/// gets what the order puts before the last of the heights' coefficients.
+Selection meetWholeHeights(const EncodeInputs& inputs, Candidates candidates) {
+  auto& [heights, texture, errors] = candidates;
+  if (inputs.options.max_error > 0 && texture.coded) {
+    candidates = withCurves(inputs, std::move(candidates));
+    const uint64_t coefficients = bytesOf(heights.coded->tracks) - heights.coded->closing;
+    const Selection all = orderPackets(candidates);
+    texture.need = sentWith(all.packets, Component::kGeometry, coefficients)[1];
+  }
+  if (heights.coded) heights = storedIfShorter(inputs, std::move(heights));
+  if (texture.coded) texture = storedIfShorter(std::move(texture));
+  return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
+}
+
+Result<Selection> selectPackets(const EncodeInputs& inputs, Candidates candidates) {
+  if (inputs.budgeted()) return meetBudget(inputs, std::move(candidates));
+  if (inputs.options.psnr > 0) return meetPsnr(inputs, std::move(candidates));
+  return meetWholeHeights(inputs, std::move(candidates));
+}
+
+}  // namespace
+
+Result<Selection> meetTarget(const EncodeInputs& inputs,
+                             std::shared_ptr<const CodedHeights> heights,
+                             std::shared_ptr<const CodedTexture> texture) {
+  assert((heights != nullptr) == (inputs.heights != nullptr));
+  assert((texture != nullptr) == (inputs.image != nullptr));
+  Result<Selection> selection = selectPackets(inputs, {{std::move(heights)}, {std::move(texture)}});
+  if (!selection.ok()) return selection;
+  std::vector<Packet>& packets = selection->packets;
+  packets = joinNeighbours(packets);
+  if (inputs.budgeted()) packets = keepWithinBudget(packets, inputs.options.bytes);
+  return selection;
+}
+
+}  // namespace tetrakis::inline targets

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/textures/coded_texture.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "base/samples.hpp"
+#include "encoder/textures/texture_options.hpp"
+#include "texture_wavelet/stored_texture_encoder.hpp"
+#include "texture_wavelet/texture_choice.hpp"
+
+namespace tetrakis::inline textures {
+
+namespace {
+
+CodedTexture codedBy(std::shared_ptr<const TextureSource> of, EncodedTexture encoded) {
+  assert(!encoded.tracks.empty() && encoded.header.width == of->texels.width);
+  return {std::move(of), std::move(encoded.header), std::move(encoded.tracks)};
+}
+
+}  // namespace
+
+std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image) {
+  Texels texels{image.width, image.height, image.channels, image.sample == TKS_U8 ? 8 : 16, {}};
+  const size_t count = size_t{image.width} * image.height * image.channels;
+  withSampleType(image.sample, [&](auto type) {
+    const auto* from = static_cast<const decltype(type)*>(image.data);
+    texels.samples.resize(count);
+    std::transform(from, from + count, texels.samples.begin(),
+                   [](auto v) { return static_cast<uint16_t>(v); });
+  });
+  return std::make_shared<const TextureSource>(std::move(texels));
+}
+
+double CodedTexture::counted() const {
+  return static_cast<double>(countedSamples(of->texels, of->counted(header.hidden)));
+}
+
+CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> of,
+                         Purpose purpose) {
+  EncodedTexture encoded = encodeTexture(*of, purpose, textureOptions(inputs, of->texels));
+  return codedBy(std::move(of), std::move(encoded));
+}
+
+CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy) {
+  const TextureOptions options = textureOptions(inputs, lossy.of->texels);
+  return codedBy(lossy.of, encodeReversibly(*lossy.of, lossy.header, options));
+}
+
+/// Coding for a PSNR ends by the account, which the samples may miss: then it goes on.
+CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
+                                  std::shared_ptr<const TextureSource> of) {
+  CodedTexture coded = codeTexture(inputs, std::move(of), purposeOf(inputs));
+  if (inputs.options.psnr <= 0 || coded.tracks.front().complete) return coded;
+  if (reachesPsnr(inputs, coded, codewordsOf(coded.tracks))) return coded;
+  TextureOptions to_the_end = textureOptions(inputs, coded.of->texels);
+  to_the_end.mean_square = 0;
+  return codedBy(coded.of, encodeTexture(*coded.of, purposeOf(inputs), to_the_end));
+}
+
+CodedTexture storeTexture(std::shared_ptr<const TextureSource> of) {
+  EncodedTexture stored = encodeStoredTexture(of->texels);
+  return codedBy(std::move(of), std::move(stored));
+}
+
+double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t threads,
+                 TextureMemory* memory) {
+  assert(prefix.size() == texture.tracks.size());
+  const Texels shown = decodeTexture(texture.header, prefix, {}, {threads, memory});
+  return countedSquares(texture.of->texels, shown, texture.of->counted(texture.header.hidden));
+}
+
+bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix) {
+  const double squares = squaresOf(texture, prefix, inputs.options.threads);
+  return squares / texture.counted() <=
+         worstMeanSquare(texture.of->texels.most(), inputs.options.psnr);
+}
+
+}  // namespace tetrakis::inline textures

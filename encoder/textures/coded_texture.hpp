@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// A coded texture is a component of a stream: its tracks, and what the header says of them. This
+// file makes such values by all ways there are to code a texture, and measures what a decoder shows
+// of them. None is changed once it is made.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/header.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "ratecontrol/coded_tracks.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_source.hpp"
+
+namespace tetrakis::inline textures {
+
+struct CodedTexture {
+  std::shared_ptr<const TextureSource> of;
+  TextureHeader header;
+  std::vector<EncodedTrack> tracks;  ///< distortion: squared error over the samples that count
+
+  /// Samples that count in the error.
+  double counted() const;
+  /// Behind the opening there is one codeword, of coefficients.
+  bool holdsCoefficientsAlone() const { return tracks.size() == 1 && !header.direct(); }
+  CodedTracks rated() const {
+    return {Component::kTexture, tracks, header.alpha_bytes + header.overlay_bytes};
+  }
+};
+
+std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
+
+/// Codes the texture by the coder that suits it. of: quantiseTexture() of the image of the inputs.
+CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> of,
+                         Purpose purpose);
+
+/// Codes the texture as the target of the options asks for it. of: as above.
+CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
+                                  std::shared_ptr<const TextureSource> of);
+
+/// Codes the same texture to the last bit, with the colours and filters of `lossy`, which is
+/// neither drawn nor stored.
+CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy);
+
+/// The samples written as they are.
+CodedTexture storeTexture(std::shared_ptr<const TextureSource> of);
+
+/// Sum of squared errors of the samples that count. prefix: of the codeword of each track. memory:
+/// of calls for fewer bytes of a component with one track.
+double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t threads,
+                 TextureMemory* memory = nullptr);
+
+/// Whether such a prefix reaches the PSNR of the options.
+bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix);
+
+}  // namespace tetrakis::inline textures

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/views/decoded_nodes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "codec/geometry/steps/height_samples.hpp"
+#include "encoder/views/view_inputs.hpp"
+
+namespace tetrakis::inline views {
+
+namespace {
+
+/// At 6 texels or 12 heights a byte, detail that the prefix holds would be missing where the next
+/// level is just not reached: errors of every other node were up to two thirds too large.
+/// Priorities put the bytes where cameras are near.
+constexpr uint64_t kTexelsPerByte = 24, kSamplesPerByte = 48, kNearCameras = 4, kLeast = 4096;
+
+/// The heights that a view of a coarser level shows, with the last ones once more where they do not
+/// reach the border.
+std::vector<float> toBorder(std::vector<float> shown, Extent extent, Extent reaching) {
+  if (extent == reaching) return shown;
+  std::vector<float> heights;
+  heights.reserve(reaching.samples());
+  for (uint32_t y = 0; y < reaching.height; ++y) {
+    const float* row = &shown[size_t{std::min(y, extent.height - 1)} * extent.width];
+    heights.insert(heights.end(), row, row + extent.width);
+    if (extent.width < reaching.width) heights.push_back(row[extent.width - 1]);
+  }
+  return heights;
+}
+
+/// What few bytes can show is shown by the coarser levels as well, in less time: one that every
+/// wavelet has, of at least so many samples.
+View enoughOf(Extent whole, uint64_t samples) {
+  View view;
+  const uint64_t enough = std::max(samples, kLeast);
+  while (view.extentIn(whole).samples() / 4 >= enough &&
+         std::min(whole.width, whole.height) >> (view.level + 1) >= 32)
+    ++view.level;
+  return view;
+}
+
+/// What a decoder is given of a component, and told of it.
+template <class Coded>
+Codewords prefixOf(const Rated<Coded>& rated, uint64_t bytes, TrackMemory& memory) {
+  const CodedTracks tracks = rated.coded.rated();
+  if (!endsWithPasses(rated)) return prefixAfter(tracks, rated.curve.packets, bytes);
+  memory.passes_within = bytes - std::min(bytes, tracks.opening);
+  return codewordsOf(tracks.tracks);
+}
+
+}  // namespace
+
+DecodedNodes::DecodedNodes(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
+                           const Rated<CodedTexture>& texture)
+    : inputs_(inputs), heights_(heights), texture_(texture) {
+  heights_memory_.tracks.all_levels = texture_memory_.tracks.all_levels = true;
+  if (looksAtMeshes(inputs, *heights.coded.of))
+    mesh_.emplace(inputs, *heights.coded.of, texture.coded.of->texels);
+}
+
+DecodedNodes::Samples DecodedNodes::heightsAt(uint64_t bytes, const View& view) {
+  const CodedHeights& coded = heights_.coded;
+  DecodedHeights shown = decodedAt(bytes, view);
+  std::vector<std::byte> samples(tks_sample_bytes(inputs_.heights->sample) *
+                                 shown.geometry.heights.size());
+  fromSteps(shown, coded.header, coded.layers, samples.data());
+  return {std::move(samples), std::move(shown.geometry.valid)};
+}
+
+Relief DecodedNodes::shownAt(uint64_t bytes) {
+  if (mesh_) {
+    std::optional<Relief> mesh = mesh_->ofDecoded(decodedAt(bytes, mesh_->view()).geometry);
+    if (mesh) return std::move(*mesh);
+  }
+  return reliefAt(bytes);
+}
+
+/// Voids have every sample of their border.
+Relief DecodedNodes::reliefAt(uint64_t bytes) {
+  const tks_heights& whole = *inputs_.heights;
+  const Extent extent{whole.width, whole.height};
+  View view;
+  if (heights_.coded.of->steps.valid.empty()) view = enoughOf(extent, kSamplesPerByte * bytes);
+  const Samples samples = heightsAt(bytes, view);
+  tks_heights shown = whole;
+  shown.width = view.extentIn(extent).width;
+  shown.height = view.extentIn(extent).height;
+  Relief relief = reliefOf(shown, samples.data.data(), samples.valid);
+  relief.frame = frameOf(whole);
+  relief.step = view.step();
+  relief.heights = toBorder(std::move(relief.heights), view.extentIn(extent), relief.extent());
+  return relief;
+}
+
+Relief DecodedNodes::original() const {
+  return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
+}
+
+ScreenTexture DecodedNodes::textureAt(uint64_t bytes) {
+  const CodedTexture& coded = texture_.coded;
+  const Extent whole = coded.header.extent();
+  View view;
+  const uint64_t near = coded.header.priorities.none() ? 1 : kNearCameras;
+  if (!coded.header.direct()) view = enoughOf(whole, near * kTexelsPerByte * bytes);
+  return {texelsAt(bytes, view), whole, view.level};
+}
+
+Texels DecodedNodes::texelsAt(uint64_t bytes, const View& view) {
+  const CodedTexture& coded = texture_.coded;
+  const Codewords prefix = prefixOf(texture_, bytes, texture_memory_.tracks);
+  return decodeTexture(coded.header, prefix, view, {inputs_.options.threads, &texture_memory_});
+}
+
+DecodedHeights DecodedNodes::decodedAt(uint64_t bytes, const View& view) {
+  const CodedHeights& coded = heights_.coded;
+  const Codewords prefix = prefixOf(heights_, bytes, heights_memory_.tracks);
+  return decodeHeights(coded.header, coded.layers, prefix, view,
+                       {inputs_.options.threads, &heights_memory_});
+}
+
+}  // namespace tetrakis::inline views

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prefixes of both components as decoders show them, for cameras to look at.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "codec/geometry/height_layers.hpp"
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/textures/coded_texture.hpp"
+#include "encoder/views/shown_mesh.hpp"
+#include "ratecontrol/component_curve.hpp"
+#include "ratecontrol/ground_rays.hpp"
+#include "ratecontrol/screen_texture.hpp"
+
+namespace tetrakis::inline views {
+
+/// A component as it is coded, with the curve of its packets.
+template <class Coded>
+struct Rated {
+  const Coded& coded;
+  const ComponentCurve& curve;
+};
+
+/// Where the curve is one of whole passes, these are decoded, else prefixes of any length.
+template <class Coded>
+bool endsWithPasses(const Rated<Coded>& rated) {
+  return !rated.curve.passes.empty() && rated.coded.holdsCoefficientsAlone();
+}
+
+/// What decoders show of the inputs after so many bytes of either component; calls must come with
+/// rising bytes, and with those of ends of passes where the curve has them.
+class DecodedNodes {
+ public:
+  DecodedNodes(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
+               const Rated<CodedTexture>& texture);
+
+  struct Samples {
+    std::vector<std::byte> data;  ///< of the type of the inputs
+    std::vector<uint8_t> valid;   ///< empty: all are
+  };
+  Samples heightsAt(uint64_t bytes, const View& view);
+  bool showsMeshes() const { return mesh_.has_value(); }
+  /// What viewers see of the heights.
+  Relief shownAt(uint64_t bytes);
+  /// What they see of all heights, if that is a mesh.
+  std::optional<Relief> meshOfAll() const { return mesh_ ? mesh_->ofOriginal() : std::nullopt; }
+  Relief original() const;
+
+  ScreenTexture textureAt(uint64_t bytes);
+  Texels texelsAt(uint64_t bytes, const View& view);
+
+ private:
+  DecodedHeights decodedAt(uint64_t bytes, const View& view);
+  Relief reliefAt(uint64_t bytes);
+
+  const EncodeInputs& inputs_;
+  Rated<CodedHeights> heights_;
+  Rated<CodedTexture> texture_;
+  std::optional<ShownMesh> mesh_;  ///< what viewers see, if it is not the grid
+  HeightsMemory heights_memory_;
+  TextureMemory texture_memory_;
+};
+
+}  // namespace tetrakis::inline views

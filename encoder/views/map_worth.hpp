@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What maps of priorities cost in bytes, and whether they pay.
+#pragma once
+
+#include <cstdint>
+
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/selection/selection.hpp"
+
+namespace tetrakis::inline views {
+
+/// Bytes of the header that hold the maps of both components.
+uint64_t bytesOfMaps(const Selection& selection);
+
+/// Whether the cameras see fewer errors in prefixes of a stream that has maps of priorities than
+/// in those of one without, in the mean of half of the budget and all of it.
+bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection& without);
+
+}  // namespace tetrakis::inline views

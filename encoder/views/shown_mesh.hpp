@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// With a triangle budget viewers see a mesh of the heights, not the heights (thesis 6.1: D(M_i,
+// T_j)): however many bytes these take, a mesh is off by what so few triangles cannot show. So the
+// cameras look at the meshes that decoders will make of prefixes. Told the cameras, those are
+// meshes for them; else meshes for a map.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/texels.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+#include "codec/mesh/screen/surface_picture.hpp"
+#include "codec/mesh/surface/coarse_surface.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "ratecontrol/ground_rays.hpp"
+
+namespace tetrakis::inline views {
+
+/// Meshes are what cameras look at: there is a budget, and no voids nor a table of values. The
+/// caller's renderer looks at full grids.
+bool looksAtMeshes(const EncodeInputs& inputs, const QuantisedHeights& heights);
+
+class ShownMesh {
+ public:
+  /// looksAtMeshes() holds. The inputs, the heights and the texels outlive this object.
+  ShownMesh(const EncodeInputs& inputs, const QuantisedHeights& heights, const Texels& texels);
+
+  /// The heights that ofDecoded() takes.
+  View view() const { return {static_cast<int>(level_), {}}; }
+
+  /// The mesh as heights in metres at all samples; none if there is no such mesh.
+  std::optional<Relief> ofDecoded(const DecodedGeometry& decoded) const;
+  std::optional<Relief> ofOriginal() const;
+
+ private:
+  std::optional<Relief> forMap(CoarseSurface surface, uint32_t quiet, int fraction_bits) const;
+  std::optional<Relief> forCameras(std::span<const int32_t> heights, int fraction_bits) const;
+  Relief drawn(const LatticeMesh& mesh, std::span<const double> heights, int fraction_bits) const;
+
+  /// Metres of a height in 2^-fraction_bits steps: at + by * height.
+  struct Metres {
+    double at, by;
+  };
+  Metres metresOf(int fraction_bits) const;
+
+  const EncodeInputs& inputs_;
+  const QuantisedHeights& heights_;
+  GroundFrame frame_;
+  std::optional<Lattice> lattice_;  ///< of all samples
+  uint32_t level_ = 0;              ///< of the heights that meshes are made of
+  GroundImage image_;               ///< for meshes for cameras
+};
+
+}  // namespace tetrakis::inline views

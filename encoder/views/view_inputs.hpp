@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The caller's heights and cameras as rate control has them: metres on the ground.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ground/camera.hpp"
+#include "ground/frame.hpp"
+#include "ratecontrol/ground_rays.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline views {
+
+/// A unit that is no length counts as metres.
+double metresIn(const char* unit);
+
+GroundFrame frameOf(const tks_heights& heights);
+
+/// samples: of the type and size of `like`. valid: as findVoids() has it.
+Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid);
+
+/// Pixels that are looked at, of all pictures together.
+inline constexpr size_t kViewPixels = 3072;
+
+std::vector<Camera> givenCameras(const tks_encode_options& options);
+
+}  // namespace tetrakis::inline views

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// A coefficient c coded with a step T costs about log2(1 + |c| / T) bits, its norm counted in |c|.
+// Of the sums over all details the smallest wins, each made larger by what its filters are known to
+// lose besides. For lossy streams, against the best of the choices, found by coding with each, that
+// loses up to 0.3 % of the bytes on nine aerial images and maps and on seven DEMs; were kLong not
+// made larger, up to 2.5 %.
+#include "wavelet/choice/filter_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "wavelet/band_plan.hpp"
+#include "wavelet/choice/typical_parts.hpp"
+#include "wavelet/wavelet_header.hpp"
+
+namespace tetrakis::inline choice {
+
+namespace {
+
+using Filters = std::array<uint8_t, WaveletSpec::kChoices>;
+
+constexpr auto kS = static_cast<uint8_t>(FilterId::kShort);
+constexpr auto kM = static_cast<uint8_t>(FilterId::kSixTap);
+constexpr auto kO = static_cast<uint8_t>(FilterId::kOrthogonal);
+constexpr auto kQ = static_cast<uint8_t>(FilterId::kQuiet);
+constexpr auto kL = static_cast<uint8_t>(FilterId::kLong);
+constexpr std::array<Filters, 5> kLossyChoices = {
+    {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}, {kS, kS, kS}}};
+
+/// Filters for the last bit, and by how much the estimate of their bits counts more because of what
+/// prefixes are worth (docs/EXPERIMENTS.md, "Cuts of lossless streams"). The estimate makes
+/// differences of bytes three to four times as large as they are.
+struct LosslessChoice {
+  Filters filters;
+  double penalty;
+};
+constexpr std::array<LosslessChoice, 3> kLosslessHeights = {
+    {{{kM, kM, kM}, 1.004}, {{kL, kL, kL}, 1}, {{kS, kS, kS}, 1.02}}};
+
+/// Coarse levels of images have a filter that is nearly orthogonal, as those of lossy streams are.
+constexpr std::array<LosslessChoice, 4> kLosslessImages = {
+    {{{kL, kQ, kQ}, 1}, {{kL, kL, kQ}, 1.045}, {{kM, kM, kM}, 1.08}, {{kS, kS, kS}, 1.115}}};
+
+constexpr double kSignificant =
+    0.1;  // share of the other details that the step T leaves above itself
+constexpr int kMostFractionBits = 4;
+constexpr int kGrowingBits = 20;  // with more, the low bands of kOrthogonal and kQuiet pass 2^30
+
+/// Doubling low bands after level 2 in the place of level 4 halves the roundings of levels 3 and 4,
+/// and takes 1/16 of a bit a sample. That is worth it where few bits are lossless, because then
+/// cuts come near to what roundings lose.
+constexpr uint8_t kEarlyDoubled = 2, kLateDoubled = 3;
+constexpr double kFewBits = 1.6, kFewQuietBits = 1.15;
+
+/// Appends the magnitudes of a part's details, times their norms unless `plain`. Zeros, which
+/// flat ground consists of, cost nothing and say nothing about the step.
+void appendDetails(const PlanePart& part, const WaveletHeader& header, bool plain,
+                   std::vector<float>& details) {
+  const WaveletSpec spec = specOf(header);
+  std::vector<int32_t> plane = withFractions(part.values, header.fraction_bits);
+  const std::vector<int32_t> areas = withFractions(part.area_values, header.fraction_bits);
+  const PlaneLayout layout(spec, part.extent, part.valid, {part.held, areas});
+  forwardWavelet(spec, layout.pyramid(), plane);
+  for (size_t i = 1; i < layout.subbands().size(); ++i) {
+    const Subband& band = layout.subbands()[i];
+    const auto norm = static_cast<float>(plain ? 1 : std::sqrt(layout.energy(i)));
+    for (uint32_t row = 0; row < band.height; ++row) {
+      const int32_t* from = plane.data() + layout.pyramid().indexOf(band, row);
+      for (uint32_t column = 0; column < band.width; ++column) {
+        if (from[column] != 0) details.push_back(norm * std::abs(static_cast<float>(from[column])));
+      }
+    }
+  }
+}
+
+double samplesIn(const std::vector<PlanePart>& parts) {
+  double count = 0;
+  for (const PlanePart& part : parts)
+    count += static_cast<double>(markedIn(part.extent, part.valid));
+  return std::max(count, 1.0);
+}
+
+float stepOf(std::vector<float> details) {
+  if (details.empty()) return 1;
+  const auto nth = details.begin() +
+                   static_cast<ptrdiff_t>(static_cast<double>(details.size()) * (1 - kSignificant));
+  std::nth_element(details.begin(), nth, details.end());
+  return std::max(*nth, 1.0f);
+}
+
+/// Sum of log2(1 + d / step): a logarithm for many details is much faster than one for each.
+double bitsOf(const std::vector<float>& details, float step) {
+  constexpr double kLarge = 1e200;  // another factor is below 1e40
+  double bits = 0, product = 1;
+  for (float d : details) {
+    product *= 1 + d / step;
+    if (product < kLarge) continue;
+    bits += std::log2(product);
+    product = 1;
+  }
+  return bits + std::log2(product);
+}
+
+/// The estimate counts bits, not what their errors add up to, which is more where a filter is
+/// further from orthogonal: beside decoded results it favours kLong by about 1 % with each choice
+/// of it, and kShort by more, the coarser the step is: kShort suits walls between flat ground and
+/// flat roofs, which alone take clearly fewer bits by it.
+double penaltyOf(const Filters& filters) {
+  constexpr double kPerLong = 0.01, kPerShort = 0.035;
+  const auto choices = [&](uint8_t id) {
+    return static_cast<double>(std::count(filters.begin(), filters.end(), id));
+  };
+  return 1 + kPerLong * choices(kL) + kPerShort * choices(kS);
+}
+
+/// A choice, and about how many bits the details of the parts take.
+struct Choice {
+  WaveletHeader header;
+  double bits = 0, penalised = std::numeric_limits<double>::infinity();
+};
+
+/// bits: those of the estimate, which is compared after it was multiplied by the penalty.
+void keepIfBetter(const WaveletHeader& header, double bits, double penalty, Choice& best) {
+  if (bits * penalty < best.penalised) best = {header, bits, bits * penalty};
+}
+
+WaveletHeader headerWith(const Filters& filters, int fraction_bits, int bits) {
+  WaveletHeader header{filters, 0, 0, kLateDoubled, 0};
+  header.fraction_bits = static_cast<uint8_t>(fraction_bits);
+  header.bits = static_cast<uint8_t>(bits + fraction_bits);
+  return header;
+}
+
+Choice chooseLossy(const std::vector<PlanePart>& parts, int bits) {
+  Choice best;
+  float step = 0;
+  for (const Filters& filters : kLossyChoices) {
+    if (filters.back() == kO && bits > kGrowingBits) continue;
+    const WaveletHeader header =
+        headerWith(filters, std::clamp(20 - bits, 0, kMostFractionBits), bits);
+    std::vector<float> details;
+    for (const PlanePart& part : parts) appendDetails(part, header, false, details);
+    if (step == 0) step = stepOf(details);
+    keepIfBetter(header, bitsOf(details, step), penaltyOf(filters), best);
+  }
+  if (best.header.fraction_bits > 0) best.header.first_doubled = 0;
+  return best;
+}
+
+Choice chooseLossless(const std::vector<PlanePart>& parts, int bits,
+                      std::span<const LosslessChoice> choices) {
+  Choice best;
+  for (const auto& [filters, penalty] : choices) {
+    if (filters.back() == kQ && bits > kGrowingBits) continue;
+    const WaveletHeader header = headerWith(filters, 0, bits);
+    std::vector<float> details;
+    for (const PlanePart& part : parts) appendDetails(part, header, true, details);
+    keepIfBetter(header, bitsOf(details, 1), penalty, best);
+  }
+  const bool quiet = best.header.filters.back() == kQ;
+  if (best.bits < (quiet ? kFewQuietBits : kFewBits) * samplesIn(parts)) {
+    best.header.first_doubled = kEarlyDoubled;
+    // Level 2 is then lifted jointly, and rounds each coefficient once.
+    if (quiet) best.header.filters[1] = kL;
+  }
+  return best;
+}
+
+/// Chooses for heights, and for textures that are not for the last bit.
+Choice chooseAmong(const std::vector<PlanePart>& parts, int bits, Purpose purpose) {
+  if (purpose == Purpose::kLossy) return chooseLossy(parts, bits);
+  return chooseLossless(parts, bits, kLosslessHeights);
+}
+
+}  // namespace
+
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose) {
+  return chooseAmong(typicalPartsOf(std::span(&plane, 1)), bits, purpose).header;
+}
+
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                            int bits, Purpose purpose) {
+  return chooseAmong(typicalPartsOf(std::span(&plane, 1), held), bits, purpose).header;
+}
+
+WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits) {
+  return chooseLossless(typicalPartsOf(planes), bits, kLosslessImages).header;
+}
+
+WaveletHeader withShortReach(WaveletHeader chosen) {
+  chosen.filters.back() = kS;
+  return chosen;
+}
+
+WaveletHeader withoutFraction(WaveletHeader lossy) {
+  lossy.bits = static_cast<uint8_t>(lossy.bits - lossy.fraction_bits);
+  lossy.fraction_bits = 0;
+  lossy.first_doubled = kLateDoubled;
+  return lossy;
+}
+
+PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step) {
+  const std::vector<PlanePart> parts = typicalPartsOf(std::span(&plane, 1));
+  const WaveletHeader header =
+      chooseAmong(parts, bits, step == 0 ? Purpose::kLossless : Purpose::kLossy).header;
+  const WaveletSpec spec = specOf(header);
+  const double unit = std::exp2(header.fraction_bits);
+  PlaneCost sum;
+  for (const PlanePart& part : parts) {
+    std::vector<int32_t> values = withFractions(part.values, header.fraction_bits);
+    const PlaneLayout layout(spec, part.extent, part.valid, {});
+    forwardWavelet(spec, layout.pyramid(), values);
+    const PlaneCost cost = costOf(layout, values, step * unit);
+    sum.bits += cost.bits;
+    sum.squares += cost.squares / (unit * unit);
+  }
+  const double whole =
+      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(parts);
+  return {sum.bits * whole, sum.squares * whole};
+}
+
+double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
+  const std::vector<PlanePart> parts = typicalPartsOf(std::span(&plane, 1));
+  const double whole =
+      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(parts);
+  return chooseAmong(parts, bits, Purpose::kLossless).bits * whole;
+}
+
+}  // namespace tetrakis::inline choice

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders choose here which filters suit a plane. The choice stands in the stream header, so that
+// decoders need not know how it was made.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/coding_headers.hpp"
+#include "wavelet/choice/plane_cost.hpp"
+#include "wavelet/held_samples.hpp"
+
+namespace tetrakis::inline choice {
+
+/// What a plane is coded for.
+enum class Purpose : uint8_t {
+  kLossless,  ///< the last bit: no fraction bits
+  kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
+};
+
+/// Chooses the filters of heights, or of a lossy texture by one plane of it. They are tried on
+/// typical parts of the plane, whose samples have `bits` bits, and compared by an estimate of the
+/// bits that their coefficients take.
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose);
+
+/// Chooses the wavelet of a plane of which samples are held.
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                            int bits, Purpose purpose);
+
+/// Chooses the same filters for all planes of an image that is coded to the last bit.
+WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits);
+
+/// A choice for streams of which windows will be read: the filter of the coarse levels is the
+/// shortest. Each level doubles what its filter reaches, so that they pull in most of the regions
+/// around a window, and hold few of the bytes.
+WaveletHeader withShortReach(WaveletHeader chosen);
+
+/// The filters of a lossy choice, for the last bit.
+WaveletHeader withoutFraction(WaveletHeader lossy);
+
+/// About what the coefficients of a plane cost that is coded with a step: 0 is to the last bit.
+PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step);
+
+/// About how many bits the coefficients of a plane take that is coded to the last bit.
+double losslessBits(const PlaneView<const int32_t>& plane, int bits);
+
+}  // namespace tetrakis::inline choice
