@@ -11,6 +11,7 @@
 #include "codec/geometry/quantiser/stand_in_choice.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"
+#include "codec/geometry/relative/relative_step_choice.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
 #include "lattice/validity_encoder.hpp"
@@ -81,6 +82,16 @@ void addCorrections(QuantisedHeights& heights) {
   heights.left = std::max(heights.squaresOf(heights.steps), QuantisedHeights::kInexact);
 }
 
+/// The samples as these steps, and which are valid.
+QuantisedHeights asSteps(const EncodeInputs& inputs, HeightSteps steps) {
+  QuantisedHeights heights;
+  heights.samples = inputs.heights;
+  heights.shown_by = inputs.shownBy();
+  heights.steps = std::move(steps);
+  addValidity(heights);
+  return heights;
+}
+
 }  // namespace
 
 double QuantisedHeights::counted() const {
@@ -111,19 +122,32 @@ double QuantisedHeights::squaresOf(DecodedHeights decoded,
   return squares / unit * (static_cast<double>(shown_by.size()) / all);
 }
 
+double relativeStepOf(const QuantisedHeights& heights) {
+  constexpr double kCoarser = 8;
+  const HeightSteps& steps = heights.steps;
+  if (heights.samples->step > 0) return 0;
+  const double relative = findRelativeStep(*heights.samples, steps.valid);
+  const bool table = !steps.table.empty();
+  return table || relative >= kCoarser * steps.step ? relative : 0;
+}
+
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs) {
   assert(inputs.heights != nullptr);
   Result<ChosenSteps> chosen = chooseSteps(inputs);
   if (!chosen.ok()) return chosen.status();
-  auto heights = std::make_shared<QuantisedHeights>();
-  heights->samples = inputs.heights;
-  heights->shown_by = inputs.shownBy();
-  heights->steps = std::move(chosen->steps);
-  addValidity(*heights);
+  auto heights = std::make_shared<QuantisedHeights>(asSteps(inputs, std::move(chosen->steps)));
   addTable(*heights);
   if (chosen->restore && !heights->steps.exact) addCorrections(*heights);
   assert(heights->restored() || heights->corrections.empty());
   return std::shared_ptr<const QuantisedHeights>(std::move(heights));
+}
+
+std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& inputs,
+                                                            double relative_step) {
+  constexpr double kFine = 1. / 8;  // of the relative step
+  Result<HeightSteps> steps = toSteps(*inputs.heights, {.leave_outliers = true});
+  if (!steps.ok() || steps->step > kFine * relative_step) return nullptr;
+  return std::make_shared<const QuantisedHeights>(asSteps(inputs, *std::move(steps)));
 }
 
 GeometryHeader headerOf(const QuantisedHeights& heights) {
