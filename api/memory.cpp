@@ -23,6 +23,7 @@ constexpr uint64_t kDrawnOnce = 7 << 19;      // models of drawings and overlays
 constexpr uint64_t kBytesPerTrack = 64;       // its region, and views of its bytes
 constexpr uint64_t kValue = sizeof(int32_t);  // of a plane
 constexpr uint64_t kRow = 8;                  // of corrections, a sample of the row before
+constexpr uint64_t kRelativeRow = 24;         // likewise, with what is known of its multiple
 
 /// How many samples a rectangle has.
 uint64_t area(const auto& extent) {
@@ -86,7 +87,7 @@ class HeightsBytes {
 
   /// What is left when a level is decoded: heights, marks, masks, corrections.
   uint64_t kept() const {
-    const bool of_samples = header_.stored() || layers_.corrections == CorrectionKind::kSamples;
+    const bool of_samples = header_.stored() || layers_.restoresSamples();
     const bool corrections = table_ || (corrected_ && of_samples);
     return std::max(low(), copied_) * (kValue + 1 + (voids_ ? 1 : 0) + (corrections ? kValue : 0));
   }
@@ -123,7 +124,7 @@ class HeightsBytes {
     const uint64_t samples = view_.window ? shown_ : low();
     const uint64_t marks = view_.window ? 0 : samples;
     const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
-    const uint64_t corrections = corrected_ ? samples * (kValue + 1) + kRow * header_.width : 0;
+    const uint64_t corrections = corrected_ ? samples * (kValue + 1) + rows() : 0;
     const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
     const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +
                              std::max({state, planes.work, corrections + tableBytes()});
@@ -134,8 +135,7 @@ class HeightsBytes {
   uint64_t drawing() const {
     constexpr uint64_t kSample = sizeof(DrawnIndex) + kValue + 1;
     const bool corrections = layers_.corrections != CorrectionKind::kNone && view_.level == 0;
-    const uint64_t behind =
-        tableBytes() + (corrections ? low() * (2 * kValue + 1) + kRow * header_.width : 0);
+    const uint64_t behind = tableBytes() + (corrections ? low() * (2 * kValue + 1) + rows() : 0);
     const uint64_t masks = voids_ ? area(header_) + shown_ : 0;
     return kDrawnOnce + shown_ * kSample + masks + joinedBytes() + behind;
   }
@@ -147,6 +147,11 @@ class HeightsBytes {
     if (header_.repeats.none()) return 0;
     const auto [width, height] = header_.shown();
     return copied_ * 2 * (kValue + 1) + kLine * (uint64_t{width} + height);
+  }
+  /// Rows that corrections are decoded beside.
+  uint64_t rows() const {
+    const bool relative = layers_.corrections == CorrectionKind::kRelative;
+    return (relative ? kRelativeRow : kRow) * header_.width;
   }
   /// The table, its values as heights, and a correction for each sample.
   uint64_t tableBytes() const {

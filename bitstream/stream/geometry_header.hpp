@@ -18,8 +18,9 @@ inline constexpr uint32_t kMaxSide = 1u << 20;  ///< samples in a row or column 
 /// What corrections are added to.
 enum class CorrectionKind : uint8_t {
   kNone = 0,
-  kSteps = 1,   ///< heights in steps: heights += correction_step * correction
-  kSamples = 2  ///< samples, in the order of their type: restores them bit for bit
+  kSteps = 1,    ///< heights in steps: heights += correction_step * correction
+  kSamples = 2,  ///< samples, in the order of their type: restores them bit for bit
+  kRelative = 3  ///< the same, counted from multiples of a step beside the samples before
 };
 
 /// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
@@ -87,6 +88,14 @@ struct TableKnot {
   bool operator==(const TableKnot&) const = default;
 };
 
+/// Samples lie whole multiples of a step from what neighbours predict (codec/geometry/relative/).
+struct RelativeSteps {
+  double step = 0;       ///< in sample units
+  uint8_t quarters = 0;  ///< of the way from there to a sample that its multiple is pulled
+
+  bool operator==(const RelativeSteps&) const = default;
+};
+
 /// What a geometry track holds besides coefficients:
 ///
 ///   validity codeword | flat areas | coefficients | corrections
@@ -105,6 +114,7 @@ struct GeometryLayers {
   CorrectionKind corrections = CorrectionKind::kNone;
   uint64_t coefficient_bytes = 0;  ///< with corrections only: what follows is theirs
   uint32_t correction_step = 0;    ///< kSteps only: unit of the corrections, in steps
+  RelativeSteps relative = {};     ///< kRelative only
 
   bool isDefault() const { return *this == GeometryLayers{}; }
   bool operator==(const GeometryLayers&) const = default;
@@ -117,7 +127,7 @@ struct GeometryLayers {
     auto kinds = static_cast<uint8_t>(static_cast<uint8_t>(corrections) |
                                       (table_bytes > 0 ? kWithTable : 0) |
                                       (flat_bytes > 0 ? kWithFlatAreas : 0));
-    v.u8("layer_kinds", kinds, 0, kWithFlatAreas + kWithTable + 2);
+    v.u8("layer_kinds", kinds, 0, kWithFlatAreas + kWithTable + 3);
     corrections = static_cast<CorrectionKind>(kinds % kWithTable);
     if (kinds & kWithTable) {
       v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
@@ -134,6 +144,10 @@ struct GeometryLayers {
     if (corrections == CorrectionKind::kSteps) {
       v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
     }
+    if (corrections == CorrectionKind::kRelative) {
+      v.f64("relative_step", relative.step);
+      v.u8("relative_quarters", relative.quarters, 1, 4);
+    }
   }
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
   static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8;  ///< bits beside the corrections
@@ -144,6 +158,10 @@ struct GeometryLayers {
   static constexpr int64_t kMostRise = int64_t{1} << 28;
 
   uint64_t openingBytes() const { return validity_bytes + flat_bytes; }
+  /// Corrections restore every sample.
+  bool restoresSamples() const {
+    return corrections == CorrectionKind::kSamples || corrections == CorrectionKind::kRelative;
+  }
 
  private:
   /// Each as what it differs by from the one before it.

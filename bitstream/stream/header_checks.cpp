@@ -23,9 +23,13 @@ Status checkLayers(const StreamHeader& header) {
   if (!header.geometry) {
     return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
   }
-  if (static_cast<uint8_t>(layers.corrections) > 2 ||
-      (layers.table_bytes > 0 && layers.corrections == CorrectionKind::kSteps)) {
+  if (layers.table_bytes > 0 && layers.corrections != CorrectionKind::kNone &&
+      layers.corrections != CorrectionKind::kSamples) {
     return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
+  }
+  if (layers.corrections == CorrectionKind::kRelative &&
+      !(std::isfinite(layers.relative.step) && layers.relative.step > 0)) {
+    return {TKS_CORRUPT, "Corrupt stream: the relative step of its heights is out of range."};
   }
   const bool steep =
       std::any_of(layers.table_knots.begin(), layers.table_knots.end(),
@@ -64,7 +68,8 @@ Status checkDirect(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->direct()) return {};
   const GeometryLayers& layers = header.layers;
   if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 ||
-      layers.corrections == CorrectionKind::kSteps) {
+      layers.corrections == CorrectionKind::kSteps ||
+      layers.corrections == CorrectionKind::kRelative) {
     return {TKS_CORRUPT,
             "Corrupt stream: drawn or stored heights have regions, flat areas or corrections of "
             "steps."};

@@ -9,6 +9,7 @@
 #include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
+#include "codec/geometry/relative/relative_decoder.hpp"
 #include "codec/geometry/repeats/shown_lines.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/stored_heights_decoder.hpp"
@@ -213,6 +214,8 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
     decoded.geometry = correctedSteps(std::move(decoded.geometry), layers, taken.corrections);
     return decoded;
   }
+  if (layers.corrections == CorrectionKind::kRelative)
+    return restoreRelative(std::move(decoded), header, layers.relative, taken.corrections);
   return correctedSamples(std::move(decoded), header, taken.corrections);
 }
 

@@ -42,6 +42,19 @@ VectorCase sampleCorrections(const std::string& name, const std::string& purpose
   return crafted(name, purpose, streamOf(header, codeword));
 }
 
+/// From relative steps: multiples and rests of all sizes, samples that are no numbers.
+VectorCase relativeCorrections(const std::string& name, const std::string& purpose,
+                               tks_sample sample, RelativeSteps relative, uint32_t seed) {
+  StreamHeader header = heightsHeader(30, 20, sample, 12);
+  header.geometry->step = 3;
+  header.layers.corrections = CorrectionKind::kRelative;
+  header.layers.relative = relative;
+  header.layers.coefficient_bytes = 200;
+  Bytes codeword = noise(200, seed);
+  append(codeword, noise(2000, seed + 1, 9));
+  return crafted(name, purpose, streamOf(header, codeword));
+}
+
 /// What there is of a table of noise.
 struct NoiseTable {
   tks_sample sample;
@@ -164,7 +177,15 @@ std::vector<VectorCase> correctionCases() {
       sampleCorrections("noise_hints_u8_30x20", "noise: the largest hint", TKS_U8, 1e100, 16),
       sampleCorrections("noise_subnormal_30x20", "noise: hints of floats without an exponent",
                         TKS_F32, 0x1p-137, 24, 13),
-      sampleCorrections("noise_hints_f32_30x20", "noise: the smallest hints", TKS_F32, 1, 18, 28)};
+      sampleCorrections("noise_hints_f32_30x20", "noise: the smallest hints", TKS_F32, 1, 18, 28),
+      relativeCorrections("noise_relative_f32_30x20", "noise: relative steps of floats", TKS_F32,
+                          {0.7, 1}, 91),
+      relativeCorrections("noise_relative_u8_30x20", "noise: relative steps of bytes", TKS_U8,
+                          {2.5, 3}, 92),
+      relativeCorrections("noise_relative_i32_30x20", "noise: relative steps beyond the type",
+                          TKS_I32, {0x1p1000, 4}, 93),
+      relativeCorrections("noise_relative_tiny_30x20", "noise: the smallest relative steps",
+                          TKS_F32, {0x1p-1074, 2}, 94)};
 }
 
 /// base + q · step for few q, of which some are the declared nodata value.

@@ -39,6 +39,7 @@ samples::Raster surfaceOf(const VectorCase& vector_case) {
     sample = std::byte(place * (255 / vector_case.classes));
   }
   if (vector_case.values) surface = samples::withFewValues(surface, *vector_case.values);
+  if (vector_case.offsets) surface = samples::withOffsets(surface, *vector_case.offsets);
   const uint32_t width = surface.width, height = surface.height;
   const std::vector<uint8_t> valid = vector_case.voids
                                          ? samples::validity(*vector_case.voids, width, height)
@@ -52,7 +53,10 @@ samples::Raster surfaceOf(const VectorCase& vector_case) {
                                                             static_cast<uint32_t>(i / width));
       std::memcpy(&sample, wet ? surface.data.data() + (left ? 0 : width - 1) * sizeof sample : at,
                   sizeof sample);
-      if (vector_case.thirds) sample = static_cast<decltype(sample)>(sample / 3);
+      if (vector_case.gridless) {
+        const double about = 3 + samples::hash(static_cast<uint32_t>(i), 0, 46) * 0x1p-36;
+        sample = static_cast<decltype(sample)>(sample / about);
+      }
       if constexpr (std::is_floating_point_v<decltype(sample)>)
         sample = std::ldexp(sample, vector_case.exponent);
       const auto number = static_cast<uint32_t>(i);

@@ -8,7 +8,7 @@ namespace tetrakis::conformance {
 std::vector<VectorCase> geometryCases() {
   VectorCase fine = heightsCase("fine_i32_budget_60x45", "32-bit heights; three fraction bits",
                                 {Pattern::kRidges, 60, 45, 1, TKS_I32}, budget(1500));
-  fine.thirds = true;
+  fine.gridless = true;
   VectorCase negative = heightsCase(
       "negative_i16_48x31", "negative heights, scale and offset; rounded to a max-error bound",
       {Pattern::kRidges, 48, 31, 1, TKS_I16}, maxError(3));
@@ -51,21 +51,21 @@ std::vector<VectorCase> geometryCases() {
 /// Validity and corrections.
 std::vector<VectorCase> layerCases() {
   using samples::VoidShape;
-  VectorCase thirds =
-      heightsCase("float_thirds_31x33", "floats that no step restores: corrections of samples",
+  VectorCase gridless =
+      heightsCase("float_gridless_31x33", "floats that no step restores: corrections of samples",
                   {Pattern::kRidges, 31, 33, 1, TKS_F32}, lossless());
-  thirds.thirds = true;
+  gridless.gridless = true;
   VectorCase extreme = heightsCase(
       "extreme_u32_16x15", "the whole range of 32 bits: wide sums, corrections of integer samples",
       {Pattern::kExtreme, 16, 15, 1, TKS_U32}, maxError(0.25));
-  extreme.thirds = true;
+  extreme.gridless = true;
   VectorCase wide = heightsCase("extreme_float_14x19", "floats with wide sums and corrections",
                                 {Pattern::kExtreme, 14, 19, 1, TKS_F32}, maxError(1e-9));
-  wide.thirds = true;
+  wide.gridless = true;
   VectorCase both =
-      heightsCase("coast_thirds_40x30", "NaN without a nodata value, and corrections of samples",
+      heightsCase("coast_gridless_40x30", "NaN without a nodata value, and corrections of samples",
                   {Pattern::kRidges, 40, 30, 1, TKS_F32}, lossless());
-  both.thirds = true;
+  both.gridless = true;
   const Recipe small{Pattern::kRidges, 45, 38, 1, TKS_I16};
   return {
       withVoids(heightsCase("coast_lossless_45x38", "bays and islands: masked lifting", small,
@@ -84,7 +84,7 @@ std::vector<VectorCase> layerCases() {
                             {Pattern::kRidges, 12, 7, 1, TKS_F32}, lossless()),
                 VoidShape::kAll, NAN),
       withVoids(both, VoidShape::kCoast, NAN),
-      thirds,
+      gridless,
       extreme,
       wide,
       heightsCase("bounded_64x64", "corrections of steps within a max-error bound",
@@ -107,7 +107,7 @@ std::vector<VectorCase> sparseCases() {
   VectorCase tiny = heightsCase("tiny_float_24x40", "floats around the smallest normal one",
                                 {Pattern::kRidges, 24, 40, 1, TKS_F32}, lossless());
   tiny.exponent = -131;
-  tiny.thirds = true;
+  tiny.gridless = true;
   VectorCase spikes = heightsCase("spikes_300x300", "a large plain with few spikes: header level 1",
                                   {Pattern::kFlat, 300, 300, 1, TKS_I16}, budget(4096));
   spikes.spikes = 9001;

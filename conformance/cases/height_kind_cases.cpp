@@ -30,6 +30,31 @@ std::vector<VectorCase> tableCases() {
   };
 }
 
+/// Heights in whole steps above something that is none.
+std::vector<VectorCase> relativeCases() {
+  using samples::OffsetKind;
+  const auto above = [](OffsetKind offsets, VectorCase vector_case) {
+    vector_case.offsets = offsets;
+    return vector_case;
+  };
+  const Recipe ground{Pattern::kRidges, 75, 61, 1, TKS_U16, 3};
+  return {
+      above(OffsetKind::kGeoid, heightsCase("relative_geoid_75x61",
+                                            "corrections from relative steps: metres above a geoid",
+                                            ground, lossless())),
+      withVoids(above(OffsetKind::kSquares,
+                      heightsCase("relative_squares_75x61",
+                                  "corrections from relative steps: squares with offsets, beside "
+                                  "voids",
+                                  ground, lossless())),
+                samples::VoidShape::kCoast, -9999),
+      above(OffsetKind::kSurveys,
+            heightsCase("relative_surveys_75x61",
+                        "corrections from relative steps: two surveys, in regions", ground,
+                        inRegions(lossless(), 16))),
+  };
+}
+
 /// Few values in large shapes, which take fewer bytes drawn than by wavelet.
 std::vector<VectorCase> drawnHeightsCases() {
   const auto classes = [](const std::string& name, const std::string& purpose, uint32_t width,
@@ -86,9 +111,9 @@ std::vector<VectorCase> copiedCases() {
 std::vector<VectorCase> waterCases() {
   using samples::VoidShape;
   VectorCase tenths =
-      heightsCase("water_corrected_f32_96x80", "flat areas beside corrections of samples",
-                  {Pattern::kRidges, 96, 80, 1, TKS_F32}, lossless());
-  tenths.thirds = true;
+      heightsCase("water_corrected_f32_84x70", "flat areas beside corrections of samples",
+                  {Pattern::kRidges, 84, 70, 1, TKS_F32}, lossless());
+  tenths.gridless = true;
   return {
       withWater(heightsCase("water_i16_120x90", "flat areas, lossless",
                             {Pattern::kRidges, 120, 90, 1, TKS_I16}, lossless()),

@@ -116,6 +116,26 @@ std::vector<VectorCase> refusedHeaders() {
     h.layers.table_bytes = 9;
     h.layers.table_values = 2;
   });
+  const auto relative = [](StreamHeader& h, double step) {
+    h.layers.corrections = CorrectionKind::kRelative;
+    h.layers.relative = {step, 4};
+  };
+  refuse("relative_step", "a relative step of 0", [&](StreamHeader& h) { relative(h, 0); });
+  refuse("relative_infinite", "an infinite relative step",
+         [&](StreamHeader& h) { relative(h, std::numeric_limits<double>::infinity()); });
+  refuse("relative_quarters", "a pull of five quarters", [&](StreamHeader& h) {
+    relative(h, 1);
+    h.layers.relative.quarters = 5;
+  });
+  refuse("relative_table", "a table of values beside relative steps", [&](StreamHeader& h) {
+    relative(h, 1);
+    h.layers.table_bytes = 9;
+    h.layers.table_values = 2;
+  });
+  refuse("relative_drawn", "drawn heights with relative steps", [&](StreamHeader& h) {
+    draw(h);
+    relative(h, 1);
+  });
   refuse("table_values", "a table of one value", [](StreamHeader& h) {
     h.layers.table_bytes = 9;
     h.layers.table_values = 1;

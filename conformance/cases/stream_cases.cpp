@@ -29,12 +29,12 @@ std::vector<VectorCase> jointCases() {
 
 /// Noise, which takes fewer bytes stored than coded.
 std::vector<VectorCase> storedCases() {
-  VectorCase thirds = heightsCase("stored_f32_20x21", "floats that are stored, beside voids",
-                                  {Pattern::kExtreme, 20, 21, 1, TKS_F32}, maxError(1e-9));
-  thirds.thirds = true;
+  VectorCase gridless = heightsCase("stored_f32_20x21", "floats that are stored, beside voids",
+                                    {Pattern::kExtreme, 20, 21, 1, TKS_F32}, maxError(1e-9));
+  gridless.gridless = true;
   return {heightsCase("stored_i16_17x19", "heights that are stored",
                       {Pattern::kExtreme, 17, 19, 1, TKS_I16}, maxError(0.25)),
-          withVoids(thirds, samples::VoidShape::kSpeckle, NAN),
+          withVoids(gridless, samples::VoidShape::kSpeckle, NAN),
           textureCase("stored_rgb_15x13", "a texture that is stored",
                       {Pattern::kExtreme, 15, 13, 3, TKS_U8}, lossless()),
           textureCase("stored_grey_alpha16_14x15", "samples of two bytes, stored",
@@ -52,9 +52,9 @@ std::vector<VectorCase> regionCases() {
       {Pattern::kRidges, 97, 97, 1, TKS_U16}, inRegions(budget(9000), 32));
   budgeted.texture = Recipe{Pattern::kRidges, 128, 128, 3, TKS_U8, 7};
   VectorCase corrected =
-      heightsCase("regions_coast_thirds_60x41", "regions beside validity and corrections",
+      heightsCase("regions_coast_gridless_60x41", "regions beside validity and corrections",
                   {Pattern::kRidges, 60, 41, 1, TKS_F32}, inRegions(lossless(), 16));
-  corrected.thirds = true;
+  corrected.gridless = true;
   return {heightsCase("regions_groups_200x70", "two groups of regions below the base",
                       {Pattern::kSteps, 200, 70, 1, TKS_U8}, inRegions(budget(1500), 16)),
           heightsCase("regions_long_150x9", "regions side by side; a last one that is longer",

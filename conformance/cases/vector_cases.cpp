@@ -11,6 +11,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : layerCases()) all.push_back(std::move(next));
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
   for (VectorCase& next : tableCases()) all.push_back(std::move(next));
+  for (VectorCase& next : relativeCases()) all.push_back(std::move(next));
   for (VectorCase& next : drawnHeightsCases()) all.push_back(std::move(next));
   for (VectorCase& next : storedCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));

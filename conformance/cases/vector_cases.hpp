@@ -9,6 +9,7 @@
 
 #include "base/status.hpp"
 #include "conformance/samples/few_values.hpp"
+#include "conformance/samples/offset_heights.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 
@@ -22,9 +23,10 @@ struct VectorCase {
   std::optional<samples::Recipe> texture;
   tks_encode_options options = {};
   double scale = 1, offset = 0;
-  std::optional<samples::FewValues> values;  ///< u8 heights are made into samples of these
-  uint32_t classes = 0;  ///< > 0: u8 heights are gathered in so many classes, before `values`
-  bool thirds = false;   ///< heights are divided by 3, which leaves them without a common step
+  std::optional<samples::FewValues> values;    ///< u8 heights are made into samples of these
+  std::optional<samples::OffsetKind> offsets;  ///< u16 heights become floats in steps above these
+  uint32_t classes = 0;   ///< > 0: u8 heights are gathered in so many classes, before `values`
+  bool gridless = false;  ///< heights are divided by about 3, so that no step holds them
   std::optional<samples::VoidShape> voids;
   std::optional<samples::VoidShape> water;  ///< at one of two levels there, left and right
   uint32_t copies[2] = {1, 1};              ///< heights are enlarged so many times, across and down

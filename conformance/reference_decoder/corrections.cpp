@@ -1,90 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: corrections of steps and of samples (docs/FORMAT.md, section 8.1).
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdlib>
-#include <optional>
+#include "conformance/reference_decoder/corrections.hpp"
 
 #include "conformance/reference_decoder/layers.hpp"
-#include "conformance/reference_decoder/range_decoder.hpp"
 
 namespace tetrakis::reference {
-namespace {
-
-/// FORMAT 8.1, "Corrections".
-class CorrectionDecoder {
- public:
-  CorrectionDecoder(std::span<const uint8_t> codeword, const Plane& plane)
-      : decoder_(codeword), plane_(plane), any_(32 * 6 * 41), unary_(32 * 10 * 32) {}
-
-  std::vector<uint32_t> decode(const std::vector<int>& hints) {
-    corrections_.assign(plane_.values.size(), 0);
-    for (int y = 0; y < plane_.height; ++y) {
-      for (int x = 0; x < plane_.width; ++x) {
-        if (!plane_.isValid(x, y)) continue;
-        const size_t i = static_cast<size_t>(y) * plane_.width + x;
-        const std::optional<uint32_t> correction = one(hints[i], x, y);
-        if (!correction) return corrections_;
-        corrections_[i] = *correction;
-      }
-    }
-    return corrections_;
-  }
-
- private:
-  int32_t at(int x, int y) const {
-    const bool inside = x >= 0 && x < plane_.width && y >= 0;
-    return inside ? static_cast<int32_t>(corrections_[static_cast<size_t>(y) * plane_.width + x])
-                  : 0;
-  }
-  int classAt(int x, int y) const {
-    const auto c = static_cast<uint32_t>(at(x, y));
-    return static_cast<int>(std::bit_width(at(x, y) < 0 ? 0 - c : c));
-  }
-  int signAt(int x, int y) const { return (at(x, y) > 0) - (at(x, y) < 0); }
-
-  std::optional<uint32_t> one(int hint, int x, int y) {
-    const int n = 2 * classAt(x - 1, y) + 2 * classAt(x, y - 1) + classAt(x - 1, y - 1) +
-                  classAt(x + 1, y - 1);
-    const int m = n < 6 ? n : std::min(6 + (n - 6) / 12, 9);
-    const int t = 27 * signAt(x - 1, y) + 9 * signAt(x, y - 1) + 3 * signAt(x - 1, y - 1) +
-                  signAt(x + 1, y - 1);
-    int bits = 0;
-    for (; bits < 32; ++bits) {
-      Model& model = bits == 0 && m < 6
-                         ? any_[static_cast<size_t>((hint * 6 + m) * 41 + std::abs(t))]
-                         : unary_[static_cast<size_t>((hint * 10 + m) * 32 + bits)];
-      const std::optional<int> more = model.decode(decoder_);
-      if (!more) return std::nullopt;
-      if (!*more) break;
-    }
-    if (bits == 0) return 0;
-    const std::optional<int> sign = sign_[static_cast<size_t>(std::abs(t))].decode(decoder_);
-    if (!sign) return std::nullopt;
-    uint32_t magnitude = 1;
-    for (int i = 1; i < bits; ++i) {
-      const std::optional<int> bit =
-          i == 1 ? high_[static_cast<size_t>(bits)].decode(decoder_) : decoder_.decode(1 << 15);
-      if (!bit) return std::nullopt;
-      magnitude = 2 * magnitude + static_cast<uint32_t>(*bit);
-    }
-    return (*sign != 0) != (t < 0) ? 0 - magnitude : magnitude;
-  }
-
-  RangeDecoder decoder_;
-  const Plane& plane_;
-  std::vector<Model> any_, unary_;
-  std::array<Model, 41> sign_;
-  std::array<Model, 33> high_;
-  std::vector<uint32_t> corrections_;
-};
-
-}  // namespace
 
 std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const Plane& plane,
                                         const std::vector<int>& hints) {
-  return CorrectionDecoder(codeword, plane).decode(hints);
+  RangeDecoder decoder(codeword);
+  CorrectionDecoder corrections(decoder, plane);
+  std::vector<uint32_t> decoded(plane.values.size(), 0);
+  for (int y = 0; y < plane.height; ++y) {
+    for (int x = 0; x < plane.width; ++x) {
+      if (!plane.isValid(x, y)) continue;
+      const size_t i = static_cast<size_t>(y) * plane.width + x;
+      const std::optional<uint32_t> correction = corrections.next(hints[i], x, y);
+      if (!correction) return decoded;
+      decoded[i] = *correction;
+    }
+  }
+  return decoded;
 }
 
 }  // namespace tetrakis::reference

@@ -8,55 +8,13 @@
 
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/regions.hpp"
+#include "conformance/reference_decoder/relative.hpp"
+#include "conformance/reference_decoder/samples.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 
 namespace tetrakis::reference {
 namespace {
-
-/// FORMAT 8, "Samples": q of a value.
-int32_t stepOf(int32_t v, int f) {
-  return f == 0 ? v : static_cast<int32_t>((v + (int64_t{1} << (f - 1))) >> f);
-}
-
-/// The bits of the sample that a number becomes.
-uint32_t sampleOf(const GeometryHeader& header, double sample) {
-  constexpr double kLeast[] = {0, -128, 0, -32768, 0, -2147483648.0};
-  constexpr double kLargest[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647};
-  if (header.sample == kF32) return std::bit_cast<uint32_t>(static_cast<float>(sample));
-  const double clamped =
-      std::clamp(std::round(sample), kLeast[header.sample], kLargest[header.sample]);
-  return static_cast<uint32_t>(static_cast<int64_t>(clamped));
-}
-
-/// FORMAT 8, "Samples": the bits of a height, which is no infinite float.
-uint32_t heightSampleOf(const GeometryHeader& header, int32_t q) {
-  constexpr double kLargestFloat = 0x1.FFFFFEp127;
-  const double height = header.base + q * header.step;
-  if (header.sample != kF32) return sampleOf(header, height);
-  return sampleOf(header, std::clamp(height, -kLargestFloat, kLargestFloat));
-}
-
-/// FORMAT 8.1, "Order": the word of a sample, and back (it is its own inverse).
-uint32_t orderOf(const GeometryHeader& header, uint32_t bits) {
-  return header.sample == kF32 && bits >> 31 ? bits ^ 0x7FFFFFFF : bits;
-}
-
-/// "Modulo 2^bits of the type": a word of 8 or 16 bits, with its sign.
-uint32_t narrow(const GeometryHeader& header, uint32_t bits) {
-  switch (header.sample) {
-    case kU8:
-      return static_cast<uint8_t>(bits);
-    case kI8:
-      return static_cast<uint32_t>(static_cast<int8_t>(bits));
-    case kU16:
-      return static_cast<uint16_t>(bits);
-    case kI16:
-      return static_cast<uint32_t>(static_cast<int16_t>(bits));
-    default:
-      return bits;
-  }
-}
 
 /// FORMAT 8.1: hints of corrections of samples.
 int openBits(const GeometryHeader& header, uint32_t bits) {
@@ -226,11 +184,7 @@ void standIn(const Layers& layers, Surface& surface) {
 /// FORMAT 8.1, "Table of values": the sample N near a value.
 uint32_t nearValue(const GeometryHeader& header, uint32_t bits) {
   constexpr double kMost = 1 << 25;
-  double sample = bits;
-  if (header.sample == kF32) sample = std::bit_cast<float>(bits);
-  if (header.sample == kI8 || header.sample == kI16 || header.sample == kI32)
-    sample = static_cast<int32_t>(bits);
-  const double steps = (sample - header.base) / header.step;
+  const double steps = (numberOf(header, bits) - header.base) / header.step;
   const double v16 = std::isnan(steps) ? 0 : std::round(std::clamp(steps, -kMost, kMost) * 16);
   return heightSampleOf(header, stepOf(static_cast<int32_t>(v16), 4));
 }
@@ -382,6 +336,8 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
     }
     correctSamples(header, codeword, surface.plane, near, samples);
   }
+  if (layers.corrections == 3 && level == 0)
+    correctFromRelative(header, layers, codeword, surface.plane, samples);
   putVoids(header, layers, surface.plane, samples);
   return bytesOf(header, samples);
 }

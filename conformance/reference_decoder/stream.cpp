@@ -110,7 +110,7 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   if (layers.hasNodata) layers.nodata = in.f64();
   const int kinds = in.u8(0, 14);
   layers.corrections = kinds % 4;
-  if (kinds % 4 == 3 || kinds % 8 == 5) in.fail(Outcome::kCorrupt);
+  if (kinds % 8 == 5 || kinds % 8 == 7) in.fail(Outcome::kCorrupt);
   if (kinds & 4) {
     layers.tableBytes = in.varint(1, INT64_MAX);
     layers.tableValues = static_cast<uint32_t>(in.varint(2, 1 << 20));
@@ -127,11 +127,16 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   if (layers.corrections == 1) {
     layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
   }
+  if (layers.corrections == 3) {
+    layers.relativeStep = in.f64();
+    layers.relativeQuarters = in.u8(1, 4);
+    if (!std::isfinite(layers.relativeStep) || layers.relativeStep <= 0) in.fail(Outcome::kCorrupt);
+  }
   const bool meant = layers.validityBytes > 0 || layers.hasNodata || kinds > 0;
   if (meant && !geometry) in.fail(Outcome::kCorrupt);
   const bool direct = geometry && geometry->planes == kStoredPlanes;
   if (direct && !geometry->drawn && kinds > 0) in.fail(Outcome::kCorrupt);
-  if (direct && (kinds >= 8 || layers.corrections == 1)) in.fail(Outcome::kCorrupt);
+  if (direct && (kinds >= 8 || layers.corrections % 2 == 1)) in.fail(Outcome::kCorrupt);
   const bool integer = geometry && geometry->sample != kF32;
   if (integer && layers.validityBytes > 0) {
     const bool held = layers.hasNodata && holds(geometry->sample, layers.nodata);

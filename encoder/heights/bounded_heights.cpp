@@ -18,6 +18,7 @@
 #include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/lossless_heights.hpp"
 #include "ratecontrol/candidate.hpp"
 
 namespace tetrakis::inline heights {
@@ -125,7 +126,7 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   const auto exactly = [&] {
     return candidateOf(codeHeights(of, Purpose::kLossless, options)).coded;
   };
-  if (of->restored()) return exactly();
+  if (of->restored()) return codeLosslessHeights(inputs, of);
   const double finest = of->steps.step * std::abs(inputs.heights->scale);
   const bool fine = inputs.options.max_error < 2 * finest;
   const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;

@@ -33,7 +33,7 @@ struct CodedHeights {
 
   /// The complete tracks restore every sample.
   bool restoresSamples() const;
-  bool corrects() const { return layers.corrections == CorrectionKind::kSamples; }
+  bool corrects() const { return layers.restoresSamples(); }
   /// Samples that count in the error.
   double counted() const { return of->counted(); }
   /// Behind the opening there is one codeword, of coefficients.

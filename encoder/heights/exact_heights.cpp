@@ -26,6 +26,7 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   const PlaneView<const int32_t> plane(steps.steps, extentOf(*inputs.heights), steps.valid);
   const bool few = !steps.table.empty() || drawingMayFit(plane, lossy_bytes);
   if (few) return codeLosslessHeights(lossless, *heights);
+  if (error < relativeStepOf(**heights)) return codeLosslessHeights(lossless, *heights);
   if (error > kMostSteps * steps.step) return nullptr;
   const double bytes = typicalCost(plane, steps.range_bits, 0).bits / 8;
   if (bytes > kClearly * static_cast<double>(lossy_bytes)) return nullptr;

@@ -9,6 +9,7 @@
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/relative_heights.hpp"
 #include "ratecontrol/candidate.hpp"
 
 namespace tetrakis::inline heights {
@@ -57,6 +58,14 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
+/// Samples with a relative step take far fewer bytes from it, but for those that a table holds.
+std::shared_ptr<const CodedHeights> codeFromRelative(const EncodeInputs& inputs,
+                                                     const QuantisedHeights& of) {
+  const double relative_step = relativeStepOf(of);
+  const Quantised fine = relative_step > 0 ? quantiseForRelative(inputs, relative_step) : nullptr;
+  return fine ? candidateOf(codeRelative(inputs, fine, relative_step)).coded : nullptr;
+}
+
 }  // namespace
 
 /// A drawing shows shapes and slopes between them, and no roughness: its prefixes suit only heights
@@ -66,7 +75,10 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
 std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
                                                         const Quantised& of) {
   constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
+  const std::shared_ptr<const CodedHeights> relative = codeFromRelative(inputs, *of);
+  if (relative && of->table.empty()) return relative;
   std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, of);
+  if (relative) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {relative}}).coded;
   if (whole->tracks.size() > 1) return whole;
   const HeightSteps& steps = of->steps;
   const auto bytes = static_cast<double>(bytesOf(whole->tracks));

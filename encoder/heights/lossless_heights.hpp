@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights to the last bit: coefficients without fraction bits, corrections behind a cut of lossy
-// coefficients, or a drawing, whichever takes the fewest bytes.
+// coefficients (of steps, or from a relative step), or a drawing, whichever takes the fewest bytes.
 #pragma once
 
 #include <memory>

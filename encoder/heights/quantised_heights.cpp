@@ -11,6 +11,7 @@
 #include "codec/geometry/quantiser/stand_in_choice.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"
+#include "codec/geometry/relative/relative_step_choice.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
 #include "lattice/validity_encoder.hpp"
@@ -123,6 +124,23 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
   }
   assert(heights.restored() || heights.corrections.empty());
   return std::make_shared<const QuantisedHeights>(std::move(heights));
+}
+
+double relativeStepOf(const QuantisedHeights& heights) {
+  constexpr double kCoarser = 8;
+  const HeightSteps& steps = heights.steps;
+  if (heights.samples->step > 0) return 0;
+  const double relative = findRelativeStep(*heights.samples, steps.valid);
+  const bool table = !steps.table.empty();
+  return table || relative >= kCoarser * steps.step ? relative : 0;
+}
+
+std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& inputs,
+                                                            double relative_step) {
+  constexpr double kFine = 1. / 8;  // of the relative step
+  Result<HeightSteps> steps = toSteps(*inputs.heights, {.leave_outliers = true});
+  if (!steps.ok() || steps->step > kFine * relative_step) return nullptr;
+  return std::make_shared<const QuantisedHeights>(withoutTable(inputs, *std::move(steps)));
 }
 
 SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown) {

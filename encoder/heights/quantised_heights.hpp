@@ -35,7 +35,7 @@ struct QuantisedHeights {
   double without_table = 0;  ///< squared error, in steps, of complete coefficients without it
 
   /// Corrections restore every sample.
-  bool restored() const { return layers.corrections == CorrectionKind::kSamples; }
+  bool restored() const { return layers.restoresSamples(); }
 
   /// Samples that count in the error; at least 1.
   double counted() const;
@@ -60,6 +60,15 @@ struct QuantisedHeights {
 /// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with
 /// heights.
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs);
+
+/// The relative step of the samples (codec/geometry/relative/), in their units, where it is much
+/// wider than the steps or these lie in a table; 0: there is none.
+double relativeStepOf(const QuantisedHeights& heights);
+
+/// The heights in steps that are fine beside a relative step, which restores the samples that they
+/// do not show; null if no such steps suffice.
+std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& inputs,
+                                                            double relative_step);
 
 /// What restores the samples behind steps.
 struct SampleCorrections {

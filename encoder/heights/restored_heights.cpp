@@ -13,18 +13,6 @@ namespace tetrakis::inline heights {
 
 namespace {
 
-/// What decoders make of all bytes.
-HeightSteps decodedSteps(const CodedHeights& heights, uint32_t threads) {
-  DecodedHeights decoded = decodeHeights(heights.header, heights.layers,
-                                         codewordsOf(heights.tracks), {}, {threads, nullptr});
-  HeightSteps shown;
-  shown.steps = wholeSteps(std::move(decoded.geometry));
-  shown.valid = heights.of->steps.valid;
-  shown.base = heights.of->steps.base;
-  shown.step = heights.of->steps.step;
-  return shown;
-}
-
 /// The track with the corrections behind all else.
 EncodedTrack withCorrections(EncodedTrack track, const QuantisedHeights& of) {
   track.codeword.insert(track.codeword.end(), of.corrections.begin(), of.corrections.end());
@@ -35,6 +23,17 @@ EncodedTrack withCorrections(EncodedTrack track, const QuantisedHeights& of) {
 
 }  // namespace
 
+HeightSteps shownSteps(const CodedHeights& heights, uint32_t threads) {
+  DecodedHeights decoded = decodeHeights(heights.header, heights.layers,
+                                         codewordsOf(heights.tracks), {}, {threads, nullptr});
+  HeightSteps shown;
+  shown.steps = wholeSteps(std::move(decoded.geometry));
+  shown.valid = heights.of->steps.valid;
+  shown.base = heights.of->steps.base;
+  shown.step = heights.of->steps.step;
+  return shown;
+}
+
 bool canBeRestored(const CodedHeights& lossy) {
   const QuantisedHeights& of = *lossy.of;
   return !of.steps.exact && !of.restored() && of.steps.table.empty() && !lossy.header.direct() &&
@@ -43,7 +42,7 @@ bool canBeRestored(const CodedHeights& lossy) {
 
 CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy) {
   assert(canBeRestored(lossy));
-  const HeightSteps shown = decodedSteps(lossy, inputs.options.threads);
+  const HeightSteps shown = shownSteps(lossy, inputs.options.threads);
   const auto of = std::make_shared<const QuantisedHeights>(
       withCorrections(*lossy.of, correctionsBehind(*lossy.of, shown)));
   const EncodedTrack& track = lossy.tracks.front();

@@ -9,6 +9,9 @@
 
 namespace tetrakis::inline heights {
 
+/// What decoders make of all bytes, in whole steps.
+HeightSteps shownSteps(const CodedHeights& heights, uint32_t threads);
+
 /// Whether lossy heights can be followed by corrections of the samples: they are coded whole, in
 /// one track, and are no lossless heights yet.
 bool canBeRestored(const CodedHeights& lossy);

@@ -12,6 +12,7 @@
 #include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/relative_heights.hpp"
 #include "encoder/heights/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/component_curves.hpp"
@@ -29,12 +30,15 @@ struct Nearly {
   bool heights, texture;
 };
 
-Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection) {
+/// relative_step: that of the heights, in sample units, or 0.
+Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection, double relative_step) {
   const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
+  if (!selection.heights) return {true, rmse[1] <= kNearlyExact};
+  const CodedHeights& heights = *selection.heights;
   const bool all = bytesOfPackets(selection.packets) <= inputs.options.bytes;
-  return {
-      !selection.heights || rmse[0] <= kNearlyExact || (all && canBeRestored(*selection.heights)),
-      !selection.texture || rmse[1] <= kNearlyExact};
+  const double step = std::max(1., relative_step / heights.of->steps.step);
+  return {rmse[0] <= kNearlyExact * step || (all && canBeRestored(heights)),
+          !selection.texture || rmse[1] <= kNearlyExact};
 }
 
 /// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
@@ -71,8 +75,15 @@ constexpr double kSharedExactCut = 0.5;
 /// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
 /// of the lossy heights. Corrections come behind all coefficients: windows of heights in regions
 /// would need all of these.
+/// relative_step: of the lossy heights, or 0.
 std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
-                                             const HeightsCandidate& lossy, uint64_t room) {
+                                             const HeightsCandidate& lossy, double relative_step,
+                                             uint64_t room) {
+  if (relative_step > 0) {
+    const uint32_t threads = inputs.options.threads;
+    std::optional<CodedHeights> relative = codeRelative(*lossy.coded, relative_step, threads);
+    if (relative && bytesOf(relative->tracks) < room) return candidateOf(*std::move(relative));
+  }
   if (canBeRestored(*lossy.coded)) {
     HeightsCandidate restored = candidateOf(codeRestored(inputs, *lossy.coded));
     if (restored.bytes() < room) return restored;
@@ -135,7 +146,8 @@ std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
 /// Everything to the last bit, if that fits the budget and takes nothing from prefixes. few:
 /// heights of few values, which are taken as they are.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy,
-                                          const std::optional<HeightsCandidate>& few) {
+                                          const std::optional<HeightsCandidate>& few,
+                                          double relative_step) {
   const auto& [heights, texture, errors] = lossy;
   if (!heights.coded && !hasLosslessWay(*texture.coded)) return {};
   Candidates exact = lossy;
@@ -147,7 +159,8 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
     room -= exact.texture.bytes();
   }
   if (heights.coded) {
-    std::optional<HeightsCandidate> whole = few ? few : exactHeights(inputs, heights, room);
+    std::optional<HeightsCandidate> whole =
+        few ? few : exactHeights(inputs, heights, relative_step, room);
     if (!whole || whole->bytes() >= room) return {};
     exact.heights = *std::move(whole);
     if (few) exact.errors = nullptr;
@@ -157,7 +170,8 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
 
 /// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
 /// the lossy heights, which have a curve. Coefficients of a cut are those of the lossy heights.
-std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
+std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy,
+                                        double relative_step) {
   std::vector<HeightsCandidate> ways;
   const auto add = [&](HeightsCandidate way) {
     if (way.bytes() >= inputs.options.bytes) return;
@@ -165,6 +179,10 @@ std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const Height
     if (way.coded->closing == 0 && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
     ways.push_back(std::move(way));
   };
+  if (relative_step > 0) {
+    if (auto relative = codeRelative(*lossy.coded, relative_step, inputs.options.threads))
+      add(candidateOf(*std::move(relative)));
+  }
   if (canBeRestored(*lossy.coded)) add(candidateOf(codeRestored(inputs, *lossy.coded)));
   if (canBeCorrected(*lossy.coded))
     add(candidateOf(codeCorrected(inputs, *lossy.coded, kSharedExactCut)));
@@ -200,11 +218,10 @@ Selection endWithin(const EncodeInputs& inputs, Selection selection) {
 }
 
 /// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones.
-/// few: as above; of these only the end counts.
+/// few: as above; of these only the end counts. ways: of many values.
 std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const Candidates& lossy,
-                                               std::optional<HeightsCandidate> few, bool nearly) {
-  std::vector<HeightsCandidate> ways;
-  if (nearly) ways = exactWays(inputs, lossy.heights);
+                                               std::optional<HeightsCandidate> few,
+                                               std::vector<HeightsCandidate> ways) {
   const size_t of_many = ways.size();
   if (few) ways.push_back(*std::move(few));
   if (ways.empty()) return {};
@@ -234,13 +251,16 @@ std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Can
                                            const Selection& selection) {
   assert(inputs.budgeted());
   std::optional<HeightsCandidate> few = fewValues(inputs, lossy.heights);
-  const Nearly nearly = nearlyExact(inputs, selection);
+  const double relative_step = lossy.heights.coded ? relativeStepOf(*lossy.heights.coded) : 0;
+  const Nearly nearly = nearlyExact(inputs, selection, relative_step);
   if ((few || nearly.heights) && nearly.texture) {
-    std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few);
+    std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few, relative_step);
     if (exact) return exact;
   }
   if (!lossy.errors) return {};
-  return exactHeightsIfTheyPay(inputs, lossy, std::move(few), nearly.heights);
+  std::vector<HeightsCandidate> ways;
+  if (nearly.heights) ways = exactWays(inputs, lossy.heights, relative_step);
+  return exactHeightsIfTheyPay(inputs, lossy, std::move(few), std::move(ways));
 }
 
 }  // namespace tetrakis::inline targets

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "conformance/samples/offset_heights.hpp"
+
 namespace tetrakis::test {
 
 namespace {
@@ -61,12 +63,14 @@ enum class Kind {
   kSparse,
   kFeet,
   kNegativeZeros,
+  kGeoid,
+  kSquares,
   kCount
 };
 
 constexpr std::array<const char*, static_cast<size_t>(Kind::kCount)> kKindNames = {
-    "ground",   "half flat", "lakes", "stripes", "two values", "checker",
-    "constant", "outlier",   "noise", "sparse",  "feet",       "negative zeros"};
+    "ground",  "half flat", "lakes",  "stripes", "two values",     "checker", "constant",
+    "outlier", "noise",     "sparse", "feet",    "negative zeros", "geoid",   "squares"};
 
 /// What a sample type makes of ground whose values are from 0 to 65535.
 double scaled(tks_sample sample, double ground) {
@@ -152,6 +156,10 @@ class Ground {
                    : scaled(sample_, std::floor(ground / 780) * 780);
       case Kind::kNegativeZeros:
         return sample_ == TKS_F32 && ground < level_ ? -0.0 : scaled(sample_, ground);
+      case Kind::kGeoid:
+        return above(samples::OffsetKind::kGeoid, x, y, ground);
+      case Kind::kSquares:
+        return above(samples::OffsetKind::kSquares, x, y, ground);
       default:
         return scaled(sample_, ground);
     }
@@ -166,6 +174,14 @@ class Ground {
     return which < 5    ? static_cast<double>(static_cast<float>(kValues[which]))
            : which == 5 ? bounds.low
                         : bounds.high;
+  }
+
+  /// Whole steps above an offset that is none.
+  double above(samples::OffsetKind kind, uint32_t x, uint32_t y, double ground) const {
+    if (sample_ != TKS_F32) return scaled(sample_, ground);
+    const double steps = std::floor(ground / (1 + level_ % 64));
+    return static_cast<float>(samples::offsetAt(kind, x, y, width_) +
+                              samples::stepOf(kind) * steps);
   }
 
   double noise(uint32_t x, uint32_t y) const {

@@ -151,7 +151,7 @@ TEST_F(Vectors, VisitEveryToolOfTheHeader) {
   for (int i = 0; i < 4; ++i) wanted.insert("filter " + std::to_string(i));
   for (int i = 1; i <= 4; ++i) wanted.insert("channels " + std::to_string(i));
   for (int i = TKS_U8; i <= TKS_F32; ++i) wanted.insert("heights " + std::to_string(i));
-  for (const char* kind : {"0", "1", "2"}) {
+  for (const char* kind : {"0", "1", "2", "3"}) {
     wanted.insert(std::string("corrections ") + kind);
     wanted.insert(std::string("voids, corrections ") + kind);
   }

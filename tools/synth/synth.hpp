@@ -20,12 +20,13 @@ enum class SynthKind {
   kPlain,
   kCity,
   kRescaled,
-  kBands
+  kBands,
+  kGeoid
 };
 
 /// Their names, in order.
-inline constexpr std::array<const char*, 9> kSynthKinds = {
-    "mountains", "coast", "lakes", "steps", "voids", "plain", "city", "rescaled", "bands"};
+inline constexpr std::array<const char*, 10> kSynthKinds = {
+    "mountains", "coast", "lakes", "steps", "voids", "plain", "city", "rescaled", "bands", "geoid"};
 
 struct SynthOptions {
   uint32_t size = 513;  ///< samples along a side, at least 2

@@ -91,6 +91,17 @@ Storage layer(const Task& task) {
   return {};
 }
 
+/// Whole metres above the sea, which someone has moved to heights above the ellipsoid.
+Storage raise(const Task& task) {
+  Grid& height = task.relief.height;
+  height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
+    const Point p = task.samples(x, y);
+    const double geoid = 47.3 + 0.0021 * p.x - 0.0013 * p.y + 0.4 * std::sin(0.003 * p.x);
+    return geoid + std::floor(height.at(x, y) + 0.5);
+  });
+  return {.sample = TKS_F32, .step = 1, .voids = {}};
+}
+
 /// What is left of a map of 8 bits, stretched to its range and then to metres with three decimals;
 /// the samples that an editor has interpolated lie between its values.
 Storage rescale(const Task& task) {
@@ -207,6 +218,8 @@ Storage reshape(Relief& relief, SynthKind kind, uint32_t size, uint64_t seed) {
       return rescale(task);
     case SynthKind::kBands:
       return layer(task);
+    case SynthKind::kGeoid:
+      return raise(task);
   }
   return {};
 }

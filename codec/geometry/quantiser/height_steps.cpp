@@ -21,8 +21,7 @@ std::vector<int32_t> decodedSteps(const HeightSteps& steps, const GeometryHeader
   std::vector<int32_t> decoded(steps.steps.size(), 0);
   for (size_t i = 0; i < decoded.size(); ++i) {
     if (!steps.valid.empty() && !steps.valid[i]) continue;
-    decoded[i] =
-        wholeStep(values[steps.table.placeOf(steps.steps[i])].height, ValueInSteps::kFractionBits);
+    decoded[i] = wholeStep(values[steps.table.placeOf(steps.steps[i])].height, kTableFractionBits);
   }
   return decoded;
 }

@@ -2,41 +2,21 @@
 #include "codec/geometry/values/value_table.hpp"
 
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 #include "base/samples.hpp"
-#include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 
 namespace tetrakis::inline values {
-
-namespace {
-
-template <class T>
-ValueInSteps inSteps(uint32_t word, const GeometryHeader& header) {
-  constexpr double kMost = 1 << 25;
-  const auto value = static_cast<double>(fromOrder<T>(word));
-  const double steps = (value - header.base) / header.step;
-  ValueInSteps out{0, 0};
-  if (!std::isnan(steps)) {
-    const double scaled = std::ldexp(std::clamp(steps, -kMost, kMost), ValueInSteps::kFractionBits);
-    out.height = static_cast<int32_t>(std::round(scaled));
-  }
-  const int32_t whole = wholeStep(out.height, ValueInSteps::kFractionBits);
-  const T near = restore<T>(header.base, header.step, whole);
-  out.correction = static_cast<int32_t>(word - orderOf(near));
-  return out;
-}
-
-}  // namespace
 
 std::vector<ValueInSteps> valuesInSteps(const ValueTable& table, const GeometryHeader& header) {
   assert(!table.empty());
   std::vector<ValueInSteps> values;
   values.reserve(table.words.size());
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
-    for (const uint32_t word : table.words) values.push_back(inSteps<decltype(type)>(word, header));
+    using T = decltype(type);
+    for (const uint32_t word : table.words)
+      values.push_back(inSteps(fromOrder<T>(word), header, kTableFractionBits));
   });
   return values;
 }
@@ -58,7 +38,7 @@ DecodedHeights heightsOf(const ValueTable& table, const GeometryHeader& header,
     geometry.heights[i] = 0;
     decoded.corrections[i] = 0;
   }
-  geometry.fraction_bits = ValueInSteps::kFractionBits;
+  geometry.fraction_bits = kTableFractionBits;
   geometry.quiet_levels = 0;
   return decoded;
 }

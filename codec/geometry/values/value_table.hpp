@@ -3,9 +3,6 @@
 // written as metres, maps of 8 bits that were rescaled, decimal fractions that no float holds. The
 // wavelet then codes the place of a sample's value in a sorted table, and the table turns places
 // into samples.
-//
-// Everything behind the decoder of heights works on steps. So each value is also said as a height
-// between steps, and a correction leads from there to the very sample.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +12,7 @@
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
+#include "codec/geometry/steps/value_in_steps.hpp"
 
 namespace tetrakis::inline values {
 
@@ -32,12 +30,8 @@ struct ValueTable {
   uint32_t wordOf(int32_t q) const { return words[placeOf(q)]; }
 };
 
-/// A value as a height and a correction say it.
-struct ValueInSteps {
-  static constexpr int kFractionBits = 4;
-  int32_t height;      ///< the nearest multiple of 2^-kFractionBits steps
-  int32_t correction;  ///< from what the nearest whole step restores to the value
-};
+/// Heights of a table lie between steps.
+inline constexpr int kTableFractionBits = 4;
 
 /// One for each value of the table, which is not empty. header: sample type, base and step.
 std::vector<ValueInSteps> valuesInSteps(const ValueTable& table, const GeometryHeader& header);

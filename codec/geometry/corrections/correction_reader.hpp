@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The decoder's side of corrections (codec/geometry/corrections/correction_coder.hpp).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/coder/range_decoder.hpp"
+
+namespace tetrakis::inline corrections {
+
+class CorrectionReader {
+ public:
+  /// codeword: any prefix of one; outlives the reader.
+  explicit CorrectionReader(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+
+  bool more(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }
+  bool negative(AdaptiveBit& model, int32_t, bool flip) { return decoder_.decode(model) != flip; }
+  bool high(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }
+  bool low(int32_t, int) { return decoder_.decodeEven(); }
+  bool stopped() const { return decoder_.exhausted(); }
+
+ private:
+  RangeDecoder decoder_;
+};
+
+}  // namespace tetrakis::inline corrections

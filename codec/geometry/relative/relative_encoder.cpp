@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/relative/relative_encoder.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/samples.hpp"
+#include "codec/geometry/corrections/correction_writer.hpp"
+#include "codec/geometry/relative/relative_prediction.hpp"
+#include "codec/geometry/steps/restore.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
+
+namespace tetrakis::inline relative {
+
+namespace {
+
+/// How many multiples the sample lies beside the predicted one, to the side of the height.
+int32_t multiplesBeside(const RelativePrediction& prediction, double sample, double step) {
+  constexpr double kFarthest = 1 << 30;
+  const double steps = (sample - prediction.origin) / step;
+  if (std::isnan(steps)) return 0;
+  const double number = std::round(std::clamp(steps, -kFarthest, kFarthest));
+  const auto beside = static_cast<int32_t>(number) - prediction.nearest;
+  return prediction.above ? -beside : beside;
+}
+
+template <class T>
+void writeRows(const T* samples, const PlaneView<const int32_t>& steps,
+               const GeometryHeader& header, const RelativeSteps& relative,
+               CorrectionWriter& writer) {
+  const uint32_t width = steps.width;
+  KnownMultiples known(width, relative);
+  CorrectionCoder multiples(width, kMultipleHints, writer), rests(width, kRestHints, writer);
+  for (uint32_t y = 0; y < steps.height; ++y) {
+    known.nextRow();
+    multiples.nextRow();
+    rests.nextRow();
+    for (uint32_t x = 0; x < width; ++x) {
+      const size_t i = size_t{y} * width + x;
+      if (!steps.valid[i]) continue;
+      const auto near = static_cast<double>(restore<T>(header.base, header.step, steps.data[i]));
+      const RelativePrediction prediction = known.predict(x, near);
+      const auto sample = static_cast<double>(samples[i]);
+      const int32_t beside = multiplesBeside(prediction, sample, relative.step);
+      const int32_t number = prediction.number(beside);
+      const T multiple = restore<T>(prediction.origin, relative.step, number);
+      const auto rest = static_cast<int32_t>(orderOf(samples[i]) - orderOf(multiple));
+      multiples.code(x, prediction.multiple_hint, beside);
+      rests.code(x, prediction.rest_hint, rest);
+      known.put(x, prediction, number, rest, sample);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<uint8_t> encodeRelative(const tks_heights& samples, PlaneView<const int32_t> steps,
+                                    const GeometryHeader& header, const RelativeSteps& relative) {
+  assert(samples.width == steps.width && samples.height == steps.height);
+  assert(std::isfinite(relative.step) && relative.step > 0);
+  CorrectionWriter writer;
+  withSampleType(samples.sample, [&](auto type) {
+    using T = decltype(type);
+    writeRows(static_cast<const T*>(samples.data), steps, header, relative, writer);
+  });
+  return writer.finish();
+}
+
+}  // namespace tetrakis::inline relative

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/relative/relative_step_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "codec/geometry/steps/sample_order.hpp"
+
+namespace tetrakis::inline relative {
+
+namespace {
+
+/// By how much a sample misses what its neighbours predict, and what roundings of floats may leave.
+struct Jump {
+  double size, rounding;
+
+  bool isMultipleOf(double step) const {
+    return std::abs(size - std::round(size / step) * step) <= rounding;
+  }
+};
+
+/// Those of the samples that were looked at.
+struct Jumps {
+  std::vector<Jump> beyond;  ///< the roundings; sorted by size
+  size_t none = 0;           ///< samples that miss nothing
+
+  size_t misses(double step) const {
+    return static_cast<size_t>(std::count_if(
+        beyond.begin(), beyond.end(), [&](const Jump& jump) { return !jump.isMultipleOf(step); }));
+  }
+};
+
+/// Looks at runs of samples that are spread over the plane.
+class JumpFinder {
+ public:
+  JumpFinder(const tks_heights& heights, Mask valid)
+      : samples_(static_cast<const float*>(heights.data)),
+        width_(heights.width),
+        height_(heights.height),
+        valid_(valid) {}
+
+  Jumps find() {
+    constexpr uint32_t kRuns = 128, kLongest = 512;
+    constexpr double kGolden = 0.6180339887498949;
+    if (width_ < 2 || height_ < 2) return {};
+    const uint32_t length = std::min(kLongest, width_ - 1);
+    for (uint32_t run = 0; run < kRuns; ++run) {
+      const double place = run * kGolden;
+      const auto y = 1 + static_cast<uint32_t>((place - std::floor(place)) * (height_ - 1));
+      const auto x = 1 + static_cast<uint32_t>(uint64_t{run} * (width_ - length) / kRuns);
+      for (uint32_t i = 0; i < length; ++i) look(size_t{y} * width_ + x + i);
+    }
+    std::sort(jumps_.beyond.begin(), jumps_.beyond.end(),
+              [](const Jump& a, const Jump& b) { return a.size < b.size; });
+    return std::move(jumps_);
+  }
+
+ private:
+  void look(size_t i) {
+    double largest = 0;
+    for (const size_t of : {i, i - 1, i - width_, i - width_ - 1}) {
+      if (!valid_[of] || !std::isfinite(samples_[of])) return;
+      largest = std::max(largest, std::abs(static_cast<double>(samples_[of])));
+    }
+    const auto at = [&](size_t of) { return static_cast<double>(samples_[of]); };
+    const double size = std::abs(at(i) - (at(i - 1) + at(i - width_) - at(i - width_ - 1)));
+    // Four samples, each half the distance to the next float off.
+    const double rounding = std::ldexp(2.0, spacingExponent(static_cast<float>(largest)));
+    if (size > rounding) {
+      jumps_.beyond.push_back({size, rounding});
+    } else {
+      ++jumps_.none;
+    }
+  }
+
+  const float* samples_;
+  uint32_t width_, height_;
+  Mask valid_;
+  Jumps jumps_;
+};
+
+/// Jumps that differ by less than roundings.
+struct Cluster {
+  double sum = 0;
+  size_t count = 0;
+
+  double middle() const { return sum / static_cast<double>(std::max<size_t>(count, 1)); }
+};
+
+/// The clusters by rising sizes, the first of which misses nothing.
+std::vector<Cluster> clustersOf(const Jumps& jumps, double rounding) {
+  std::vector<Cluster> clusters = {{0, jumps.none}};
+  double before = 0;
+  for (const auto& [size, own] : jumps.beyond) {
+    if (size - before > rounding) clusters.emplace_back();
+    clusters.back().sum += size;
+    ++clusters.back().count;
+    before = size;
+  }
+  return clusters;
+}
+
+/// The first cluster and the largest others, which have half of the jumps: single jumps, which lie
+/// anywhere, are not among them unless there are few others.
+std::vector<Cluster> largest(std::vector<Cluster> clusters) {
+  std::vector<size_t> counts;
+  size_t all = 0;
+  for (const Cluster& cluster : clusters) counts.push_back(cluster.count);
+  counts.front() = 0;
+  for (const size_t count : counts) all += count;
+  std::sort(counts.begin(), counts.end(), std::greater<>());
+  size_t held = 0, least = 0;
+  for (size_t i = 0; 2 * held < all; ++i) held += least = counts[i];
+  clusters.erase(std::remove_if(clusters.begin() + 1, clusters.end(),
+                                [&](const Cluster& cluster) { return cluster.count < least; }),
+                 clusters.end());
+  return clusters;
+}
+
+/// Roundings of nearly all jumps.
+double usualRounding(const Jumps& jumps) {
+  std::vector<double> roundings;
+  for (const Jump& jump : jumps.beyond) roundings.push_back(2 * jump.rounding);
+  const auto most = roundings.begin() + static_cast<ptrdiff_t>(roundings.size() * 99 / 100);
+  std::nth_element(roundings.begin(), most, roundings.end());
+  return *most;
+}
+
+/// How far clusters lie apart, and how many jumps do.
+struct Distance {
+  double size;
+  size_t count;
+};
+
+/// Distances of neighbouring clusters, by rising sizes.
+std::vector<Distance> distancesOf(const std::vector<Cluster>& clusters, double least) {
+  constexpr size_t kNext = 4;
+  std::vector<Distance> distances;
+  for (size_t i = 0; i < clusters.size(); ++i) {
+    for (size_t next = i + 1; next < std::min(i + 1 + kNext, clusters.size()); ++next) {
+      const double size = clusters[next].middle() - clusters[i].middle();
+      if (size >= least)
+        distances.push_back({size, std::min(clusters[i].count, clusters[next].count)});
+    }
+  }
+  std::sort(distances.begin(), distances.end(),
+            [](const Distance& a, const Distance& b) { return a.size < b.size; });
+  return distances;
+}
+
+/// The smallest distance that many jumps lie apart, where most of them lie any distance apart or
+/// half as many do: clusters that lie a step apart also lie two or three steps from the next ones.
+/// 0: there is none.
+double frequentDistance(const Jumps& jumps) {
+  constexpr double kLeast = 4;  // roundings
+  const double rounding = usualRounding(jumps);
+  const std::vector<Distance> distances =
+      distancesOf(largest(clustersOf(jumps, rounding)), kLeast * rounding);
+  // Each with those that are equal up to roundings.
+  std::vector<size_t> counts(distances.size()), ends(distances.size());
+  size_t count = 0, end = 0;
+  for (size_t i = 0; i < distances.size(); ++i) {
+    while (end < distances.size() && distances[end].size <= distances[i].size + rounding)
+      count += distances[end++].count;
+    counts[i] = count;
+    ends[i] = end;
+    count -= distances[i].count;
+  }
+  if (counts.empty()) return 0;
+  const size_t most = *std::max_element(counts.begin(), counts.end());
+  const auto many =
+      std::find_if(counts.begin(), counts.end(), [&](size_t some) { return 2 * some >= most; });
+  const auto window =
+      counts.begin() + static_cast<ptrdiff_t>(ends[static_cast<size_t>(many - counts.begin())]);
+  const auto best = static_cast<size_t>(std::max_element(many, window) - counts.begin());
+  double sum = 0;
+  for (size_t i = best; i < ends[best]; ++i)
+    sum += distances[i].size * static_cast<double>(distances[i].count);
+  return sum / static_cast<double>(counts[best]);
+}
+
+/// The step whose multiples the jumps are, by least squares over ever larger ones: the smaller ones
+/// tell which multiples these are.
+double fitted(const Jumps& jumps, double step) {
+  constexpr double kOff = 8;  // roundings
+  const double largest = jumps.beyond.back().size;
+  for (double reach = 2 * step; reach < 2 * largest; reach *= 2) {
+    double products = 0, squares = 0;
+    for (const auto& [size, rounding] : jumps.beyond) {
+      if (size > reach) break;
+      const double multiple = std::round(size / step);
+      if (std::abs(size - multiple * step) > kOff * rounding) continue;
+      products += size * multiple;
+      squares += multiple * multiple;
+    }
+    if (squares > 0) step = products / squares;
+  }
+  return step;
+}
+
+/// The decimal number of the fewest digits that explains nearly as many jumps: steps are 0.2 or
+/// 0.3048.
+double shortestDecimal(const Jumps& jumps, double step) {
+  constexpr int kDigits = 8;
+  const size_t most = jumps.misses(step) + jumps.beyond.size() / 1000;
+  for (int digits = 1; digits <= kDigits; ++digits) {
+    const double unit = std::pow(10, std::floor(std::log10(step)) - digits + 1);
+    const double count = std::round(step / unit);
+    const double decimal = unit < 1 ? count / std::round(1 / unit) : count * unit;
+    if (decimal > 0 && jumps.misses(decimal) <= most) return decimal;
+  }
+  return step;
+}
+
+}  // namespace
+
+/// Half of the jumps at least shall be multiples, whatever the rest is; beside that a tenth of them
+/// may not be, and of samples on smooth ground, which lie on multiples of any step, a fiftieth.
+double findRelativeStep(const tks_heights& heights, Mask valid) {
+  constexpr size_t kFewest = 64;
+  if (heights.sample != TKS_F32) return 0;
+  const Jumps jumps = JumpFinder(heights, valid).find();
+  if (jumps.beyond.size() < kFewest) return 0;
+  const double distance = frequentDistance(jumps);
+  if (distance == 0) return 0;
+  const double step = shortestDecimal(jumps, fitted(jumps, distance));
+  const auto all = static_cast<double>(jumps.beyond.size());
+  const auto missed = static_cast<double>(jumps.misses(step));
+  const bool explains =
+      missed <= all / 2 && missed <= all / 10 + static_cast<double>(jumps.none) / 50;
+  return explains ? step : 0;
+}
+
+}  // namespace tetrakis::inline relative

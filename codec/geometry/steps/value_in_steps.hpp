@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything behind the decoder of heights works on steps. So a sample that is known without them
+// is also said as a height between steps, and a correction that leads from there to the very
+// sample.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+#include "codec/geometry/steps/restore.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
+
+namespace tetrakis::inline steps {
+
+struct ValueInSteps {
+  int32_t height;      ///< the nearest multiple of 2^-fraction_bits steps, up to 2^29
+  int32_t correction;  ///< from what the nearest whole step restores to the value
+};
+
+/// value: any, NaN included, which has the height 0. header: base and step.
+template <class T>
+ValueInSteps inSteps(T value, const GeometryHeader& header, int fraction_bits) {
+  constexpr double kMost = 1 << 29;
+  const double steps = (static_cast<double>(value) - header.base) / header.step;
+  ValueInSteps out{0, 0};
+  if (!std::isnan(steps)) {
+    const double scaled = std::ldexp(steps, fraction_bits);
+    out.height = static_cast<int32_t>(std::round(std::clamp(scaled, -kMost, kMost)));
+  }
+  const T near = restore<T>(header.base, header.step, wholeStep(out.height, fraction_bits));
+  out.correction = static_cast<int32_t>(orderOf(value) - orderOf(near));
+  return out;
+}
+
+}  // namespace tetrakis::inline steps
