@@ -30,7 +30,7 @@ std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& grou
 }
 
 /// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
-/// `ratio` times the bytes of the one before, up to the first beyond half of the budget: behind
+/// `ratio` times the bytes of the one before, up to the first beyond a third of the budget: behind
 /// that errors fall as they did (ratecontrol/pair_errors.hpp), and the last nodes take most time.
 template <class Coded>
 std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t budget) {
@@ -48,7 +48,7 @@ std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t
     if (!(points[i].distortion > 0 && points[i].distortion < nodes.back().distortion)) continue;
     nodes.push_back(points[i]);
     next = std::max(bytes, next) * ratio;
-    if (points[i].bytes >= budget / 2) break;
+    if (points[i].bytes >= budget / 3) break;
   }
   return nodes;
 }
@@ -145,7 +145,7 @@ std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const Gro
   for (size_t t = 0; t < columns; ++t) {
     std::vector<double> column = inside;
     if (t + 1 < columns) {
-      const ScreenTexture texture = decoded.textureAt(nodes.textures[t].bytes);
+      const ScreenTexture texture = decoded.textureAt(nodes.textures[t]);
       for (size_t g = 0; g < seen.size(); ++g) {
         if (!isLookedAt(g, seen.size())) continue;
         const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
@@ -281,7 +281,7 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
     const GroundRays shown(decoded.shownAt(of_heights.points[i].bytes));
     const std::vector<SeenPoint> seen = points.seenOf(shown, texels.extent());
     const std::vector<Colour> colours =
-        points.coloursOf(seen, decoded.textureAt(of_texture.points[i].bytes));
+        points.coloursOf(seen, decoded.textureAt(of_texture.points[i]));
     errors.push_back(points.errorInside(truth, {seen, colours}) + outlines.errorOf(shown));
   }
   return errors;
