@@ -188,7 +188,9 @@ std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
   };
   const int64_t columns = levels_[0].width, rows = levels_[0].height;
   int64_t column = cellAt(0, t, 0, columns - 1), row = cellAt(2, t, 0, rows - 1);
-  size_t level = levels_.size() - 1;
+  // Larger blocks nearly always have something above the ray.
+  constexpr size_t kBlocksAlong = 5;  // log2
+  size_t level = levels_.size() - 1 - std::min(levels_.size() - 1, kBlocksAlong);
   while (true) {
     const int64_t block_c = column >> level, block_r = row >> level;
     const int64_t west = block_c << level, north = block_r << level;
