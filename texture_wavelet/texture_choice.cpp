@@ -94,6 +94,15 @@ Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Pur
   return {false, std::move(wavelet)};
 }
 
+/// The image without an overlay, as far as a comparison looks: where an overlay is tried it mostly
+/// wins.
+EncodedTexture encodeToCompare(const TextureSource& source, Purpose purpose,
+                               const TextureOptions& options) {
+  TextureOptions compared = oneTrack(options);
+  if (options.mean_square == 0) compared.limit = std::min(options.limit, options.room);
+  return encodeByWavelet(source, purpose, compared);
+}
+
 /// Codes the image by wavelet, with an overlay or without. Both are coded in one track to compare
 /// them: all of it for the last bit, else what a budget has room for. plain: the image without an
 /// overlay, in one track, if that was coded already.
@@ -107,11 +116,12 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
     if (plain && one_track) return std::move(*plain);
     return encodeByWavelet(source, purpose, options, {}, plain ? &plain->header : nullptr);
   }
-  if (!plain) plain = encodeByWavelet(source, purpose, oneTrack(options));
+  const bool ends_early = !plain && options.room < options.limit && options.mean_square == 0;
+  if (!plain) plain = encodeToCompare(source, purpose, options);
   EncodedTexture overlaid = encodeByWavelet(source, purpose, oneTrack(options), photograph);
   const bool pays = showsBetter(overlaid, *plain, options, countedSamples(source.texels, seen));
   EncodedTexture& better = pays ? overlaid : *plain;
-  if (one_track) return std::move(better);
+  if (one_track && (pays || !ends_early)) return std::move(better);
   const TextureHeader like = std::move(better.header);
   return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
 }
