@@ -83,13 +83,24 @@ double typicalStep(std::span<const ColourDetails> details) {
     }
     left += kExceeding * scale.weight * static_cast<double>(3 * scale.count());
   }
-  std::sort(magnitudes.begin(), magnitudes.end(),
-            [](const Magnitude& a, const Magnitude& b) { return a.value > b.value; });
-  for (const Magnitude& m : magnitudes) {
-    left -= m.weight;
-    if (left <= 0) return std::max(1.0, static_cast<double>(m.value));
+  if (magnitudes.empty()) return 1;
+  // The one with which the weights of the largest come to that: in the first half of those that are
+  // in question, or in the second.
+  auto first = magnitudes.begin(), last = magnitudes.end();
+  while (last - first > 1) {
+    const auto middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last,
+                     [](const Magnitude& a, const Magnitude& b) { return a.value > b.value; });
+    double larger = 0;
+    for (auto m = first; m != middle; ++m) larger += m->weight;
+    if (larger >= left) {
+      last = middle;
+    } else {
+      left -= larger;
+      first = middle;
+    }
   }
-  return 1;
+  return std::max(1.0, static_cast<double>(first->value));
 }
 
 double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step) {
