@@ -2,9 +2,6 @@
 #include "encoder/decoded_nodes.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <span>
 #include <utility>
 
 #include "codec/geometry/steps/height_samples.hpp"
@@ -18,10 +15,6 @@ namespace {
 /// level is just not reached: errors of every other node were up to two thirds too large.
 /// Priorities put the bytes where cameras are near.
 constexpr uint64_t kTexelsPerByte = 24, kSamplesPerByte = 24, kNearCameras = 4, kLeast = 4096;
-/// Details that are left out would take off less than this part of the error that is left. Errors
-/// are then up to 6 % too large, most of it because texels are filtered between others further
-/// apart.
-constexpr double kTimesLeft = 32;
 
 /// The heights that a view of a coarser level shows, with the last ones once more where they do not
 /// reach the border.
@@ -105,50 +98,13 @@ Relief DecodedNodes::original() const {
   return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
 }
 
-/// About what the details of a level that a state holds take off the squared error of a sample.
-double DecodedNodes::heldOf(int level, const TrackState& state) const {
-  // Most details have become significant in the last planes.
-  constexpr double kTypical = 2;  // magnitude, in units of the last plane
-  const TextureHeader& header = texture_.coded.header;
-  const std::vector<Subband>& subbands = plan_->layout().subbands();
-  std::vector<double> energies(header.components(), 1);  // of components
-  if (energies.size() >= 3)
-    std::ranges::copy(componentEnergies(colourOf(header), level), energies.begin());
-  double squares = 0;
-  for (size_t i = 0; i < state.bands.size(); ++i) {
-    const size_t subband = i % subbands.size();
-    if (subbands[subband].level != level) continue;
-    const Tier& tier = state.bands[i].tier.front();
-    const double typical = kTypical * std::ldexp(1, tier.plane - header.wavelet.fraction_bits);
-    squares += energies[i / subbands.size()] * plan_->layout().energy(subband) *
-               tier.significant_count * typical * typical;
-  }
-  return squares / texture_.coded.counted();
-}
-
-/// The level that the bytes may show, or the next coarser one where the prefix holds nearly nothing
-/// of the details between them.
-View DecodedNodes::textureView(const RatePoint& node) {
+ScreenTexture DecodedNodes::textureAt(uint64_t bytes) {
   const CodedTexture& coded = texture_.coded;
   const Extent whole = coded.header.extent();
-  TrackMemory& tracks = texture_memory_.tracks;
-  const bool near_cameras = !coded.header.priorities.none();
-  const View view =
-      enoughOf(whole, (near_cameras ? kNearCameras : 1) * kTexelsPerByte * node.bytes);
-  const View coarser = enoughOf(whole, view.extentIn(whole).samples() / 4);
-  const bool known = !tracks.tracks.empty() && tracks.tracks.front();
-  if (near_cameras || !endsWithPasses(texture_) || !known || coarser.level == view.level)
-    return view;
-  if (!plan_) plan_.emplace(coded.header, Mask(), tracks.norms);
-  const std::span<const uint8_t> codeword = prefixOf(texture_, node.bytes, tracks).front();
-  const TrackState& state = tracks.decode(0, codeword.subspan(coded.rated().opening));
-  return heldOf(coarser.level, state) * kTimesLeft < node.distortion ? coarser : view;
-}
-
-ScreenTexture DecodedNodes::textureAt(const RatePoint& node) {
   View view;
-  if (!texture_.coded.header.direct()) view = textureView(node);
-  return {texelsAt(node.bytes, view), texture_.coded.header.extent(), view.level};
+  const uint64_t near = coded.header.priorities.none() ? 1 : kNearCameras;
+  if (!coded.header.direct()) view = enoughOf(whole, near * kTexelsPerByte * bytes);
+  return {texelsAt(bytes, view), whole, view.level};
 }
 
 Texels DecodedNodes::texelsAt(uint64_t bytes, const View& view) {

@@ -15,7 +15,6 @@
 #include "ratecontrol/component_curve.hpp"
 #include "ratecontrol/ground_rays.hpp"
 #include "ratecontrol/screen_texture.hpp"
-#include "texture_wavelet/texture_plan.hpp"
 
 namespace tetrakis::inline encoder {
 
@@ -51,15 +50,12 @@ class DecodedNodes {
   std::optional<Relief> meshOfAll() const { return mesh_ ? mesh_->ofOriginal() : std::nullopt; }
   Relief original() const;
 
-  /// node: of the curve of the texture.
-  ScreenTexture textureAt(const RatePoint& node);
+  ScreenTexture textureAt(uint64_t bytes);
   Texels texelsAt(uint64_t bytes, const View& view);
 
  private:
   DecodedHeights decodedAt(uint64_t bytes, const View& view);
   Relief reliefAt(uint64_t bytes);
-  View textureView(const RatePoint& node);
-  double heldOf(int level, const TrackState& state) const;
 
   const EncodeInputs& inputs_;
   Rated<CodedHeights> heights_;
@@ -67,7 +63,6 @@ class DecodedNodes {
   std::optional<ShownMesh> mesh_;  ///< what viewers see, if it is not the grid
   HeightsMemory heights_memory_;
   TextureMemory texture_memory_;
-  std::optional<TexturePlan> plan_;  ///< of the texture, where it has coefficients
 };
 
 }  // namespace tetrakis::inline encoder

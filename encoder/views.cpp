@@ -145,7 +145,7 @@ std::vector<double> modelledErrors(const std::vector<Camera>& cameras, const Gro
   for (size_t t = 0; t < columns; ++t) {
     std::vector<double> column = inside;
     if (t + 1 < columns) {
-      const ScreenTexture texture = decoded.textureAt(nodes.textures[t]);
+      const ScreenTexture texture = decoded.textureAt(nodes.textures[t].bytes);
       for (size_t g = 0; g < seen.size(); ++g) {
         if (!isLookedAt(g, seen.size())) continue;
         const std::vector<Colour> colours = points.coloursOf(seen[g], texture);
@@ -281,7 +281,7 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
     const GroundRays shown(decoded.shownAt(of_heights.points[i].bytes));
     const std::vector<SeenPoint> seen = points.seenOf(shown, texels.extent());
     const std::vector<Colour> colours =
-        points.coloursOf(seen, decoded.textureAt(of_texture.points[i]));
+        points.coloursOf(seen, decoded.textureAt(of_texture.points[i].bytes));
     errors.push_back(points.errorInside(truth, {seen, colours}) + outlines.errorOf(shown));
   }
   return errors;
