@@ -101,11 +101,15 @@ class PartTrials {
     for (const auto& before : tried_) {
       if (before->holds(flat)) return *before;
     }
+    if (tried_.size() == kKept) tried_.pop_back();
     return *tried_.emplace_back(std::make_unique<TriedPart>(*part_, std::move(flat), wavelet));
   }
   double standsFor() const { return part_->place.stands_for; }
 
  private:
+  /// The first, which often has no areas, and the last one: more would take memory.
+  static constexpr size_t kKept = 2;
+
   const CopiedPart* part_;
   std::vector<std::unique_ptr<TriedPart>> tried_;
 };
@@ -241,14 +245,18 @@ class FlatTrials {
     double price = kNoAreas;
   };
 
-  /// The shape that pays best; nothing: none does. Smaller areas are added if simpler shapes do not
-  /// gain.
-  std::optional<FlatShape> shapeThatPays() {
+  ComparedSteps stepsOfPlain() const {
     std::vector<PartTrials> as_it_is(parts_.begin(), parts_.end());
     const TriedPlane plain(as_it_is, std::vector<FlatAreas>(parts_.size()), wavelet_,
                            purpose_.threads);
-    const ComparedSteps steps(plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
-                              static_cast<double>(heights_.extent().samples()));
+    return {plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
+            static_cast<double>(heights_.extent().samples())};
+  }
+
+  /// The shape that pays best; nothing: none does. Smaller areas are added if simpler shapes do not
+  /// gain.
+  std::optional<FlatShape> shapeThatPays() {
+    const ComparedSteps steps = stepsOfPlain();
     const Trial large = {kShapes[kLargeAreas], priceOf(kShapes[kLargeAreas], steps)};
     Trial best = large;
     if (purpose_.seen) best = tryAll(large, {kShapes.rend() - kLargeAreas, kShapes.rend()}, steps);
