@@ -39,59 +39,89 @@ std::array<CellPlane, 2> planesOf(const Corners& h, bool even) {
            {h.ne + h.sw - h.se, h.se - h.sw, h.se - h.ne, {-1, 1, 1}}}};
 }
 
+constexpr float kLowest = -std::numeric_limits<float>::infinity();
+
+/// A comparison with NaN is false: voids raise nothing.
+float raised(float highest, float height) {
+  return height > highest ? height : highest;
+}
+
+/// The least and the greatest height; none: the other way round. Side by side, because each
+/// comparison waits for the one before.
+std::pair<double, double> rangeOf(const std::vector<float>& heights) {
+  std::array<float, 16> low, high;
+  low.fill(-kLowest);
+  high.fill(kLowest);
+  const auto take = [&](size_t k, float h) {
+    low[k] = h < low[k] ? h : low[k];
+    high[k] = raised(high[k], h);
+  };
+  size_t i = 0;
+  for (; i + low.size() <= heights.size(); i += low.size())
+    for (size_t k = 0; k < low.size(); ++k) take(k, heights[i + k]);
+  for (; i < heights.size(); ++i) take(0, heights[i]);
+  return {*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end())};
+}
+
 }  // namespace
 
 /// A ray in columns, rows and metres of height.
 struct GroundRays::Path {
   Vec3 origin, direction;  ///< column, height, row
+  Vec3 inverse;            ///< of the direction
 
   Path(const Ray& ray, const GroundFrame& frame, double step = 1)
       : origin{(ray.origin[0] / frame.spacing_x + (frame.width - 1.0) / 2) / step, ray.origin[1],
                (ray.origin[2] / frame.spacing_y + (frame.height - 1.0) / 2) / step},
         direction{ray.direction[0] / frame.spacing_x / step, ray.direction[1],
-                  ray.direction[2] / frame.spacing_y / step} {}
+                  ray.direction[2] / frame.spacing_y / step},
+        inverse{1 / direction[0], 1 / direction[1], 1 / direction[2]} {}
 
   double at(size_t axis, double t) const { return origin[axis] + t * direction[axis]; }
   /// When it comes to a column (axis 0), height or row; kNever if it does not.
   double reaches(size_t axis, double value) const {
-    return direction[axis] == 0 ? kNever : (value - origin[axis]) / direction[axis];
+    return direction[axis] == 0 ? kNever : (value - origin[axis]) * inverse[axis];
   }
 };
+
+/// The highest vertex of each cell.
+GroundRays::Level GroundRays::cellsOf(const std::vector<float>& heights, Extent grid) {
+  Level cells{grid.width - 1, grid.height - 1, {}};
+  cells.highest.resize(size_t{cells.width} * cells.height);
+  std::vector<float> higher(grid.width);  // of two vertices of a column
+  float* out = cells.highest.data();
+  for (uint32_t y = 0; y < cells.height; ++y, out += cells.width) {
+    const float* const north = heights.data() + size_t{y} * grid.width;
+    const float* const south = north + grid.width;
+    for (uint32_t x = 0; x < grid.width; ++x)
+      higher[x] = raised(raised(kLowest, north[x]), south[x]);
+    for (uint32_t x = 0; x < cells.width; ++x) out[x] = raised(higher[x], higher[x + 1]);
+  }
+  return cells;
+}
+
+GroundRays::Level GroundRays::halved(const Level& fine) {
+  Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
+  coarse.highest.resize(size_t{coarse.width} * coarse.height);
+  std::vector<float> higher(2 * size_t{coarse.width}, kLowest);
+  float* out = coarse.highest.data();
+  for (uint32_t y = 0; y < coarse.height; ++y, out += coarse.width) {
+    const float* const north = fine.highest.data() + size_t{2 * y} * fine.width;
+    const float* const south = 2 * y + 1 < fine.height ? north + fine.width : north;
+    for (uint32_t x = 0; x < fine.width; ++x) higher[x] = raised(north[x], south[x]);
+    for (uint32_t x = 0; x < coarse.width; ++x) out[x] = raised(higher[2 * x], higher[2 * x + 1]);
+  }
+  return coarse;
+}
 
 GroundRays::GroundRays(Relief relief) : relief_(std::move(relief)) {
   const GroundFrame& f = relief_.frame;
   const Extent grid = relief_.extent();
   assert(grid.samples() > 0 && relief_.heights.size() == grid.samples());
-  constexpr float kLowest = -std::numeric_limits<float>::infinity();
-  Level cells{grid.width - 1, grid.height - 1, {}};
-  cells.highest.resize(size_t{cells.width} * cells.height);
-  // A comparison with NaN is false: voids raise no cell.
-  const auto raise = [](float& highest, float h) { highest = h > highest ? h : highest; };
-  for (uint32_t y = 0; y < cells.height; ++y) {
-    const float* north = &relief_.heights[size_t{y} * grid.width];
-    const float* south = north + grid.width;
-    for (uint32_t x = 0; x < cells.width; ++x) {
-      float highest = kLowest;
-      for (const float h : {north[x], north[x + 1], south[x], south[x + 1]}) raise(highest, h);
-      cells.highest[size_t{y} * cells.width + x] = highest;
-    }
-  }
-  levels_.push_back(std::move(cells));
-  while (levels_.back().width > 1 || levels_.back().height > 1) {
-    const Level& fine = levels_.back();
-    Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
-    coarse.highest.assign(size_t{coarse.width} * coarse.height, kLowest);
-    for (uint32_t y = 0; y < fine.height; ++y)
-      for (uint32_t x = 0; x < fine.width; ++x)
-        raise(coarse.highest[size_t{y / 2} * coarse.width + x / 2],
-              fine.highest[size_t{y} * fine.width + x]);
-    levels_.push_back(std::move(coarse));
-  }
-  double low = kNever, high = -kNever;
-  for (const double h : relief_.heights) {
-    if (h < low) low = h;
-    if (h > high) high = h;
-  }
+  levels_.push_back(cellsOf(relief_.heights, grid));
+  while (levels_.back().width > 1 || levels_.back().height > 1)
+    levels_.push_back(halved(levels_.back()));
+  const auto [low, high] = rangeOf(relief_.heights);
   const double x = (f.width - 1.0) * f.spacing_x / 2, z = (f.height - 1.0) * f.spacing_y / 2;
   bounds_ = low <= high ? Bounds{{-x, low, -z}, {x, high, z}} : Bounds{{-x, 0, -z}, {x, 0, z}};
 }
@@ -152,13 +182,15 @@ std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
   }
   if (!(t <= end)) return {};
   const auto cellAt = [&](size_t axis, double time, int64_t least, int64_t most) {
-    const double place = std::floor(path.at(axis, time));
+    const double place = path.at(axis, time);
     if (!(place > static_cast<double>(least))) return least;  // not a number: any cell will do
     return place < static_cast<double>(most) ? static_cast<int64_t>(place) : most;
   };
   const int64_t columns = levels_[0].width, rows = levels_[0].height;
   int64_t column = cellAt(0, t, 0, columns - 1), row = cellAt(2, t, 0, rows - 1);
-  size_t level = levels_.size() - 1;
+  // Larger blocks nearly always have something above the ray.
+  constexpr size_t kBlocksAlong = 5;  // log2
+  size_t level = levels_.size() - 1 - std::min(levels_.size() - 1, kBlocksAlong);
   while (true) {
     const int64_t block_c = column >> level, block_r = row >> level;
     const int64_t west = block_c << level, north = block_r << level;

@@ -63,6 +63,8 @@ class GroundRays {
     uint32_t width = 0, height = 0;  ///< in cells of this level
     std::vector<float> highest;
   };
+  static Level cellsOf(const std::vector<float>& heights, Extent grid);
+  static Level halved(const Level& fine);
   struct Path;  ///< a ray in columns and rows
 
   /// Hits are in the columns and rows of the relief's own heights, as those of hitInCell().

@@ -44,7 +44,8 @@ SeenPoint seenAt(const PicturePoint& point, const GroundRays& ground, Extent tex
     const auto place = ground.onPlane(*hit, ray);
     const double u = place ? std::clamp((*place)[0] / columns - seen.u, -1.0, 1.0) : 1;
     const double v = place ? std::clamp((*place)[1] / rows - seen.v, -1.0, 1.0) : 1;
-    return std::hypot(u * texture.width, v * texture.height);
+    const double texels_u = u * texture.width, texels_v = v * texture.height;
+    return std::sqrt(texels_u * texels_u + texels_v * texels_v);
   };
   const double wide = std::max(texelsTo(point.right), texelsTo(point.down));
   seen.level = wide > 0 ? std::max(0.0, std::log2(wide)) : 0;

@@ -178,6 +178,15 @@ Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Pur
   return contest;
 }
 
+/// The image without an overlay, as far as a comparison looks: where an overlay is tried it mostly
+/// wins.
+EncodedTexture encodeToCompare(const TextureSource& source, Purpose purpose,
+                               const TextureOptions& options) {
+  TextureOptions compared = oneTrack(options);
+  compared.limit = std::min(options.limit, options.room);
+  return encodeByWavelet(source, purpose, compared);
+}
+
 /// Codes the image by wavelet, with an overlay or without. Both are coded in one track to compare
 /// them: all of it for the last bit, else what a budget has room for. attempts: those that were
 /// made with the same purpose and options, in one track.
@@ -188,10 +197,13 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
   if (photograph.empty() && !one_track)
     return encodeByWavelet(source, purpose, options, {},
                            attempts.plain ? &attempts.plain->header : nullptr);
+  const bool ends_early = !photograph.empty() && !attempts.plain && options.room < options.limit &&
+                          options.mean_square == 0;
+  if (ends_early) attempts.plain = encodeToCompare(source, purpose, options);
   attempt(source, purpose, options, photograph, attempts);
   const bool pays = overlayPays(source, purpose, options, attempts);
   EncodedTexture& better = pays ? *attempts.overlaid : *attempts.plain;
-  if (one_track) return std::move(better);
+  if (one_track && (pays || !ends_early)) return std::move(better);
   const TextureHeader like = std::move(better.header);
   return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
 }

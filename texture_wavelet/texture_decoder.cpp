@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -69,9 +70,10 @@ Texels decodeDirect(const TextureHeader& header, std::span<const uint8_t> codewo
 /// The planes of a view, one for each component, from their tracks.
 class ComponentPlanes {
  public:
-  /// coded: of all texels.
-  ComponentPlanes(const TextureHeader& header, Mask coded, const View& view)
-      : header_(header), view_(view), plan_(header, coded) {
+  /// coded: of all texels. memory: of their tracks; null: there is none.
+  ComponentPlanes(const TextureHeader& header, Mask coded, const View& view, TrackMemory* memory)
+      : header_(header), view_(view), plan_(header, coded, memory ? memory->norms : std::nullopt) {
+    if (memory != nullptr) memory->norms = plan_.layout().norms();
     const ViewSynthesis empty(specOf(header.wavelet), pyramid(), view);
     synthesis_.assign(header.components(), empty);
     for (ViewSynthesis& component : synthesis_) component.allocate();
@@ -139,10 +141,10 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, co
   Codewords coefficients = codewords;
   const auto opening =
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
-  ComponentPlanes components(header, opening->coded, view);
   const bool growing = memory != nullptr && memory->opening != nullptr;
-  const Precision precision =
-      components.decode(coefficients, {context.threads, growing ? &memory->tracks : nullptr});
+  TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
+  ComponentPlanes components(header, opening->coded, view, tracks);
+  const Precision precision = components.decode(coefficients, {context.threads, tracks});
   std::vector<std::vector<int32_t>> planes = components.restore(context.threads, precision.rounds);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
   finish(header, precision.fraction_bits, planes, context.threads, texels);

@@ -17,9 +17,10 @@ uint32_t modelsOf(uint32_t component, uint32_t channels) {
 
 }  // namespace
 
-TexturePlan::TexturePlan(const TextureHeader& header, Mask coded)
+TexturePlan::TexturePlan(const TextureHeader& header, Mask coded,
+                         const std::optional<SynthesisNorms>& norms)
     : layout_(specOf(header.wavelet), header.extent(), coded, {},
-              priorityMapOf(header.priorities, header.extent())),
+              priorityMapOf(header.priorities, header.extent()), norms),
       regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
       weights_(header.weights) {
   for (uint32_t c = 0; c < header.components(); ++c)

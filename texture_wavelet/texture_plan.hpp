@@ -3,6 +3,7 @@
 // the magnitudes of the next. Encoder and decoder share this plan.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,10 @@ namespace tetrakis::inline texture {
 
 class TexturePlan {
  public:
-  /// coded: the texels that the coefficients make. Its bytes outlive the plan.
-  TexturePlan(const TextureHeader& header, Mask coded);
+  /// coded: the texels that the coefficients make. Its bytes outlive the plan. norms: those of an
+  /// earlier plan.
+  TexturePlan(const TextureHeader& header, Mask coded,
+              const std::optional<SynthesisNorms>& norms = {});
 
   const PlaneLayout& layout() const { return layout_; }
   /// The regions of the tracks. A track holds the same part of every component.

@@ -32,8 +32,10 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
 }  // namespace
 
 PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid, HeldSamples held,
-                         const PriorityMap& priorities)
-    : whole_(spec.whole), pyramid_(plane, valid, held), norms_(spec, pyramid_.levels()) {
+                         const PriorityMap& priorities, const std::optional<SynthesisNorms>& norms)
+    : whole_(spec.whole),
+      pyramid_(plane, valid, held),
+      norms_(norms ? *norms : SynthesisNorms(spec, pyramid_.levels())) {
   if (!priorities.empty()) priorities_.emplace(priorities);
 }
 

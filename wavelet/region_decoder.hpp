@@ -23,7 +23,8 @@ namespace tetrakis::inline wavelet {
 /// each track of which something is known. It is empty before the first call.
 struct TrackMemory {
   std::vector<std::optional<GrowingTrack>> tracks;
-  bool all_levels = false;  ///< for calls with views of several levels
+  std::optional<SynthesisNorms> norms;  ///< of all of them
+  bool all_levels = false;              ///< for calls with views of several levels
   /// No track is left to the next call: states of all tracks together take twice the memory of a
   /// plane, and those of one track at a time nearly none.
   bool forgets = false;

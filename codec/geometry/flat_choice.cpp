@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -50,17 +51,29 @@ struct CopiedPart {
   Extent extent() const { return place.window.extent(); }
 };
 
-/// A part, transformed.
+/// A part, transformed. What it has been found to cost is kept.
 class TriedPart {
  public:
-  TriedPart(const CopiedPart& part, const FlatAreas& flat, const WaveletHeader& wavelet)
-      : values_(scaled(part.heights, wavelet)),
-        area_heights_(scaled(flat.heights, wavelet)),
-        layout_(specOf(wavelet), part.extent(), part.valid, {flat.numbers, area_heights_}) {
+  /// The part outlives this.
+  TriedPart(const CopiedPart& part, FlatAreas flat, const WaveletHeader& wavelet)
+      : flat_(std::move(flat)),
+        values_(scaled(part.heights, wavelet)),
+        area_heights_(scaled(flat_.heights, wavelet)),
+        layout_(specOf(wavelet), part.extent(), part.valid, {flat_.numbers, area_heights_}) {
     clearUnmarked(std::span(values_), part.valid);
     forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
+    if (!flat_.empty()) bytes_of_areas_ = encodeFlatAreas(flat_, part.extent(), part.valid).size();
   }
-  PlaneCost cost(double step) const { return costOf(layout_, values_, step); }
+  TriedPart(const TriedPart&) = delete;  // the layout refers to it
+  TriedPart& operator=(const TriedPart&) = delete;
+
+  PlaneCost cost(double step) {
+    const auto [known, is_new] = costs_.try_emplace(step);
+    if (is_new) known->second = costOf(layout_, values_, step);
+    return known->second;
+  }
+  bool holds(const FlatAreas& flat) const { return flat_.numbers == flat.numbers; }
+  size_t bytesOfAreas() const { return bytes_of_areas_; }
 
  private:
   static std::vector<int32_t> scaled(std::span<const int32_t> heights,
@@ -71,40 +84,82 @@ class TriedPart {
     return values;
   }
 
+  FlatAreas flat_;
   std::vector<int32_t> values_, area_heights_;
   PlaneLayout layout_;
+  size_t bytes_of_areas_ = 0;
+  std::map<double, PlaneCost> costs_;  ///< by the step
+};
+
+/// What a part costs with one wavelet and the areas of several shapes, which it often shows alike.
+class PartTrials {
+ public:
+  /// The part outlives this.
+  explicit PartTrials(const CopiedPart& part) : part_(&part) {}
+
+  TriedPart& tried(FlatAreas flat, const WaveletHeader& wavelet) {
+    for (const auto& before : tried_) {
+      if (before->holds(flat)) return *before;
+    }
+    if (tried_.size() == kKept) tried_.pop_back();
+    return *tried_.emplace_back(std::make_unique<TriedPart>(*part_, std::move(flat), wavelet));
+  }
+  double standsFor() const { return part_->place.stands_for; }
+
+ private:
+  /// The first, which often has no areas, and the last one: more would take memory.
+  static constexpr size_t kKept = 2;
+
+  const CopiedPart* part_;
+  std::vector<std::unique_ptr<TriedPart>> tried_;
 };
 
 /// Parts that stand for a plane, and what that costs.
 class TriedPlane {
  public:
-  /// areas: of each part; the parts outlive this, and so do they.
-  TriedPlane(const std::vector<CopiedPart>& parts, const std::vector<FlatAreas>& areas,
+  /// trials: of the wavelet; they outlive this. areas: of each part.
+  TriedPlane(std::vector<PartTrials>& trials, std::vector<FlatAreas> areas,
              const WaveletHeader& wavelet, uint32_t threads)
-      : parts_(parts), tried_(parts.size()), threads_(threads) {
-    parallelFor(threads_, parts.size(),
-                [&](size_t i) { tried_[i].emplace(parts[i], areas[i], wavelet); });
+      : parts_(trials.size()), threads_(threads) {
+    parallelFor(threads_, parts_.size(), [&](size_t i) {
+      parts_[i] = {&trials[i].tried(std::move(areas[i]), wavelet), trials[i].standsFor()};
+    });
   }
   PlaneCost cost(double step) const {
     std::vector<PlaneCost> costs(parts_.size());
-    parallelFor(threads_, costs.size(), [&](size_t i) { costs[i] = tried_[i]->cost(step); });
+    parallelFor(threads_, costs.size(), [&](size_t i) { costs[i] = parts_[i].tried->cost(step); });
     PlaneCost sum;
     for (size_t i = 0; i < costs.size(); ++i) {
-      sum.bits += parts_[i].place.stands_for * costs[i].bits;
-      sum.squares += parts_[i].place.stands_for * costs[i].squares;
+      sum.bits += parts_[i].stands_for * costs[i].bits;
+      sum.squares += parts_[i].stands_for * costs[i].squares;
     }
     return sum;
   }
+  double bitsOfAreas() const {
+    double bits = 0;
+    for (const Part& part : parts_)
+      bits += part.stands_for * 8 * static_cast<double>(part.tried->bytesOfAreas());
+    return bits;
+  }
   /// The least power of two at which the coefficients cost at most so many bits.
   double step(double bits) const {
-    double step = 1;
-    while (cost(step).bits > bits) step *= 2;
-    return step;
+    constexpr int kMost = 60;
+    const auto fits = [&](int log2) { return cost(std::exp2(log2)).bits <= bits; };
+    int too_fine = -1, enough = 0;
+    for (; enough < kMost && !fits(enough); enough += 4) too_fine = enough;
+    while (enough - too_fine > 1) {
+      const int middle = (enough + too_fine) / 2;
+      (fits(middle) ? enough : too_fine) = middle;
+    }
+    return std::exp2(enough);
   }
 
  private:
-  const std::vector<CopiedPart>& parts_;
-  std::vector<std::optional<TriedPart>> tried_;
+  struct Part {
+    TriedPart* tried = nullptr;
+    double stands_for = 0;
+  };
+  std::vector<Part> parts_;
   uint32_t threads_;
 };
 
@@ -190,13 +245,18 @@ class FlatTrials {
     double price = kNoAreas;
   };
 
+  ComparedSteps stepsOfPlain() const {
+    std::vector<PartTrials> as_it_is(parts_.begin(), parts_.end());
+    const TriedPlane plain(as_it_is, std::vector<FlatAreas>(parts_.size()), wavelet_,
+                           purpose_.threads);
+    return {plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
+            static_cast<double>(heights_.extent().samples())};
+  }
+
   /// The shape that pays best; nothing: none does. Smaller areas are added if simpler shapes do not
   /// gain.
   std::optional<FlatShape> shapeThatPays() {
-    const TriedPlane plain(parts_, std::vector<FlatAreas>(parts_.size()), wavelet_,
-                           purpose_.threads);
-    const ComparedSteps steps(plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
-                              static_cast<double>(heights_.extent().samples()));
+    const ComparedSteps steps = stepsOfPlain();
     const Trial large = {kShapes[kLargeAreas], priceOf(kShapes[kLargeAreas], steps)};
     Trial best = large;
     if (purpose_.seen) best = tryAll(large, {kShapes.rend() - kLargeAreas, kShapes.rend()}, steps);
@@ -237,21 +297,17 @@ class FlatTrials {
     if (known != price_of_held_.end()) return known->second;
     const double share = held / static_cast<double>(heights_.extent().samples());
     const double worth = purpose_.seen ? kWorthOfFlatness * share : 0;
-    return price_of_held_[held] = ratioOf(areas, shape, steps) - worth;
+    return price_of_held_[held] = ratioOf(std::move(areas), shape, steps) - worth;
   }
 
-  double ratioOf(const std::vector<FlatAreas>& areas, const FlatShape& shape,
-                 const ComparedSteps& steps) {
+  double ratioOf(std::vector<FlatAreas> areas, const FlatShape& shape, const ComparedSteps& steps) {
     constexpr double kHeaderBits = 64;  // what the header says of them
-    double bits = kHeaderBits;
-    for (size_t i = 0; i < parts_.size(); ++i) {
-      if (areas[i].empty()) continue;
-      const CopiedPart& part = parts_[i];
-      bits += part.place.stands_for * 8 *
-              static_cast<double>(encodeFlatAreas(areas[i], part.extent(), part.valid).size());
+    if (!beside_) {
+      beside_ = waveletBeside(finder_.areas(shape, whole()));
+      trials_ = std::vector<PartTrials>(parts_.begin(), parts_.end());
     }
-    if (!beside_) beside_ = waveletBeside(finder_.areas(shape, whole()));
-    return steps.ratio(TriedPlane(parts_, areas, *beside_, purpose_.threads), bits);
+    const TriedPlane plane(trials_, std::move(areas), *beside_, purpose_.threads);
+    return steps.ratio(plane, kHeaderBits + plane.bitsOfAreas());
   }
 
   /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
@@ -269,6 +325,7 @@ class FlatTrials {
   std::map<double, double> price_of_held_;
   WaveletHeader wavelet_;                ///< of the plane as it is
   std::optional<WaveletHeader> beside_;  ///< that suits what the first areas leave
+  std::vector<PartTrials> trials_;       ///< of that wavelet
 };
 
 }  // namespace

@@ -105,7 +105,9 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   const HeldSamples flat{known.flat.numbers, area_heights};
   const WaveletSpec spec = specOf(header.wavelet);
   const PlaneLayout layout(spec, header.extent(), valid, flat,
-                           priorityMapOf(header.priorities, header.extent()));
+                           priorityMapOf(header.priorities, header.extent()),
+                           context.memory ? context.memory->norms : std::nullopt);
+  if (context.memory != nullptr) context.memory->norms = layout.norms();
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
   assert(codewords.size() == regions.size());

@@ -14,7 +14,7 @@ namespace {
 /// At 6 texels or 12 heights a byte, detail that the prefix holds would be missing where the next
 /// level is just not reached: errors of every other node were up to two thirds too large.
 /// Priorities put the bytes where cameras are near.
-constexpr uint64_t kTexelsPerByte = 24, kSamplesPerByte = 48, kNearCameras = 4, kLeast = 4096;
+constexpr uint64_t kTexelsPerByte = 24, kSamplesPerByte = 24, kNearCameras = 4, kLeast = 4096;
 
 /// The heights that a view of a coarser level shows, with the last ones once more where they do not
 /// reach the border.

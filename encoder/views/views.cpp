@@ -30,7 +30,7 @@ std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& grou
 }
 
 /// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
-/// `ratio` times the bytes of the one before, up to the first beyond half of the budget: behind
+/// `ratio` times the bytes of the one before, up to the first beyond a third of the budget: behind
 /// that errors fall as they did (ratecontrol/pair_errors.hpp), and the last nodes take most time.
 template <class Coded>
 std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t budget) {
@@ -48,7 +48,7 @@ std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t
     if (!(points[i].distortion > 0 && points[i].distortion < nodes.back().distortion)) continue;
     nodes.push_back(points[i]);
     next = std::max(bytes, next) * ratio;
-    if (points[i].bytes >= budget / 2) break;
+    if (points[i].bytes >= budget / 3) break;
   }
   return nodes;
 }

@@ -69,12 +69,11 @@ Matrix3 cheapestRotation(Matrix3 rotation, const ColourDetails& details, Purpose
   const AxisRate rate{details, step};
   std::array<double, 3> rates{};
   for (size_t i = 0; i < 3; ++i) rates[i] = rate(rotation[i]);
+  constexpr std::array<std::pair<size_t, size_t>, 3> kPairs = {{{0, 1}, {0, 2}, {1, 2}}};
   for (double angle = kFirstAngle; angle > kLastAngle; angle /= 2) {
-    for (bool moved = true; moved;) {
-      moved = false;
-      for (const auto& rows : {std::pair<size_t, size_t>{0, 1}, {0, 2}, {1, 2}})
-        moved |= descend(rotation, rates, rows, angle, rate);
-    }
+    // Any two pairs have a row in common: what moves one may be worth moving the others.
+    for (size_t pair = 0, still = 0; still < kPairs.size(); pair = (pair + 1) % kPairs.size())
+      still = descend(rotation, rates, kPairs[pair], angle, rate) ? 0 : still + 1;
   }
   return rotation;
 }
@@ -82,10 +81,11 @@ Matrix3 cheapestRotation(Matrix3 rotation, const ColourDetails& details, Purpose
 /// Moves the row of the greatest energy to the front.
 void putLumaFirst(Matrix3& rotation, const ColourDetails& details) {
   std::array<double, 3> energies{};
-  for (const Colour& d : details.samples) {
+  const auto& [first, second, third] = details.channels;
+  for (size_t k = 0; k < details.count(); ++k) {
     for (size_t i = 0; i < 3; ++i)
-      energies[i] +=
-          std::pow(rotation[i][0] * d[0] + rotation[i][1] * d[1] + rotation[i][2] * d[2], 2);
+      energies[i] += std::pow(
+          rotation[i][0] * first[k] + rotation[i][1] * second[k] + rotation[i][2] * third[k], 2);
   }
   const auto strongest = std::max_element(energies.begin(), energies.end()) - energies.begin();
   std::swap(rotation[0], rotation[static_cast<size_t>(strongest)]);
@@ -93,8 +93,11 @@ void putLumaFirst(Matrix3& rotation, const ColourDetails& details) {
 
 ColourDetails pooled(std::span<const ColourDetails> details) {
   ColourDetails all;
-  for (const ColourDetails& scale : details)
-    all.samples.insert(all.samples.end(), scale.samples.begin(), scale.samples.end());
+  for (const ColourDetails& scale : details) {
+    for (size_t k = 0; k < all.channels.size(); ++k)
+      all.channels[k].insert(all.channels[k].end(), scale.channels[k].begin(),
+                             scale.channels[k].end());
+  }
   return all;
 }
 

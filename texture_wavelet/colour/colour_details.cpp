@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tetrakis::inline colour {
 
@@ -36,7 +37,8 @@ Image halve(size_t width, size_t height, float gain, ColourAt colour_at, ColourD
       columns[k] = (a[k] + b[k] - c[k] - d[k]) * gain / 2;
       diagonal[k] = (a[k] - b[k] - c[k] + d[k]) * gain / 2;
     }
-    if (i % stride == 0) details.samples.insert(details.samples.end(), {rows, columns, diagonal});
+    if (i % stride != 0) continue;
+    for (const Colour& detail : {rows, columns, diagonal}) details.add(detail);
   }
   return half;
 }
@@ -61,8 +63,10 @@ std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes,
 
 double meanMagnitude(const ColourDetails& details) {
   double sum = 0;
-  for (const Colour& d : details.samples) sum += std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
-  const auto count = static_cast<double>(3 * details.samples.size());
+  const auto& [first, second, third] = details.channels;
+  for (size_t i = 0; i < details.count(); ++i)
+    sum += std::abs(first[i]) + std::abs(second[i]) + std::abs(third[i]);
+  const auto count = static_cast<double>(3 * details.count());
   return count == 0 ? 0 : sum / count;
 }
 
@@ -74,30 +78,51 @@ double typicalStep(std::span<const ColourDetails> details) {
   std::vector<Magnitude> magnitudes;
   double left = 0;
   for (const ColourDetails& scale : details) {
-    for (const Colour& d : scale.samples) {
-      for (float channel : d) magnitudes.push_back({std::abs(channel), scale.weight});
+    for (const std::vector<float>& channel : scale.channels) {
+      for (const float value : channel) magnitudes.push_back({std::abs(value), scale.weight});
     }
-    left += kExceeding * scale.weight * static_cast<double>(3 * scale.samples.size());
+    left += kExceeding * scale.weight * static_cast<double>(3 * scale.count());
   }
-  std::sort(magnitudes.begin(), magnitudes.end(),
-            [](const Magnitude& a, const Magnitude& b) { return a.value > b.value; });
-  for (const Magnitude& m : magnitudes) {
-    left -= m.weight;
-    if (left <= 0) return std::max(1.0, static_cast<double>(m.value));
+  if (magnitudes.empty()) return 1;
+  // The one with which the weights of the largest come to that: in the first half of those that are
+  // in question, or in the second.
+  auto first = magnitudes.begin(), last = magnitudes.end();
+  while (last - first > 1) {
+    const auto middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last,
+                     [](const Magnitude& a, const Magnitude& b) { return a.value > b.value; });
+    double larger = 0;
+    for (auto m = first; m != middle; ++m) larger += m->weight;
+    if (larger >= left) {
+      last = middle;
+    } else {
+      left -= larger;
+      first = middle;
+    }
   }
-  return 1;
+  return std::max(1.0, static_cast<double>(first->value));
 }
 
 double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step) {
-  constexpr double kLarge = 1e200;  // one logarithm for many factors
-  double bits = 0, product = 1;
-  for (const Colour& d : details.samples) {
-    product *= 1 + std::abs(axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2]) / step;
-    if (product < kLarge) continue;
-    bits += std::log2(product);
-    product = 1;
+  // One logarithm for many factors, each below 1e40, and products side by side.
+  constexpr double kLarge = 1e200;
+  std::array<double, 8> products;
+  products.fill(1);
+  const std::array<double, 3> per_step = {axis[0] / step, axis[1] / step, axis[2] / step};
+  const auto& [first, second, third] = details.channels;
+  const auto factor = [&](size_t i) {
+    return 1 + std::abs(per_step[0] * first[i] + per_step[1] * second[i] + per_step[2] * third[i]);
+  };
+  double bits = 0;
+  size_t i = 0;
+  for (; i + products.size() <= details.count(); i += products.size()) {
+    for (size_t k = 0; k < products.size(); ++k) products[k] *= factor(i + k);
+    if (*std::max_element(products.begin(), products.end()) < kLarge) continue;
+    for (double& product : products) bits += std::log2(std::exchange(product, 1));
   }
-  return details.weight * (bits + std::log2(product));
+  for (; i < details.count(); ++i) bits += std::log2(factor(i));
+  for (const double product : products) bits += std::log2(product);
+  return details.weight * bits;
 }
 
 }  // namespace tetrakis::inline colour

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,8 +17,13 @@ using Colour = std::array<float, 3>;
 
 /// Details of one scale.
 struct ColourDetails {
-  std::vector<Colour> samples;
-  double weight = 1;  ///< coefficients of the image that each stands for
+  std::array<std::vector<float>, 3> channels;  ///< of each detail
+  double weight = 1;                           ///< coefficients of the image that each stands for
+
+  size_t count() const { return channels[0].size(); }
+  void add(const Colour& detail) {
+    for (size_t k = 0; k < detail.size(); ++k) channels[k].push_back(detail[k]);
+  }
 };
 
 /// [i]: of level i + 1, some thousands at most. planes: 3 or more of that extent. Empty

@@ -45,29 +45,28 @@ uint64_t FlatFinder::samplesOf(uint32_t least, const Window& window) const {
   for (uint32_t y = window.y; y < window.y + window.height; ++y) {
     const size_t row = size_t{y} * heights_.width;
     for (size_t k = row + window.x; k < row + window.x + window.width; ++k)
-      sum += heights_.valid[k] && sizeAt(k) >= least;
+      sum += sizeAt(k) >= least;
   }
   return sum;
 }
 
 /// 1 for samples of areas of at least so many, but where two areas touch.
 std::vector<uint8_t> FlatFinder::marked(uint32_t least, const Window& window) const {
-  std::vector<uint8_t> flat;
-  flat.reserve(window.extent().samples());
+  std::vector<uint8_t> flat(window.extent().samples());
   const std::span<const int32_t> values = heights_.values();
-  size_t k = 0;  // in the plane, of the window's sample i
+  size_t i = 0, k = 0;  // of a sample in the window, and in the plane
   // Where areas of two heights touch, the smaller one gives way by a sample.
-  const auto part = [&](size_t i, size_t before, size_t k_before) {
+  const auto part = [&](size_t before, size_t k_before) {
     if ((flat[i] & flat[before]) == 0 || values[k] == values[k_before]) return;
     flat[sizeAt(k) <= sizeAt(k_before) ? i : before] = 0;
   };
   for (uint32_t y = 0; y < window.height; ++y) {
     k = size_t{window.y + y} * heights_.width + window.x;
-    for (uint32_t x = 0; x < window.width; ++x, ++k) {
-      const size_t i = flat.size();
-      flat.push_back(heights_.valid[k] && sizeAt(k) >= least);
-      if (x > 0) part(i, i - 1, k - 1);
-      if (y > 0) part(i, i - window.width, k - heights_.width);
+    for (uint32_t x = 0; x < window.width; ++x, ++k, ++i) {
+      if (sizeAt(k) < least) continue;
+      flat[i] = 1;
+      if (x > 0) part(i - 1, k - 1);
+      if (y > 0) part(i - window.width, k - heights_.width);
     }
   }
   return flat;

@@ -37,6 +37,7 @@ class FlatFinder {
   static constexpr uint32_t kMostSize = kFirst - 1;
 
   bool none() const { return areas_.empty(); }
+  /// 0 of voids.
   uint32_t sizeAt(size_t sample) const {
     const uint32_t area = areas_[sample];
     return (area >= kFirst ? area : areas_[area]) & kMostSize;

@@ -82,10 +82,14 @@ class Stepper {
     if constexpr (std::is_floating_point_v<T>) out.base = step * std::round(out.base / step);
     out.steps.resize(count_);
     out.exact = true;
-    forEachValid([&](size_t i) {
-      out.steps[i] = quantise(out, i);
-      out.exact &= same(restore<T>(out.base, step, out.steps[i]), samples_[i]);
-    });
+    if (std::is_integral_v<T> && step == 1) {
+      takeWhole(out);
+    } else {
+      forEachValid([&](size_t i) {
+        out.steps[i] = quantise(out, i);
+        out.exact &= same(restore<T>(out.base, step, out.steps[i]), samples_[i]);
+      });
+    }
     out.range_bits =
         std::bit_width(static_cast<uint32_t>(std::min(range_ / step, kMostSteps)) + 1u);
     return out;
@@ -174,9 +178,19 @@ class Stepper {
       if (valid_[i]) f(i);
     }
   }
+  double inside(size_t i) const {
+    return std::clamp(static_cast<double>(samples_[i]), low_, high_);
+  }
+  /// Whole samples in steps of 1, whose base is whole too: nothing has to be rounded.
+  void takeWhole(HeightSteps& out) const {
+    forEachValid([&](size_t i) {
+      const double sample = inside(i);
+      out.steps[i] = static_cast<int32_t>(sample - out.base);
+      out.exact &= sample == static_cast<double>(samples_[i]);
+    });
+  }
   int32_t quantise(const HeightSteps& s, size_t i) const {
-    const double inside = std::clamp(static_cast<double>(samples_[i]), low_, high_);
-    return static_cast<int32_t>(std::lround((inside - s.base) / s.step));
+    return static_cast<int32_t>(std::lround((inside(i) - s.base) / s.step));
   }
 
   const T* samples_;
