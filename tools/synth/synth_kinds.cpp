@@ -96,7 +96,7 @@ Storage raise(const Task& task) {
   Grid& height = task.relief.height;
   height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
     const Point p = task.samples(x, y);
-    const double geoid = 47.3 + 0.0021 * p.x - 0.0013 * p.y + 0.4 * std::sin(0.003 * p.x);
+    const double geoid = 47.3 + 0.0021 * p.x - 0.0013 * p.y + 1.7e-6 * p.x * p.y;
     return geoid + std::floor(height.at(x, y) + 0.5);
   });
   return {.sample = TKS_F32, .step = 1, .voids = {}};
