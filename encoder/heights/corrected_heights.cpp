@@ -79,10 +79,10 @@ std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeigh
                     {cutAt(track, bytes)}, heights.options.region_log2);
 }
 
-/// Coding ends at a small part of the error that cuts usually leave, unless the best one comes near
-/// that.
-CodedHeights codeCorrected(const Correctable& heights, const FlatChoice& choice,
-                           const CutTarget& target) {
+/// Codes the heights beside flat areas. Coding ends at a small part of the error that cuts usually
+/// leave, unless the best one comes near that.
+CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
+                        const CutTarget& target) {
   constexpr double kPart = 1. / 32;
   assert(heights.of->corrections.empty());
   const double left = target.mean_square.value_or(usualCut(heights.largest));
@@ -97,13 +97,13 @@ CodedHeights codeCorrected(const Correctable& heights, const FlatChoice& choice,
 CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target) {
   const HeightSteps& steps = heights.of->steps;
   const PlaneView<const int32_t> plane(steps.steps, extentOf(*heights.of->samples), steps.valid);
-  return codeCorrected(heights, chooseFlatAreas(plane, cutPurpose(heights)), target);
+  return codeBeside(chooseFlatAreas(plane, cutPurpose(heights)), heights, target);
 }
 
 CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {
   assert(lossy.tracks.size() == 1 && lossy.of->steps.exact && lossy.of->table.empty());
   const Correctable heights{lossy.of, Purpose::kLossy, heightOptions(inputs)};
-  return codeCorrected(heights, {lossy.flat, lossy.header.wavelet}, {cut * cut});
+  return codeBeside({lossy.flat, lossy.header.wavelet}, heights, {cut * cut});
 }
 
 }  // namespace tetrakis::inline heights

@@ -11,6 +11,7 @@
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/relative_heights.hpp"
 #include "ratecontrol/candidate.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline heights {
 
@@ -58,7 +59,15 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
-/// Samples with a relative step take far fewer bytes from it, but for those that a table holds.
+/// Whether the steps certainly take more bytes: their coefficients alone do, by the estimate.
+bool takesMore(const QuantisedHeights& of, uint64_t bytes) {
+  const HeightSteps& steps = of.steps;
+  if (!steps.table.empty()) return false;
+  const PlaneView<const int32_t> plane(steps.steps, extentOf(*of.samples), steps.valid);
+  return typicalCost(plane, steps.range_bits, 0).bits / 8 > static_cast<double>(bytes);
+}
+
+/// Samples with a relative step mostly take far fewer bytes from it.
 std::shared_ptr<const CodedHeights> codeFromRelative(const EncodeInputs& inputs,
                                                      const QuantisedHeights& of) {
   const double relative_step = relativeStepOf(of);
@@ -76,7 +85,7 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inpu
                                                         const Quantised& of) {
   constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
   const std::shared_ptr<const CodedHeights> relative = codeFromRelative(inputs, *of);
-  if (relative && of->table.empty()) return relative;
+  if (relative && takesMore(*of, bytesOf(relative->tracks))) return relative;
   std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, of);
   if (relative) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {relative}}).coded;
   if (whole->tracks.size() > 1) return whole;

@@ -131,13 +131,13 @@ double relativeStepOf(const QuantisedHeights& heights) {
   const HeightSteps& steps = heights.steps;
   if (heights.samples->step > 0) return 0;
   const double relative = findRelativeStep(*heights.samples, steps.valid);
-  const bool table = !steps.table.empty();
-  return table || relative >= kCoarser * steps.step ? relative : 0;
+  const bool on_grid = steps.exact && steps.table.empty();
+  return !on_grid || relative >= kCoarser * steps.step ? relative : 0;
 }
 
 std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& inputs,
                                                             double relative_step) {
-  constexpr double kFine = 1. / 8;  // of the relative step
+  constexpr double kFine = 1. / 4;  // of the relative step
   Result<HeightSteps> steps = toSteps(*inputs.heights, {.leave_outliers = true});
   if (!steps.ok() || steps->step > kFine * relative_step) return nullptr;
   return std::make_shared<const QuantisedHeights>(withoutTable(inputs, *std::move(steps)));

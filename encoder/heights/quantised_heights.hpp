@@ -61,8 +61,8 @@ struct QuantisedHeights {
 /// heights.
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs);
 
-/// The relative step of the samples (codec/geometry/relative/), in their units, where it is much
-/// wider than the steps or these lie in a table; 0: there is none.
+/// The relative step of the samples (codec/geometry/relative/), in their units; 0: there is none,
+/// or the steps are exact and not much finer.
 double relativeStepOf(const QuantisedHeights& heights);
 
 /// The heights in steps that are fine beside a relative step, which restores the samples that they

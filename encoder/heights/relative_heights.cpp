@@ -22,8 +22,8 @@ double squaresOfCut(const HeightSteps& steps, double relative_step) {
 
 /// The tracks with the corrections behind the first one, which then leaves what all of them leave,
 /// until the corrections restore all samples.
-std::vector<EncodedTrack> withCorrections(std::vector<EncodedTrack> tracks,
-                                          const std::vector<uint8_t>& corrections) {
+std::vector<EncodedTrack> tracksWithCorrections(std::vector<EncodedTrack> tracks,
+                                                const std::vector<uint8_t>& corrections) {
   RatePoint left{0, QuantisedHeights::kInexact};
   for (size_t i = 1; i < tracks.size(); ++i) {
     const RatePoint last = tracks[i].points.back();
@@ -50,8 +50,8 @@ struct RelativeCorrections {
   std::vector<uint8_t> codeword;
 };
 
-RelativeCorrections correctionsBehind(const CodedHeights& cut, double relative_step,
-                                      uint32_t threads) {
+RelativeCorrections relativeCorrections(const CodedHeights& cut, double relative_step,
+                                        uint32_t threads) {
   const HeightSteps shown = shownSteps(cut, threads);
   const auto pulled = [&](uint8_t quarters) {
     const RelativeSteps relative{relative_step, quarters};
@@ -64,7 +64,7 @@ RelativeCorrections correctionsBehind(const CodedHeights& cut, double relative_s
 }
 
 CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint32_t threads) {
-  const RelativeCorrections corrections = correctionsBehind(cut, relative_step, threads);
+  const RelativeCorrections corrections = relativeCorrections(cut, relative_step, threads);
   GeometryLayers layers = cut.layers;
   layers.corrections = CorrectionKind::kRelative;
   layers.relative = corrections.relative;
@@ -72,7 +72,7 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
   return {.of = cut.of,
           .header = cut.header,
           .layers = std::move(layers),
-          .tracks = withCorrections(std::move(cut.tracks), corrections.codeword),
+          .tracks = tracksWithCorrections(std::move(cut.tracks), corrections.codeword),
           .closing = corrections.codeword.size(),
           .left = QuantisedHeights::kInexact,
           .flat = std::move(cut.flat)};

@@ -109,9 +109,10 @@ double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details
   std::array<double, 8> products;
   products.fill(1);
   const std::array<double, 3> per_step = {axis[0] / step, axis[1] / step, axis[2] / step};
-  const auto& [first, second, third] = details.channels;
+  const auto& channels = details.channels;
   const auto factor = [&](size_t i) {
-    return 1 + std::abs(per_step[0] * first[i] + per_step[1] * second[i] + per_step[2] * third[i]);
+    return 1 + std::abs(per_step[0] * channels[0][i] + per_step[1] * channels[1][i] +
+                        per_step[2] * channels[2][i]);
   };
   double bits = 0;
   size_t i = 0;

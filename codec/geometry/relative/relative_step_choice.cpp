@@ -217,23 +217,34 @@ double shortestDecimal(const Jumps& jumps, double step) {
   return step;
 }
 
+/// Half of the jumps at least shall be multiples, and nearly all of those on rough ground: of the
+/// samples on smooth ground, which lie on multiples of any step, a sixteenth may be followed by a
+/// jump.
+bool explains(const Jumps& jumps, double step) {
+  const size_t missed = jumps.misses(step), all = jumps.beyond.size();
+  return 2 * missed <= all && missed <= all / 10 + jumps.none / 16;
+}
+
+/// Any step does on ground that is smooth between its jumps, as triangles are. One much smaller
+/// than these keeps the coefficients of some bits a sample, which is what prefixes show.
+double stepOfSmoothGround(const Jumps& jumps) {
+  constexpr double kPart = 64;
+  const bool smooth = jumps.none > jumps.beyond.size();
+  return smooth ? jumps.beyond[jumps.beyond.size() / 2].size / kPart : 0;
+}
+
 }  // namespace
 
-/// Half of the jumps at least shall be multiples, whatever the rest is; beside that a tenth of them
-/// may not be, and of samples on smooth ground, which lie on multiples of any step, a fiftieth.
 double findRelativeStep(const tks_heights& heights, Mask valid) {
   constexpr size_t kFewest = 64;
   if (heights.sample != TKS_F32) return 0;
   const Jumps jumps = JumpFinder(heights, valid).find();
   if (jumps.beyond.size() < kFewest) return 0;
-  const double distance = frequentDistance(jumps);
-  if (distance == 0) return 0;
-  const double step = shortestDecimal(jumps, fitted(jumps, distance));
-  const auto all = static_cast<double>(jumps.beyond.size());
-  const auto missed = static_cast<double>(jumps.misses(step));
-  const bool explains =
-      missed <= all / 2 && missed <= all / 10 + static_cast<double>(jumps.none) / 50;
-  return explains ? step : 0;
+  if (const double distance = frequentDistance(jumps); distance > 0) {
+    const double step = shortestDecimal(jumps, fitted(jumps, distance));
+    if (explains(jumps, step)) return step;
+  }
+  return stepOfSmoothGround(jumps);
 }
 
 }  // namespace tetrakis::inline relative

@@ -8,8 +8,9 @@
 namespace tetrakis::inline relative {
 
 /// The step whose multiples nearly all samples lie beside what their neighbours predict, and which
-/// is much wider than the distance of neighbouring floats; 0 if there is none. It looks at a part
-/// of large planes.
+/// is much wider than the distance of neighbouring floats; 0 if there is none. On ground that is
+/// smooth between edges it is a part of the jumps there, and may be of no use. Of large planes a
+/// part is looked at.
 double findRelativeStep(const tks_heights& heights, Mask valid);
 
 }  // namespace tetrakis::inline relative

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""bench/kinds runs this: kinds.py OUT FOLDER... From the middle 512 x 512 samples of each
+FOLDER/**/height.tif it makes files as such heights come in, OUT/TERRAIN_KIND/height.tif, for
+bench/lossless. Needs NumPy and GDAL's Python module; GDAL decodes LERC."""
+
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from osgeo import gdal
+
+gdal.UseExceptions()
+SIDE, FOOT = 512, 0.3048
+
+
+def middle(name):
+    """Floats without voids, in metres."""
+    heights = gdal.Open(str(name)).ReadAsArray().astype(np.float64)
+    y, x = (max(0, (side - SIDE) // 2) for side in heights.shape)
+    heights = heights[y : y + SIDE, x : x + SIDE]
+    return np.where(np.isfinite(heights) & (heights > -12000), heights, 0)
+
+
+def write(heights, name, options=()):
+    kinds = {"float32": gdal.GDT_Float32, "int16": gdal.GDT_Int16, "uint16": gdal.GDT_UInt16}
+    rows, columns = heights.shape
+    driver = gdal.GetDriverByName("GTiff")
+    made = driver.Create(str(name), columns, rows, 1, kinds[heights.dtype.name], list(options))
+    made.GetRasterBand(1).WriteArray(heights)
+
+
+def through_lerc(heights, error):
+    """What a reader gets of a file within an error: each square of 8 x 8 samples has an offset."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = f"{folder}/lerc.tif"
+        write(heights.astype(np.float32), name, ["COMPRESS=LERC", f"MAX_Z_ERROR={error}"])
+        return gdal.Open(name).ReadAsArray()
+
+
+def geoid(heights):
+    """A smooth surface of some 30 metres."""
+    y, x = np.mgrid[: heights.shape[0], : heights.shape[1]]
+    return 30.1234 + 0.0013 * x + 0.0007 * y + 1e-7 * x * y
+
+
+def slope(heights):
+    return 0.0371 * np.arange(heights.shape[1])[None, :] + 0 * heights
+
+
+def two_surveys(heights):
+    decimetres = np.round(heights * 10) / 10
+    decimetres[:, heights.shape[1] // 2 :] += 0.0371
+    return decimetres
+
+
+def interpolated(heights):
+    """Whole metres, one sample in a hundred between them."""
+    odd = np.random.default_rng(1).random(heights.shape) < 0.01
+    return np.where(odd, heights, np.round(heights))
+
+
+def eight_bits(heights):
+    span = max(np.ptp(heights), 1)
+    return np.round((heights - heights.min()) * 255 / span) * span / 255
+
+
+def square_roots(heights):
+    return (np.sqrt((heights - heights.min()) / max(np.ptp(heights), 1)) * 65535).astype(np.uint16)
+
+
+KINDS = {
+    "feet": lambda h: (np.round(h / FOOT) * FOOT).astype(np.float32),
+    "feet_whole_metres": lambda h: np.round(np.round(h / FOOT) * FOOT).astype(np.int16),
+    "eight_bits": lambda h: eight_bits(h).astype(np.float32),
+    "interpolated": lambda h: interpolated(h).astype(np.float32),
+    "square_roots": square_roots,
+    "copies_3x3": lambda h: np.round(h)[:170, :170].repeat(3, 0).repeat(3, 1).astype(np.int16),
+    "lerc_0.01": lambda h: through_lerc(h, 0.01),
+    "lerc_0.1": lambda h: through_lerc(h, 0.1),
+    "lerc_0.5": lambda h: through_lerc(h, 0.5),
+    "metres_on_slope": lambda h: (np.round(h) + slope(h)).astype(np.float32),
+    "metres_above_geoid": lambda h: (np.round(h) + geoid(h)).astype(np.float32),
+    "decimetres_above_geoid": lambda h: (np.round(h * 10) / 10 + geoid(h)).astype(np.float32),
+    "feet_above_geoid": lambda h: (np.round(h / FOOT) * FOOT + geoid(h)).astype(np.float32),
+    "two_surveys": lambda h: two_surveys(h).astype(np.float32),
+}
+
+
+def main(out, *folders):
+    sources = sorted(name for folder in folders for name in Path(folder).rglob("height.tif"))
+    if not sources:
+        sys.exit("kinds: no height.tif below " + ", ".join(folders))
+    for source in sources:
+        heights = middle(source)
+        for kind, make in KINDS.items():
+            folder = Path(out) / f"{source.parent.name}_{kind}"
+            folder.mkdir(parents=True, exist_ok=True)
+            write(make(heights), folder / "height.tif")
+    print(f"{len(sources) * len(KINDS)} files below {out}: bench/lossless {out}")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit("usage: kinds OUT FOLDER...")
+    main(*sys.argv[1:])
