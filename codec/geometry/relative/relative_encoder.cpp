@@ -15,14 +15,16 @@ namespace tetrakis::inline relative {
 
 namespace {
 
-/// How many multiples the sample lies beside the predicted one, to the side of the height.
+/// How many multiples the sample lies beside the predicted one, to the side of the height, modulo
+/// 2^32.
 int32_t multiplesBeside(const RelativePrediction& prediction, double sample, double step) {
   constexpr double kFarthest = 1 << 30;
   const double steps = (sample - prediction.origin) / step;
   if (std::isnan(steps)) return 0;
   const double number = std::round(std::clamp(steps, -kFarthest, kFarthest));
-  const auto beside = static_cast<int32_t>(number) - prediction.nearest;
-  return prediction.above ? -beside : beside;
+  const auto whole = static_cast<uint32_t>(static_cast<int32_t>(number));
+  const uint32_t beside = whole - static_cast<uint32_t>(prediction.nearest);
+  return static_cast<int32_t>(prediction.above ? 0u - beside : beside);
 }
 
 template <class T>
