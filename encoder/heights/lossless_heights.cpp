@@ -59,7 +59,7 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
-/// Whether the steps certainly take more bytes: their coefficients alone do, by the estimate.
+/// Whether the steps need not be tried: by the estimate, their coefficients alone take more bytes.
 bool takesMore(const QuantisedHeights& of, uint64_t bytes) {
   const HeightSteps& steps = of.steps;
   if (!steps.table.empty()) return false;

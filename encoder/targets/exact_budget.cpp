@@ -74,19 +74,20 @@ constexpr double kSharedExactCut = 0.5;
 
 /// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
 /// of the lossy heights. Corrections come behind all coefficients: windows of heights in regions
-/// would need all of these.
+/// would need all of these. Where samples are on no grid the way of fewer bytes is taken.
 /// relative_step: of the lossy heights, or 0.
 std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
                                              const HeightsCandidate& lossy, double relative_step,
                                              uint64_t room) {
+  std::vector<HeightsCandidate> ways;
   if (relative_step > 0) {
-    const uint32_t threads = inputs.options.threads;
-    std::optional<CodedHeights> relative = codeRelative(*lossy.coded, relative_step, threads);
-    if (relative && bytesOf(relative->tracks) < room) return candidateOf(*std::move(relative));
+    if (auto relative = codeRelative(*lossy.coded, relative_step, inputs.options.threads))
+      ways.push_back(candidateOf(*std::move(relative)));
   }
-  if (canBeRestored(*lossy.coded)) {
-    HeightsCandidate restored = candidateOf(codeRestored(inputs, *lossy.coded));
-    if (restored.bytes() < room) return restored;
+  if (canBeRestored(*lossy.coded)) ways.push_back(candidateOf(codeRestored(inputs, *lossy.coded)));
+  if (!ways.empty()) {
+    HeightsCandidate fewest = fewestBytes(std::move(ways));
+    if (fewest.bytes() < room) return fewest;
   }
   if (!hasLosslessWay(*lossy.coded)) return {};
   if (canBeCorrected(*lossy.coded)) {

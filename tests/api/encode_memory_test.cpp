@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
 #include <algorithm>
 
 #include "tests/support/stream_fixture.hpp"
