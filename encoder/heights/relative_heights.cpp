@@ -9,6 +9,7 @@
 #include "codec/geometry/relative/relative_encoder.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/restored_heights.hpp"
+#include "ratecontrol/track_order.hpp"
 
 namespace tetrakis::inline heights {
 
@@ -18,6 +19,36 @@ namespace {
 double squaresOfCut(const HeightSteps& steps, double relative_step) {
   const double rmse = kRelativeCut * relative_step / steps.step;
   return rmse * rmse;
+}
+
+/// The first bytes of a track: up to a point of its account.
+EncodedTrack firstOf(const EncodedTrack& whole, uint64_t bytes) {
+  EncodedTrack first = whole;
+  first.codeword.resize(bytes);
+  std::erase_if(first.points, [&](const RatePoint& point) { return point.bytes > bytes; });
+  first.complete = whole.complete && bytes == whole.codeword.size();
+  return first;
+}
+
+/// The heights cut where their squared error, in steps, falls to so much: what takes off most error
+/// a byte is kept of all tracks. Nothing if they do not come so far.
+std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
+  const auto is_near = [&](const RatePoint& point) { return point.distortion <= squares; };
+  CodedHeights cut = whole;
+  if (whole.tracks.size() == 1) {  // its packets are longer than its passes
+    const EncodedTrack& track = whole.tracks.front();
+    const auto end = std::find_if(track.points.begin(), track.points.end(), is_near);
+    if (end == track.points.end() || end->bytes < whole.layers.openingBytes()) return {};
+    cut.tracks.front() = firstOf(track, end->bytes);
+    return cut;
+  }
+  const OrderedTracks order = orderTracks(whole.rated(), TrackOrder::kSlopes);
+  const auto end = std::find_if(order.points.begin(), order.points.end(), is_near);
+  if (end == order.points.end()) return {};
+  const Codewords kept = prefixAfter(whole.rated(), order.packets, end->bytes);
+  if (kept.front().size() < whole.layers.openingBytes()) return {};
+  for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
+  return cut;
 }
 
 /// The tracks with the corrections behind the first one, which then leaves what all of them leave,
@@ -89,26 +120,22 @@ double relativeStepOf(const CodedHeights& lossy) {
 
 std::optional<CodedHeights> codeRelative(const CodedHeights& lossy, double relative_step,
                                          uint32_t threads) {
-  const double squares = squaresOfCut(lossy.of->steps, relative_step) * lossy.counted();
-  const std::vector<RatePoint>& points = lossy.tracks.front().points;
-  const auto end = std::find_if(points.begin(), points.end(),
-                                [&](const RatePoint& p) { return p.distortion <= squares; });
-  if (end == points.end() || end->bytes < lossy.layers.openingBytes()) return {};
-  CodedHeights cut = lossy;
-  EncodedTrack& track = cut.tracks.front();
-  track.codeword.resize(end->bytes);
-  track.points.assign(points.begin(), end + 1);
-  track.complete = false;
-  return followedByCorrections(std::move(cut), relative_step, threads);
+  std::optional<CodedHeights> cut =
+      cutAt(lossy, squaresOfCut(lossy.of->steps, relative_step) * lossy.counted());
+  if (!cut) return {};
+  return followedByCorrections(*std::move(cut), relative_step, threads);
 }
 
+/// Coding ends with a whole bit-plane of all tracks; the cut lies before that.
 CodedHeights codeRelative(const EncodeInputs& inputs,
                           const std::shared_ptr<const QuantisedHeights>& of, double relative_step) {
   HeightTarget target(Purpose::kLossy);
   target.mean_square = squaresOfCut(of->steps, relative_step);
   CoefficientOptions options = heightOptions(inputs);
   options.enough = target.mean_square * of->counted();
-  return followedByCorrections(codeHeights(of, target, options), relative_step,
+  CodedHeights coded = codeHeights(of, target, options);
+  std::optional<CodedHeights> cut = cutAt(coded, options.enough);
+  return followedByCorrections(cut ? *std::move(cut) : std::move(coded), relative_step,
                                inputs.options.threads);
 }
 

@@ -120,6 +120,13 @@ TEST(RelativeHeights, NoTargetTakesMoreBytesThanTheLastBit) {
   }
 }
 
+/// Regions have models and heads of their own, and are cut where one track would be.
+TEST(RelativeHeights, RegionsTakeLittleMore) {
+  const Raster heights = samples::withOffsets(steps(), OffsetKind::kGeoid);
+  const size_t one = encode(&heights, nullptr, lossless()).size();
+  EXPECT_LT(encode(&heights, nullptr, inRegions(lossless(), 64)).size(), one + one / 5);
+}
+
 TEST(RelativeHeights, InRegionsWindowsAreThoseOfTheWhole) {
   for (const OffsetKind kind : samples::kOffsetKinds) {
     SCOPED_TRACE(nameOf(kind));
