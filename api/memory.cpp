@@ -123,7 +123,8 @@ class HeightsBytes {
     const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
     const uint64_t samples = view_.window ? shown_ : low();
     const uint64_t marks = view_.window ? 0 : samples;
-    const uint64_t masks = voids_ ? area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
+    const uint64_t masks =
+        voids_ ? (layers_.bridge > 0 ? 2 : 1) * area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
     const uint64_t corrections = corrected_ ? samples * (kValue + 1) + rows() : 0;
     const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
     const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +

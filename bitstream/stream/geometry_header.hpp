@@ -109,6 +109,7 @@ struct GeometryLayers {
   std::vector<TableKnot> table_knots = {};  ///< likewise, by rising places
   uint64_t flat_bytes = 0;                  ///< 0: there are no flat areas
   uint32_t flat_areas = 0;                  ///< with flat areas only: how many there are
+  uint8_t bridge = 0;      ///< the reach of bridges over voids (wavelet/bridges.hpp); 0: none
   uint8_t has_nodata = 0;  ///< voids have the sample value `nodata`; else NaN (f32 only)
   double nodata = 0;
   CorrectionKind corrections = CorrectionKind::kNone;
@@ -124,10 +125,10 @@ struct GeometryLayers {
     v.varint("validity_bytes", validity_bytes, 0, UINT64_MAX >> 1);
     v.u8("has_nodata", has_nodata, 0, 1);
     if (has_nodata) v.f64("nodata", nodata);
-    auto kinds = static_cast<uint8_t>(static_cast<uint8_t>(corrections) |
-                                      (table_bytes > 0 ? kWithTable : 0) |
-                                      (flat_bytes > 0 ? kWithFlatAreas : 0));
-    v.u8("layer_kinds", kinds, 0, kWithFlatAreas + kWithTable + 3);
+    auto kinds = static_cast<uint8_t>(
+        static_cast<uint8_t>(corrections) | (table_bytes > 0 ? kWithTable : 0) |
+        (flat_bytes > 0 ? kWithFlatAreas : 0) | (bridge > 0 ? kWithBridges : 0));
+    v.u8("layer_kinds", kinds, 0, kWithBridges + kWithFlatAreas + kWithTable + 3);
     corrections = static_cast<CorrectionKind>(kinds % kWithTable);
     if (kinds & kWithTable) {
       v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
@@ -139,6 +140,7 @@ struct GeometryLayers {
       v.varint("flat_bytes", flat_bytes, 1, UINT64_MAX >> 1);
       v.varint("flat_areas", flat_areas, 1, kMostFlatAreas);
     }
+    if (kinds & kWithBridges) v.u8("bridge", bridge, 1, 255);
     if (corrections == CorrectionKind::kNone) return;
     v.varint("coefficient_bytes", coefficient_bytes, table_after, UINT64_MAX >> 1);
     if (corrections == CorrectionKind::kSteps) {
@@ -150,7 +152,8 @@ struct GeometryLayers {
     }
   }
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
-  static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8;  ///< bits beside the corrections
+  static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8,
+                           kWithBridges = 16;  ///< bits beside the corrections
   static constexpr uint64_t kMostFlatAreas = 65535;
   static constexpr uint64_t kMostFlatSamples = uint64_t{1} << 31;  ///< of a plane with flat areas
   static constexpr uint32_t kMostValues = 1u << 20;

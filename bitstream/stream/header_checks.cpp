@@ -37,6 +37,8 @@ Status checkLayers(const StreamHeader& header) {
   if (steep) {
     return {TKS_CORRUPT, "Corrupt stream: a knot of its table of values lies too far off."};
   }
+  if (layers.bridge > 0 && layers.validity_bytes == 0)
+    return {TKS_CORRUPT, "Corrupt stream: its heights have bridges but no voids."};
   if (layers.flat_bytes > 0 &&
       header.geometry->extent().samples() > GeometryLayers::kMostFlatSamples) {
     return {TKS_CORRUPT, "Corrupt stream: so large a height field has no flat areas."};
@@ -67,12 +69,12 @@ Status checkRegions(const StreamHeader& header) {
 Status checkDirect(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->direct()) return {};
   const GeometryLayers& layers = header.layers;
-  if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 ||
+  if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 || layers.bridge > 0 ||
       layers.corrections == CorrectionKind::kSteps ||
       layers.corrections == CorrectionKind::kRelative) {
     return {TKS_CORRUPT,
-            "Corrupt stream: drawn or stored heights have regions, flat areas or corrections of "
-            "steps."};
+            "Corrupt stream: drawn or stored heights have regions, flat areas, bridges or "
+            "corrections of steps."};
   }
   const bool plain = layers.corrections == CorrectionKind::kNone && layers.table_bytes == 0;
   if (header.geometry->drawn || plain) return {};

@@ -13,6 +13,7 @@
 #include "codec/geometry/geometry_encoder.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/typical_parts.hpp"
+#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline geometry {
 
@@ -26,6 +27,8 @@ HeightSteps cropped(const HeightSteps& whole, Extent plane, const Window& part) 
   out.range_bits = whole.range_bits;
   out.steps = cut(std::span<const int32_t>(whole.steps), plane, {0, part});
   out.valid = cut(std::span<const uint8_t>(whole.valid), plane, {0, part});
+  out.bridge = whole.bridge;
+  out.lifted = cut(std::span<const uint8_t>(whole.lifted), plane, {0, part});
   return out;
 }
 
@@ -47,14 +50,16 @@ class PartTrial {
   uint64_t rounded() const {
     std::vector<int32_t> steps = steps_.steps;
     for (int32_t& q : steps) q = nearestMultiple(q, largest_);
-    const WaveletHeader wavelet = chooseWavelet({steps, header_.extent(), steps_.valid},
-                                                steps_.range_bits, Purpose::kLossless);
+    const WaveletHeader wavelet =
+        chooseWavelet({steps, header_.extent(), lifted()}, steps_.range_bits, Purpose::kLossless);
     return coded(steps, wavelet).codeword.size();
   }
 
  private:
+  Mask lifted() const { return steps_.lifting(header_.extent()).valid; }
   EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
-    return encodeGeometry({steps, header_.extent(), steps_.valid}, wavelet, {}).front();
+    const CoefficientOptions options{.share = steps_.liftedShare()};
+    return encodeGeometry({steps, header_.extent(), lifted()}, wavelet, options).front();
   }
 
   HeightSteps steps_;
@@ -105,7 +110,7 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   if (plane.samples() <= kSearchedSamples) return {};
   std::deque<PartTrial> trials;
   uint64_t rounded = 0;
-  const Mask valid = steps.valid;
+  const Mask valid = steps.lifting(plane).valid;
   const IsCoded is_coded = valid.all() ? IsCoded() : [&](size_t i) { return valid[i]; };
   for (const Window& part : typicalParts(plane, kPartSide, is_coded)) {
     trials.emplace_back(cropped(steps, plane, part), part, wavelet, largest);

@@ -20,9 +20,9 @@ int32_t nearestMultiple(int64_t q, int64_t largest) {
 DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   const auto longer = known_.upper_bound(bytes);
   TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;
-  DecodedGeometry geometry =
-      decodeGeometry(header_, {std::span(coefficients_.codeword).first(bytes)},
-                     {steps_.valid, flat_.held()}, {}, {1, &memory});
+  DecodedGeometry geometry = decodeGeometry(
+      header_, {std::span(coefficients_.codeword).first(bytes)},
+      {steps_.valid, flat_.held(), steps_.lifting(header_.extent()).valid}, {}, {1, &memory});
   known_[bytes] = std::move(memory);
   return geometry;
 }

@@ -17,7 +17,7 @@
 #include "base/parallel.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
-#include "wavelet/choice/plane_cost.hpp"
+#include "wavelet/choice/compared_steps.hpp"
 #include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {
@@ -42,12 +42,13 @@ constexpr double kWorthOfFlatness = 0.1;
 struct CopiedPart {
   SampledPart place;
   std::vector<int32_t> heights;
-  std::vector<uint8_t> valid;
+  std::vector<uint8_t> lifted, valid;
 
-  CopiedPart(const PlaneView<const int32_t>& plane, const SampledPart& sampled)
+  CopiedPart(const PlaneView<const int32_t>& plane, Mask valid_samples, const SampledPart& sampled)
       : place(sampled),
         heights(cut(plane.values(), plane.extent(), {0, sampled.window})),
-        valid(cut(plane.valid.bytes(), plane.extent(), {0, sampled.window})) {}
+        lifted(cut(plane.valid.bytes(), plane.extent(), {0, sampled.window})),
+        valid(cut(valid_samples.bytes(), plane.extent(), {0, sampled.window})) {}
   Extent extent() const { return place.window.extent(); }
 };
 
@@ -59,8 +60,8 @@ class TriedPart {
       : flat_(std::move(flat)),
         values_(scaled(part.heights, wavelet)),
         area_heights_(scaled(flat_.heights, wavelet)),
-        layout_(specOf(wavelet), part.extent(), part.valid, {flat_.numbers, area_heights_}) {
-    clearUnmarked(std::span(values_), part.valid);
+        layout_(specOf(wavelet), part.extent(), part.lifted, {flat_.numbers, area_heights_}) {
+    clearUnmarked(std::span(values_), part.lifted);
     forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
     if (!flat_.empty()) bytes_of_areas_ = encodeFlatAreas(flat_, part.extent(), part.valid).size();
   }
@@ -171,52 +172,14 @@ double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fractio
   return plane.step(8 * static_cast<double>(purpose.bytes));
 }
 
-/// Steps at which planes are compared: that of the target, and those of prefixes, 12 dB apart.
-class ComparedSteps {
- public:
-  /// plain: without areas.
-  ComparedSteps(const TriedPlane& plain, double target, double samples) {
-    for (double step = target;; step = step == 0 ? kFirstLossy : kApart * step) {
-      const PlaneCost cost = plain.cost(step);
-      if (!plain_.empty() && cost.bits < kLeastBits * samples) return;
-      plain_.push_back({step, cost.bits, cost.joint(step)});
-    }
-  }
-
-  /// How many times the bytes of equal quality are what they are without areas: the geometric mean
-  /// over prefixes, and beside it, as much as all of them, the target.
-  double ratio(const TriedPlane& plane, double more_bits) const {
-    const double target = logRatio(plain_.front(), plane, more_bits);
-    if (plain_.size() == 1) return std::exp(target);
-    double prefixes = 0;
-    for (size_t i = 1; i < plain_.size(); ++i) prefixes += logRatio(plain_[i], plane, more_bits);
-    return std::exp((target + prefixes / static_cast<double>(plain_.size() - 1)) / 2);
-  }
-
- private:
-  static constexpr double kApart = 4, kFirstLossy = 2;
-  static constexpr double kLeastBits = 0.05;  ///< a sample, of prefixes
-  static constexpr double kLeastRatio = 0.05;
-
-  struct Plain {
-    double step, bits, joint;
-  };
-
-  static double logRatio(const Plain& plain, const TriedPlane& plane, double more_bits) {
-    const double change = plane.cost(plain.step).joint(plain.step) + more_bits - plain.joint;
-    return std::log(std::max(1 + change / plain.bits, kLeastRatio));
-  }
-
-  std::vector<Plain> plain_;
-};
-
 /// Tries areas against what was best so far.
 class FlatTrials {
  public:
-  FlatTrials(const PlaneView<const int32_t>& heights, const HeightPurpose& purpose)
+  FlatTrials(const PlaneView<const int32_t>& heights, Mask valid, const HeightPurpose& purpose)
       : heights_(heights),
+        valid_(valid),
         purpose_(purpose),
-        finder_(heights),
+        finder_({heights.values(), heights.extent(), valid}),
         wavelet_(chooseWavelet(heights, purpose.range_bits, purpose.purpose)) {}
 
   FlatChoice choose() {
@@ -224,12 +187,12 @@ class FlatTrials {
     const uint64_t samples = heights_.extent().samples();
     if (finder_.samplesOf(kPond, whole()) * kLeastShare < samples) return plain;
     for (const SampledPart& part : sampleParts(finder_, kPond, kLeastSamples))
-      parts_.emplace_back(heights_, part);
+      parts_.emplace_back(heights_, valid_, part);
     const std::optional<FlatShape> shape = shapeThatPays();
     if (!shape) return plain;
     FlatLayer flat{finder_.areas(*shape, whole()), {}};
     if (flat.areas.empty()) return plain;  // there are too many
-    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), heights_.valid);
+    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), valid_);
     if (flat.codeword.size() >= purpose_.bytes) return plain;
     return {std::move(flat), *beside_};
   }
@@ -249,7 +212,8 @@ class FlatTrials {
     std::vector<PartTrials> as_it_is(parts_.begin(), parts_.end());
     const TriedPlane plain(as_it_is, std::vector<FlatAreas>(parts_.size()), wavelet_,
                            purpose_.threads);
-    return {plain, stepOf(plain, purpose_, wavelet_.fraction_bits),
+    return {[&](double step) { return plain.cost(step); },
+            stepOf(plain, purpose_, wavelet_.fraction_bits),
             static_cast<double>(heights_.extent().samples())};
   }
 
@@ -307,7 +271,8 @@ class FlatTrials {
       trials_ = std::vector<PartTrials>(parts_.begin(), parts_.end());
     }
     const TriedPlane plane(trials_, std::move(areas), *beside_, purpose_.threads);
-    return steps.ratio(plane, kHeaderBits + plane.bitsOfAreas());
+    return steps.ratio([&](double step) { return plane.cost(step); },
+                       kHeaderBits + plane.bitsOfAreas());
   }
 
   /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
@@ -319,6 +284,7 @@ class FlatTrials {
   }
 
   const PlaneView<const int32_t>& heights_;
+  Mask valid_;
   const HeightPurpose& purpose_;
   FlatFinder finder_;
   std::vector<CopiedPart> parts_;
@@ -330,8 +296,9 @@ class FlatTrials {
 
 }  // namespace
 
-FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, const HeightPurpose& purpose) {
-  return FlatTrials(heights, purpose).choose();
+FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
+                           const HeightPurpose& purpose) {
+  return FlatTrials(heights, valid, purpose).choose();
 }
 
 }  // namespace tetrakis::inline geometry

@@ -40,7 +40,9 @@ struct FlatChoice {
   WaveletHeader wavelet;
 };
 
-/// heights: in steps.
-FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, const HeightPurpose& purpose);
+/// heights: in steps, with the samples that are lifted. valid: those that are not void; its bytes
+/// outlive the call.
+FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
+                           const HeightPurpose& purpose);
 
 }  // namespace tetrakis::inline geometry

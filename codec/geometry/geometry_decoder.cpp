@@ -104,7 +104,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   std::vector<int32_t> area_heights(known.flat.values.begin(), known.flat.values.end());
   const HeldSamples flat{known.flat.numbers, area_heights};
   const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.extent(), valid, flat,
+  const PlaneLayout layout(spec, header.extent(), known.lifted.value_or(valid), flat,
                            priorityMapOf(header.priorities, header.extent()),
                            context.memory ? context.memory->norms : std::nullopt);
   if (context.memory != nullptr) context.memory->norms = layout.norms();
@@ -130,13 +130,16 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   for (int32_t& height : area_heights)  // of what the layout holds, as it is needed from here on
     height <<= out.fraction_bits;
   out.heights = synthesis.run(context.threads, precision.rounds);
-  if (significance) significance->giveTo(out);
   const Extent extent = view.extentIn(header.extent());
   out.width = extent.width;
   out.height = extent.height;
   out.valid = view.isWhole() ? std::move(valid)
                              : cut(std::span<const uint8_t>(valid), header.extent(), view);
   clearUnmarked(std::span(out.heights), out.valid);
+  if (significance) {
+    significance->giveTo(out);
+    clearUnmarked(std::span(out.significant), out.valid);
+  }
   holdShown(flat, header.extent(), view, out.heights);
   return out;
 }

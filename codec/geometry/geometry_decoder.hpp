@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,10 +20,13 @@ namespace tetrakis::inline geometry {
 struct KnownSamples {
   std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
   HeldSamples flat = {};       ///< of flat areas, which outlive the call
+  /// Of liftedSamples(), if voids are bridged; its bytes outlive the call.
+  std::optional<Mask> lifted = {};
 
   KnownSamples() = default;
-  KnownSamples(std::vector<uint8_t> valid_samples, HeldSamples flat_samples = {})
-      : valid(std::move(valid_samples)), flat(flat_samples) {}
+  KnownSamples(std::vector<uint8_t> valid_samples, HeldSamples flat_samples = {},
+               std::optional<Mask> lifted_samples = {})
+      : valid(std::move(valid_samples)), flat(flat_samples), lifted(lifted_samples) {}
 };
 
 /// Decodes what a view shows; in a window the time follows its size if the plane has regions.

@@ -58,7 +58,7 @@ std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights
   const PlaneLayout layout(specOf(wavelet), heights.extent(), heights.valid, {flat.numbers, areas},
                            priorities);
   Transformed of{layout, transformed(heights, wavelet, layout, options.threads),
-                 std::exp2(-2 * wavelet.fraction_bits), worthOf(priorities)};
+                 options.share * std::exp2(-2 * wavelet.fraction_bits), worthOf(priorities)};
   const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);
   assert(!regions.empty());
   const auto source_of = [&](size_t region) { return of.sourceOf(regions[region]); };

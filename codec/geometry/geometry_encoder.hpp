@@ -17,6 +17,7 @@ struct CoefficientOptions {
   uint64_t limit = UINT64_MAX;      ///< bytes worth coding, of all tracks together
   int region_log2 = 0;              ///< bitstream/track/regions.hpp; 0: one track
   uint32_t threads = 1;             ///< nothing depends on them
+  double share = 1;                 ///< that the error counts: HeightSteps::liftedShare()
   bool windows = false;             ///< withShortReach()
   const FlatAreas* flat = nullptr;  ///< areas that are known, and not coded; null: there are none
   /// What comes earlier; null: nothing.
@@ -25,8 +26,9 @@ struct CoefficientOptions {
   double enough = TrackOptions::kNever;
 };
 
-/// Codes heights in steps. Returns one track for each of regionsOf(). wavelet: from
-/// chooseWavelet(). Distortion is in squared units of the heights, summed over the valid samples.
+/// Codes heights in steps, with the mask of the samples that are lifted. Returns one track for each
+/// of regionsOf(). wavelet: from chooseWavelet(). Distortion is in squared units of the heights,
+/// summed over the samples that are lifted and multiplied by the share.
 std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
                                          const WaveletHeader& wavelet,
                                          const CoefficientOptions& options);

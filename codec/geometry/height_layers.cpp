@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "codec/geometry/values/value_stand_in.hpp"
 #include "codec/geometry/values/value_table_decoder.hpp"
 #include "lattice/validity_decoder.hpp"
+#include "wavelet/bridges.hpp"
 
 namespace tetrakis::inline geometry {
 
@@ -150,7 +152,7 @@ DecodedHeights cutWindow(const DecodedHeights& decoded, const View& view) {
 }  // namespace
 
 uint64_t HeightsMemory::bytes() const {
-  return valid.size() + flat.numbers.size() * sizeof(uint16_t) +
+  return valid.size() + lifted.size() + flat.numbers.size() * sizeof(uint16_t) +
          flat.heights.size() * sizeof(int32_t) + tracks.bytes();
 }
 
@@ -192,10 +194,17 @@ DecodedGeometry decodeSteps(const GeometryHeader& header, const GeometryLayers& 
   if (header.drawn) return decodeDrawnHeights(header, coefficients.front(), valid, view.level);
   const bool flat_known = memory != nullptr && taken.flat.size() == layers.flat_bytes;
   const bool growing = flat_known && taken.validity.size() == layers.validity_bytes;
+  std::optional<Mask> lifted;
+  std::vector<uint8_t> lifted_in_this_call;
+  if (layers.bridge > 0) {
+    std::vector<uint8_t>& kept = growing ? memory->lifted : lifted_in_this_call;
+    if (kept.empty()) kept = liftedSamples(valid, header.extent(), layers.bridge);
+    lifted = kept;
+  }
   FlatAreas of_this_call;
   FlatAreas& flat = flat_known ? memory->flat : of_this_call;
   if (flat.empty()) flat = flatAreasOf(taken, header, layers, valid);
-  return decodeGeometry(header, coefficients, {std::move(valid), flat.held()}, view,
+  return decodeGeometry(header, coefficients, {std::move(valid), flat.held(), lifted}, view,
                         {context.threads, growing ? &memory->tracks : nullptr});
 }
 

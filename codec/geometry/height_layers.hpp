@@ -16,9 +16,10 @@ namespace tetrakis::inline geometry {
 /// What one call of decodeHeights() leaves to the next, whose tracks begin with the same bytes. It
 /// is empty before the first call.
 struct HeightsMemory {
-  std::vector<uint8_t> valid;  ///< once it is whole
-  FlatAreas flat;              ///< likewise
-  TrackMemory tracks;          ///< likewise: what exists of them follows from those
+  std::vector<uint8_t> valid;   ///< once it is whole
+  std::vector<uint8_t> lifted;  ///< likewise, if voids are bridged
+  FlatAreas flat;               ///< likewise
+  TrackMemory tracks;           ///< likewise: what exists of them follows from those
 
   uint64_t bytes() const;
 };

@@ -11,6 +11,7 @@ namespace tetrakis::conformance {
 // height_cases.cpp
 std::vector<VectorCase> geometryCases();
 std::vector<VectorCase> layerCases();
+std::vector<VectorCase> bridgeCases();
 std::vector<VectorCase> sparseCases();
 
 // height_kind_cases.cpp

@@ -96,6 +96,32 @@ std::vector<VectorCase> layerCases() {
   };
 }
 
+/// Holes of single samples, over which the transform goes on, beside voids that it stops at.
+std::vector<VectorCase> bridgeCases() {
+  using samples::VoidShape;
+  const auto holes = [](VectorCase vector_case, double nodata) {
+    return withVoids(std::move(vector_case), VoidShape::kHoles, nodata);
+  };
+  VectorCase regions = heightsCase("holes_regions_u16_120x90", "bridged voids, in regions",
+                                   {Pattern::kRidges, 120, 90, 1, TKS_U16}, budget(5000));
+  regions.options.regions = 32;
+  return {
+      holes(heightsCase("holes_i16_64x50", "bridged voids to the last bit",
+                        {Pattern::kRidges, 64, 50, 1, TKS_I16}, lossless()),
+            -32768),
+      holes(heightsCase("holes_f32_91x70", "bridged voids and fraction bits",
+                        {Pattern::kRidges, 91, 70, 1, TKS_F32}, budget(3000)),
+            NAN),
+      holes(heightsCase("holes_bounded_i16_64x50", "bridged voids and corrections of steps",
+                        {Pattern::kRidges, 64, 50, 1, TKS_I16}, maxError(1500)),
+            -32768),
+      holes(regions, 0),
+      withVoids(heightsCase("speckle_i16_60x44", "all voids are bridged: joint lifting",
+                            {Pattern::kRidges, 60, 44, 1, TKS_I16}, lossless()),
+                VoidShape::kSpeckle, -1),
+  };
+}
+
 /// Voids, values declared for them, and planes of which most is empty.
 std::vector<VectorCase> sparseCases() {
   using samples::VoidShape;

@@ -78,6 +78,8 @@ std::vector<VectorCase> refusedHeaders() {
     h.layers.flat_bytes = 5;
     h.layers.flat_areas = 1;
   });
+  refuse("bridges", "bridges over voids that there are not",
+         [](StreamHeader& h) { h.layers.bridge = 1; });
   const auto draw = [](StreamHeader& h) {
     h.geometry->planes = GeometryHeader::kDirectPlanes;
     h.geometry->drawn = true;
@@ -86,6 +88,12 @@ std::vector<VectorCase> refusedHeaders() {
     draw(h);
     h.layers.flat_bytes = 5;
     h.layers.flat_areas = 1;
+  });
+  refuse("drawn_heights_bridges", "drawn heights with bridges", [&](StreamHeader& h) {
+    draw(h);
+    h.layers.validity_bytes = 3;
+    h.layers.has_nodata = 1;
+    h.layers.bridge = 255;
   });
   refuse("drawn_heights_steps", "drawn heights with corrections of steps", [&](StreamHeader& h) {
     draw(h);

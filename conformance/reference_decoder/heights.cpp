@@ -70,7 +70,7 @@ Plane placesOf(const Plane& whole, int level) {
   return image;
 }
 
-Surface decodeSurface(const GeometryHeader& header,
+Surface decodeSurface(const GeometryHeader& header, int bridge,
                       const std::vector<std::span<const uint8_t>>& coefficients, Plane known,
                       int level) {
   Surface surface;
@@ -83,6 +83,8 @@ Surface decodeSurface(const GeometryHeader& header,
     return surface;
   }
   surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
+  const std::vector<uint8_t> valid = surface.plane.valid;
+  if (bridge > 0) surface.plane.valid = bridged(valid, header.width, header.height, bridge);
   const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     const size_t track = surface.parts.size();
@@ -102,6 +104,7 @@ Surface decodeSurface(const GeometryHeader& header,
   }
   for (int32_t& height : surface.plane.flat.heights) height = wrap(int64_t{height} << surface.f);
   synthesise(header.wavelet, subbands, level, fraction.rounds, surface.plane);
+  surface.plane.valid = valid;
   const Plane whole = surface.plane;
   if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);
   putFlat(whole, level, surface.plane);
@@ -324,7 +327,7 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   coefficients[0] = first;
   Plane known{header.width, header.height, {}, std::move(valid)};
   known.flat = std::move(flat);
-  Surface surface = decodeSurface(header, coefficients, std::move(known), level);
+  Surface surface = decodeSurface(header, layers.bridge, coefficients, std::move(known), level);
   if (table.empty() && !layers.tableKnots.empty()) standIn(layers, surface);
   if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
   std::vector<uint32_t> samples =

@@ -108,7 +108,7 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   layers.validityBytes = in.varint(0, INT64_MAX);
   layers.hasNodata = in.u8(0, 1);
   if (layers.hasNodata) layers.nodata = in.f64();
-  const int kinds = in.u8(0, 14);
+  const int kinds = in.u8(0, 30);
   layers.corrections = kinds % 4;
   if (kinds % 8 == 5 || kinds % 8 == 7) in.fail(Outcome::kCorrupt);
   if (kinds & 4) {
@@ -122,6 +122,10 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
     const bool small =
         geometry && uint64_t(geometry->width) * uint64_t(geometry->height) <= 1u << 31;
     if (!small) in.fail(Outcome::kCorrupt);
+  }
+  if (kinds & 16) {
+    layers.bridge = in.u8(1, 255);
+    if (layers.validityBytes == 0) in.fail(Outcome::kCorrupt);
   }
   if (layers.corrections > 0) layers.coefficientBytes = in.varint(layers.tableAfter, INT64_MAX);
   if (layers.corrections == 1) {

@@ -70,6 +70,7 @@ struct Layers {
   uint64_t tableBytes = 0;  ///< 0: no table of values
   uint64_t flatBytes = 0;
   uint32_t flatAreas = 0;
+  int bridge = 0;  ///< 0: none
   uint32_t tableValues = 0;
   uint64_t tableAfter = 0;
   std::vector<TableKnot> tableKnots;

@@ -19,16 +19,17 @@ enum class VoidShape {
   kOneValid,  ///< one sample is valid
   kOneVoid,   ///< one sample is void
   kHalf,      ///< the right half
+  kHoles,     ///< a coast, and single holes on land
   kAll        ///< nothing is valid
 };
 
 inline constexpr VoidShape kVoidShapes[] = {
     VoidShape::kCoast,    VoidShape::kSpeckle, VoidShape::kChecker, VoidShape::kFrame,
-    VoidShape::kOneValid, VoidShape::kOneVoid, VoidShape::kAll};
+    VoidShape::kOneValid, VoidShape::kOneVoid, VoidShape::kHoles,   VoidShape::kAll};
 
 inline std::ostream& operator<<(std::ostream& out, VoidShape shape) {
-  constexpr const char* kNames[] = {"Coast",    "Speckle", "Checker", "Frame",
-                                    "OneValid", "OneVoid", "Half",    "All"};
+  constexpr const char* kNames[] = {"Coast",   "Speckle", "Checker", "Frame", "OneValid",
+                                    "OneVoid", "Half",    "Holes",   "All"};
   return out << kNames[static_cast<size_t>(shape)];
 }
 
@@ -49,6 +50,8 @@ inline bool isVoid(VoidShape shape, uint32_t width, uint32_t height, uint32_t x,
       return middle;
     case VoidShape::kHalf:
       return 2 * x >= width;
+    case VoidShape::kHoles:
+      return isVoid(VoidShape::kCoast, width, height, x, y) || hash(x, y, 6) % 12 == 0;
     case VoidShape::kAll:
       return true;
   }

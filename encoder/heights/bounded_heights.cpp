@@ -11,6 +11,7 @@
 
 #include "codec/geometry/bound_choice.hpp"
 #include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/quantiser/bridges.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"
 #include "codec/geometry/quantiser/voids.hpp"
@@ -48,8 +49,9 @@ double floatSpacing(const QuantisedHeights& heights) {
 CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
   assert(!bound.of->restored());
   const QuantisedHeights& of = *bound.of;
+  const uint8_t bridge = of.steps.bridge;
   QuantisedHeights rounded{.samples = of.samples,
-                           .steps = std::move(steps),
+                           .steps = withBridges(std::move(steps), extentOf(*of.samples), bridge),
                            .layers = of.layers,
                            .validity = of.validity,
                            .shown_by = of.shown_by};

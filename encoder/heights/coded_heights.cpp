@@ -118,15 +118,15 @@ bool CodedHeights::restoresSamples() const {
 
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
   const HeightSteps& steps = heights.steps;
-  return chooseWavelet({steps.steps, extentOf(*heights.samples), steps.valid}, steps.range_bits,
-                       purpose);
+  return chooseWavelet(steps.lifting(extentOf(*heights.samples)), steps.range_bits, purpose);
 }
 
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
-                                           const CoefficientOptions& options) {
+                                           CoefficientOptions options) {
   const HeightSteps& steps = heights.steps;
-  return encodeGeometry({steps.steps, extentOf(*heights.samples), steps.valid}, wavelet, options);
+  options.share = steps.liftedShare();
+  return encodeGeometry(steps.lifting(extentOf(*heights.samples)), wavelet, options);
 }
 
 HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
@@ -177,7 +177,7 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const Heigh
                          const CoefficientOptions& options) {
   const HeightSteps& steps = of->steps;
   FlatChoice choice =
-      chooseFlatAreas({steps.steps, extentOf(*of->samples), steps.valid},
+      chooseFlatAreas(steps.lifting(extentOf(*of->samples)), steps.valid,
                       {steps.range_bits, target.purpose, target.bytes, target.mean_square,
                        options.threads, target.purpose == Purpose::kLossy});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
@@ -200,9 +200,9 @@ CodedHeights withRounding(CodedHeights coded) {
       !std::all_of(coded.tracks.begin(), coded.tracks.end(), complete))
     return coded;
   const QuantisedHeights& of = *coded.of;
-  const PlaneView<const int32_t> plane(of.steps.steps, extentOf(*of.samples), of.steps.valid);
-  wavelet.rounded_bytes =
-      roundedBytes(accounts, roundedSquares(plane, coded.flat.areas.held(), wavelet));
+  const double squares =
+      roundedSquares(of.steps.lifting(extentOf(*of.samples)), coded.flat.areas.held(), wavelet);
+  wavelet.rounded_bytes = roundedBytes(accounts, of.steps.liftedShare() * squares);
   return coded;
 }
 
@@ -211,7 +211,8 @@ std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> 
   std::optional<EncodedTrack> track =
       encodeDrawnHeights({steps.steps, extentOf(*of->samples), steps.valid});
   if (!track) return {};
-  const HeightLayers layers = layersAround(*of, {}, nullptr);
+  HeightLayers layers = layersAround(*of, {}, nullptr);
+  layers.layers.bridge = 0;
   std::vector<EncodedTrack> tracks;
   tracks.push_back(*std::move(track));
   CodedHeights drawn = joinLayers(std::move(of), layers, std::move(tracks), 0);

@@ -68,7 +68,7 @@ WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpo
 /// The tracks of coefficients alone.
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
-                                           const CoefficientOptions& options);
+                                           CoefficientOptions options);
 
 /// Validity and flat areas before the coefficients of the first track, corrections behind them, a
 /// table within them, where its bytes take off as much error as theirs. region_log2: what the

@@ -96,8 +96,8 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
 
 CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target) {
   const HeightSteps& steps = heights.of->steps;
-  const PlaneView<const int32_t> plane(steps.steps, extentOf(*heights.of->samples), steps.valid);
-  return codeBeside(chooseFlatAreas(plane, cutPurpose(heights)), heights, target);
+  const PlaneView<const int32_t> plane = steps.lifting(extentOf(*heights.of->samples));
+  return codeBeside(chooseFlatAreas(plane, steps.valid, cutPurpose(heights)), heights, target);
 }
 
 CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {

@@ -6,7 +6,7 @@
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/lossless_heights.hpp"
 #include "encoder/heights/quantised_heights.hpp"
-#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline heights {
 
@@ -28,7 +28,7 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   if (few) return codeLosslessHeights(lossless, *heights);
   if (error < relativeStepOf(**heights)) return codeLosslessHeights(lossless, *heights);
   if (error > kMostSteps * steps.step) return nullptr;
-  const double bytes = typicalCost(plane, steps.range_bits, 0).bits / 8;
+  const double bytes = typicalCost(steps.lifting(plane.extent()), steps.range_bits, 0).bits / 8;
   if (bytes > kClearly * static_cast<double>(lossy_bytes)) return nullptr;
   return codeLosslessHeights(lossless, *heights);
 }

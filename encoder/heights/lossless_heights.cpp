@@ -11,7 +11,7 @@
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/relative_heights.hpp"
 #include "ratecontrol/candidate.hpp"
-#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline heights {
 
@@ -19,9 +19,10 @@ namespace {
 
 using Quantised = std::shared_ptr<const QuantisedHeights>;
 
-/// The samples that coefficients show: valid ones outside flat areas; empty: all.
+/// The samples that coefficients show: lifted ones outside flat areas; empty: all.
 std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
-  std::vector<uint8_t> free = heights.of->steps.valid;
+  const HeightSteps& steps = heights.of->steps;
+  std::vector<uint8_t> free = steps.bridge > 0 ? steps.lifted : steps.valid;
   const std::vector<uint16_t>& areas = heights.flat.areas.numbers;
   if (free.empty()) free.assign(areas.size(), 1);
   for (size_t i = 0; i < areas.size(); ++i) free[i] = free[i] != 0 && areas[i] == 0;
@@ -40,7 +41,8 @@ bool correctionsMayPay(const CodedHeights& whole) {
     return correctionsMayPay(plane, steps.range_bits, bytes);
   };
   const bool some_flat = !whole.flat.areas.heights.empty();
-  return may_pay(freeSamples(whole)) || (some_flat && may_pay(steps.valid));
+  return may_pay(freeSamples(whole)) ||
+         (some_flat && may_pay(steps.bridge > 0 ? steps.lifted : steps.valid));
 }
 
 /// Codes heights to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
@@ -63,7 +65,7 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
 bool takesMore(const QuantisedHeights& of, uint64_t bytes) {
   const HeightSteps& steps = of.steps;
   if (!steps.table.empty()) return false;
-  const PlaneView<const int32_t> plane(steps.steps, extentOf(*of.samples), steps.valid);
+  const PlaneView<const int32_t> plane = steps.lifting(extentOf(*of.samples));
   return typicalCost(plane, steps.range_bits, 0).bits / 8 > static_cast<double>(bytes);
 }
 

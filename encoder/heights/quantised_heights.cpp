@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "codec/geometry/corrections/corrections_encoder.hpp"
+#include "codec/geometry/quantiser/bridges.hpp"
 #include "codec/geometry/quantiser/stand_in_choice.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"
+#include "codec/geometry/quantiser/voids.hpp"
 #include "codec/geometry/relative/relative_step_choice.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
@@ -58,13 +60,32 @@ GeometryLayers layersOf(const tks_heights& samples, uint64_t validity_bytes) {
           .nodata = has_nodata ? samples.nodata + 0.0 : 0};  // -0 equals 0: one of them
 }
 
-QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps) {
+/// What bridges over voids are chosen for.
+BridgeTarget bridgeTarget(const EncodeInputs& inputs, const HeightSteps& steps) {
+  const tks_encode_options& options = inputs.options;
+  if (options.lossless != 0) return {Purpose::kLossless};
+  if (inputs.budgeted()) return {Purpose::kLossy, options.bytes};
+  const double squared_step = steps.step * steps.step;
+  if (options.max_error > 0) {
+    const double error = options.max_error / inputs.heights->scale;
+    return {Purpose::kLossy, UINT64_MAX, error * error / squared_step / 3};  // if it is even
+  }
+  const SampleRange range = rangeOf(*inputs.heights, steps.valid);
+  return {Purpose::kLossy, UINT64_MAX,
+          worstMeanSquare(range.high - range.low, options.psnr) / squared_step};
+}
+
+QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, BridgeTarget target) {
   const tks_heights& samples = *inputs.heights;
   std::vector<uint8_t> validity;
   if (!steps.valid.empty()) validity = encodeValidity({steps.valid, extentOf(samples)});
+  if (target.bytes < UINT64_MAX) target.bytes -= std::min<uint64_t>(target.bytes, validity.size());
+  steps = withBridgesFor(target, std::move(steps), extentOf(samples));
+  GeometryLayers layers = layersOf(samples, validity.size());
+  layers.bridge = steps.bridge;
   return {.samples = &samples,
           .steps = std::move(steps),
-          .layers = layersOf(samples, validity.size()),
+          .layers = std::move(layers),
           .validity = std::move(validity),
           .shown_by = inputs.shownBy()};
 }
@@ -117,7 +138,8 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
   assert(inputs.heights != nullptr);
   Result<ChosenSteps> chosen = chooseSteps(inputs);
   if (!chosen.ok()) return chosen.status();
-  QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps)));
+  const BridgeTarget bridges = bridgeTarget(inputs, chosen->steps);
+  QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps), bridges));
   if (chosen->restore && !heights.steps.exact) {
     SampleCorrections corrections = correctionsBehind(heights, heights.steps);
     heights = withCorrections(std::move(heights), std::move(corrections));
@@ -140,7 +162,9 @@ std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& 
   constexpr double kFine = 1. / 4;  // of the relative step
   Result<HeightSteps> steps = toSteps(*inputs.heights, {.leave_outliers = true});
   if (!steps.ok() || steps->step > kFine * relative_step) return nullptr;
-  return std::make_shared<const QuantisedHeights>(withoutTable(inputs, *std::move(steps)));
+  const double rmse = kRelativeCut * relative_step / steps->step;
+  return std::make_shared<const QuantisedHeights>(
+      withoutTable(inputs, *std::move(steps), {Purpose::kLossy, UINT64_MAX, rmse * rmse}));
 }
 
 SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown) {

@@ -17,6 +17,10 @@
 
 namespace tetrakis::inline heights {
 
+/// The RMSE of the cut, in relative steps. Finer ones code what samples do not have, coarser ones
+/// miss more of the multiples.
+inline constexpr double kRelativeCut = 0.3;
+
 struct QuantisedHeights {
   /// The least error of samples that are not exact: -0 in the place of 0 is no distance, but wrong.
   static constexpr double kInexact = 1e-200;

@@ -12,10 +12,6 @@
 
 namespace tetrakis::inline heights {
 
-/// The RMSE of the cut, in relative steps. Finer ones code what samples do not have, coarser ones
-/// miss more of the multiples.
-inline constexpr double kRelativeCut = 0.3;
-
 /// The relative step of what lossy heights show, if corrections from it can follow a cut of theirs;
 /// 0: there is none.
 double relativeStepOf(const CodedHeights& lossy);

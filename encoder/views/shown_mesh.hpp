@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/texels.hpp"
+#include "base/view.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/mesh/screen/surface_picture.hpp"
 #include "codec/mesh/surface/coarse_surface.hpp"

@@ -203,26 +203,6 @@ WaveletHeader withoutFraction(WaveletHeader lossy) {
   return lossy;
 }
 
-PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step) {
-  const std::vector<PlanePart> parts = typicalPartsOf(std::span(&plane, 1));
-  const WaveletHeader header =
-      chooseAmong(parts, bits, step == 0 ? Purpose::kLossless : Purpose::kLossy).header;
-  const WaveletSpec spec = specOf(header);
-  const double unit = std::exp2(header.fraction_bits);
-  PlaneCost sum;
-  for (const PlanePart& part : parts) {
-    std::vector<int32_t> values = withFractions(part.values, header.fraction_bits);
-    const PlaneLayout layout(spec, part.extent, part.valid, {});
-    forwardWavelet(spec, layout.pyramid(), values);
-    const PlaneCost cost = costOf(layout, values, step * unit);
-    sum.bits += cost.bits;
-    sum.squares += cost.squares / (unit * unit);
-  }
-  const double whole =
-      static_cast<double>(markedIn(plane.extent(), plane.valid)) / samplesIn(parts);
-  return {sum.bits * whole, sum.squares * whole};
-}
-
 double losslessBits(const PlaneView<const int32_t>& plane, int bits) {
   const std::vector<PlanePart> parts = typicalPartsOf(std::span(&plane, 1));
   const double whole =

@@ -8,7 +8,6 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/coding_headers.hpp"
-#include "wavelet/choice/plane_cost.hpp"
 #include "wavelet/held_samples.hpp"
 
 namespace tetrakis::inline choice {
@@ -38,9 +37,6 @@ WaveletHeader withShortReach(WaveletHeader chosen);
 
 /// The filters of a lossy choice, for the last bit.
 WaveletHeader withoutFraction(WaveletHeader lossy);
-
-/// About what the coefficients of a plane cost that is coded with a step: 0 is to the last bit.
-PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step);
 
 /// About how many bits the coefficients of a plane take that is coded to the last bit.
 double losslessBits(const PlaneView<const int32_t>& plane, int bits);

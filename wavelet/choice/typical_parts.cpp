@@ -72,6 +72,8 @@ FieldPart partOf(uint32_t column, uint32_t row, Extent plane, uint32_t side,
   return best;
 }
 
+}  // namespace
+
 PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                  const Window& window) {
   const View view{0, window};
@@ -82,8 +84,6 @@ PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
   clearUnmarked(std::span(part.values), part.valid);
   return part;
 }
-
-}  // namespace
 
 std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> planes,
                                       const HeldSamples& held, uint32_t side) {

@@ -14,6 +14,9 @@
 
 namespace tetrakis::inline choice {
 
+/// Samples along a side of a part.
+inline constexpr uint32_t kUsualSide = 96;
+
 /// Whether a sample, by its place in the plane, has to be coded; empty: all have to.
 using IsCoded = std::function<bool(size_t)>;
 
@@ -22,7 +25,8 @@ using IsCoded = std::function<bool(size_t)>;
 /// with at most `side` samples along each side, because a single part may be water, or a lawn. It
 /// lies in the middle, or where more than twice as many samples are coded: parts of voids say
 /// nothing. There is at least one part.
-std::vector<Window> typicalParts(Extent plane, uint32_t side = 96, const IsCoded& is_coded = {});
+std::vector<Window> typicalParts(Extent plane, uint32_t side = kUsualSide,
+                                 const IsCoded& is_coded = {});
 
 /// What a part of a plane holds.
 struct PlanePart {
@@ -36,7 +40,11 @@ struct PlanePart {
 
 /// The typical parts of planes that have one size and one mask: of each part every plane's.
 std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> planes,
-                                      const HeldSamples& held = {}, uint32_t side = 96);
+                                      const HeldSamples& held = {}, uint32_t side = kUsualSide);
+
+/// What a window of a plane holds.
+PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                 const Window& window);
 
 /// How many of a plane's samples the mask marks.
 size_t markedIn(Extent plane, const Mask& mask);

@@ -15,6 +15,15 @@ size_t HeightSteps::validCount() const {
                        : static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{1}));
 }
 
+double HeightSteps::liftedShare() const {
+  if (bridge == 0) return 1;
+  const auto marked = [&](const std::vector<uint8_t>& mask) {
+    return static_cast<double>(mask.empty() ? steps.size()
+                                            : std::count(mask.begin(), mask.end(), 1));
+  };
+  return marked(valid) / std::max(marked(lifted), 1.0);
+}
+
 std::vector<int32_t> decodedSteps(const HeightSteps& steps, const GeometryHeader& header) {
   if (steps.table.empty()) return steps.steps;
   const std::vector<ValueInSteps> values = valuesInSteps(steps.table, header);

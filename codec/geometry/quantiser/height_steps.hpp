@@ -20,14 +20,22 @@ inline Extent extentOf(const tks_heights& heights) {
 }
 
 struct HeightSteps {
-  std::vector<int32_t> steps;  ///< |q| <= 2^25, centred on 0; 0 where voids are
-  std::vector<uint8_t> valid;  ///< 1 valid, 0 void; empty: all are valid
+  std::vector<int32_t> steps;   ///< |q| <= 2^25, centred on 0; of voids any
+  std::vector<uint8_t> valid;   ///< 1 valid, 0 void; empty: all are valid
+  uint8_t bridge = 0;           ///< the reach of bridges over voids (wavelet/bridges.hpp)
+  std::vector<uint8_t> lifted;  ///< with bridges only: liftedSamples()
   double base = 0, step = 1;
   ValueTable table;    ///< not empty: steps count its values, which `base` and `step` approximate
   bool exact = false;  ///< every valid sample comes back bit for bit
   int range_bits = 0;  ///< the steps span less than 2^range_bits
 
   size_t validCount() const;
+  /// Of the squared error of the samples that are lifted, those that are valid have about so much.
+  double liftedShare() const;
+  /// The steps as the transform takes them.
+  PlaneView<const int32_t> lifting(Extent plane) const {
+    return {steps, plane, bridge == 0 ? valid : lifted};
+  }
 };
 
 /// The whole steps of the heights as decoders know them, who have a table turned into heights.

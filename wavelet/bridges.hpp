@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lifting stops at voids, so that samples in single holes and narrow gaps would cut a plane into
+// pieces too short for its filters. Such voids are bridged: they have coefficients as samples have,
+// and what is decoded there is thrown away. Which ones they are follows from the mask and from one
+// number in the stream header.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline wavelet {
+
+/// The reach that bridges every void.
+inline constexpr uint8_t kBridgeAll = 255;
+
+/// Returns the mask of the samples that are lifted: the morphological closing of the valid ones by
+/// squares of 2 * reach + 1 samples (J. Serra, Image Analysis and Mathematical Morphology, 1982),
+/// where what lies outside the plane counts as marked in the erosion and not in the dilation.
+/// Empty: all are. reach: 0 bridges nothing, kBridgeAll everything. The time is that of a few
+/// passes over the plane.
+std::vector<uint8_t> liftedSamples(const std::vector<uint8_t>& valid, Extent plane, uint8_t reach);
+
+}  // namespace tetrakis::inline wavelet

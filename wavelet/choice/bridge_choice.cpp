@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wavelet/choice/bridge_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "wavelet/bridges.hpp"
+#include "wavelet/choice/bridge_fill.hpp"
+#include "wavelet/choice/compared_steps.hpp"
+#include "wavelet/choice/typical_plane.hpp"
+
+namespace tetrakis::inline choice {
+
+namespace {
+
+constexpr std::array<uint8_t, 7> kReaches = {1, 2, 4, 8, 16, 64, kBridgeAll};
+/// Estimates of bits are no better than that.
+constexpr double kClearly = 0.98;
+/// How many times the bytes the target may take for what prefixes gain.
+constexpr double kMostAtTarget = 1;
+
+CostAtStep costsOf(const TypicalPlane& plane) {
+  return [&](double step) { return plane.cost(step); };
+}
+
+double stepOf(const TypicalPlane& plane, const BridgeTarget& target) {
+  if (target.purpose == Purpose::kLossless) return 0;
+  if (target.mean_square > 0) return std::sqrt(12 * target.mean_square);
+  return plane.step(8 * static_cast<double>(target.bytes));
+}
+
+}  // namespace
+
+BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
+                           const BridgeTarget& target) {
+  constexpr double kBridgeBits = 8;        // in the header
+  constexpr size_t kFewestBridged = 1024;  // one in so many valid samples
+  const Extent extent = plane.extent();
+  const size_t valid = markedIn(extent, plane.valid);
+  BridgedPlane best;
+  if (valid == extent.samples() || valid == 0) return best;
+  const std::vector<uint8_t> mask(plane.valid.bytes().begin(), plane.valid.bytes().end());
+  const TypicalPlane plain(plane, bits, target.purpose);
+  const ComparedSteps steps(costsOf(plain), stepOf(plain, target), static_cast<double>(valid));
+  const std::vector<int32_t> filled = bridged(plane, {});
+  double least = kClearly;
+  size_t before = valid + valid / kFewestBridged;
+  for (const uint8_t reach : kReaches) {
+    std::vector<uint8_t> lifted = liftedSamples(mask, extent, reach);
+    const size_t marked = markedIn(extent, lifted);
+    if (marked <= before) continue;
+    before = marked;
+    const TypicalPlane way({filled, extent, lifted}, bits, target.purpose, plane.valid);
+    if (steps.ratioAtTarget(costsOf(way), kBridgeBits) > kMostAtTarget) continue;
+    const double ratio = steps.ratio(costsOf(way), kBridgeBits);
+    if (ratio >= least) continue;
+    least = ratio;
+    best = {reach, std::move(lifted), {}};
+  }
+  if (best.reach > 0) best.values = filled;
+  return best;
+}
+
+}  // namespace tetrakis::inline choice

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders choose here which voids are bridged (wavelet/bridges.hpp). Holes of single samples cut
+// lifting short, and cost a multiple of what stands in them; a frame of voids is cheaper as it is.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+
+namespace tetrakis::inline choice {
+
+/// A plane over whose voids lifting goes on.
+struct BridgedPlane {
+  uint8_t reach = 0;            ///< 0: none of them pays; the rest is empty then
+  std::vector<uint8_t> lifted;  ///< liftedSamples(); empty: all
+  std::vector<int32_t> values;  ///< with what stands at voids
+};
+
+/// What a plane is coded for.
+struct BridgeTarget {
+  Purpose purpose;
+  uint64_t bytes = UINT64_MAX;  ///< that there will be for it
+  double mean_square = 0;       ///< > 0: the error wanted
+};
+
+/// plane: of so many bits, with the mask of valid samples.
+BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
+                           const BridgeTarget& target);
+
+}  // namespace tetrakis::inline choice

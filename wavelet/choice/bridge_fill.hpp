@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands at bridged voids (wavelet/bridges.hpp) is thrown away by decoders, so that encoders
+// are free to put there what takes the fewest bytes: a smooth surface through the samples around.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline choice {
+
+/// Returns the plane with the voids that are lifted filled smoothly; all other values stay as they
+/// are. plane: with the mask of valid samples, which has bytes. Values stay within those of the
+/// valid samples.
+std::vector<int32_t> bridged(const PlaneView<const int32_t>& plane, Mask lifted);
+
+}  // namespace tetrakis::inline choice
