@@ -19,7 +19,7 @@
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/lossless_heights.hpp"
-#include "ratecontrol/candidate.hpp"
+#include "ratecontrol/target/candidate.hpp"
 
 namespace tetrakis::inline heights {
 

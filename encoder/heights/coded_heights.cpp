@@ -8,7 +8,7 @@
 #include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
 #include "codec/geometry/stored_heights_encoder.hpp"
 #include "encoder/heights/height_errors.hpp"
-#include "ratecontrol/hull.hpp"
+#include "ratecontrol/curves/hull.hpp"
 #include "wavelet/priority_map_encoder.hpp"
 
 namespace tetrakis::inline heights {

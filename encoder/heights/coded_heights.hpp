@@ -13,7 +13,7 @@
 #include "codec/geometry/flat_choice.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/heights/quantised_heights.hpp"
-#include "ratecontrol/coded_tracks.hpp"
+#include "ratecontrol/curves/coded_tracks.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/rounding_choice.hpp"
 

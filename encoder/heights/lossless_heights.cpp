@@ -10,7 +10,7 @@
 #include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/relative_heights.hpp"
-#include "ratecontrol/candidate.hpp"
+#include "ratecontrol/target/candidate.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline heights {

@@ -9,7 +9,7 @@
 #include "codec/geometry/relative/relative_encoder.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/restored_heights.hpp"
-#include "ratecontrol/track_order.hpp"
+#include "ratecontrol/curves/track_order.hpp"
 
 namespace tetrakis::inline heights {
 

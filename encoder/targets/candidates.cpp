@@ -12,8 +12,8 @@
 #include "encoder/heights/height_options.hpp"
 #include "encoder/targets/component_curves.hpp"
 #include "encoder/views/views.hpp"
-#include "ratecontrol/allocation.hpp"
-#include "ratecontrol/packet_slopes.hpp"
+#include "ratecontrol/allocation/allocation.hpp"
+#include "ratecontrol/allocation/packet_slopes.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"
 
 namespace tetrakis::inline targets {

@@ -17,8 +17,8 @@
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/component_curves.hpp"
 #include "encoder/views/views.hpp"
-#include "ratecontrol/allocation.hpp"
-#include "ratecontrol/target.hpp"
+#include "ratecontrol/allocation/allocation.hpp"
+#include "ratecontrol/target/target.hpp"
 
 namespace tetrakis::inline targets {
 

@@ -15,8 +15,8 @@
 #include "encoder/targets/candidates.hpp"
 #include "encoder/targets/component_curves.hpp"
 #include "encoder/targets/exact_budget.hpp"
-#include "ratecontrol/allocation.hpp"
-#include "ratecontrol/target.hpp"
+#include "ratecontrol/allocation/allocation.hpp"
+#include "ratecontrol/target/target.hpp"
 
 namespace tetrakis::inline targets {
 

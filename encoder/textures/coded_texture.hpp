@@ -11,7 +11,7 @@
 
 #include "bitstream/stream/header.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
-#include "ratecontrol/coded_tracks.hpp"
+#include "ratecontrol/curves/coded_tracks.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "texture_wavelet/texture_source.hpp"
 

@@ -12,9 +12,9 @@
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/textures/coded_texture.hpp"
 #include "encoder/views/shown_mesh.hpp"
-#include "ratecontrol/component_curve.hpp"
-#include "ratecontrol/ground_rays.hpp"
-#include "ratecontrol/screen_texture.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
+#include "ratecontrol/pictures/ground_rays.hpp"
+#include "ratecontrol/pictures/screen_texture.hpp"
 
 namespace tetrakis::inline views {
 

@@ -16,7 +16,7 @@
 #include "codec/mesh/topology/lattice_mesh.hpp"
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
-#include "ratecontrol/ground_rays.hpp"
+#include "ratecontrol/pictures/ground_rays.hpp"
 
 namespace tetrakis::inline views {
 

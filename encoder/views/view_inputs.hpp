@@ -7,7 +7,7 @@
 
 #include "ground/camera.hpp"
 #include "ground/frame.hpp"
-#include "ratecontrol/ground_rays.hpp"
+#include "ratecontrol/pictures/ground_rays.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline views {

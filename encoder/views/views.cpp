@@ -10,8 +10,8 @@
 #include "base/samples.hpp"
 #include "encoder/views/view_inputs.hpp"
 #include "ground/camera.hpp"
-#include "ratecontrol/outlines.hpp"
-#include "ratecontrol/screen_points.hpp"
+#include "ratecontrol/pictures/outlines.hpp"
+#include "ratecontrol/pictures/screen_points.hpp"
 
 namespace tetrakis::inline views {
 
@@ -31,7 +31,7 @@ std::vector<Camera> camerasOf(const EncodeInputs& inputs, const GroundRays& grou
 
 /// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
 /// `ratio` times the bytes of the one before, up to the first beyond a third of the budget: behind
-/// that errors fall as they did (ratecontrol/pair_errors.hpp), and the last nodes take most time.
+/// that errors fall as they did (PairErrors), and the last nodes take most time.
 template <class Coded>
 std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t budget) {
   constexpr double kFirst = 64;  // bytes

@@ -9,7 +9,7 @@
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/selection/selection.hpp"
 #include "encoder/views/decoded_nodes.hpp"
-#include "ratecontrol/pair_errors.hpp"
+#include "ratecontrol/allocation/pair_errors.hpp"
 
 namespace tetrakis::inline views {
 
