@@ -11,7 +11,7 @@
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/targets/component_curves.hpp"
-#include "encoder/views/views.hpp"
+#include "encoder/views/pairs.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/allocation/packet_slopes.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"

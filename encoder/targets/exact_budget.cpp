@@ -16,7 +16,7 @@
 #include "encoder/heights/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/component_curves.hpp"
-#include "encoder/views/views.hpp"
+#include "encoder/views/errors_of_prefixes.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/target/target.hpp"
 

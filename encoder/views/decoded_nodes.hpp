@@ -43,7 +43,6 @@ class DecodedNodes {
     std::vector<uint8_t> valid;   ///< empty: all are
   };
   Samples heightsAt(uint64_t bytes, const View& view);
-  bool showsMeshes() const { return mesh_.has_value(); }
   /// What viewers see of the heights.
   Relief shownAt(uint64_t bytes);
   /// What they see of all heights, if that is a mesh.
@@ -51,6 +50,7 @@ class DecodedNodes {
   Relief original() const;
 
   ScreenTexture textureAt(uint64_t bytes);
+  const Texels& originalTexels() const { return texture_.coded.of->texels; }
   Texels texelsAt(uint64_t bytes, const View& view);
 
  private:
