@@ -63,6 +63,26 @@ std::pair<double, double> rangeOf(const std::vector<float>& heights) {
   return {*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end())};
 }
 
+struct Cell {
+  int64_t column, row;
+};
+
+/// A square of 2^level cells a side, less what lies beyond the border.
+struct Block {
+  int64_t west, north, east, south;  ///< cells before east and south
+};
+
+Block blockAround(const Cell& cell, size_t level, const Extent& cells) {
+  const int64_t column = cell.column >> level, row = cell.row >> level;
+  return {column << level, row << level, std::min<int64_t>(cells.width, (column + 1) << level),
+          std::min<int64_t>(cells.height, (row + 1) << level)};
+}
+
+/// When a ray leaves the columns of a block, and its rows.
+struct Exit {
+  double columns, rows;
+};
+
 }  // namespace
 
 /// A ray in columns, rows and metres of height.
@@ -81,6 +101,25 @@ struct GroundRays::Path {
   /// When it comes to a column (axis 0), height or row; kNever if it does not.
   double reaches(size_t axis, double value) const {
     return direction[axis] == 0 ? kNever : (value - origin[axis]) * inverse[axis];
+  }
+
+  /// The column (axis 0) or row (axis 2) of cells in which the ray is, from `least` to `most`.
+  int64_t cellAt(size_t axis, double t, int64_t least, int64_t most) const {
+    const double place = at(axis, t);
+    if (!(place > static_cast<double>(least))) return least;  // not a number: any cell will do
+    return place < static_cast<double>(most) ? static_cast<int64_t>(place) : most;
+  }
+  Exit exitFrom(const Block& block) const {
+    return {reaches(0, static_cast<double>(direction[0] > 0 ? block.east : block.west)),
+            reaches(2, static_cast<double>(direction[2] > 0 ? block.south : block.north))};
+  }
+  /// The cell that the ray enters from a block; t: when.
+  Cell behind(const Block& block, const Exit& exit, double t) const {
+    if (exit.columns <= exit.rows)
+      return {direction[0] > 0 ? block.east : block.west - 1,
+              cellAt(2, t, block.north, block.south - 1)};
+    return {cellAt(0, t, block.west, block.east - 1),
+            direction[2] > 0 ? block.south : block.north - 1};
   }
 };
 
@@ -163,68 +202,59 @@ std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
   return found;
 }
 
-std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
+std::optional<GroundRays::Stay> GroundRays::stayOf(const Path& path) const {
   // Flat ground may be the lowest there is: a ray that ended just there would miss it by rounding.
   constexpr double kMargin = 1;  // metre
-  const std::array<double, 3> last = {(relief_.frame.width - 1.0) / relief_.step,
+  const std::array<double, 3> low = {0, bounds_.low[1] - kMargin, 0};
+  const std::array<double, 3> high = {(relief_.frame.width - 1.0) / relief_.step,
                                       bounds_.high[1] + kMargin,
                                       (relief_.frame.height - 1.0) / relief_.step};
-  double t = 0, end = kNever;
+  Stay stay{0, kNever};
   for (const size_t axis : {0u, 1u, 2u}) {
-    const double low = axis == 1 ? bounds_.low[1] - kMargin : 0;
     if (path.direction[axis] == 0) {
-      if (path.origin[axis] < low || path.origin[axis] > last[axis]) return {};
+      if (path.origin[axis] < low[axis] || path.origin[axis] > high[axis]) return {};
       continue;
     }
-    const auto [in, out] = std::minmax({path.reaches(axis, low), path.reaches(axis, last[axis])});
-    t = std::max(t, in);
-    end = std::min(end, out);
+    const auto [in, out] =
+        std::minmax({path.reaches(axis, low[axis]), path.reaches(axis, high[axis])});
+    stay = {std::max(stay.enter, in), std::min(stay.leave, out)};
   }
-  if (!(t <= end)) return {};
-  const auto cellAt = [&](size_t axis, double time, int64_t least, int64_t most) {
-    const double place = path.at(axis, time);
-    if (!(place > static_cast<double>(least))) return least;  // not a number: any cell will do
-    return place < static_cast<double>(most) ? static_cast<int64_t>(place) : most;
-  };
-  const int64_t columns = levels_[0].width, rows = levels_[0].height;
-  int64_t column = cellAt(0, t, 0, columns - 1), row = cellAt(2, t, 0, rows - 1);
+  if (!(stay.enter <= stay.leave)) return {};
+  return stay;
+}
+
+/// Blocks of which all cells lie below the ray are passed over; others are divided.
+std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
+  const std::optional<Stay> stay = stayOf(path);
+  if (!stay) return {};
+  const Extent cells{levels_[0].width, levels_[0].height};
+  const size_t top = levels_.size() - 1;
   // Larger blocks nearly always have something above the ray.
   constexpr size_t kBlocksAlong = 5;  // log2
-  size_t level = levels_.size() - 1 - std::min(levels_.size() - 1, kBlocksAlong);
-  while (true) {
-    const int64_t block_c = column >> level, block_r = row >> level;
-    const int64_t west = block_c << level, north = block_r << level;
-    const int64_t east = std::min(columns, (block_c + 1) << level);
-    const int64_t south = std::min(rows, (block_r + 1) << level);
-    const bool eastward = path.direction[0] > 0, southward = path.direction[2] > 0;
-    const double out_c = path.reaches(0, static_cast<double>(eastward ? east : west));
-    const double out_r = path.reaches(2, static_cast<double>(southward ? south : north));
-    const double leave = std::max(t, std::min({out_c, out_r, end}));
-    const double lowest = std::min(path.at(1, t), path.at(1, leave));
-    const Level& cells = levels_[level];
-    const float highest =
-        cells.highest[static_cast<size_t>(block_r) * cells.width + static_cast<size_t>(block_c)];
-    if (lowest <= highest) {
+  size_t level = top - std::min(top, kBlocksAlong);
+  double now = stay->enter;
+  Cell cell{path.cellAt(0, now, 0, int64_t{cells.width} - 1),
+            path.cellAt(2, now, 0, int64_t{cells.height} - 1)};
+  while (cell.column >= 0 && cell.column < cells.width && cell.row >= 0 &&
+         cell.row < cells.height) {
+    const Block block = blockAround(cell, level, cells);
+    const Exit exit = path.exitFrom(block);
+    const double leave = std::max(now, std::min({exit.columns, exit.rows, stay->leave}));
+    const auto column = static_cast<uint32_t>(cell.column), row = static_cast<uint32_t>(cell.row);
+    if (std::min(path.at(1, now), path.at(1, leave)) <=
+        levels_[level].highestAt(column, row, level)) {
       if (level > 0) {
         --level;
         continue;
       }
-      if (const auto found =
-              hitInCell(static_cast<uint32_t>(column), static_cast<uint32_t>(row), path, t, leave))
-        return found;
+      if (const auto found = hitInCell(column, row, path, now, leave)) return found;
     }
-    if (leave >= end) return {};
-    t = leave;
-    if (out_c <= out_r) {
-      column = eastward ? east : west - 1;
-      row = cellAt(2, t, north, south - 1);
-    } else {
-      row = southward ? south : north - 1;
-      column = cellAt(0, t, west, east - 1);
-    }
-    if (column < 0 || column >= columns || row < 0 || row >= rows) return {};
-    level = std::min(level + 1, levels_.size() - 1);
+    if (leave >= stay->leave) return {};
+    now = leave;
+    cell = path.behind(block, exit, now);
+    level = std::min(level + 1, top);
   }
+  return {};
 }
 
 std::optional<std::array<double, 2>> GroundRays::onPlane(const GroundHit& plane,

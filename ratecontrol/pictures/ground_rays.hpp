@@ -60,12 +60,22 @@ class GroundRays {
 
  private:
   struct Level {
-    uint32_t width = 0, height = 0;  ///< in cells of this level
+    uint32_t width = 0, height = 0;  ///< in blocks of this level
     std::vector<float> highest;
+
+    /// Of the block around a cell. level: which this one is.
+    float highestAt(uint32_t column, uint32_t row, size_t level) const {
+      return highest[size_t{row >> level} * width + (column >> level)];
+    }
   };
   static Level cellsOf(const std::vector<float>& heights, Extent grid);
   static Level halved(const Level& fine);
   struct Path;  ///< a ray in columns and rows
+  /// When a ray is between the borders, and no higher or lower than any height.
+  struct Stay {
+    double enter, leave;
+  };
+  std::optional<Stay> stayOf(const Path& path) const;
 
   /// Hits are in the columns and rows of the relief's own heights, as those of hitInCell().
   std::optional<GroundHit> firstHit(const Path& path) const;
