@@ -29,7 +29,7 @@ using Quantised = std::shared_ptr<const QuantisedHeights>;
 
 /// What all attempts have in common.
 struct Bound {
-  Quantised of;
+  Quantised quantised;
   Purpose purpose;        ///< of coefficients that will be cut
   WaveletHeader wavelet;  ///< that suits them where nothing is flat
   CoefficientOptions options;
@@ -46,13 +46,13 @@ double floatSpacing(const QuantisedHeights& heights) {
 
 /// The same heights in other steps, coded to the last bit.
 CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
-  assert(!bound.of->restored());
-  const QuantisedHeights& of = *bound.of;
-  QuantisedHeights rounded{.samples = of.samples,
+  assert(!bound.quantised->restored());
+  const QuantisedHeights& quantised = *bound.quantised;
+  QuantisedHeights rounded{.samples = quantised.samples,
                            .steps = std::move(steps),
-                           .layers = of.layers,
-                           .validity = of.validity,
-                           .shown_by = of.shown_by};
+                           .layers = quantised.layers,
+                           .validity = quantised.validity,
+                           .shown_by = quantised.shown_by};
   if (!rounded.steps.exact) rounded.left = rounded.squaresOf(rounded.steps);
   HeightTarget target(Purpose::kLossless);
   target.tried = true;
@@ -64,8 +64,8 @@ CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
 /// there is none wider than the exact one, or multiples of that are clearly wider.
 std::optional<CodedHeights> widen(const Bound& bound, int32_t largest) {
   constexpr double kClearly = 1.02;
-  const tks_heights& samples = *bound.of->samples;
-  const double widest = 2 * bound.error, exact = bound.of->steps.step;
+  const tks_heights& samples = *bound.quantised->samples;
+  const double widest = 2 * bound.error, exact = bound.quantised->steps.step;
   if (samples.sample != TKS_F32 || samples.step > 0 || widest <= exact) return {};
   if ((2.0 * largest + 1) * exact > kClearly * widest) return {};
   Result<HeightSteps> wide = toSteps(samples, {.given = widest});
@@ -75,7 +75,7 @@ std::optional<CodedHeights> widen(const Bound& bound, int32_t largest) {
 
 /// Rounds to multiples of the exact step.
 CodedHeights round(const Bound& bound, int32_t largest) {
-  HeightSteps steps = bound.of->steps;
+  HeightSteps steps = bound.quantised->steps;
   if (largest > 0) {
     for (int32_t& q : steps.steps) q = nearestMultiple(q, largest);
     steps.step *= 2 * largest + 1;
@@ -93,8 +93,9 @@ uint64_t fewestOf(const std::vector<Candidate<CodedHeights>>& made) {
 
 /// All attempts at a largest error in steps, whether they keep it or not.
 std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
-  const tks_heights& samples = *bound.of->samples;
-  const BoundWays ways = boundWays(bound.of->steps, extentOf(samples), bound.wavelet, largest);
+  const tks_heights& samples = *bound.quantised->samples;
+  const BoundWays ways =
+      boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
     if (std::optional<CodedHeights> wide = widen(bound, largest))
@@ -103,8 +104,9 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
   }
   const bool one_track = bound.options.region_log2 == 0;  // is cut, not many
   if (ways.correct && one_track)
-    made.push_back(candidateOf(codeCorrected({bound.of, bound.purpose, bound.options, largest},
-                                             {ways.mean_square, fewestOf(made)})));
+    made.push_back(
+        candidateOf(codeCorrected({bound.quantised, bound.purpose, bound.options, largest},
+                                  {ways.mean_square, fewestOf(made)})));
   return made;
 }
 
@@ -119,20 +121,22 @@ bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
 /// Exact steps leave an error of their own; what is left of the bound, in whole steps, the coding
 /// may use. Where floats are then rounded beyond the bound one step less will do; none, the exact
 /// steps, is always within.
-std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs, Quantised of) {
+std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
+                                                       Quantised quantised) {
   const double wanted = inputs.options.max_error / std::abs(inputs.heights->scale);
   assert(wanted > 0);
   const CoefficientOptions options = heightOptions(inputs);
   const auto exactly = [&] {
-    return candidateOf(codeHeights(of, Purpose::kLossless, options)).coded;
+    return candidateOf(codeHeights(quantised, Purpose::kLossless, options)).coded;
   };
-  if (of->restored()) return codeLosslessHeights(inputs, of);
-  const double finest = of->steps.step * std::abs(inputs.heights->scale);
+  if (quantised->restored()) return codeLosslessHeights(inputs, quantised);
+  const double finest = quantised->steps.step * std::abs(inputs.heights->scale);
   const bool fine = inputs.options.max_error < 2 * finest;
   const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;
-  const Bound bound{of, purpose, chooseHeightFilters(*of, purpose), options,
-                    wanted - floatSpacing(*of) / 2};
-  const double room = (wanted - errorsOf(*inputs.heights, of->steps).largest) / of->steps.step;
+  const Bound bound{quantised, purpose, chooseHeightFilters(*quantised, purpose), options,
+                    wanted - floatSpacing(*quantised) / 2};
+  const double room =
+      (wanted - errorsOf(*inputs.heights, quantised->steps).largest) / quantised->steps.step;
   constexpr double kMost = 1 << 24;
   const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
   std::vector<Candidate<CodedHeights>> kept;

@@ -19,8 +19,8 @@
 
 namespace tetrakis::inline heights {
 
-/// of: from quantiseHeights(inputs). inputs: with a max_error.
-std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
-                                                       std::shared_ptr<const QuantisedHeights> of);
+/// quantised: from quantiseHeights(inputs). inputs: with a max_error.
+std::shared_ptr<const CodedHeights> codeBoundedHeights(
+    const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> quantised);
 
 }  // namespace tetrakis::inline heights

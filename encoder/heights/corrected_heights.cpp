@@ -26,8 +26,8 @@ EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
 
 /// What a cut that corrections follow usually leaves.
 HeightPurpose cutPurpose(const Correctable& heights) {
-  return {heights.of->steps.range_bits, heights.purpose, UINT64_MAX, usualCut(heights.largest),
-          heights.options.threads};
+  return {heights.quantised->steps.range_bits, heights.purpose, UINT64_MAX,
+          usualCut(heights.largest), heights.options.threads};
 }
 
 /// One track of coefficients as a whole, and what lies around it.
@@ -39,11 +39,11 @@ struct UncutHeights {
 
 /// enough: the mean squared error, in steps, at which coding ends; 0: it does not.
 UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double enough) {
-  const QuantisedHeights& of = *heights.of;
-  HeightLayers layers = layersAround(of, std::move(choice), heights.options.priorities);
+  const QuantisedHeights& quantised = *heights.quantised;
+  HeightLayers layers = layersAround(quantised, std::move(choice), heights.options.priorities);
   CoefficientOptions options = layers.flat.beside(heights.options);
-  if (enough > 0) options.enough = enough * of.counted();
-  EncodedTrack track = std::move(codeCoefficients(of, layers.wavelet, options).front());
+  if (enough > 0) options.enough = enough * quantised.counted();
+  EncodedTrack track = std::move(codeCoefficients(quantised, layers.wavelet, options).front());
   layers.wavelet.rounded_bytes = exactBytes(std::span(&track, 1));
   const bool may_go_on = enough > 0 && !track.complete;
   return {std::move(layers), std::move(track), may_go_on};
@@ -67,15 +67,16 @@ std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeigh
                                     const CutTarget& target) {
   constexpr double kNear = 1.5;
   const auto& [layers, track, may_go_on] = uncut;
-  const GeometryHeader header = headerOf(*heights.of, layers, track.planes);
-  CorrectedCut cut(heights.of->steps, layers.flat.areas, header, track, heights.largest);
+  const GeometryHeader header = headerOf(*heights.quantised, layers, track.planes);
+  CorrectedCut cut(heights.quantised->steps, layers.flat.areas, header, track, heights.largest);
   const uint64_t bytes =
       target.mean_square ? cut.bytesFor(*target.mean_square) : cut.best(target.rival);
   const bool near = kNear * static_cast<double>(bytes) > static_cast<double>(track.codeword.size());
   if (near && may_go_on) return {};
   const Corrected corrected = cut.correct(bytes);
   const double distortion = distortionAt(track.points, bytes);
-  return joinLayers(heights.of, withCorrections(layers, corrected, heights.largest, distortion),
+  return joinLayers(heights.quantised,
+                    withCorrections(layers, corrected, heights.largest, distortion),
                     {cutAt(track, bytes)}, heights.options.region_log2);
 }
 
@@ -84,7 +85,7 @@ std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeigh
 CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
                         const CutTarget& target) {
   constexpr double kPart = 1. / 32;
-  assert(heights.of->corrections.empty());
+  assert(heights.quantised->corrections.empty());
   const double left = target.mean_square.value_or(usualCut(heights.largest));
   if (std::optional<CodedHeights> coded =
           codeCut(heights, codeUncut(heights, choice, left * kPart), target))
@@ -95,14 +96,16 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
 }  // namespace
 
 CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target) {
-  const HeightSteps& steps = heights.of->steps;
-  const PlaneView<const int32_t> plane(steps.steps, extentOf(*heights.of->samples), steps.valid);
+  const HeightSteps& steps = heights.quantised->steps;
+  const PlaneView<const int32_t> plane(steps.steps, extentOf(*heights.quantised->samples),
+                                       steps.valid);
   return codeBeside(chooseFlatAreas(plane, cutPurpose(heights)), heights, target);
 }
 
 CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {
-  assert(lossy.tracks.size() == 1 && lossy.of->steps.exact && lossy.of->table.empty());
-  const Correctable heights{lossy.of, Purpose::kLossy, heightOptions(inputs)};
+  assert(lossy.tracks.size() == 1 && lossy.quantised->steps.exact &&
+         lossy.quantised->table.empty());
+  const Correctable heights{lossy.quantised, Purpose::kLossy, heightOptions(inputs)};
   return codeBeside({lossy.flat, lossy.header.wavelet}, heights, {cut * cut});
 }
 

@@ -14,10 +14,10 @@ namespace tetrakis::inline heights {
 
 /// Heights that can be cut and corrected.
 struct Correctable {
-  std::shared_ptr<const QuantisedHeights> of;  ///< without corrections
-  Purpose purpose;                             ///< of the coefficients
-  CoefficientOptions options;                  ///< of one track
-  int32_t largest = 0;                         ///< error, in steps, that corrections leave
+  std::shared_ptr<const QuantisedHeights> quantised;  ///< without corrections
+  Purpose purpose;                                    ///< of the coefficients
+  CoefficientOptions options;                         ///< of one track
+  int32_t largest = 0;                                ///< error, in steps, that corrections leave
 };
 
 /// What a cut is to be.

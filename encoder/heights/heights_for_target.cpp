@@ -27,12 +27,12 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
 }
 
 /// Codes the heights within the largest error, or exactly where that takes fewer bytes.
-Heights codeWithinBound(const EncodeInputs& inputs, Quantised of) {
+Heights codeWithinBound(const EncodeInputs& inputs, Quantised quantised) {
   const double error = inputs.options.max_error / std::abs(inputs.heights->scale);
-  if (leavesExactSteps(*of, error)) {
+  if (leavesExactSteps(*quantised, error)) {
     if (Heights exact = exactHeightsFor(inputs, error, UINT64_MAX)) return exact;
   }
-  Heights bounded = codeBoundedHeights(inputs, std::move(of));
+  Heights bounded = codeBoundedHeights(inputs, std::move(quantised));
   const uint64_t bytes = bytesOf(bounded->tracks);
   Heights exact = exactHeightsFor(inputs, error, bytes);
   return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
@@ -40,35 +40,36 @@ Heights codeWithinBound(const EncodeInputs& inputs, Quantised of) {
 
 /// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
 /// samples are rounded, which counts where few steps are left. Where that is not enough it goes on.
-CodedHeights codeUntilReached(const EncodeInputs& inputs, const Quantised& of,
+CodedHeights codeUntilReached(const EncodeInputs& inputs, const Quantised& quantised,
                               HeightTarget target) {
-  const SampleRange range = rangeOf(*inputs.heights, of->steps.valid);
+  const SampleRange range = rangeOf(*inputs.heights, quantised->steps.valid);
   const double wanted =
       worstMeanSquare(range.high - range.low, inputs.options.psnr) / inputs.heaviest();
-  target.mean_square = wanted / (of->steps.step * of->steps.step);
+  target.mean_square = wanted / (quantised->steps.step * quantised->steps.step);
   CoefficientOptions options = heightOptions(inputs);
-  if (target.mean_square > 1 && !of->restored())
-    options.enough = target.mean_square / 2 * of->counted();
-  CodedHeights coded = codeHeights(of, target, options);
+  if (target.mean_square > 1 && !quantised->restored())
+    options.enough = target.mean_square / 2 * quantised->counted();
+  CodedHeights coded = codeHeights(quantised, target, options);
   if (coded.tracks.front().complete) return coded;
   const Codewords whole = codewordsOf(coded.tracks);
   if (sampleErrorsOf(coded, whole, options.threads).mean_square <= wanted) return coded;
-  return codeHeights(of, target, heightOptions(inputs));
+  return codeHeights(quantised, target, heightOptions(inputs));
 }
 
 }  // namespace
 
-Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised of) {
-  if (inputs.options.max_error > 0) return codeWithinBound(inputs, std::move(of));
-  if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, of);
-  HeightTarget target(of->restored() ? Purpose::kLossless : purposeOf(inputs));
+Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
+  if (inputs.options.max_error > 0) return codeWithinBound(inputs, std::move(quantised));
+  if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, quantised);
+  HeightTarget target(quantised->restored() ? Purpose::kLossless : purposeOf(inputs));
   // What a texture leaves of a budget is not known yet; most of it is the texture's.
   constexpr uint64_t kShareBesideTexture = 4;
   if (inputs.budgeted())
     target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
   if (inputs.options.psnr > 0)
-    return std::make_shared<const CodedHeights>(codeUntilReached(inputs, of, target));
-  return std::make_shared<const CodedHeights>(codeHeights(of, target, heightOptions(inputs)));
+    return std::make_shared<const CodedHeights>(codeUntilReached(inputs, quantised, target));
+  return std::make_shared<const CodedHeights>(
+      codeHeights(quantised, target, heightOptions(inputs)));
 }
 
 }  // namespace tetrakis::inline heights

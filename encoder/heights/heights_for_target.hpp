@@ -9,8 +9,8 @@
 
 namespace tetrakis::inline heights {
 
-/// of: from quantiseHeights(inputs).
+/// quantised: from quantiseHeights(inputs).
 std::shared_ptr<const CodedHeights> codeHeightsForTarget(
-    const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> of);
+    const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> quantised);
 
 }  // namespace tetrakis::inline heights

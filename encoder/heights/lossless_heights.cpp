@@ -21,7 +21,7 @@ using Quantised = std::shared_ptr<const QuantisedHeights>;
 
 /// The samples that coefficients show: valid ones outside flat areas; empty: all.
 std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
-  std::vector<uint8_t> free = heights.of->steps.valid;
+  std::vector<uint8_t> free = heights.quantised->steps.valid;
   const std::vector<uint16_t>& areas = heights.flat.areas.numbers;
   if (free.empty()) free.assign(areas.size(), 1);
   for (size_t i = 0; i < areas.size(); ++i) free[i] = free[i] != 0 && areas[i] == 0;
@@ -33,10 +33,10 @@ std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
 /// noise, free samples alone lack the surface that the transform would have without areas. Either
 /// hint is worth a trial.
 bool correctionsMayPay(const CodedHeights& whole) {
-  const HeightSteps& steps = whole.of->steps;
+  const HeightSteps& steps = whole.quantised->steps;
   const uint64_t bytes = bytesOf(whole.tracks);
   const auto may_pay = [&](const std::vector<uint8_t>& mask) {
-    const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.of->samples), mask);
+    const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.quantised->samples), mask);
     return correctionsMayPay(plane, steps.range_bits, bytes);
   };
   const bool some_flat = !whole.flat.areas.heights.empty();
@@ -46,31 +46,32 @@ bool correctionsMayPay(const CodedHeights& whole) {
 /// Codes heights to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
 /// corrections behind it.
 std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
-                                                     const Quantised& of) {
+                                                     const Quantised& quantised) {
   CoefficientOptions options = heightOptions(inputs);
-  auto whole = candidateOf(codeHeights(of, Purpose::kLossless, options));
-  const HeightSteps& steps = of->steps;
+  auto whole = candidateOf(codeHeights(quantised, Purpose::kLossless, options));
+  const HeightSteps& steps = quantised->steps;
   if (whole.coded->tracks.size() > 1 || !steps.exact || !steps.table.empty()) return whole.coded;
   if (!correctionsMayPay(*whole.coded)) return whole.coded;
   options.limit = whole.bytes();
-  auto corrected = candidateOf(codeCorrected({of, Purpose::kLossy, options}, {{}, whole.bytes()}));
+  auto corrected =
+      candidateOf(codeCorrected({quantised, Purpose::kLossy, options}, {{}, whole.bytes()}));
   // Without corrections its account would not end at exact.
   if (corrected.coded->layers.corrections == CorrectionKind::kNone) return whole.coded;
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
 /// Whether the steps need not be tried: by the estimate, their coefficients alone take more bytes.
-bool takesMore(const QuantisedHeights& of, uint64_t bytes) {
-  const HeightSteps& steps = of.steps;
+bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
+  const HeightSteps& steps = quantised.steps;
   if (!steps.table.empty()) return false;
-  const PlaneView<const int32_t> plane(steps.steps, extentOf(*of.samples), steps.valid);
+  const PlaneView<const int32_t> plane(steps.steps, extentOf(*quantised.samples), steps.valid);
   return typicalCost(plane, steps.range_bits, 0).bits / 8 > static_cast<double>(bytes);
 }
 
 /// Samples with a relative step mostly take far fewer bytes from it.
 std::shared_ptr<const CodedHeights> codeFromRelative(const EncodeInputs& inputs,
-                                                     const QuantisedHeights& of) {
-  const double relative_step = relativeStepOf(of);
+                                                     const QuantisedHeights& quantised) {
+  const double relative_step = relativeStepOf(quantised);
   const Quantised fine = relative_step > 0 ? quantiseForRelative(inputs, relative_step) : nullptr;
   return fine ? candidateOf(codeRelative(inputs, fine, relative_step)).coded : nullptr;
 }
@@ -82,18 +83,19 @@ std::shared_ptr<const CodedHeights> codeFromRelative(const EncodeInputs& inputs,
 /// sixteenth. It is tried where the estimate, which is often off by a twentieth, says that it is
 /// the shorter one.
 std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
-                                                        const Quantised& of) {
+                                                        const Quantised& quantised) {
   constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
-  const std::shared_ptr<const CodedHeights> relative = codeFromRelative(inputs, *of);
-  if (relative && takesMore(*of, bytesOf(relative->tracks))) return relative;
-  std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, of);
+  const std::shared_ptr<const CodedHeights> relative = codeFromRelative(inputs, *quantised);
+  if (relative && takesMore(*quantised, bytesOf(relative->tracks))) return relative;
+  std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, quantised);
   if (relative) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {relative}}).coded;
   if (whole->tracks.size() > 1) return whole;
-  const HeightSteps& steps = of->steps;
+  const HeightSteps& steps = quantised->steps;
   const auto bytes = static_cast<double>(bytesOf(whole->tracks));
-  if (estimateDrawing({steps.steps, extentOf(*of->samples), steps.valid}) > kEstimateOff * bytes)
+  if (estimateDrawing({steps.steps, extentOf(*quantised->samples), steps.valid}) >
+      kEstimateOff * bytes)
     return whole;
-  std::optional<CodedHeights> drawn = drawHeights(of);
+  std::optional<CodedHeights> drawn = drawHeights(quantised);
   if (!drawn || static_cast<double>(bytesOf(drawn->tracks)) > kMostOfWavelet * bytes) return whole;
   return std::make_shared<const CodedHeights>(*std::move(drawn));
 }

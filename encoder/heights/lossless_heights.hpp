@@ -10,8 +10,8 @@
 
 namespace tetrakis::inline heights {
 
-/// of: from quantiseHeights(inputs).
+/// quantised: from quantiseHeights(inputs).
 std::shared_ptr<const CodedHeights> codeLosslessHeights(
-    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& of);
+    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& quantised);
 
 }  // namespace tetrakis::inline heights

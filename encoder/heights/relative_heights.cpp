@@ -42,10 +42,10 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
     cut.tracks.front() = firstOf(track, end->bytes);
     return cut;
   }
-  const OrderedTracks order = orderTracks(whole.rated(), TrackOrder::kSlopes);
+  const OrderedTracks order = orderTracks(whole.accounted(), TrackOrder::kSlopes);
   const auto end = std::find_if(order.points.begin(), order.points.end(), is_near);
   if (end == order.points.end()) return {};
-  const Codewords kept = prefixAfter(whole.rated(), order.packets, end->bytes);
+  const Codewords kept = prefixAfter(whole.accounted(), order.packets, end->bytes);
   if (kept.front().size() < whole.layers.openingBytes()) return {};
   for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
   return cut;
@@ -87,8 +87,9 @@ RelativeCorrections relativeCorrections(const CodedHeights& cut, double relative
   const auto pulled = [&](uint8_t quarters) {
     const RelativeSteps relative{relative_step, quarters};
     return RelativeCorrections{
-        relative, encodeRelative(*cut.of->samples, {shown.steps, cut.header.extent(), shown.valid},
-                                 cut.header, relative)};
+        relative,
+        encodeRelative(*cut.quantised->samples, {shown.steps, cut.header.extent(), shown.valid},
+                       cut.header, relative)};
   };
   RelativeCorrections all = pulled(4), quarter = pulled(1);
   return quarter.codeword.size() < all.codeword.size() ? std::move(quarter) : std::move(all);
@@ -100,7 +101,7 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
   layers.corrections = CorrectionKind::kRelative;
   layers.relative = corrections.relative;
   layers.coefficient_bytes = cut.tracks.front().codeword.size() - layers.openingBytes();
-  return {.of = cut.of,
+  return {.quantised = cut.quantised,
           .header = cut.header,
           .layers = std::move(layers),
           .tracks = tracksWithCorrections(std::move(cut.tracks), corrections.codeword),
@@ -112,28 +113,29 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
 }  // namespace
 
 double relativeStepOf(const CodedHeights& lossy) {
-  const QuantisedHeights& of = *lossy.of;
-  const bool possible = !of.restored() && of.steps.table.empty() && !lossy.header.direct() &&
-                        lossy.closing == 0 && lossy.tracks.size() == 1;
-  return possible ? relativeStepOf(of) : 0;
+  const QuantisedHeights& quantised = *lossy.quantised;
+  const bool possible = !quantised.restored() && quantised.steps.table.empty() &&
+                        !lossy.header.direct() && lossy.closing == 0 && lossy.tracks.size() == 1;
+  return possible ? relativeStepOf(quantised) : 0;
 }
 
 std::optional<CodedHeights> codeRelative(const CodedHeights& lossy, double relative_step,
                                          uint32_t threads) {
   std::optional<CodedHeights> cut =
-      cutAt(lossy, squaresOfCut(lossy.of->steps, relative_step) * lossy.counted());
+      cutAt(lossy, squaresOfCut(lossy.quantised->steps, relative_step) * lossy.counted());
   if (!cut) return {};
   return followedByCorrections(*std::move(cut), relative_step, threads);
 }
 
 /// Coding ends with a whole bit-plane of all tracks; the cut lies before that.
 CodedHeights codeRelative(const EncodeInputs& inputs,
-                          const std::shared_ptr<const QuantisedHeights>& of, double relative_step) {
+                          const std::shared_ptr<const QuantisedHeights>& quantised,
+                          double relative_step) {
   HeightTarget target(Purpose::kLossy);
-  target.mean_square = squaresOfCut(of->steps, relative_step);
+  target.mean_square = squaresOfCut(quantised->steps, relative_step);
   CoefficientOptions options = heightOptions(inputs);
-  options.enough = target.mean_square * of->counted();
-  CodedHeights coded = codeHeights(of, target, options);
+  options.enough = target.mean_square * quantised->counted();
+  CodedHeights coded = codeHeights(quantised, target, options);
   std::optional<CodedHeights> cut = cutAt(coded, options.enough);
   return followedByCorrections(cut ? *std::move(cut) : std::move(coded), relative_step,
                                inputs.options.threads);

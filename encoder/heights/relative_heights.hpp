@@ -25,8 +25,9 @@ double relativeStepOf(const CodedHeights& lossy);
 std::optional<CodedHeights> codeRelative(const CodedHeights& lossy, double relative_step,
                                          uint32_t threads);
 
-/// Heights to the last bit, in any number of tracks. of: from quantiseForRelative().
+/// Heights to the last bit, in any number of tracks. quantised: from quantiseForRelative().
 CodedHeights codeRelative(const EncodeInputs& inputs,
-                          const std::shared_ptr<const QuantisedHeights>& of, double relative_step);
+                          const std::shared_ptr<const QuantisedHeights>& quantised,
+                          double relative_step);
 
 }  // namespace tetrakis::inline heights

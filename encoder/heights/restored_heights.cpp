@@ -14,9 +14,10 @@ namespace tetrakis::inline heights {
 namespace {
 
 /// The track with the corrections behind all else.
-EncodedTrack withCorrections(EncodedTrack track, const QuantisedHeights& of) {
-  track.codeword.insert(track.codeword.end(), of.corrections.begin(), of.corrections.end());
-  for (RatePoint& point : track.points) point.distortion += of.left;
+EncodedTrack withCorrections(EncodedTrack track, const QuantisedHeights& quantised) {
+  track.codeword.insert(track.codeword.end(), quantised.corrections.begin(),
+                        quantised.corrections.end());
+  for (RatePoint& point : track.points) point.distortion += quantised.left;
   track.points.push_back({track.codeword.size(), 0});
   return track;
 }
@@ -28,33 +29,34 @@ HeightSteps shownSteps(const CodedHeights& heights, uint32_t threads) {
                                          codewordsOf(heights.tracks), {}, {threads, nullptr});
   HeightSteps shown;
   shown.steps = wholeSteps(std::move(decoded.geometry));
-  shown.valid = heights.of->steps.valid;
-  shown.base = heights.of->steps.base;
-  shown.step = heights.of->steps.step;
+  shown.valid = heights.quantised->steps.valid;
+  shown.base = heights.quantised->steps.base;
+  shown.step = heights.quantised->steps.step;
   return shown;
 }
 
 bool canBeRestored(const CodedHeights& lossy) {
-  const QuantisedHeights& of = *lossy.of;
-  return !of.steps.exact && !of.restored() && of.steps.table.empty() && !lossy.header.direct() &&
-         lossy.closing == 0 && lossy.tracks.size() == 1 && lossy.tracks.front().complete;
+  const QuantisedHeights& quantised = *lossy.quantised;
+  return !quantised.steps.exact && !quantised.restored() && quantised.steps.table.empty() &&
+         !lossy.header.direct() && lossy.closing == 0 && lossy.tracks.size() == 1 &&
+         lossy.tracks.front().complete;
 }
 
 CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy) {
   assert(canBeRestored(lossy));
   const HeightSteps shown = shownSteps(lossy, inputs.options.threads);
-  const auto of = std::make_shared<const QuantisedHeights>(
-      withCorrections(*lossy.of, correctionsBehind(*lossy.of, shown)));
+  const auto quantised = std::make_shared<const QuantisedHeights>(
+      withCorrections(*lossy.quantised, correctionsBehind(*lossy.quantised, shown)));
   const EncodedTrack& track = lossy.tracks.front();
   GeometryLayers layers = lossy.layers;
   layers.corrections = CorrectionKind::kSamples;
   layers.coefficient_bytes = track.codeword.size() - layers.openingBytes();
-  return {.of = of,
+  return {.quantised = quantised,
           .header = lossy.header,
           .layers = std::move(layers),
-          .tracks = {withCorrections(track, *of)},
-          .closing = of->corrections.size(),
-          .left = of->left,
+          .tracks = {withCorrections(track, *quantised)},
+          .closing = quantised->corrections.size(),
+          .left = quantised->left,
           .flat = lossy.flat};
 }
 

@@ -50,7 +50,7 @@ class DecodedNodes {
   Relief original() const;
 
   ScreenTexture textureAt(uint64_t bytes);
-  const Texels& originalTexels() const { return texture_.coded.of->texels; }
+  const Texels& originalTexels() const { return texture_.coded.source->texels; }
   Texels texelsAt(uint64_t bytes, const View& view);
 
  private:

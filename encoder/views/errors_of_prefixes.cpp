@@ -17,7 +17,7 @@ constexpr size_t kPrefixPixels = 4 * kViewPixels;
 template <class Coded>
 ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& packets,
                                std::span<const uint64_t> lengths) {
-  const CodedTracks rated = coded.rated();
+  const CodedTracks tracks = coded.accounted();
   ComponentCurve curve;
   curve.packets = packets;
   for (const uint64_t length : lengths) {
@@ -27,13 +27,13 @@ ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& pa
       if (left <= head) break;
       const uint64_t taken = std::min(left - head, payload);
       left -= head + taken;
-      if (packet.component == rated.component && (!packet.whole || taken == payload))
+      if (packet.component == tracks.component && (!packet.whole || taken == payload))
         bytes += taken;
     }
     double squares = 0;
-    const Codewords prefix = prefixAfter(rated, packets, bytes);
+    const Codewords prefix = prefixAfter(tracks, packets, bytes);
     for (size_t i = 0; i < prefix.size(); ++i)
-      squares += distortionAt(rated.tracks[i].points, prefix[i].size());
+      squares += distortionAt(coded.tracks[i].points, prefix[i].size());
     curve.points.push_back({bytes, squares / coded.counted()});
   }
   return curve;

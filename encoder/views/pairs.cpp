@@ -60,7 +60,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
                         const Rated<CodedTexture>& texture) {
   const bool rendered = inputs.options.picture_error != nullptr;
   const bool meshes_for_cameras =
-      inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.of);
+      inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.quantised);
   // Pictures that are drawn take long, and meshes for cameras: fewer of them.
   const double ratio = rendered || meshes_for_cameras ? 4 : 2;
   const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
