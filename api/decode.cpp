@@ -8,7 +8,6 @@
 #include "api/needed.hpp"
 #include "api/written.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
-#include "wavelet/pyramid.hpp"
 
 namespace tetrakis::inline api {
 

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "codec/geometry/corrected_cut.hpp"
 #include "encoder/heights/height_options.hpp"

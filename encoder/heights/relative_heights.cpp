@@ -2,7 +2,6 @@
 #include "encoder/heights/relative_heights.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 #include <vector>
 

@@ -4,10 +4,8 @@
 #include <cassert>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "codec/geometry/height_layers.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
 
 namespace tetrakis::inline heights {
 

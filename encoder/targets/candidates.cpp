@@ -3,7 +3,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <type_traits>
 #include <utility>
 

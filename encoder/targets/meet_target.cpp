@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,9 +10,7 @@
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
-#include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/candidates.hpp"
-#include "encoder/targets/component_curves.hpp"
 #include "encoder/targets/exact_budget.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/target/target.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/views/errors_of_prefixes.hpp"
 
+#include <algorithm>
+
 #include "encoder/views/decoded_nodes.hpp"
 #include "encoder/views/view_inputs.hpp"
 #include "ratecontrol/pictures/picture_errors.hpp"
@@ -23,7 +25,7 @@ ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& pa
   for (const uint64_t length : lengths) {
     uint64_t left = length, bytes = 0;
     for (const Packet& packet : packets) {
-      const uint64_t head = overheadOf(packet), payload = packet.end - packet.begin;
+      const uint64_t head = overheadOf(packet), payload = packet.length();
       if (left <= head) break;
       const uint64_t taken = std::min(left - head, payload);
       left -= head + taken;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "base/texels.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"

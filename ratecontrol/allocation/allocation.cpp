@@ -37,7 +37,7 @@ class Progress {
   void advance(std::vector<Packet>& order) {
     const uint64_t end = curve_.points[++at_].bytes;
     for (; sent_ < end && next_ != curve_.packets.end(); ++next_) {
-      sent_ += next_->end - next_->begin;
+      sent_ += next_->length();
       order.push_back(*next_);
     }
     assert(sent_ == end);
@@ -55,8 +55,7 @@ class Progress {
 };
 
 double meanSlope(const Packet& a, const Packet& b) {
-  const auto bytes_a = static_cast<double>(a.end - a.begin),
-             bytes_b = static_cast<double>(b.end - b.begin);
+  const auto bytes_a = static_cast<double>(a.length()), bytes_b = static_cast<double>(b.length());
   return (a.slope * bytes_a + b.slope * bytes_b) / (bytes_a + bytes_b);
 }
 

@@ -2,7 +2,6 @@
 #include "ratecontrol/allocation/packet_slopes.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +14,7 @@ class Falling {
  public:
   explicit Falling(const ComponentCurve* curve) : curve_(curve) {}
 
-  void take(const Packet& packet) { bytes_ += packet.end - packet.begin; }
+  void take(const Packet& packet) { bytes_ += packet.length(); }
 
   double distortion() {
     if (curve_ == nullptr || curve_->points.empty()) return 0;
@@ -47,7 +46,7 @@ struct Pool {
 void settleSlopes(std::span<Packet* const> packets, const std::vector<double>& removed) {
   std::vector<Pool> pools;
   for (size_t i = 0; i < packets.size(); ++i) {
-    Pool pool = {i, 1, removed[i], static_cast<double>(packets[i]->end - packets[i]->begin)};
+    Pool pool = {i, 1, removed[i], static_cast<double>(packets[i]->length())};
     while (!pools.empty() && pools.back().slope() <= pool.slope()) {
       const Pool& before = pools.back();
       pool = {before.first, before.count + pool.count, before.removed + pool.removed,

@@ -31,7 +31,7 @@ Codewords prefixAfter(const CodedTracks& coded, std::span<const Packet> packets,
   for (const Packet& packet : packets) {
     if (packet.component != coded.component) continue;
     assert(packet.track && *packet.track < all.size());
-    const uint64_t taken = std::min(bytes, packet.end - packet.begin);
+    const uint64_t taken = std::min(bytes, packet.length());
     cut[*packet.track] = all[*packet.track].first(packet.begin + taken);
     bytes -= taken;
     if (bytes == 0) break;

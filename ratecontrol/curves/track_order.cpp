@@ -96,12 +96,12 @@ OrderedTracks orderTracks(const CodedTracks& coded, TrackOrder by) {
     left += track.points.back().distortion;
     beyond += track.points.back().beyond;
   }
-  for (const Piece& piece : pieces) bytes += piece.packet.end - piece.packet.begin;
+  for (const Piece& piece : pieces) bytes += piece.packet.length();
   order.points.back() = {bytes, left, false, beyond};
   for (size_t i = pieces.size(); i-- > 0;) {
     left += pieces[i].removed;
     beyond += pieces[i].beyond;
-    bytes -= pieces[i].packet.end - pieces[i].packet.begin;
+    bytes -= pieces[i].packet.length();
     order.points[i] = {bytes, left, false, beyond};
     order.packets[i] = pieces[i].packet;
   }

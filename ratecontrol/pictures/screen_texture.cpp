@@ -2,7 +2,6 @@
 #include "ratecontrol/pictures/screen_texture.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace tetrakis::inline pictures {

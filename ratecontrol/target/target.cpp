@@ -19,14 +19,14 @@ std::vector<PayloadRange> rangesOf(std::span<const Packet> packets) {
   uint64_t sent = 0;
   for (const Packet& packet : packets) {
     assert(packet.begin < packet.end && packet.component == packets.front().component);
-    ranges.push_back({sent, sent + packet.end - packet.begin, packet.whole});
+    ranges.push_back({sent, sent + packet.length(), packet.whole});
     sent = ranges.back().end;
   }
   return ranges;
 }
 
 uint64_t sizeOf(const Packet& packet) {
-  return overheadOf(packet) + packet.end - packet.begin;
+  return overheadOf(packet) + packet.length();
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ Needs sentWith(std::span<const Packet> packets, Component component, uint64_t by
   Needs sent = {};
   const uint64_t& of_component = sent[static_cast<size_t>(component)];
   for (const Packet& packet : packets) {
-    sent[static_cast<size_t>(packet.component)] += packet.end - packet.begin;
+    sent[static_cast<size_t>(packet.component)] += packet.length();
     if (packet.component == component && of_component >= bytes) break;
   }
   return sent;
@@ -67,7 +67,7 @@ std::vector<Packet> keepNeeded(
   for (Packet packet : packets) {
     assert(packet.begin < packet.end);
     const auto component = static_cast<size_t>(packet.component);
-    const uint64_t taken = std::min(left[component], packet.end - packet.begin);
+    const uint64_t taken = std::min(left[component], packet.length());
     left[component] -= taken;
     if (taken == 0) continue;
     if (packet.begin + taken < packet.end) {
@@ -109,7 +109,7 @@ std::vector<Packet> endWithin(std::span<const Packet> packets, Component compone
 
 uint64_t payloadOf(std::span<const Packet> packets) {
   uint64_t total = 0;
-  for (const Packet& packet : packets) total += packet.end - packet.begin;
+  for (const Packet& packet : packets) total += packet.length();
   return total;
 }
 

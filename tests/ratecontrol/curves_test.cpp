@@ -143,7 +143,7 @@ TEST(ComponentCurve, PacketsCoverTheTracksAndTheOpeningComesFirst) {
       for (size_t i = 0; i < count; ++i) EXPECT_EQ(before[i].size(), sent[i]);
       EXPECT_EQ(packet.begin, sent[packet.track.value_or(0)]);
       sent[packet.track.value_or(0)] = packet.end;
-      bytes += packet.end - packet.begin;
+      bytes += packet.length();
     }
     for (size_t i = 0; i < count; ++i) EXPECT_EQ(sent[i], tracks[i].codeword.size());
   }

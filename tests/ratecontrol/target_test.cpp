@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <random>
 
@@ -33,8 +32,7 @@ std::vector<Packet> randomPackets(std::mt19937& random, bool both) {
 
 uint64_t payloadOf(std::span<const Packet> packets, Component component) {
   uint64_t bytes = 0;
-  for (const Packet& packet : packets)
-    bytes += packet.component == component ? packet.end - packet.begin : 0;
+  for (const Packet& packet : packets) bytes += packet.component == component ? packet.length() : 0;
   return bytes;
 }
 
@@ -54,7 +52,7 @@ TEST(LeastBytes, AreWithinA64thOfAPacketAndNeverInAWholeOne) {
       EXPECT_EQ(*least, packet->end);
     } else {
       EXPECT_GE(*least, enough);
-      EXPECT_LE(*least - enough, std::max<uint64_t>(1, (packet->end - packet->begin) / 64));
+      EXPECT_LE(*least - enough, std::max<uint64_t>(1, packet->length() / 64));
     }
   }
 }

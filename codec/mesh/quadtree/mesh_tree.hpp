@@ -13,7 +13,6 @@
 //   sw---s---se    since both sides of an edge ask for the same midpoint, there are no T-junctions.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
