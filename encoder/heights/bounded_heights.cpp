@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/bound_choice.hpp"
-#include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/bound_choice.hpp"
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"
 #include "codec/geometry/quantiser/voids.hpp"

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/flat_choice.hpp"
+#include "codec/geometry/coding_choice/flat_choice.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "ratecontrol/curves/coded_tracks.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "encoder/heights/height_options.hpp"
 
 namespace tetrakis::inline heights {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lossy coefficients are cut, and what then is off by more than a largest error gets a correction
-// (codec/geometry/corrected_cut.hpp).
+// (codec/geometry/coding_choice/corrected_cut.hpp).
 #pragma once
 
 #include <cstdint>

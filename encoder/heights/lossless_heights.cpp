@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/bound_choice.hpp"
+#include "codec/geometry/coding_choice/bound_choice.hpp"
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/height_options.hpp"

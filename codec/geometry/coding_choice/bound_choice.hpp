@@ -10,7 +10,7 @@
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coding_choice {
 
 struct BoundWays {
   bool round = true;    ///< to multiples of 2 * largest + 1 steps, coded to the last bit
@@ -32,4 +32,4 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
 /// samples of a smooth surface, a cut knows most. Estimated on typical parts. heights: in steps.
 bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coding_choice

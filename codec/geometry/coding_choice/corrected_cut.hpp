@@ -13,7 +13,7 @@
 #include "codec/geometry/geometry_decoder.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coding_choice {
 
 /// The multiple of 2 * largest + 1 nearest to q.
 int32_t nearestMultiple(int64_t q, int64_t largest);
@@ -69,4 +69,4 @@ inline double usualCut(int32_t largest) {
   return rmse * rmse;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coding_choice

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/bound_choice.hpp"
+#include "codec/geometry/coding_choice/bound_choice.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/typical_parts.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coding_choice {
 
 namespace {
 
@@ -129,4 +129,4 @@ bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, 
   return least < kTries * typicalCost(heights, range_bits, 0).bits;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coding_choice

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -9,7 +9,7 @@
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/height_layers.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coding_choice {
 
 int32_t nearestMultiple(int64_t q, int64_t largest) {
   const int64_t unit = 2 * largest + 1, shifted = q + largest;
@@ -103,4 +103,4 @@ uint64_t CorrectedCut::best(uint64_t rival) {
   return best;
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coding_choice

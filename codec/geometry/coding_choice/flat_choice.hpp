@@ -11,7 +11,7 @@
 #include "codec/geometry/geometry_encoder.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coding_choice {
 
 /// Areas and their codeword; both are empty if none pays.
 struct FlatLayer {
@@ -43,4 +43,4 @@ struct FlatChoice {
 /// heights: in steps.
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, const HeightPurpose& purpose);
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coding_choice

@@ -3,24 +3,21 @@
 // (wavelet/choice/plane_cost.hpp) decides, with the bytes of the areas: at the step of the target,
 // and at coarser ones, because every prefix pays for the areas first. Large areas are tried first;
 // then smaller ones are added, or shapes are simplified, whichever gains.
-#include "codec/geometry/flat_choice.hpp"
+#include "codec/geometry/coding_choice/flat_choice.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
-#include "base/parallel.hpp"
+#include "codec/geometry/coding_choice/tried_plane.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
-#include "wavelet/choice/plane_cost.hpp"
-#include "wavelet/wavelet_header.hpp"
 
-namespace tetrakis::inline geometry {
+namespace tetrakis::inline coding_choice {
 
 namespace {
 
@@ -37,131 +34,6 @@ constexpr double kClearlyOfPlane = 0.99, kClearlyOfParts = 0.98;
 /// What it is worth, as a share of the bytes, that all samples are flat and stay so: squared errors
 /// do not tell that a sea with waves looks wrong.
 constexpr double kWorthOfFlatness = 0.1;
-
-/// A part, copied from the plane.
-struct CopiedPart {
-  SampledPart place;
-  std::vector<int32_t> heights;
-  std::vector<uint8_t> valid;
-
-  CopiedPart(const PlaneView<const int32_t>& plane, const SampledPart& sampled)
-      : place(sampled),
-        heights(cut(plane.values(), plane.extent(), {0, sampled.window})),
-        valid(cut(plane.valid.bytes(), plane.extent(), {0, sampled.window})) {}
-  Extent extent() const { return place.window.extent(); }
-};
-
-/// A part, transformed. What it has been found to cost is kept.
-class TriedPart {
- public:
-  /// The part outlives this.
-  TriedPart(const CopiedPart& part, FlatAreas flat, const WaveletHeader& wavelet)
-      : flat_(std::move(flat)),
-        values_(scaled(part.heights, wavelet)),
-        area_heights_(scaled(flat_.heights, wavelet)),
-        layout_(specOf(wavelet), part.extent(), part.valid, {flat_.numbers, area_heights_}) {
-    clearUnmarked(std::span(values_), part.valid);
-    forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
-    if (!flat_.empty()) bytes_of_areas_ = encodeFlatAreas(flat_, part.extent(), part.valid).size();
-  }
-  TriedPart(const TriedPart&) = delete;  // the layout refers to it
-  TriedPart& operator=(const TriedPart&) = delete;
-
-  PlaneCost cost(double step) {
-    const auto [known, is_new] = costs_.try_emplace(step);
-    if (is_new) known->second = costOf(layout_, values_, step);
-    return known->second;
-  }
-  bool holds(const FlatAreas& flat) const { return flat_.numbers == flat.numbers; }
-  size_t bytesOfAreas() const { return bytes_of_areas_; }
-
- private:
-  static std::vector<int32_t> scaled(std::span<const int32_t> heights,
-                                     const WaveletHeader& wavelet) {
-    std::vector<int32_t> values(heights.begin(), heights.end());
-    for (int32_t& h : values)
-      h = static_cast<int32_t>(static_cast<uint32_t>(h) << wavelet.fraction_bits);
-    return values;
-  }
-
-  FlatAreas flat_;
-  std::vector<int32_t> values_, area_heights_;
-  PlaneLayout layout_;
-  size_t bytes_of_areas_ = 0;
-  std::map<double, PlaneCost> costs_;  ///< by the step
-};
-
-/// What a part costs with one wavelet and the areas of several shapes, which it often shows alike.
-class PartTrials {
- public:
-  /// The part outlives this.
-  explicit PartTrials(const CopiedPart& part) : part_(&part) {}
-
-  TriedPart& tried(FlatAreas flat, const WaveletHeader& wavelet) {
-    for (const auto& before : tried_) {
-      if (before->holds(flat)) return *before;
-    }
-    if (tried_.size() == kKept) tried_.pop_back();
-    return *tried_.emplace_back(std::make_unique<TriedPart>(*part_, std::move(flat), wavelet));
-  }
-  double standsFor() const { return part_->place.stands_for; }
-
- private:
-  /// The first, which often has no areas, and the last one: more would take memory.
-  static constexpr size_t kKept = 2;
-
-  const CopiedPart* part_;
-  std::vector<std::unique_ptr<TriedPart>> tried_;
-};
-
-/// Parts that stand for a plane, and what that costs.
-class TriedPlane {
- public:
-  /// trials: of the wavelet; they outlive this. areas: of each part.
-  TriedPlane(std::vector<PartTrials>& trials, std::vector<FlatAreas> areas,
-             const WaveletHeader& wavelet, uint32_t threads)
-      : parts_(trials.size()), threads_(threads) {
-    parallelFor(threads_, parts_.size(), [&](size_t i) {
-      parts_[i] = {&trials[i].tried(std::move(areas[i]), wavelet), trials[i].standsFor()};
-    });
-  }
-  PlaneCost cost(double step) const {
-    std::vector<PlaneCost> costs(parts_.size());
-    parallelFor(threads_, costs.size(), [&](size_t i) { costs[i] = parts_[i].tried->cost(step); });
-    PlaneCost sum;
-    for (size_t i = 0; i < costs.size(); ++i) {
-      sum.bits += parts_[i].stands_for * costs[i].bits;
-      sum.squares += parts_[i].stands_for * costs[i].squares;
-    }
-    return sum;
-  }
-  double bitsOfAreas() const {
-    double bits = 0;
-    for (const Part& part : parts_)
-      bits += part.stands_for * 8 * static_cast<double>(part.tried->bytesOfAreas());
-    return bits;
-  }
-  /// The least power of two at which the coefficients cost at most so many bits.
-  double step(double bits) const {
-    constexpr int kMost = 60;
-    const auto fits = [&](int log2) { return cost(std::exp2(log2)).bits <= bits; };
-    int too_fine = -1, enough = 0;
-    for (; enough < kMost && !fits(enough); enough += 4) too_fine = enough;
-    while (enough - too_fine > 1) {
-      const int middle = (enough + too_fine) / 2;
-      (fits(middle) ? enough : too_fine) = middle;
-    }
-    return std::exp2(enough);
-  }
-
- private:
-  struct Part {
-    TriedPart* tried = nullptr;
-    double stands_for = 0;
-  };
-  std::vector<Part> parts_;
-  uint32_t threads_;
-};
 
 /// The step, in units of the plane, that the purpose asks for.
 double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fraction_bits) {
@@ -334,4 +206,4 @@ FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, const Height
   return FlatTrials(heights, purpose).choose();
 }
 
-}  // namespace tetrakis::inline geometry
+}  // namespace tetrakis::inline coding_choice
