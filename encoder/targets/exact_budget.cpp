@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
-#include "encoder/heights/corrected_heights.hpp"
-#include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
-#include "encoder/heights/relative_heights.hpp"
-#include "encoder/heights/restored_heights.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/exact_heights.hpp"
+#include "encoder/heights/ways/relative_heights.hpp"
+#include "encoder/heights/ways/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/component_curves.hpp"
 #include "encoder/views/errors_of_prefixes.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "codec/geometry/quantiser/voids.hpp"
-#include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/targets/candidates.hpp"
 #include "encoder/targets/exact_budget.hpp"
 #include "ratecontrol/allocation/allocation.hpp"

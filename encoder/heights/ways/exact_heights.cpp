@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/exact_heights.hpp"
+#include "encoder/heights/ways/exact_heights.hpp"
 
 #include <cassert>
 
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
-#include "encoder/heights/lossless_heights.hpp"
 #include "encoder/heights/quantised_heights.hpp"
+#include "encoder/heights/ways/lossless_heights.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
                                                     uint64_t lossy_bytes) {
@@ -33,4 +33,4 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   return codeLosslessHeights(lossless, *heights);
 }
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

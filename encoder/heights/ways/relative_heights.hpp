@@ -10,7 +10,7 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 /// The RMSE of the cut, in relative steps. Finer ones code what samples do not have, coarser ones
 /// miss more of the multiples.
@@ -30,4 +30,4 @@ CodedHeights codeRelative(const EncodeInputs& inputs,
                           const std::shared_ptr<const QuantisedHeights>& quantised,
                           double relative_step);
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

@@ -8,10 +8,10 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 /// quantised: from quantiseHeights(inputs).
 std::shared_ptr<const CodedHeights> codeLosslessHeights(
     const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& quantised);
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/corrected_heights.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
 
 #include <cassert>
 #include <span>
@@ -8,7 +8,7 @@
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "encoder/heights/height_options.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 namespace {
 
@@ -108,4 +108,4 @@ CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy
   return codeBeside({lossy.flat, lossy.header.wavelet}, heights, {cut * cut});
 }
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

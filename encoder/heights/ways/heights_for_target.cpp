@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/heights_for_target.hpp"
+#include "encoder/heights/ways/heights_for_target.hpp"
 
 #include <cmath>
 #include <utility>
 
 #include "codec/geometry/quantiser/voids.hpp"
-#include "encoder/heights/bounded_heights.hpp"
-#include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
-#include "encoder/heights/lossless_heights.hpp"
+#include "encoder/heights/ways/bounded_heights.hpp"
+#include "encoder/heights/ways/exact_heights.hpp"
+#include "encoder/heights/ways/lossless_heights.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 namespace {
 
@@ -72,4 +72,4 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
       codeHeights(quantised, target, heightOptions(inputs)));
 }
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

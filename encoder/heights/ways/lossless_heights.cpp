@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/lossless_heights.hpp"
+#include "encoder/heights/ways/lossless_heights.hpp"
 
 #include <optional>
 #include <utility>
@@ -7,13 +7,13 @@
 
 #include "codec/geometry/coding_choice/bound_choice.hpp"
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
-#include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/height_options.hpp"
-#include "encoder/heights/relative_heights.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/relative_heights.hpp"
 #include "ratecontrol/target/candidate.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inpu
   return std::make_shared<const CodedHeights>(*std::move(drawn));
 }
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

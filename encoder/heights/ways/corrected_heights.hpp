@@ -10,7 +10,7 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 /// Heights that can be cut and corrected.
 struct Correctable {
@@ -35,4 +35,4 @@ CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target);
 /// steps without a table.
 CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut);
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

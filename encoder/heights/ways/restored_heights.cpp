@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/restored_heights.hpp"
+#include "encoder/heights/ways/restored_heights.hpp"
 
 #include <cassert>
 #include <memory>
@@ -7,7 +7,7 @@
 
 #include "codec/geometry/height_layers.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 namespace {
 
@@ -58,4 +58,4 @@ CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy)
           .flat = lossy.flat};
 }
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

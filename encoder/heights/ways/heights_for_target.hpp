@@ -7,10 +7,10 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 /// quantised: from quantiseHeights(inputs).
 std::shared_ptr<const CodedHeights> codeHeightsForTarget(
     const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> quantised);
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

@@ -7,7 +7,7 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 /// What decoders make of all bytes, in whole steps.
 HeightSteps shownSteps(const CodedHeights& heights, uint32_t threads);
@@ -20,4 +20,4 @@ bool canBeRestored(const CodedHeights& lossy);
 /// canBeRestored().
 CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy);
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/relative_heights.hpp"
+#include "encoder/heights/ways/relative_heights.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,10 +7,10 @@
 
 #include "codec/geometry/relative/relative_encoder.hpp"
 #include "encoder/heights/height_options.hpp"
-#include "encoder/heights/restored_heights.hpp"
+#include "encoder/heights/ways/restored_heights.hpp"
 #include "ratecontrol/curves/track_order.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 namespace {
 
@@ -140,4 +140,4 @@ CodedHeights codeRelative(const EncodeInputs& inputs,
                                inputs.options.threads);
 }
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

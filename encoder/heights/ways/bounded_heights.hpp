@@ -17,10 +17,10 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 /// quantised: from quantiseHeights(inputs). inputs: with a max_error.
 std::shared_ptr<const CodedHeights> codeBoundedHeights(
     const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> quantised);
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

@@ -11,7 +11,7 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 /// The heights as the target `lossless` has them. error: what the target of inputs allows, in
 /// sample units, as the largest or the mean one; lossy_bytes: what heights take that use it. Null
@@ -20,4 +20,4 @@ namespace tetrakis::inline heights {
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
                                                     uint64_t lossy_bytes);
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways

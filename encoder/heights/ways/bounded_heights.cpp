@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/bounded_heights.hpp"
+#include "encoder/heights/ways/bounded_heights.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -14,13 +14,13 @@
 #include "codec/geometry/quantiser/step_errors.hpp"
 #include "codec/geometry/quantiser/voids.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
-#include "encoder/heights/corrected_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
-#include "encoder/heights/lossless_heights.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/lossless_heights.hpp"
 #include "ratecontrol/target/candidate.hpp"
 
-namespace tetrakis::inline heights {
+namespace tetrakis::inline ways {
 
 namespace {
 
@@ -154,4 +154,4 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   return std::make_shared<const CodedHeights>(withRounding(*best));
 }
 
-}  // namespace tetrakis::inline heights
+}  // namespace tetrakis::inline ways
