@@ -18,11 +18,11 @@ std::string nameOf(const tks_camera& camera, uint32_t index) {
   return camera.name != nullptr && *camera.name != 0 ? camera.name : number;
 }
 
-}  // namespace
-
 double metresIn(const char* unit) {
   return unit != nullptr ? metresPerUnit(unit).value_or(1) : 1;
 }
+
+}  // namespace
 
 GroundFrame frameOf(const tks_heights& heights) {
   return knownFrame({heights.width, heights.height, heights.spacing_x, heights.spacing_y,

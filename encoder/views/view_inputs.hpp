@@ -13,8 +13,6 @@
 namespace tetrakis::inline views {
 
 /// A unit that is no length counts as metres.
-double metresIn(const char* unit);
-
 GroundFrame frameOf(const tks_heights& heights);
 
 /// samples: of the type and size of `like`. valid: as findVoids() has it.

@@ -51,9 +51,6 @@ class MeshTree {
   SemilinearQuadtree quadtree_;
 };
 
-/// Patches are the root squares of the lattice; level i holds its levels 2i and 2i + 1.
-QuadtreeShape quadtreeShapeOf(const Lattice& lattice);
-
 /// Where the quadtree of the lattice stores a vertex.
 QuadtreePlace placeOf(const Lattice& lattice, Site v);
 
