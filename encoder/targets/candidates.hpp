@@ -11,7 +11,7 @@
 #include "encoder/selection/selection.hpp"
 #include "encoder/textures/coded_texture.hpp"
 #include "ratecontrol/allocation/pair_errors.hpp"
-#include "ratecontrol/target/candidate.hpp"
+#include "ratecontrol/needs/candidate.hpp"
 
 namespace tetrakis::inline targets {
 

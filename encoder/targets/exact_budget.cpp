@@ -18,7 +18,7 @@
 #include "encoder/targets/component_curves.hpp"
 #include "encoder/views/errors_of_prefixes.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
-#include "ratecontrol/target/target.hpp"
+#include "ratecontrol/needs/target.hpp"
 
 namespace tetrakis::inline targets {
 

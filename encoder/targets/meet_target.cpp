@@ -13,7 +13,7 @@
 #include "encoder/targets/candidates.hpp"
 #include "encoder/targets/exact_budget.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
-#include "ratecontrol/target/target.hpp"
+#include "ratecontrol/needs/target.hpp"
 
 namespace tetrakis::inline targets {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What meets a target: searches over packets, needs, budgets.
-#include "ratecontrol/target/target.hpp"
+#include "ratecontrol/needs/target.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
-#include "ratecontrol/target/candidate.hpp"
+#include "ratecontrol/needs/candidate.hpp"
 
 namespace tetrakis::inline ways {
 

@@ -10,7 +10,7 @@
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
-#include "ratecontrol/target/candidate.hpp"
+#include "ratecontrol/needs/candidate.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline ways {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "ratecontrol/curves/component_curve.hpp"
-#include "ratecontrol/target/target.hpp"
+#include "ratecontrol/needs/target.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline needs {
 
 /// Coded: CodedHeights or CodedTexture.
 template <class Coded>
@@ -43,4 +43,4 @@ Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates) {
   return std::move(*best);
 }
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline needs

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ratecontrol/target/target.hpp"
+#include "ratecontrol/needs/target.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline needs {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::array<double, kComponents> statedWithin(std::span<const Packet> packets, ui
   return rmse;
 }
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline needs

@@ -12,7 +12,7 @@
 
 #include "bitstream/stream/packet.hpp"
 
-namespace tetrakis::inline target {
+namespace tetrakis::inline needs {
 
 /// Payload bytes of each component's packets, in their order.
 using Needs = std::array<uint64_t, kComponents>;
@@ -51,4 +51,4 @@ uint64_t bytesOfPackets(std::span<const Packet> packets);
 /// largest that can be stated.
 std::array<double, kComponents> statedWithin(std::span<const Packet> packets, uint64_t budget);
 
-}  // namespace tetrakis::inline target
+}  // namespace tetrakis::inline needs
