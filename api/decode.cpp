@@ -8,25 +8,34 @@
 #include "api/needed.hpp"
 #include "api/written.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
-#include "wavelet/pyramid.hpp"
 
 namespace tetrakis::inline api {
 
-Status wrongIndex() {
-  return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
-}
+namespace {
 
 Status wrongSize(uint64_t wanted, uint64_t given) {
   return {TKS_USAGE, "The output takes " + std::to_string(wanted) + " bytes, the buffer has " +
                          std::to_string(given) + "."};
 }
 
-Status noHeights() {
-  return {TKS_USAGE, "The stream holds no heights."};
-}
-
 Status noTexture() {
   return {TKS_USAGE, "The stream holds no texture."};
+}
+
+/// What the decoder remembers of a view; null: nothing.
+template <class Memory>
+Memory* memoryOf(const tks_decoder& decoder, std::map<int, Memory>& levels, const View& view) {
+  return decoder.remembers && !view.window ? &levels[view.level] : nullptr;
+}
+
+}  // namespace
+
+Status wrongIndex() {
+  return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
+}
+
+Status noHeights() {
+  return {TKS_USAGE, "The stream holds no heights."};
 }
 
 Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window) {
@@ -44,16 +53,6 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
                                " x " + std::to_string(extent.height) +
                                " samples and hold one or more.");
 }
-
-namespace {
-
-/// What the decoder remembers of a view; null: nothing.
-template <class Memory>
-Memory* memoryOf(const tks_decoder& decoder, std::map<int, Memory>& levels, const View& view) {
-  return decoder.remembers && !view.window ? &levels[view.level] : nullptr;
-}
-
-}  // namespace
 
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;

@@ -65,9 +65,7 @@ void forget(tks_decoder& decoder);
 
 /// TKS_CORRUPT or TKS_USAGE, with their sentences.
 Status wrongIndex();
-Status wrongSize(uint64_t wanted, uint64_t given);
 Status noHeights();
-Status noTexture();
 
 /// What a call shows of the component that a part belongs to: the window, or, without one, all of
 /// the level that is set for the component. TKS_USAGE with a sentence unless the stream holds the

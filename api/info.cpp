@@ -86,7 +86,8 @@ void fillGeoreference(const tks_decoder& decoder, tks_info& info) {
   info.texture_geo_keys = shared ? info.geo_keys : place.texture.geo_keys.c_str();
 }
 
-void fillInfo(const tks_decoder& decoder, tks_info& info) {
+/// The stream as a whole.
+void fillStream(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.format_version = header.version;
   info.profile = header.profile;
@@ -101,36 +102,47 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.has_texture = header.texture.has_value();
   info.lossless = header.lossless;
   info.triangles = header.triangles;
+  info.index = decoder.index;
+}
+
+void fillHeights(const tks_decoder& decoder, tks_info& info) {
+  const StreamHeader& header = decoder.parsed.header;
   info.max_error = -1;
-  if (header.geometry) {
-    const GeometryHeader& g = *header.geometry;
-    const Extent shown = View{decoder.heights_level, {}}.extentIn(g.shown());
-    info.width = shown.width;
-    info.height = shown.height;
-    info.coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.geometry));
-    info.regions = sideOf(g.regions);
-    info.sample = static_cast<tks_sample>(g.sample);
-    info.base = g.base;
-    info.step = g.step;
-    info.exact_steps = g.exact;
-    info.max_error = g.max_error;
-    info.heights_drawn = g.drawn ? 1 : g.stored() ? 3 : 0;
-    info.has_voids = header.layers.validity_bytes > 0;
-    info.has_nodata = header.layers.has_nodata;
-    info.nodata = header.layers.nodata;
-  }
-  if (header.texture) {
-    const Extent shown = View{decoder.texture_level, {}}.extentIn(header.texture->extent());
-    info.texture_width = shown.width;
-    info.texture_height = shown.height;
-    info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.texture));
-    info.texture_regions = sideOf(header.texture->regions);
-    info.texture_channels = header.texture->channels;
-    info.texture_cutout = header.texture->alpha_bytes > 0 ? 1 + header.texture->hidden : 0;
-    info.texture_drawn = codingOf(*header.texture);
-    info.texture_sample = static_cast<tks_sample>(header.texture->sample);
-  }
-  const Metadata& m = header.metadata;
+  if (!header.geometry) return;
+  const GeometryHeader& geometry = *header.geometry;
+  const Extent shown = View{decoder.heights_level, {}}.extentIn(geometry.shown());
+  info.width = shown.width;
+  info.height = shown.height;
+  info.coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.geometry));
+  info.regions = sideOf(geometry.regions);
+  info.sample = static_cast<tks_sample>(geometry.sample);
+  info.base = geometry.base;
+  info.step = geometry.step;
+  info.exact_steps = geometry.exact;
+  info.max_error = geometry.max_error;
+  info.heights_drawn = geometry.drawn ? 1 : geometry.stored() ? 3 : 0;
+  info.has_voids = header.layers.validity_bytes > 0;
+  info.has_nodata = header.layers.has_nodata;
+  info.nodata = header.layers.nodata;
+}
+
+void fillTexture(const tks_decoder& decoder, tks_info& info) {
+  const StreamHeader& header = decoder.parsed.header;
+  if (!header.texture) return;
+  const TextureHeader& texture = *header.texture;
+  const Extent shown = View{decoder.texture_level, {}}.extentIn(texture.extent());
+  info.texture_width = shown.width;
+  info.texture_height = shown.height;
+  info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.texture));
+  info.texture_regions = sideOf(texture.regions);
+  info.texture_channels = texture.channels;
+  info.texture_cutout = texture.alpha_bytes > 0 ? 1 + texture.hidden : 0;
+  info.texture_drawn = codingOf(texture);
+  info.texture_sample = static_cast<tks_sample>(texture.sample);
+}
+
+void fillMetadata(const tks_decoder& decoder, tks_info& info) {
+  const Metadata& m = decoder.parsed.header.metadata;
   info.scale = m.scale;
   info.offset = m.offset;
   info.spacing_x = std::ldexp(m.spacing_x, decoder.heights_level);
@@ -138,9 +150,6 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
   info.unit = m.unit.c_str();
   info.vertical_datum = m.vertical_datum.c_str();
   info.crs = m.crs.c_str();
-  info.index = decoder.index;
-  fillGeoreference(decoder, info);
-  fillQuality(decoder, info);
 }
 
 }  // namespace
@@ -153,7 +162,10 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
       info->size > tetrakis::kMostStructBytes)
     return TKS_USAGE;
   tks_info full = {};
-  tetrakis::fillInfo(*decoder, full);
+  for (const auto fill :
+       {tetrakis::fillStream, tetrakis::fillHeights, tetrakis::fillTexture, tetrakis::fillMetadata,
+        tetrakis::fillGeoreference, tetrakis::fillQuality})
+    fill(*decoder, full);
   tetrakis::giveSized(full, *info);
   return TKS_OK;
 }

@@ -2,7 +2,6 @@
 #include "api/memory.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/repeats/shown_lines.hpp"

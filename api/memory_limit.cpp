@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refuses calls that would take more than limits.max_memory, in a sentence.
-#include <array>
-#include <cstdio>
 #include <limits>
 #include <string>
 

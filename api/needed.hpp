@@ -3,9 +3,6 @@
 // there.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "api/decoder.hpp"
 
 namespace tetrakis::inline api {

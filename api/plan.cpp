@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "api/message.hpp"
 #include "api/ranges.hpp"
 #include "api/screen_camera.hpp"
 #include "api/sighting.hpp"

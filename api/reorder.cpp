@@ -11,10 +11,8 @@
 #include <cstring>
 #include <new>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "api/message.hpp"
 #include "api/screen_camera.hpp"
 #include "api/sighting.hpp"
 #include "bitstream/stream/indexed_packets.hpp"

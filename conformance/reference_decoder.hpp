@@ -4,7 +4,6 @@
 // "FORMAT n" in its comments names the section that a function implements.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "encoder/heights/heights_for_target.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/repeated_lines.hpp"
+#include "encoder/heights/ways/heights_for_target.hpp"
 #include "encoder/selection/selection.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/meet_target.hpp"

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "wavelet/held_samples.hpp"
+
 #include "wavelet/lifting/lifting_steps.hpp"
 #include "wavelet/lifting/masked_lifting.hpp"
 #include "wavelet/pyramid.hpp"

@@ -46,7 +46,7 @@ Status run(const Options& options) {
     if (!terrain.ok()) return terrain.status();
     if (Status status = studyTerrain(*terrain, options, rows); !status.ok()) return status;
   }
-  return options.csv.empty() ? Status() : updateResults(options.csv, "joint", rows);
+  return updateResults(options.csv, "joint", rows);
 }
 
 }  // namespace

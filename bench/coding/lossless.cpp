@@ -188,7 +188,7 @@ int run(const Options& options) {
       options.folders, options.filters,
       [&](const std::string& path, const std::string& item) { return run.measure(path, item); });
   run.printMeans();
-  if (!all || options.csv.empty()) return !all;
+  if (!all) return 1;
   return exitCode(updateResults(options.csv, "lossless", run.rows()));
 }
 

@@ -145,7 +145,7 @@ int run(const Options& options) {
                                       [&](const std::string& path, const std::string& item) {
                                         return measureFile(path, item, options, rows);
                                       });
-  if (!all || options.csv.empty()) return !all;
+  if (!all) return 1;
   return exitCode(updateResults(options.csv, "max_error", rows));
 }
 

@@ -244,7 +244,7 @@ Status run(const Options& options) {
   for (const Subject& subject : *subjects) {
     if (Status status = Measurement(subject, options.runs).run(rows); !status.ok()) return status;
   }
-  return options.csv.empty() ? Status() : bench::updateResults(options.csv, "regions", rows);
+  return bench::updateResults(options.csv, "regions", rows);
 }
 
 }  // namespace

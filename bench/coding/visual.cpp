@@ -67,7 +67,7 @@ Status run(const Options& options) {
     const Status status = compareImage(path, options, rows);
     if (!status.ok()) return status;
   }
-  return options.csv.empty() ? Status() : updateResults(options.csv, "visual", rows);
+  return updateResults(options.csv, "visual", rows);
 }
 
 }  // namespace

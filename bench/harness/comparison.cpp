@@ -148,7 +148,7 @@ int runComparison(const ComparisonSpec& spec, const ComparisonOptions& options) 
     failure = status.code();
   }
   report.addSummary(spec.peers.front()->name(), options.window);
-  if (failure != 0 || options.csv.empty()) return failure;
+  if (failure != 0) return failure;
   const Status written = updateResults(options.csv, spec.bench, report.rows());
   if (!written.ok()) std::fprintf(stderr, "%s\n", written.message().c_str());
   return written.code();

@@ -20,7 +20,8 @@ struct ResultRow {
 };
 
 /// Replaces all rows of `bench` in the CSV file by `rows`, keeps those of other benches, and
-/// creates the file when there is none. Columns: bench,item,codec,quantity,value.
+/// creates the file when there is none; an empty path: nothing is written. Columns:
+/// bench,item,codec,quantity,value.
 Status updateResults(const std::string& path, const std::string& bench,
                      const std::vector<ResultRow>& rows);
 

@@ -210,7 +210,7 @@ Status run(const Options& options) {
   const auto times = timeDecimation(largest, options.runs);
   if (!times.ok()) return times.status();
   rows.insert(rows.end(), times->begin(), times->end());
-  return options.csv.empty() ? Status() : updateResults(options.csv, "decimation", rows);
+  return updateResults(options.csv, "decimation", rows);
 }
 
 }  // namespace

@@ -262,7 +262,7 @@ Status run(const Options& options) {
     if (Status status = Comparison(*terrain, *screen, rows).run(options.node); !status.ok())
       return status;
   }
-  return options.csv.empty() ? Status() : updateResults(options.csv, "glb", rows);
+  return updateResults(options.csv, "glb", rows);
 }
 
 }  // namespace

@@ -289,7 +289,7 @@ Status run(const Options& options) {
     measureViews(mesh, options.runs, rows);
     if (options.orders) measureWindows(mesh, options.runs, rows);
   }
-  return options.csv.empty() ? Status() : updateResults(options.csv, "quadtree", rows);
+  return updateResults(options.csv, "quadtree", rows);
 }
 
 }  // namespace

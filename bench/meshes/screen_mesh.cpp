@@ -111,7 +111,7 @@ Status run(const Options& options) {
     if (!screen.ok()) return screen.status();
     if (Status status = Comparison(*terrain, *screen, rows).run(); !status.ok()) return status;
   }
-  return options.csv.empty() ? Status() : updateResults(options.csv, "screen_mesh", rows);
+  return updateResults(options.csv, "screen_mesh", rows);
 }
 
 }  // namespace

@@ -258,7 +258,7 @@ Status run(const Options& options) {
   countOperations(*rows, results);
   compareQuality(*rows, options.all_rates, results);
   if (options.all_rates) decimateExample((*rows)[rows->size() / 2], results);
-  return options.csv.empty() ? Status() : updateResults(options.csv, "polyline", results);
+  return updateResults(options.csv, "polyline", results);
 }
 
 }  // namespace

@@ -238,7 +238,7 @@ Status run(const Options& options) {
               "bits, 1", "bits, 2", "bits, 3", "prefix");
   for (const auto& [name, raster] : readFiles(options))
     if (Status status = measureFile(name, raster, rows); !status.ok()) return status;
-  return options.csv.empty() ? Status() : updateResults(options.csv, "thesis_bits", rows);
+  return updateResults(options.csv, "thesis_bits", rows);
 }
 
 }  // namespace

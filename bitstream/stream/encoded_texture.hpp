@@ -2,10 +2,10 @@
 // This is what the codec of textures makes of one: its tracks, and what the header says of them.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "bitstream/stream/header.hpp"
+
 #include "bitstream/track/track_encoder.hpp"
 
 namespace tetrakis::inline stream {

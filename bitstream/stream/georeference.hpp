@@ -3,7 +3,6 @@
 // that decoding does not depend on, in as few bytes as a north-up grid needs.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>

@@ -117,25 +117,7 @@ Status needMore(size_t bytes) {
                              " bytes are needed."};
 }
 
-}  // namespace
-
-bool Metadata::isDefault() const {
-  return scale == 1 && offset == 0 && spacing_x == 0 && spacing_y == 0 && unit.empty() &&
-         vertical_datum.empty() && crs.empty();
-}
-
-TrackCounts trackCounts(const StreamHeader& header) {
-  TrackCounts counts;
-  const auto count = [](const auto& part, TrackCount& out) {
-    if (!part) return;
-    out.named = part->regions.side_log2 > 0;
-    out.tracks = regionCount(part->width, part->height, part->regions.side_log2);
-  };
-  count(header.geometry, counts[0]);
-  count(header.texture, counts[1]);
-  return counts;
-}
-
+/// Smallest n such that neither component has more than 4^(n + 8) samples.
 uint8_t levelFor(const StreamHeader& header) {
   uint64_t samples = 0;
   if (header.geometry) {
@@ -147,6 +129,22 @@ uint8_t levelFor(const StreamHeader& header) {
   }
   const int bits = samples <= 1 ? 0 : static_cast<int>(std::bit_width(samples - 1));
   return static_cast<uint8_t>(std::max(0, (bits + 1) / 2 - 8));
+}
+
+}  // namespace
+
+bool Metadata::isDefault() const {
+  return scale == 1 && offset == 0 && spacing_x == 0 && spacing_y == 0 && unit.empty() &&
+         vertical_datum.empty() && crs.empty();
+}
+
+TrackCounts trackCounts(const StreamHeader& header) {
+  const auto countOf = [](const auto& component) -> TrackCount {
+    if (!component) return {};
+    const int side_log2 = component->regions.side_log2;
+    return {regionCount(component->width, component->height, side_log2), side_log2 > 0};
+  };
+  return {countOf(header.geometry), countOf(header.texture)};
 }
 
 std::vector<uint8_t> writeHeader(const StreamHeader& header) {

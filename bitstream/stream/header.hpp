@@ -61,9 +61,6 @@ struct StreamHeader {
 /// Tracks of each component; see demultiplex().
 TrackCounts trackCounts(const StreamHeader& header);
 
-/// Smallest n such that neither component has more than 4^(n + 8) samples.
-uint8_t levelFor(const StreamHeader& header);
-
 /// Magic, version, profile, level, size of the body, body, CRC-32 of everything before it. A long
 /// index may make more than kMaxHeaderBytes, which no decoder reads; encoders refuse it.
 std::vector<uint8_t> writeHeader(const StreamHeader& header);

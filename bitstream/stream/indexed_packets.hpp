@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iterator>
 
 #include "bitstream/stream/header.hpp"
 

@@ -73,7 +73,7 @@ std::vector<uint8_t> multiplex(std::span<const Packet> packets,
     const auto& codeword =
         codewords[static_cast<size_t>(packet.component)][packet.track.value_or(0)];
     assert(packet.begin < packet.end && packet.end <= codeword.size());
-    const auto payload = codeword.subspan(packet.begin, packet.end - packet.begin);
+    const auto payload = codeword.subspan(packet.begin, packet.length());
     writer.bytes.insert(writer.bytes.end(), payload.begin(), payload.end());
     if (writer.bytes.size() >= limit) break;
   }

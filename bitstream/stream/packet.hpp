@@ -36,9 +36,9 @@ struct Packet {
   std::optional<uint32_t> track;  ///< number of the track; nothing: the component has but one
   double slope = 0;               ///< what a byte takes off the error; only the front index says it
 
+  uint64_t length() const { return end - begin; }  ///< of the payload
   uint64_t head() const {
-    return (end - begin) << 2 | static_cast<uint64_t>(whole) << 1 |
-           static_cast<uint64_t>(component);
+    return length() << 2 | static_cast<uint64_t>(whole) << 1 | static_cast<uint64_t>(component);
   }
 };
 

@@ -2,8 +2,6 @@
 // Foretells what a drawing takes, at a small part of the price of drawing it.
 #pragma once
 
-#include <cstdint>
-
 #include "base/plane.hpp"
 
 namespace tetrakis::inline drawing {

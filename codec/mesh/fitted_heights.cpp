@@ -2,11 +2,7 @@
 // Stages of decimation between fits.
 #include "codec/mesh/fitted_heights.hpp"
 
-#include <algorithm>
-#include <cassert>
-#include <functional>
 #include <iterator>
-#include <numeric>
 #include <span>
 
 #include "codec/mesh/closure/closure.hpp"

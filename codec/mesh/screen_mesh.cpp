@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/mesh/screen_mesh.hpp"
 
-#include <span>
 #include <utility>
 #include <vector>
 

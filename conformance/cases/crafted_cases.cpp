@@ -189,15 +189,19 @@ std::vector<VectorCase> correctionCases() {
 }
 
 /// base + q · step for few q, of which some are the declared nodata value.
-VectorCase nodataCase(const std::string& name, const std::string& purpose, double base, double step,
-                      double nodata, bool voids) {
+struct NodataSteps {
+  double base, step, nodata;
+  bool voids;
+};
+
+VectorCase nodataCase(const std::string& name, const std::string& purpose, const NodataSteps& of) {
   StreamHeader header = heightsHeader(24, 20, TKS_F32, 3);
-  header.geometry->base = base;
-  header.geometry->step = step;
+  header.geometry->base = of.base;
+  header.geometry->step = of.step;
   header.layers.has_nodata = 1;
-  header.layers.nodata = nodata;
-  header.layers.validity_bytes = voids ? 40 : 0;
-  Bytes codeword = voids ? noise(40, 20) : Bytes();
+  header.layers.nodata = of.nodata;
+  header.layers.validity_bytes = of.voids ? 40 : 0;
+  Bytes codeword = of.voids ? noise(40, 20) : Bytes();
   append(codeword, noise(300, 21));
   return crafted(name, purpose, streamOf(header, codeword));
 }
@@ -209,16 +213,16 @@ std::vector<VectorCase> nodataCases() {
   halves.geometry->base = -2.5;
   return {crafted("halves_i16_20x20", "halves below 0 are rounded away from it",
                   streamOf(halves, noise(300, 22))),
-          nodataCase("nodata_zero_24x20", "voids are 0, heights neither 0 nor -0", -1e-60, 1e-45, 0,
-                     true),
-          nodataCase("nodata_minus_zero_24x20", "no voids, nodata that becomes -0", -1e-60, 1e-45,
-                     -1e-60, false),
+          nodataCase("nodata_zero_24x20", "voids are 0, heights neither 0 nor -0",
+                     {.base = -1e-60, .step = 1e-45, .nodata = 0, .voids = true}),
+          nodataCase("nodata_minus_zero_24x20", "no voids, nodata that becomes -0",
+                     {.base = -1e-60, .step = 1e-45, .nodata = -1e-60, .voids = false}),
           nodataCase("nodata_infinity_24x20", "no voids, nodata and heights beyond the floats",
-                     kLargest, 1e38, kInfinity, false),
-          nodataCase("nodata_largest_24x20", "voids are the largest float", kLargest, 3e31,
-                     kLargest, true),
-          nodataCase("nodata_least_24x20", "voids are minus infinity", -3.6e38, 1e37, -kInfinity,
-                     true)};
+                     {.base = kLargest, .step = 1e38, .nodata = kInfinity, .voids = false}),
+          nodataCase("nodata_largest_24x20", "voids are the largest float",
+                     {.base = kLargest, .step = 3e31, .nodata = kLargest, .voids = true}),
+          nodataCase("nodata_least_24x20", "voids are minus infinity",
+                     {.base = -3.6e38, .step = 1e37, .nodata = -kInfinity, .voids = true})};
 }
 
 }  // namespace

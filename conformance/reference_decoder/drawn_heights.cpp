@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "conformance/reference_decoder/drawing.hpp"
-#include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 
 namespace tetrakis::reference {

@@ -7,7 +7,6 @@
 #include "conformance/reference_decoder/regions.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace tetrakis::reference {

@@ -2,7 +2,6 @@
 // Reference decoder: texture (docs/FORMAT.md, section 9).
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/regions.hpp"
@@ -36,7 +35,7 @@ std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part
   return all;
 }
 
-/// FORMAT 9, "Inverse component transform", at one place. Sums of samples wrap at 32 bits.
+/// FORMAT 9, "Inverse colour transform", at one place. Sums of samples wrap at 32 bits.
 enum class Sums { kOfSamples, kOfCoefficients };
 
 void unshear(const std::array<int, 6>& h, Sums sums, std::array<int32_t*, 3> c) {

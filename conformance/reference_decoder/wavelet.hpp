@@ -2,9 +2,7 @@
 // Reference decoder: subbands of a plane and the inverse wavelet (docs/FORMAT.md, section 7).
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "conformance/reference_decoder/stream.hpp"

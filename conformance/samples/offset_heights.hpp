@@ -3,7 +3,6 @@
 // compressed file has, the datum of one of two surveys. Floats, rounded as their type rounds.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 

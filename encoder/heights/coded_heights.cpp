@@ -8,7 +8,7 @@
 #include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
 #include "codec/geometry/stored_heights_encoder.hpp"
 #include "encoder/heights/height_errors.hpp"
-#include "ratecontrol/hull.hpp"
+#include "ratecontrol/curves/hull.hpp"
 #include "wavelet/priority_map_encoder.hpp"
 
 namespace tetrakis::inline heights {
@@ -98,7 +98,7 @@ std::vector<RatePoint> accountOfStored(const CodedHeights& stored, uint32_t thre
   const auto at = [&](uint64_t bytes) {
     return RatePoint{bytes, squaresOf(stored, {codeword.first(bytes)}, threads)};
   };
-  const size_t sample_bytes = tks_sample_bytes(stored.of->samples->sample);
+  const size_t sample_bytes = tks_sample_bytes(stored.quantised->samples->sample);
   const uint64_t opening = stored.layers.validity_bytes;
   assert(opening <= codeword.size() && (codeword.size() - opening) % sample_bytes == 0);
   const uint64_t plane = (codeword.size() - opening) / sample_bytes;
@@ -150,10 +150,11 @@ GeometryHeader headerOf(const QuantisedHeights& heights, const HeightLayers& lay
   return header;
 }
 
-CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
-                        std::vector<EncodedTrack> coefficients, int region_log2) {
+CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
+                        const HeightLayers& layers, std::vector<EncodedTrack> coefficients,
+                        int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
-  const QuantisedHeights& heights = *of;
+  const QuantisedHeights& heights = *quantised;
   EncodedTrack first = std::move(coefficients.front());
   GeometryHeader header = headerOf(heights, layers, first.planes);
   header.regions.side_log2 = static_cast<uint8_t>(region_log2);
@@ -164,7 +165,7 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
     first = withTable(heights, std::move(first), described.table_after);
   }
   coefficients.front() = amidLayers(heights, layers, first);
-  return {.of = std::move(of),
+  return {.quantised = std::move(quantised),
           .header = std::move(header),
           .layers = std::move(described),
           .tracks = std::move(coefficients),
@@ -173,21 +174,21 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const Height
           .flat = layers.flat};
 }
 
-CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
-                         const CoefficientOptions& options) {
-  const HeightSteps& steps = of->steps;
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
+                         const HeightTarget& target, const CoefficientOptions& options) {
+  const HeightSteps& steps = quantised->steps;
   FlatChoice choice =
-      chooseFlatAreas(steps.lifting(extentOf(*of->samples)), steps.valid,
+      chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), steps.valid,
                       {steps.range_bits, target.purpose, target.bytes, target.mean_square,
                        options.threads, target.purpose == Purpose::kLossy});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
-  HeightLayers layers = layersAround(*of, std::move(choice), options.priorities);
+  HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
   std::vector<EncodedTrack> coefficients =
-      codeCoefficients(*of, layers.wavelet, layers.flat.beside(options));
+      codeCoefficients(*quantised, layers.wavelet, layers.flat.beside(options));
   std::vector<Account> accounts = accountsOf(coefficients);
   if (layers.wavelet.fraction_bits == 0) layers.wavelet.rounded_bytes = exactBytes(coefficients);
   CodedHeights coded =
-      joinLayers(std::move(of), layers, std::move(coefficients), options.region_log2);
+      joinLayers(std::move(quantised), layers, std::move(coefficients), options.region_log2);
   coded.accounts = std::move(accounts);
   return target.tried ? coded : withRounding(std::move(coded));
 }
@@ -199,30 +200,30 @@ CodedHeights withRounding(CodedHeights coded) {
   if (accounts.empty() || wavelet.fraction_bits > 0 ||
       !std::all_of(coded.tracks.begin(), coded.tracks.end(), complete))
     return coded;
-  const QuantisedHeights& of = *coded.of;
-  const double squares =
-      roundedSquares(of.steps.lifting(extentOf(*of.samples)), coded.flat.areas.held(), wavelet);
-  wavelet.rounded_bytes = roundedBytes(accounts, of.steps.liftedShare() * squares);
+  const QuantisedHeights& quantised = *coded.quantised;
+  const double squares = roundedSquares(quantised.steps.lifting(extentOf(*quantised.samples)),
+                                        coded.flat.areas.held(), wavelet);
+  wavelet.rounded_bytes = roundedBytes(accounts, quantised.steps.liftedShare() * squares);
   return coded;
 }
 
-std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of) {
-  const HeightSteps& steps = of->steps;
+std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> quantised) {
+  const HeightSteps& steps = quantised->steps;
   std::optional<EncodedTrack> track =
-      encodeDrawnHeights({steps.steps, extentOf(*of->samples), steps.valid});
+      encodeDrawnHeights({steps.steps, extentOf(*quantised->samples), steps.valid});
   if (!track) return {};
-  HeightLayers layers = layersAround(*of, {}, nullptr);
+  HeightLayers layers = layersAround(*quantised, {}, nullptr);
   layers.layers.bridge = 0;
   std::vector<EncodedTrack> tracks;
   tracks.push_back(*std::move(track));
-  CodedHeights drawn = joinLayers(std::move(of), layers, std::move(tracks), 0);
+  CodedHeights drawn = joinLayers(std::move(quantised), layers, std::move(tracks), 0);
   assert(drawn.header.direct());
   drawn.header.drawn = true;
   return drawn;
 }
 
-CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t threads) {
-  const QuantisedHeights& heights = *of;
+CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> quantised, uint32_t threads) {
+  const QuantisedHeights& heights = *quantised;
   GeometryHeader header = headerOf(heights);
   header.planes = GeometryHeader::kDirectPlanes;
   std::vector<uint8_t> codeword = heights.validity;
@@ -230,7 +231,7 @@ CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t t
   codeword.insert(codeword.end(), samples.begin(), samples.end());
   std::vector<EncodedTrack> tracks;
   tracks.push_back({std::move(codeword), {}, GeometryHeader::kDirectPlanes});
-  CodedHeights stored{.of = std::move(of),
+  CodedHeights stored{.quantised = std::move(quantised),
                       .header = std::move(header),
                       .layers = {.validity_bytes = heights.layers.validity_bytes,
                                  .has_nodata = heights.layers.has_nodata,

@@ -10,17 +10,17 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/flat_choice.hpp"
+#include "codec/geometry/coding_choice/flat_choice.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/heights/quantised_heights.hpp"
-#include "ratecontrol/coded_tracks.hpp"
+#include "ratecontrol/curves/coded_tracks.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/rounding_choice.hpp"
 
 namespace tetrakis::inline heights {
 
 struct CodedHeights {
-  std::shared_ptr<const QuantisedHeights> of;
+  std::shared_ptr<const QuantisedHeights> quantised;
   GeometryHeader header;  ///< without max_error
   GeometryLayers layers;
   /// The first holds the codewords of validity and flat areas, coefficients with the table among
@@ -35,12 +35,12 @@ struct CodedHeights {
   bool restoresSamples() const;
   bool corrects() const { return layers.restoresSamples(); }
   /// Samples that count in the error.
-  double counted() const { return of->counted(); }
+  double counted() const { return quantised->counted(); }
   /// Behind the opening there is one codeword, of coefficients.
   bool holdsCoefficientsAlone() const {
     return tracks.size() == 1 && !header.direct() && !corrects() && layers.table_bytes == 0;
   }
-  CodedTracks rated() const {
+  CodedTracks accounted() const {
     return {Component::kGeometry, tracks, layers.openingBytes(), closing};
   }
 };
@@ -73,8 +73,9 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
 /// Validity and flat areas before the coefficients of the first track, corrections behind them, a
 /// table within them, where its bytes take off as much error as theirs. region_log2: what the
 /// coefficients were coded with.
-CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> of, const HeightLayers& layers,
-                        std::vector<EncodedTrack> coefficients, int region_log2);
+CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
+                        const HeightLayers& layers, std::vector<EncodedTrack> coefficients,
+                        int region_log2);
 
 /// What coefficients are coded for.
 struct HeightTarget {
@@ -88,8 +89,8 @@ struct HeightTarget {
 
 /// Codes the heights as a component: coefficients by the filters that suit them, beside the flat
 /// areas that pay, and the layers that the heights come with.
-CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> of, const HeightTarget& target,
-                         const CoefficientOptions& options);
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
+                         const HeightTarget& target, const CoefficientOptions& options);
 
 /// The attempt with the byte from which on decoders round, which takes time to find. coded: an
 /// attempt.
@@ -97,9 +98,9 @@ CodedHeights withRounding(CodedHeights coded);
 
 /// Codes the heights as a drawing, in the place of coefficients; nothing if they have too many
 /// values for one.
-std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> of);
+std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> quantised);
 
 /// The samples written as they are. threads: nothing depends on them.
-CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> of, uint32_t threads);
+CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> quantised, uint32_t threads);
 
 }  // namespace tetrakis::inline heights

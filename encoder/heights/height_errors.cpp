@@ -30,7 +30,7 @@ bool isWhole(const Codewords& prefix, const std::vector<EncodedTrack>& tracks) {
 
 double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
                  HeightsMemory* memory) {
-  const QuantisedHeights& truth = *heights.of;
+  const QuantisedHeights& truth = *heights.quantised;
   const bool exact_at_the_end = heights.corrects() || heights.header.direct();
   if (exact_at_the_end && isWhole(prefix, heights.tracks)) return 0;
   DecodedHeights decoded = decodePrefix(heights, prefix, threads, memory);
@@ -56,8 +56,8 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
 SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix,
                             uint32_t threads) {
   const DecodedHeights decoded = decodePrefix(heights, prefix, threads, nullptr);
-  const tks_heights& input = *heights.of->samples;
-  const std::vector<uint8_t>& valid = heights.of->steps.valid;
+  const tks_heights& input = *heights.quantised->samples;
+  const std::vector<uint8_t>& valid = heights.quantised->steps.valid;
   return withSampleType(input.sample, [&](auto type) {
     using T = decltype(type);
     std::vector<T> samples(decoded.geometry.heights.size());

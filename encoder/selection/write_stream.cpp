@@ -8,7 +8,7 @@
 
 #include "bitstream/stream/header.hpp"
 #include "encoder/selection/georeference.hpp"
-#include "ratecontrol/target.hpp"
+#include "ratecontrol/needs/target.hpp"
 
 namespace tetrakis::inline selection {
 

@@ -3,7 +3,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -11,9 +10,9 @@
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/targets/component_curves.hpp"
-#include "encoder/views/views.hpp"
-#include "ratecontrol/allocation.hpp"
-#include "ratecontrol/packet_slopes.hpp"
+#include "encoder/views/pairs.hpp"
+#include "ratecontrol/allocation/allocation.hpp"
+#include "ratecontrol/allocation/packet_slopes.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"
 
 namespace tetrakis::inline targets {
@@ -24,7 +23,7 @@ template <class Coded>
 uint8_t statedAfter(const EncodeInputs& inputs, const Candidate<Coded>& candidate, uint64_t bytes) {
   assert(candidate.curve);
   const Coded& coded = *candidate.coded;
-  const Codewords prefix = prefixAfter(coded.rated(), candidate.curve->packets, bytes);
+  const Codewords prefix = prefixAfter(coded.accounted(), candidate.curve->packets, bytes);
   const double squares = squaresOf(coded, prefix, inputs.options.threads);
   const double weight = std::is_same_v<Coded, CodedHeights> ? inputs.heaviest() : 1;
   return qualityOf(std::sqrt(squares * weight / coded.counted()));
@@ -66,7 +65,7 @@ uint8_t qualityAfter(const EncodeInputs& inputs, const TextureCandidate& texture
 }
 
 bool hasLosslessWay(const CodedHeights& heights) {
-  return heights.of->steps.exact;
+  return heights.quantised->steps.exact;
 }
 
 /// Drawn and stored textures are lossless as they stand.
@@ -76,25 +75,26 @@ bool hasLosslessWay(const CodedTexture& texture) {
 
 HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights) {
   assert(hasLosslessWay(heights));
-  return candidateOf(codeHeights(heights.of, Purpose::kLossless, heightOptions(inputs)));
+  return candidateOf(codeHeights(heights.quantised, Purpose::kLossless, heightOptions(inputs)));
 }
 
 TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& texture) {
   assert(hasLosslessWay(texture));
-  return candidateOf(codeTexture(inputs, texture.of, Purpose::kLossless));
+  return candidateOf(codeTexture(inputs, texture.source, Purpose::kLossless));
 }
 
 HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights) {
   assert(!inputs.budgeted());
   const CodedHeights& coded = *heights.coded;
-  const uint64_t samples = storedBytes(*inputs.heights, coded.of->steps.validCount());
+  const uint64_t samples = storedBytes(*inputs.heights, coded.quantised->steps.validCount());
   const bool shorter = samples > 0 && samples + coded.layers.validity_bytes < heights.bytes();
-  return shorter ? candidateOf(storeHeights(coded.of, inputs.options.threads)) : std::move(heights);
+  return shorter ? candidateOf(storeHeights(coded.quantised, inputs.options.threads))
+                 : std::move(heights);
 }
 
 TextureCandidate storedIfShorter(TextureCandidate texture) {
-  const bool shorter = storedBytes(texture.coded->of->texels) < texture.bytes();
-  return shorter ? candidateOf(storeTexture(texture.coded->of)) : std::move(texture);
+  const bool shorter = storedBytes(texture.coded->source->texels) < texture.bytes();
+  return shorter ? candidateOf(storeTexture(texture.coded->source)) : std::move(texture);
 }
 
 }  // namespace tetrakis::inline targets

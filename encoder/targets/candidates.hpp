@@ -10,8 +10,8 @@
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/selection/selection.hpp"
 #include "encoder/textures/coded_texture.hpp"
-#include "ratecontrol/candidate.hpp"
-#include "ratecontrol/pair_errors.hpp"
+#include "ratecontrol/allocation/pair_errors.hpp"
+#include "ratecontrol/needs/candidate.hpp"
 
 namespace tetrakis::inline targets {
 

@@ -49,7 +49,7 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
 }  // namespace
 
 ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& heights) {
-  const QuantisedHeights& source = *heights.of;
+  const QuantisedHeights& source = *heights.quantised;
   const bool modelled = looksAtMeshes(inputs, source);
   const Pricing pricing{.samples = heights.counted() / inputs.heaviest(),
                         .floor = modelled ? 0 : meshFloor(source, inputs.options.triangles),
@@ -58,23 +58,23 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
   HeightsMemory memory;
   memory.tracks.forgets = areTooLarge(heights.tracks, source.steps.steps.size());
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
-    return squaresOf(heights, prefixAfter(heights.rated(), packets, bytes), inputs.options.threads,
-                     &memory);
+    return squaresOf(heights, prefixAfter(heights.accounted(), packets, bytes),
+                     inputs.options.threads, &memory);
   };
-  return curveOf(heights.rated(),
+  return curveOf(heights.accounted(),
                  auditScope(inputs, source.steps.steps.size(), heights.header.wavelet), measure,
                  pricing);
 }
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
   TextureMemory memory;
-  memory.tracks.forgets = areTooLarge(texture.tracks, texture.of->texels.samples.size());
+  memory.tracks.forgets = areTooLarge(texture.tracks, texture.source->texels.samples.size());
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
-    return squaresOf(texture, prefixAfter(texture.rated(), packets, bytes), inputs.options.threads,
-                     &memory);
+    return squaresOf(texture, prefixAfter(texture.accounted(), packets, bytes),
+                     inputs.options.threads, &memory);
   };
-  return curveOf(texture.rated(),
-                 auditScope(inputs, texture.of->texels.samples.size(), texture.header.wavelet),
+  return curveOf(texture.accounted(),
+                 auditScope(inputs, texture.source->texels.samples.size(), texture.header.wavelet),
                  measure,
                  {.samples = texture.counted(),
                   .shared = inputs.heights != nullptr,

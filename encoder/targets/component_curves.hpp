@@ -6,7 +6,7 @@
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/textures/coded_texture.hpp"
-#include "ratecontrol/component_curve.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
 
 namespace tetrakis::inline targets {
 

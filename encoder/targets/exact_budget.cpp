@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
-#include "encoder/heights/corrected_heights.hpp"
-#include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
-#include "encoder/heights/relative_heights.hpp"
-#include "encoder/heights/restored_heights.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/exact_heights.hpp"
+#include "encoder/heights/ways/relative_heights.hpp"
+#include "encoder/heights/ways/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/component_curves.hpp"
-#include "encoder/views/views.hpp"
-#include "ratecontrol/allocation.hpp"
-#include "ratecontrol/target.hpp"
+#include "encoder/views/errors_of_prefixes.hpp"
+#include "ratecontrol/allocation/allocation.hpp"
+#include "ratecontrol/needs/target.hpp"
 
 namespace tetrakis::inline targets {
 
@@ -36,7 +36,7 @@ Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection, doubl
   if (!selection.heights) return {true, rmse[1] <= kNearlyExact};
   const CodedHeights& heights = *selection.heights;
   const bool all = bytesOfPackets(selection.packets) <= inputs.options.bytes;
-  const double step = std::max(1., relative_step / heights.of->steps.step);
+  const double step = std::max(1., relative_step / heights.quantised->steps.step);
   return {rmse[0] <= kNearlyExact * step || (all && canBeRestored(heights)),
           !selection.texture || rmse[1] <= kNearlyExact};
 }
@@ -50,7 +50,7 @@ template <class Coded>
 bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
                    const Candidate<Coded>& lossy, double most) {
   const auto squares_after = [&](const Candidate<Coded>& candidate, double bytes) {
-    const Codewords prefix = prefixAfter(candidate.coded->rated(), candidate.curve->packets,
+    const Codewords prefix = prefixAfter(candidate.coded->accounted(), candidate.curve->packets,
                                          static_cast<uint64_t>(bytes));
     return squaresOf(*candidate.coded, prefix, inputs.options.threads);
   };
@@ -63,7 +63,7 @@ bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
 }
 
 bool canBeCorrected(const CodedHeights& heights) {
-  return hasLosslessWay(heights) && heights.tracks.size() == 1 && heights.of->table.empty();
+  return hasLosslessWay(heights) && heights.tracks.size() == 1 && heights.quantised->table.empty();
 }
 
 /// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
@@ -130,10 +130,12 @@ std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
   constexpr double kAnyError = std::numeric_limits<double>::infinity();
   if (!lossy.coded) return {};
   const uint64_t room = std::min(inputs.options.bytes, lossy.bytes());
-  const QuantisedHeights& of = *lossy.coded->of;
+  const QuantisedHeights& quantised = *lossy.coded->quantised;
   const bool generous =
       static_cast<double>(inputs.options.bytes) >= kGenerous * lossy.coded->counted();
-  if (!generous && !drawingMayFit({of.steps.steps, extentOf(*of.samples), of.steps.valid}, room))
+  if (!generous &&
+      !drawingMayFit({quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid},
+                     room))
     return {};
   HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError, room)};
   if (!exact.coded) return {};

@@ -3,20 +3,17 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "codec/geometry/quantiser/voids.hpp"
-#include "encoder/heights/exact_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
-#include "encoder/selection/write_stream.hpp"
+#include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/targets/candidates.hpp"
-#include "encoder/targets/component_curves.hpp"
 #include "encoder/targets/exact_budget.hpp"
-#include "ratecontrol/allocation.hpp"
-#include "ratecontrol/target.hpp"
+#include "ratecontrol/allocation/allocation.hpp"
+#include "ratecontrol/needs/target.hpp"
 
 namespace tetrakis::inline targets {
 
@@ -46,14 +43,14 @@ Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
 /// asked for.
 std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCandidate& heights) {
   const CodedHeights& coded = *heights.coded;
-  const SampleRange range = rangeOf(*inputs.heights, coded.of->steps.valid);
+  const SampleRange range = rangeOf(*inputs.heights, coded.quantised->steps.valid);
   const double worst = worstMeanSquare(range.high - range.low, inputs.options.psnr);
   const auto& packets = heights.curve->packets;
   // The last bytes of a mask may change nothing, and then there are none of them.
   const uint64_t validity = std::min(coded.layers.validity_bytes, payloadOf(packets));
   return leastBytes(packets, [&](uint64_t bytes) {
     if (bytes < validity) return false;
-    const Codewords prefix = prefixAfter(coded.rated(), packets, bytes);
+    const Codewords prefix = prefixAfter(coded.accounted(), packets, bytes);
     const SampleErrors errors = sampleErrorsOf(coded, prefix, inputs.options.threads);
     return errors.mean_square * inputs.heaviest() <= worst;
   });
@@ -64,7 +61,7 @@ uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture
   const CodedTexture& coded = *texture.coded;
   const auto& packets = texture.curve->packets;
   const std::optional<uint64_t> least = leastBytes(packets, [&](uint64_t bytes) {
-    return reachesPsnr(inputs, coded, prefixAfter(coded.rated(), packets, bytes));
+    return reachesPsnr(inputs, coded, prefixAfter(coded.accounted(), packets, bytes));
   });
   return least.value_or(payloadOf(packets));
 }
@@ -73,7 +70,8 @@ uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture
 /// fewer.
 HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy) {
   const double steps = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
-  const auto exact = exactHeightsFor(inputs, steps * lossy.coded->of->steps.step, lossy.bytes());
+  const auto exact =
+      exactHeightsFor(inputs, steps * lossy.coded->quantised->steps.step, lossy.bytes());
   if (!exact) return lossy;
   return fewestBytes<CodedHeights>({std::move(lossy), {exact}});
 }

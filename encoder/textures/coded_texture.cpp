@@ -14,9 +14,9 @@ namespace tetrakis::inline textures {
 
 namespace {
 
-CodedTexture codedBy(std::shared_ptr<const TextureSource> of, EncodedTexture encoded) {
-  assert(!encoded.tracks.empty() && encoded.header.width == of->texels.width);
-  return {std::move(of), std::move(encoded.header), std::move(encoded.tracks)};
+CodedTexture codedBy(std::shared_ptr<const TextureSource> source, EncodedTexture encoded) {
+  assert(!encoded.tracks.empty() && encoded.header.width == source->texels.width);
+  return {std::move(source), std::move(encoded.header), std::move(encoded.tracks)};
 }
 
 }  // namespace
@@ -34,47 +34,48 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image) {
 }
 
 double CodedTexture::counted() const {
-  return static_cast<double>(countedSamples(of->texels, of->counted(header.hidden)));
+  return static_cast<double>(countedSamples(source->texels, source->counted(header.hidden)));
 }
 
-CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> of,
+CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
                          Purpose purpose) {
-  EncodedTexture encoded = encodeTexture(*of, purpose, textureOptions(inputs, of->texels));
-  return codedBy(std::move(of), std::move(encoded));
+  EncodedTexture encoded = encodeTexture(*source, purpose, textureOptions(inputs, source->texels));
+  return codedBy(std::move(source), std::move(encoded));
 }
 
 CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy) {
-  const TextureOptions options = textureOptions(inputs, lossy.of->texels);
-  return codedBy(lossy.of, encodeReversibly(*lossy.of, lossy.header, options));
+  const TextureOptions options = textureOptions(inputs, lossy.source->texels);
+  return codedBy(lossy.source, encodeReversibly(*lossy.source, lossy.header, options));
 }
 
 /// Coding for a PSNR ends by the account, which the samples may miss: then it goes on.
 CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
-                                  std::shared_ptr<const TextureSource> of) {
-  CodedTexture coded = codeTexture(inputs, std::move(of), purposeOf(inputs));
+                                  std::shared_ptr<const TextureSource> source) {
+  CodedTexture coded = codeTexture(inputs, std::move(source), purposeOf(inputs));
   if (inputs.options.psnr <= 0 || coded.tracks.front().complete) return coded;
   if (reachesPsnr(inputs, coded, codewordsOf(coded.tracks))) return coded;
-  TextureOptions to_the_end = textureOptions(inputs, coded.of->texels);
+  TextureOptions to_the_end = textureOptions(inputs, coded.source->texels);
   to_the_end.mean_square = 0;
-  return codedBy(coded.of, encodeTexture(*coded.of, purposeOf(inputs), to_the_end));
+  return codedBy(coded.source, encodeTexture(*coded.source, purposeOf(inputs), to_the_end));
 }
 
-CodedTexture storeTexture(std::shared_ptr<const TextureSource> of) {
-  EncodedTexture stored = encodeStoredTexture(of->texels);
-  return codedBy(std::move(of), std::move(stored));
+CodedTexture storeTexture(std::shared_ptr<const TextureSource> source) {
+  EncodedTexture stored = encodeStoredTexture(source->texels);
+  return codedBy(std::move(source), std::move(stored));
 }
 
 double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t threads,
                  TextureMemory* memory) {
   assert(prefix.size() == texture.tracks.size());
   const Texels shown = decodeTexture(texture.header, prefix, {}, {threads, memory});
-  return countedSquares(texture.of->texels, shown, texture.of->counted(texture.header.hidden));
+  return countedSquares(texture.source->texels, shown,
+                        texture.source->counted(texture.header.hidden));
 }
 
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix) {
   const double squares = squaresOf(texture, prefix, inputs.options.threads);
   return squares / texture.counted() <=
-         worstMeanSquare(texture.of->texels.most(), inputs.options.psnr);
+         worstMeanSquare(texture.source->texels.most(), inputs.options.psnr);
 }
 
 }  // namespace tetrakis::inline textures

@@ -11,14 +11,14 @@
 
 #include "bitstream/stream/header.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
-#include "ratecontrol/coded_tracks.hpp"
+#include "ratecontrol/curves/coded_tracks.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "texture_wavelet/texture_source.hpp"
 
 namespace tetrakis::inline textures {
 
 struct CodedTexture {
-  std::shared_ptr<const TextureSource> of;
+  std::shared_ptr<const TextureSource> source;
   TextureHeader header;
   std::vector<EncodedTrack> tracks;  ///< distortion: squared error over the samples that count
 
@@ -26,27 +26,27 @@ struct CodedTexture {
   double counted() const;
   /// Behind the opening there is one codeword, of coefficients.
   bool holdsCoefficientsAlone() const { return tracks.size() == 1 && !header.direct(); }
-  CodedTracks rated() const {
+  CodedTracks accounted() const {
     return {Component::kTexture, tracks, header.alpha_bytes + header.overlay_bytes};
   }
 };
 
 std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
 
-/// Codes the texture by the coder that suits it. of: quantiseTexture() of the image of the inputs.
-CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> of,
+/// Codes the texture by the coder that suits it. source: quantiseTexture() of the inputs' image.
+CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
                          Purpose purpose);
 
-/// Codes the texture as the target of the options asks for it. of: as above.
+/// Codes the texture as the target of the options asks for it. source: as above.
 CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
-                                  std::shared_ptr<const TextureSource> of);
+                                  std::shared_ptr<const TextureSource> source);
 
 /// Codes the same texture to the last bit, with the colours and filters of `lossy`, which is
 /// neither drawn nor stored.
 CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy);
 
 /// The samples written as they are.
-CodedTexture storeTexture(std::shared_ptr<const TextureSource> of);
+CodedTexture storeTexture(std::shared_ptr<const TextureSource> source);
 
 /// Sum of squared errors of the samples that count. prefix: of the codeword of each track. memory:
 /// of calls for fewer bytes of a component with one track.

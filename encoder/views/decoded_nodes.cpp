@@ -44,7 +44,7 @@ View enoughOf(Extent whole, uint64_t samples) {
 /// What a decoder is given of a component, and told of it.
 template <class Coded>
 Codewords prefixOf(const Rated<Coded>& rated, uint64_t bytes, TrackMemory& memory) {
-  const CodedTracks tracks = rated.coded.rated();
+  const CodedTracks tracks = rated.coded.accounted();
   if (!endsWithPasses(rated)) return prefixAfter(tracks, rated.curve.packets, bytes);
   memory.passes_within = bytes - std::min(bytes, tracks.opening);
   return codewordsOf(tracks.tracks);
@@ -56,8 +56,8 @@ DecodedNodes::DecodedNodes(const EncodeInputs& inputs, const Rated<CodedHeights>
                            const Rated<CodedTexture>& texture)
     : inputs_(inputs), heights_(heights), texture_(texture) {
   heights_memory_.tracks.all_levels = texture_memory_.tracks.all_levels = true;
-  if (looksAtMeshes(inputs, *heights.coded.of))
-    mesh_.emplace(inputs, *heights.coded.of, texture.coded.of->texels);
+  if (looksAtMeshes(inputs, *heights.coded.quantised))
+    mesh_.emplace(inputs, *heights.coded.quantised, texture.coded.source->texels);
 }
 
 DecodedNodes::Samples DecodedNodes::heightsAt(uint64_t bytes, const View& view) {
@@ -82,7 +82,8 @@ Relief DecodedNodes::reliefAt(uint64_t bytes) {
   const tks_heights& whole = *inputs_.heights;
   const Extent extent{whole.width, whole.height};
   View view;
-  if (heights_.coded.of->steps.valid.empty()) view = enoughOf(extent, kSamplesPerByte * bytes);
+  if (heights_.coded.quantised->steps.valid.empty())
+    view = enoughOf(extent, kSamplesPerByte * bytes);
   const Samples samples = heightsAt(bytes, view);
   tks_heights shown = whole;
   shown.width = view.extentIn(extent).width;
@@ -95,7 +96,7 @@ Relief DecodedNodes::reliefAt(uint64_t bytes) {
 }
 
 Relief DecodedNodes::original() const {
-  return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.of->steps.valid);
+  return reliefOf(*inputs_.heights, inputs_.heights->data, heights_.coded.quantised->steps.valid);
 }
 
 ScreenTexture DecodedNodes::textureAt(uint64_t bytes) {

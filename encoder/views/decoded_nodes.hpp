@@ -12,9 +12,9 @@
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/textures/coded_texture.hpp"
 #include "encoder/views/shown_mesh.hpp"
-#include "ratecontrol/component_curve.hpp"
-#include "ratecontrol/ground_rays.hpp"
-#include "ratecontrol/screen_texture.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
+#include "ratecontrol/pictures/ground_rays.hpp"
+#include "ratecontrol/pictures/screen_texture.hpp"
 
 namespace tetrakis::inline views {
 
@@ -43,7 +43,6 @@ class DecodedNodes {
     std::vector<uint8_t> valid;   ///< empty: all are
   };
   Samples heightsAt(uint64_t bytes, const View& view);
-  bool showsMeshes() const { return mesh_.has_value(); }
   /// What viewers see of the heights.
   Relief shownAt(uint64_t bytes);
   /// What they see of all heights, if that is a mesh.
@@ -51,6 +50,7 @@ class DecodedNodes {
   Relief original() const;
 
   ScreenTexture textureAt(uint64_t bytes);
+  const Texels& originalTexels() const { return texture_.coded.source->texels; }
   Texels texelsAt(uint64_t bytes, const View& view);
 
  private:

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "encoder/selection/write_stream.hpp"
-#include "encoder/views/views.hpp"
+#include "encoder/views/errors_of_prefixes.hpp"
 
 namespace tetrakis::inline views {
 

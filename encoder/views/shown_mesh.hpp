@@ -6,7 +6,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
@@ -17,7 +16,7 @@
 #include "codec/mesh/topology/lattice_mesh.hpp"
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
-#include "ratecontrol/ground_rays.hpp"
+#include "ratecontrol/pictures/ground_rays.hpp"
 
 namespace tetrakis::inline views {
 

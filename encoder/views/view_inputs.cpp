@@ -11,9 +11,18 @@
 
 namespace tetrakis::inline views {
 
+namespace {
+
+std::string nameOf(const tks_camera& camera, uint32_t index) {
+  const std::string number = std::to_string(index + 1);
+  return camera.name != nullptr && *camera.name != 0 ? camera.name : number;
+}
+
 double metresIn(const char* unit) {
   return unit != nullptr ? metresPerUnit(unit).value_or(1) : 1;
 }
+
+}  // namespace
 
 GroundFrame frameOf(const tks_heights& heights) {
   return knownFrame({heights.width, heights.height, heights.spacing_x, heights.spacing_y,
@@ -36,15 +45,6 @@ Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<
   return relief;
 }
 
-namespace {
-
-std::string nameOf(const tks_camera& camera, uint32_t index) {
-  const std::string number = std::to_string(index + 1);
-  return camera.name != nullptr && *camera.name != 0 ? camera.name : number;
-}
-
-}  // namespace
-
 std::vector<Camera> givenCameras(const tks_encode_options& options) {
   std::vector<Camera> cameras;
   for (uint32_t i = 0; i < options.camera_count; ++i) {
@@ -61,6 +61,12 @@ std::vector<Camera> givenCameras(const tks_encode_options& options) {
     cameras.push_back(std::move(camera));
   }
   return cameras;
+}
+
+std::vector<Camera> camerasOf(const tks_encode_options& options, const Bounds& bounds) {
+  if (options.camera_count > 0) return givenCameras(options);
+  const Result<std::vector<Camera>> cameras = unknownViewer(bounds);
+  return cameras.ok() ? *cameras : std::vector<Camera>();
 }
 
 }  // namespace tetrakis::inline views

@@ -7,14 +7,12 @@
 
 #include "ground/camera.hpp"
 #include "ground/frame.hpp"
-#include "ratecontrol/ground_rays.hpp"
+#include "ratecontrol/pictures/ground_rays.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline views {
 
 /// A unit that is no length counts as metres.
-double metresIn(const char* unit);
-
 GroundFrame frameOf(const tks_heights& heights);
 
 /// samples: of the type and size of `like`. valid: as findVoids() has it.
@@ -24,5 +22,8 @@ Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<
 inline constexpr size_t kViewPixels = 3072;
 
 std::vector<Camera> givenCameras(const tks_encode_options& options);
+
+/// The given cameras, or those of a viewer of whom nothing is known; none if these find no bounds.
+std::vector<Camera> camerasOf(const tks_encode_options& options, const Bounds& bounds);
 
 }  // namespace tetrakis::inline views

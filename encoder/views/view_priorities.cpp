@@ -9,7 +9,7 @@
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/textures/coded_texture.hpp"
 #include "encoder/views/view_inputs.hpp"
-#include "ratecontrol/screen_points.hpp"
+#include "ratecontrol/pictures/screen_points.hpp"
 
 namespace tetrakis::inline views {
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // tks_plan and tks_reorder: which bytes help a view, and the same packets in another order.
 #include <cmath>
-#include <limits>
 
 #include "conformance/samples/header_seal.hpp"
 #include "receiver/ground_sight.hpp"
-#include "tests/support/hostile_streams.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {

@@ -11,7 +11,7 @@
 #include "codec/geometry/geometry_decoder.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "conformance/samples/void_masks.hpp"
-#include "ratecontrol/track_order.hpp"
+#include "ratecontrol/curves/track_order.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
 #include "texture_wavelet/texture_choice.hpp"

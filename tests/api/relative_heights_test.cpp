@@ -2,13 +2,11 @@
 // Whole streams of heights in whole steps above a geoid, above offsets of squares, of two surveys.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "conformance/samples/offset_heights.hpp"
 #include "tests/support/stream_fixture.hpp"

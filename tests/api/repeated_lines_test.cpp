@@ -3,11 +3,9 @@
 // those of the small grid, and prefixes, levels, windows and meshes are those of any other heights.
 #include <algorithm>
 #include <chrono>
-#include <span>
 
 #include "bitstream/stream/header.hpp"
 #include "conformance/reference_decoder.hpp"
-#include "conformance/samples/void_masks.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {

@@ -2,7 +2,6 @@
 // Heights of one column, one row or one sample: profiles, windows of one row, tiny tiles. All
 // targets keep their promises, and every prefix, level and window decodes as those of any heights.
 // They have no area: no mesh can be made of them, and no camera sees them.
-#include <initializer_list>
 #include <limits>
 #include <utility>
 

@@ -3,7 +3,6 @@
 // a failure leaves the outputs alone.
 #include <sys/resource.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 

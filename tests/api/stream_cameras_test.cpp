@@ -3,7 +3,6 @@
 // terrain, however odd it is, and each of the others is refused by its name.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstring>
 #include <iterator>
-#include <memory>
 #include <vector>
 
 #include "tests/support/stream_fixture.hpp"

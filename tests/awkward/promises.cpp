@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/awkward/promises.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "tests/support/same_bytes.hpp"
+
 #include "tools/commands/command_line.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"

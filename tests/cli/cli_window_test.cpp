@@ -7,13 +7,13 @@ namespace {
 
 class CliWindows : public CliTest {};
 
-/// Samples of a window of the whole.
-std::vector<std::byte> cropOf(const std::vector<std::byte>& all, size_t row, size_t place, size_t x,
-                              size_t y, size_t width, size_t height) {
+/// Samples of a window. row: places of the whole in one; place: its bytes.
+std::vector<std::byte> cropOf(const std::vector<std::byte>& all, size_t row, size_t place,
+                              const tks_window& window) {
   std::vector<std::byte> out;
-  for (size_t r = y; r < y + height; ++r) {
-    const auto from = all.begin() + static_cast<ptrdiff_t>((r * row + x) * place);
-    out.insert(out.end(), from, from + static_cast<ptrdiff_t>(width * place));
+  for (size_t y = window.y; y < size_t{window.y} + window.height; ++y) {
+    const auto from = all.begin() + static_cast<ptrdiff_t>((y * row + window.x) * place);
+    out.insert(out.end(), from, from + static_cast<ptrdiff_t>(window.width * place));
   }
   return out;
 }
@@ -33,7 +33,7 @@ TEST_F(CliWindows, WritesThePartOfHeightsAndTexture) {
   ASSERT_TRUE(part.ok());
   EXPECT_EQ(part->width, 10u);
   EXPECT_EQ(part->height, 20u);
-  EXPECT_TRUE(sameBytes(part->data, cropOf(heights.data, 65, 2, 40, 3, 10, 20)));
+  EXPECT_TRUE(sameBytes(part->data, cropOf(heights.data, 65, 2, {40, 3, 10, 20})));
   const auto whole = tools::readImage(path("a.png")), image = tools::readImage(path("b.png"));
   ASSERT_TRUE(whole.ok() && image.ok());
   // Columns 40 to 49 of 0 to 64, rows 3 to 22, rounded outwards to texels.
@@ -42,8 +42,9 @@ TEST_F(CliWindows, WritesThePartOfHeightsAndTexture) {
   const size_t x = first(40, whole->width), y = first(3, whole->height);
   EXPECT_EQ(image->width, last(49, whole->width) - x);
   EXPECT_EQ(image->height, last(22, whole->height) - y);
-  EXPECT_TRUE(sameBytes(image->data, cropOf(whole->data, whole->width, whole->channels, x, y,
-                                            image->width, image->height)));
+  const tks_window texels = {static_cast<uint32_t>(x), static_cast<uint32_t>(y), image->width,
+                             image->height};
+  EXPECT_TRUE(sameBytes(image->data, cropOf(whole->data, whole->width, whole->channels, texels)));
 }
 
 TEST_F(CliWindows, RefusesWhatMakesNoSense) {

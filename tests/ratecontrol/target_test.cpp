@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What meets a target: searches over packets, needs, budgets; and the curves that packets come
-// from.
-#include "ratecontrol/target.hpp"
+// What meets a target: searches over packets, needs, budgets.
+#include "ratecontrol/needs/target.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <random>
-
-#include "ratecontrol/component_curve.hpp"
 
 namespace tetrakis {
 namespace {
@@ -36,8 +32,7 @@ std::vector<Packet> randomPackets(std::mt19937& random, bool both) {
 
 uint64_t payloadOf(std::span<const Packet> packets, Component component) {
   uint64_t bytes = 0;
-  for (const Packet& packet : packets)
-    bytes += packet.component == component ? packet.end - packet.begin : 0;
+  for (const Packet& packet : packets) bytes += packet.component == component ? packet.length() : 0;
   return bytes;
 }
 
@@ -57,7 +52,7 @@ TEST(LeastBytes, AreWithinA64thOfAPacketAndNeverInAWholeOne) {
       EXPECT_EQ(*least, packet->end);
     } else {
       EXPECT_GE(*least, enough);
-      EXPECT_LE(*least - enough, std::max<uint64_t>(1, (packet->end - packet->begin) / 64));
+      EXPECT_LE(*least - enough, std::max<uint64_t>(1, packet->length() / 64));
     }
   }
 }
@@ -155,49 +150,6 @@ TEST(Budgets, KeepWhatBeginsWithinThemAndStateWhatEndsWithinThem) {
         stated[static_cast<size_t>(packets[i].component)] = rmseOf(packets[i].quality);
     }
     EXPECT_EQ(statedWithin(packets, budget), stated);
-  }
-}
-
-/// Tracks whose error halves with every ten bytes; the first has an opening that seems worth
-/// little.
-std::vector<EncodedTrack> tracksWithOpening(size_t count, uint64_t opening) {
-  std::vector<EncodedTrack> tracks(count);
-  for (size_t i = 0; i < count; ++i) {
-    double distortion = 1e6 * static_cast<double>(i + 1);
-    uint64_t bytes = i == 0 ? opening : 0;
-    if (bytes > 0) tracks[i].points.push_back({0, distortion + 1});
-    for (; distortion > 1; distortion /= 2, bytes += 10)
-      tracks[i].points.push_back({bytes, distortion});
-    tracks[i].codeword.resize(tracks[i].points.back().bytes);
-  }
-  return tracks;
-}
-
-/// Packets lead from nothing to all of every track, the opening first, and every prefix that
-/// decoders get is made of them.
-TEST(ComponentCurve, PacketsCoverTheTracksAndTheOpeningComesFirst) {
-  for (const size_t count : {size_t{1}, size_t{3}}) {
-    const std::vector<EncodedTrack> tracks = tracksWithOpening(count, 50);
-    const CodedTracks coded{Component::kTexture, tracks, 50};
-    const auto measure = [](const std::vector<Packet>&, uint64_t) { return 1.0; };
-    const Pricing pricing{100};
-    const ComponentCurve curve = curveOf(coded, {1 << 20, 9000}, measure, pricing);
-    ASSERT_GE(curve.packets.size(), 2u);
-    EXPECT_EQ(curve.points[1].bytes, 50u) << "worth the most of all";
-    EXPECT_EQ(curve.packets.front().end, 50u);
-    EXPECT_EQ(curve.packets.front().track.value_or(0), 0u);
-    EXPECT_EQ(payloadOf(curve.packets), bytesOf(tracks));
-    EXPECT_EQ(curve.points.back().bytes, bytesOf(tracks));
-    std::vector<uint64_t> sent(count);
-    uint64_t bytes = 0;
-    for (const Packet& packet : curve.packets) {
-      const Codewords before = prefixAfter(coded, curve.packets, bytes);
-      for (size_t i = 0; i < count; ++i) EXPECT_EQ(before[i].size(), sent[i]);
-      EXPECT_EQ(packet.begin, sent[packet.track.value_or(0)]);
-      sent[packet.track.value_or(0)] = packet.end;
-      bytes += packet.end - packet.begin;
-    }
-    for (size_t i = 0; i < count; ++i) EXPECT_EQ(sent[i], tracks[i].codeword.size());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "codec/mesh/closure/closure.hpp"
+
 #include "codec/mesh/decimation/worth.hpp"
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
 #include "codec/mesh/topology/lattice.hpp"

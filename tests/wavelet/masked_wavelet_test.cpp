@@ -2,7 +2,6 @@
 // The wavelet of planes with voids: exact inverse, and no value crosses a coast.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

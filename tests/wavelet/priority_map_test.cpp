@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <random>
-#include <string>
 
 #include "wavelet/priority_map_encoder.hpp"
 

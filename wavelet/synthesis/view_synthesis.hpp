@@ -5,7 +5,6 @@
 // (window_synthesis.hpp), and has the same samples that the whole plane has there.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <variant>

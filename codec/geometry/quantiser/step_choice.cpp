@@ -7,7 +7,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>

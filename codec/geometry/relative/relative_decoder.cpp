@@ -2,7 +2,6 @@
 #include "codec/geometry/relative/relative_decoder.hpp"
 
 #include <cassert>
-#include <vector>
 
 #include "base/plane.hpp"
 #include "base/samples.hpp"

@@ -3,7 +3,6 @@
 #include "codec/mesh/closure/closure.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -11,7 +10,6 @@
 #include <utility>
 
 #include "codec/mesh/closure/closure_flow.hpp"
-#include "codec/mesh/gains/gains.hpp"
 
 namespace tetrakis::inline closure {
 namespace {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "codec/mesh/surface/surface_view.hpp"
+
 #include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::inline closure {

@@ -3,7 +3,6 @@
 #include "codec/mesh/closure/closure_flow.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 namespace tetrakis::inline closure {
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "codec/mesh/closure/closure.hpp"
 #include "codec/mesh/decimation/general_decimation.hpp"

@@ -3,7 +3,6 @@
 // rasterised instead, because their halves need not fill them (gains.cpp).
 #include "codec/mesh/fitting/fitted_moments.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 #include "codec/mesh/fitting/fitted_triangle.hpp"

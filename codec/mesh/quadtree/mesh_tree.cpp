@@ -46,6 +46,11 @@ class VertexSelection {
   std::vector<uint32_t> before_;
 };
 
+/// Patches are the root squares of the lattice; level i holds its levels 2i and 2i + 1.
+QuadtreeShape quadtreeShapeOf(const Lattice& lattice) {
+  return {lattice.levelCount() / 2, lattice.rootColumns(), lattice.rootRows()};
+}
+
 std::vector<SemilinearQuadtree::Entry> entriesOf(const Lattice& lattice,
                                                  std::span<const VertexId> vertices,
                                                  std::span<const float> heights) {
@@ -62,10 +67,6 @@ std::vector<SemilinearQuadtree::Entry> entriesOf(const Lattice& lattice,
 }
 
 }  // namespace
-
-QuadtreeShape quadtreeShapeOf(const Lattice& lattice) {
-  return {lattice.levelCount() / 2, lattice.rootColumns(), lattice.rootRows()};
-}
 
 QuadtreePlace placeOf(const Lattice& lattice, Site v) {
   assert(v.level < lattice.levelCount());

@@ -13,7 +13,6 @@
 //   sw---s---se    since both sides of an edge ask for the same midpoint, there are no T-junctions.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -51,9 +50,6 @@ class MeshTree {
   IndexDifferences differences_;
   SemilinearQuadtree quadtree_;
 };
-
-/// Patches are the root squares of the lattice; level i holds its levels 2i and 2i + 1.
-QuadtreeShape quadtreeShapeOf(const Lattice& lattice);
 
 /// Where the quadtree of the lattice stores a vertex.
 QuadtreePlace placeOf(const Lattice& lattice, Site v);

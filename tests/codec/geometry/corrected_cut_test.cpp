@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cuts of coefficients with corrections behind them.
-#include "codec/geometry/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,11 @@
 // The layer of flat areas: what is found, and what comes back of it.
 #include <gtest/gtest.h>
 
+#include "codec/geometry/coding_choice/flat_choice.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
 #include "codec/geometry/flat/opening.hpp"
-#include "codec/geometry/flat_choice.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"

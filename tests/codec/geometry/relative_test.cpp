@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "base/samples.hpp"
 #include "codec/geometry/relative/relative_decoder.hpp"
 #include "codec/geometry/relative/relative_encoder.hpp"
 #include "codec/geometry/relative/relative_step_choice.hpp"

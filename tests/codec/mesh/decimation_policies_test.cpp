@@ -13,7 +13,6 @@
 #include "codec/mesh/decimation/saturated_order.hpp"
 #include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/decimation_policies.hpp"
-#include "codec/mesh/study/leaf_order.hpp"
 #include "codec/mesh/study/local_errors.hpp"
 #include "codec/mesh/topology/ancestors.hpp"
 #include "tests/support/decimation_terrain.hpp"

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
-#include <map>
 
 #include "codec/polyline/algorithms.hpp"
 #include "codec/polyline/knot_tree.hpp"

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/coding_choice/bound_choice.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "codec/geometry/geometry_encoder.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+#include "wavelet/choice/typical_parts.hpp"
+#include "wavelet/choice/typical_plane.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+namespace {
+
+constexpr uint64_t kSearchedSamples = 1025 * 1025;
+constexpr uint32_t kPartSide = 448;
+
+HeightSteps cropped(const HeightSteps& whole, Extent plane, const Window& part) {
+  HeightSteps out;
+  out.range_bits = whole.range_bits;
+  out.steps = cut(std::span<const int32_t>(whole.steps), plane, {0, part});
+  out.valid = cut(std::span<const uint8_t>(whole.valid), plane, {0, part});
+  out.bridge = whole.bridge;
+  out.lifted = cut(std::span<const uint8_t>(whole.lifted), plane, {0, part});
+  return out;
+}
+
+/// A part of the plane, as if it were one. It stays where it is made.
+class PartTrial {
+ public:
+  PartTrial(HeightSteps steps, const Window& part, const WaveletHeader& wavelet, int32_t largest)
+      : steps_(std::move(steps)), largest_(largest) {
+    header_.width = part.width;
+    header_.height = part.height;
+    header_.wavelet = wavelet;
+    track_ = coded(steps_.steps, wavelet);
+    header_.planes = static_cast<uint8_t>(track_.planes);
+  }
+  PartTrial(const PartTrial&) = delete;
+
+  uint64_t corrected(double mean_square) { return cut_.total(cut_.bytesFor(mean_square)); }
+
+  uint64_t rounded() const {
+    std::vector<int32_t> steps = steps_.steps;
+    for (int32_t& q : steps) q = nearestMultiple(q, largest_);
+    const WaveletHeader wavelet =
+        chooseWavelet({steps, header_.extent(), lifted()}, steps_.range_bits, Purpose::kLossless);
+    return coded(steps, wavelet).codeword.size();
+  }
+
+ private:
+  Mask lifted() const { return steps_.lifting(header_.extent()).valid; }
+  EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
+    const CoefficientOptions options{.share = steps_.liftedShare()};
+    return encodeGeometry({steps, header_.extent(), lifted()}, wavelet, options).front();
+  }
+
+  HeightSteps steps_;
+  int32_t largest_;
+  const FlatAreas no_areas_;  // they help rounded steps as much as corrected ones
+  GeometryHeader header_;
+  EncodedTrack track_;
+  CorrectedCut cut_{steps_, no_areas_, header_, track_, largest_};
+};
+
+/// The cut with which the corrected parts take the fewest bytes.
+struct BestCut {
+  double mean_square;
+  uint64_t bytes;
+};
+
+/// Descent by falling ratios; every turn but the last of each has fewer bytes than the one before.
+BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
+  const auto at = [&](double mean_square) {
+    BestCut cut{mean_square, 0};
+    for (PartTrial& trial : trials) cut.bytes += trial.corrected(mean_square);
+    return cut;
+  };
+  BestCut best = at(usualCut(largest));
+  for (const double ratio : {2.0, 0.5, 1.3, 1 / 1.3}) {
+    for (;;) {
+      const BestCut next = at(best.mean_square * ratio);
+      if (next.bytes >= best.bytes) break;
+      best = next;
+    }
+  }
+  return best;
+}
+
+/// Entropy of a normal error that is rounded, where few exceed 1.
+double correctionBits(double mean_square) {
+  const double off = std::erfc(0.5 / std::sqrt(2 * mean_square));
+  if (off <= 0 || off >= 1) return off;
+  return off - off * std::log2(off) - (1 - off) * std::log2(1 - off);
+}
+
+}  // namespace
+
+BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
+                    int32_t largest) {
+  assert(steps.steps.size() == plane.samples());
+  if (largest == 0) return {.correct = false};
+  if (plane.samples() <= kSearchedSamples) return {};
+  std::deque<PartTrial> trials;
+  uint64_t rounded = 0;
+  const Mask valid = steps.lifting(plane).valid;
+  const IsCoded is_coded = valid.all() ? IsCoded() : [&](size_t i) { return valid[i]; };
+  for (const Window& part : typicalParts(plane, kPartSide, is_coded)) {
+    trials.emplace_back(cropped(steps, plane, part), part, wavelet, largest);
+    rounded += trials.back().rounded();
+  }
+  const BestCut cut = bestCut(trials, largest);
+  const bool correct = cut.bytes < rounded;
+  return {!correct, correct, cut.mean_square};
+}
+
+bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes) {
+  constexpr double kLeastBits = 0.5, kMostBits = 1.8, kTries = 1.05;
+  const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
+  const double bits = 8 * static_cast<double>(bytes) / samples;
+  if (bits < kLeastBits || bits > kMostBits) return false;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double step : {1.0, 1.4, 2.0}) {
+    const PlaneCost cost = typicalCost(heights, range_bits, step);
+    least = std::min(least, cost.bits + samples * correctionBits(cost.squares / samples));
+  }
+  return least < kTries * typicalCost(heights, range_bits, 0).bits;
+}
+
+}  // namespace tetrakis::inline coding_choice

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// There are two ways of keeping heights within a largest error. This file says which of them is
+// worth trying, and where to cut.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+struct BoundWays {
+  bool round = true;    ///< to multiples of 2 * largest + 1 steps, coded to the last bit
+  bool correct = true;  ///< coefficients that are cut, and corrections behind them
+  /// Mean squared error, in steps, that the cut leaves; nothing: to be searched for.
+  std::optional<double> mean_square = {};
+};
+
+/// Says which ways to try. largest: the error allowed, in steps. wavelet: that of coefficients that
+/// will be cut. Both ways are worth trying for planes of at most 1025 * 1025 samples, which takes
+/// some twenty times as long as coding them. For larger planes both are tried on typical parts
+/// here, and the way that takes fewer bytes there is taken for the whole plane.
+BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
+                    int32_t largest);
+
+/// Whether smooth heights, which take so many bytes to the last bit, may take fewer as coefficients
+/// with fraction bits, cut, and corrections behind them. The integer transform rounds each
+/// coefficient, which costs about a bit a sample where the heights themselves hold less; of rounded
+/// samples of a smooth surface, a cut knows most. Estimated on typical parts. heights: in steps.
+bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes);
+
+}  // namespace tetrakis::inline coding_choice

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "codec/geometry/corrections/corrections_encoder.hpp"
+#include "codec/geometry/height_layers.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+int32_t nearestMultiple(int64_t q, int64_t largest) {
+  const int64_t unit = 2 * largest + 1, shifted = q + largest;
+  return static_cast<int32_t>((shifted - (shifted % unit + unit) % unit) / unit);
+}
+
+/// Decodes a cut, from where the longest known cut ends that is no longer than it.
+DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
+  const auto longer = known_.upper_bound(bytes);
+  TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;
+  DecodedGeometry geometry = decodeGeometry(
+      header_, {std::span(coefficients_.codeword).first(bytes)},
+      {steps_.valid, flat_.held(), steps_.lifting(header_.extent()).valid}, {}, {1, &memory});
+  known_[bytes] = std::move(memory);
+  return geometry;
+}
+
+/// Cuts to be tried lie about the shortest in all: what helps most is known of it and of the next
+/// one before it.
+void CorrectedCut::forgetFarthest() {
+  constexpr size_t kKept = 2;
+  while (known_.size() > kKept) {
+    const auto last = std::prev(known_.end());
+    known_.erase(last->first > shortest_ ? last : known_.begin());
+  }
+}
+
+uint64_t CorrectedCut::total(uint64_t bytes) {
+  const auto tried = totals_.find(bytes);
+  if (tried != totals_.end()) return tried->second;
+  const uint64_t total = bytes + correct(bytes).codeword.size();
+  if (totals_.empty() || total < totals_[shortest_]) shortest_ = bytes;
+  totals_[bytes] = total;
+  forgetFarthest();
+  return total;
+}
+
+Corrected CorrectedCut::correct(uint64_t bytes) {
+  DecodedGeometry decoded = this->decoded(bytes);
+  const std::vector<uint8_t> hints = activityHints(decoded);
+  std::vector<int32_t> corrections = wholeSteps(std::move(decoded));
+  Corrected result;
+  bool any = false;
+  for (size_t i = 0; i < corrections.size(); ++i) {
+    const int64_t error = int64_t{steps_.steps[i]} - corrections[i];
+    corrections[i] = nearestMultiple(error, largest_);
+    any |= corrections[i] != 0;
+    const auto rest = static_cast<double>(error - int64_t{corrections[i]} * (2 * largest_ + 1));
+    result.before += static_cast<double>(error) * static_cast<double>(error);
+    result.after += rest * rest;
+  }
+  if (!any) return result;
+  result.codeword = encodeCorrections(corrections, {hints, header_.extent(), steps_.valid});
+  return result;
+}
+
+uint64_t CorrectedCut::bytesFor(double mean_square) const {
+  const auto samples = static_cast<double>(steps_.validCount());
+  for (const RatePoint& point : coefficients_.points) {
+    if (point.distortion <= mean_square * samples) return point.bytes;
+  }
+  return coefficients_.codeword.size();
+}
+
+/// The bytes have one minimum, near the usual cut: descent from there with ever smaller strides.
+/// Every turn but the last of each stride has fewer bytes than the one before. The shorter
+/// neighbour is tried first, because the usual cut goes on from it.
+uint64_t CorrectedCut::best(uint64_t rival) {
+  constexpr double kWidest = 1.3;
+  constexpr double kClearly = 1.03;  // smaller strides save less
+  const auto scaled = [&](uint64_t bytes, double factor) {
+    return std::min<uint64_t>(static_cast<uint64_t>(static_cast<double>(bytes) * factor),
+                              coefficients_.codeword.size());
+  };
+  uint64_t best = bytesFor(usualCut(largest_));
+  total(scaled(best, 1 / kWidest));
+  uint64_t least = total(best);
+  for (const double stride : {kWidest, 1.1, 1.04}) {
+    const bool lost = static_cast<double>(least) > kClearly * static_cast<double>(rival);
+    if (lost && stride < kWidest) break;
+    for (const double factor : {1 / stride, stride}) {
+      for (;;) {
+        const uint64_t cut = scaled(best, factor);
+        const uint64_t bytes = total(cut);
+        if (bytes >= least) break;
+        best = cut;
+        least = bytes;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace tetrakis::inline coding_choice

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// A cut of the coefficients leaves errors, and corrections bring them below a largest error. This
+// file finds the cut that takes the fewest bytes in all.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "bitstream/track/track_encoder.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
+#include "codec/geometry/geometry_decoder.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+/// The multiple of 2 * largest + 1 nearest to q.
+int32_t nearestMultiple(int64_t q, int64_t largest);
+
+/// What corrections make of the heights that a cut leaves.
+struct Corrected {
+  std::vector<uint8_t> codeword;  ///< empty: nothing needs one
+  double before = 0, after = 0;   ///< squared errors in steps
+};
+
+/// Tries cuts of one track of coefficients, complete or not. All arguments outlive it. It remembers
+/// what it has decoded of the cuts near the best one, so that others go on from there.
+class CorrectedCut {
+ public:
+  /// header: with the planes of the track; flat: what the coefficients were coded beside; largest:
+  /// error allowed, in steps.
+  CorrectedCut(const HeightSteps& steps, const FlatAreas& flat, const GeometryHeader& header,
+               const EncodedTrack& coefficients, int32_t largest)
+      : steps_(steps),
+        flat_(flat),
+        header_(header),
+        coefficients_(coefficients),
+        largest_(largest) {}
+
+  Corrected correct(uint64_t bytes);
+
+  /// Bytes of the coefficients that leave a mean squared error, in steps.
+  uint64_t bytesFor(double mean_square) const;
+  /// Bytes of the coefficients, cut there, and of their corrections.
+  uint64_t total(uint64_t bytes);
+
+  /// The cut of fewest bytes in all; where these are clearly more than the rival's, about it.
+  uint64_t best(uint64_t rival);
+
+ private:
+  DecodedGeometry decoded(uint64_t bytes);
+  void forgetFarthest();
+
+  const HeightSteps& steps_;
+  const FlatAreas& flat_;
+  const GeometryHeader& header_;
+  const EncodedTrack& coefficients_;
+  int32_t largest_;
+  std::map<uint64_t, TrackMemory> known_;  ///< by bytes
+  std::map<uint64_t, uint64_t> totals_;
+  uint64_t shortest_ = 0;  ///< of the cuts that were tried, if there are any
+};
+
+/// The mean squared error, in steps, that cuts usually leave where the bytes are fewest. Samples
+/// are rounded: below an RMSE of 0.3 steps a cut would have to code that noise.
+inline double usualCut(int32_t largest) {
+  const double rmse = largest == 0 ? 0.3 : 0.45 * largest;
+  return rmse * rmse;
+}
+
+}  // namespace tetrakis::inline coding_choice

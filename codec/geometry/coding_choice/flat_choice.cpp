@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane is transformed as it is, and with areas held; what its coefficients cost
+// (wavelet/choice/plane_cost.hpp) decides, with the bytes of the areas: at the step of the target,
+// and at coarser ones, because every prefix pays for the areas first. Large areas are tried first;
+// then smaller ones are added, or shapes are simplified, whichever gains.
+#include "codec/geometry/coding_choice/flat_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "codec/geometry/coding_choice/tried_plane.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
+#include "codec/geometry/flat/flat_parts.hpp"
+#include "wavelet/choice/compared_steps.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+namespace {
+
+/// What is tried, from the shapes of the fewest bytes to the most water.
+constexpr uint32_t kLeastSamples = 8;
+constexpr std::array<FlatShape, 8> kShapes = {
+    {{4096, 32}, {4096, 16}, {4096, 8}, {4096, 4}, {4096}, {512}, {64}, {kLeastSamples}}};
+constexpr size_t kLargeAreas = 4;
+/// Nothing is tried where areas of kPond samples cover less than that share of the plane.
+constexpr uint32_t kPond = 64;
+constexpr uint64_t kLeastShare = 1000;
+/// Estimates of bits are no better than that. Parts miss coarse levels, so theirs are worse.
+constexpr double kClearlyOfPlane = 0.99, kClearlyOfParts = 0.98;
+/// What it is worth, as a share of the bytes, that all samples are flat and stay so: squared errors
+/// do not tell that a sea with waves looks wrong.
+constexpr double kWorthOfFlatness = 0.1;
+
+/// The step, in units of the plane, that the purpose asks for.
+double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fraction_bits) {
+  if (purpose.purpose == Purpose::kLossless) return 0;
+  if (purpose.mean_square > 0)
+    return std::ldexp(std::sqrt(12 * purpose.mean_square), fraction_bits);
+  return plane.step(8 * static_cast<double>(purpose.bytes));
+}
+
+/// Tries areas against what was best so far.
+class FlatTrials {
+ public:
+  FlatTrials(const PlaneView<const int32_t>& heights, Mask valid, const HeightPurpose& purpose)
+      : heights_(heights),
+        valid_(valid),
+        purpose_(purpose),
+        finder_({heights.values(), heights.extent(), valid}),
+        wavelet_(chooseWavelet(heights, purpose.range_bits, purpose.purpose)) {}
+
+  FlatChoice choose() {
+    const FlatChoice plain = {{}, wavelet_};
+    const uint64_t samples = heights_.extent().samples();
+    if (finder_.samplesOf(kPond, whole()) * kLeastShare < samples) return plain;
+    for (const SampledPart& part : sampleParts(finder_, kPond, kLeastSamples))
+      parts_.emplace_back(heights_, valid_, part);
+    const std::optional<FlatShape> shape = shapeThatPays();
+    if (!shape) return plain;
+    FlatLayer flat{finder_.areas(*shape, whole()), {}};
+    if (flat.areas.empty()) return plain;  // there are too many
+    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), valid_);
+    if (flat.codeword.size() >= purpose_.bytes) return plain;
+    return {std::move(flat), *beside_};
+  }
+
+ private:
+  Window whole() const { return {0, 0, heights_.width, heights_.height}; }
+
+  /// A price is the ratio of bytes, less what flatness is worth; it is infinite without areas.
+  static constexpr double kNoAreas = std::numeric_limits<double>::infinity();
+
+  struct Trial {
+    FlatShape shape;
+    double price = kNoAreas;
+  };
+
+  ComparedSteps stepsOfPlain() const {
+    std::vector<PartTrials> as_it_is(parts_.begin(), parts_.end());
+    const TriedPlane plain(as_it_is, std::vector<FlatAreas>(parts_.size()), wavelet_,
+                           purpose_.threads);
+    return {[&](double step) { return plain.cost(step); },
+            stepOf(plain, purpose_, wavelet_.fraction_bits),
+            static_cast<double>(heights_.extent().samples())};
+  }
+
+  /// The shape that pays best; nothing: none does. Smaller areas are added if simpler shapes do not
+  /// gain.
+  std::optional<FlatShape> shapeThatPays() {
+    const ComparedSteps steps = stepsOfPlain();
+    const Trial large = {kShapes[kLargeAreas], priceOf(kShapes[kLargeAreas], steps)};
+    Trial best = large;
+    if (purpose_.seen) best = tryAll(large, {kShapes.rend() - kLargeAreas, kShapes.rend()}, steps);
+    if (best.price == large.price || large.price == kNoAreas) {
+      const Trial fine = tryAll(large, {kShapes.begin() + kLargeAreas + 1, kShapes.end()}, steps);
+      if (fine.price < best.price) best = fine;
+    }
+    const double clearly = parts_.size() > 1 ? kClearlyOfParts : kClearlyOfPlane;
+    if (best.price >= clearly) return {};
+    return best.shape;
+  }
+
+  /// The best of them all, which are tried until prices rise.
+  Trial tryAll(const Trial& first, std::vector<FlatShape> shapes, const ComparedSteps& steps) {
+    Trial best = first;
+    double before = first.price;
+    for (const FlatShape& shape : shapes) {
+      const double price = priceOf(shape, steps);
+      if (price < best.price) best = {shape, price};
+      if (price > before) break;
+      before = price;
+    }
+    return best;
+  }
+
+  double priceOf(const FlatShape& shape, const ComparedSteps& steps) {
+    std::vector<FlatAreas> areas;
+    double held = 0;
+    for (const CopiedPart& part : parts_) {
+      areas.push_back(finder_.areas(shape, part.place.window));
+      const std::vector<uint16_t>& numbers = areas.back().numbers;
+      held += part.place.stands_for *
+              static_cast<double>(
+                  std::count_if(numbers.begin(), numbers.end(), [](uint16_t n) { return n != 0; }));
+    }
+    if (held == 0) return kNoAreas;
+    const auto known = price_of_held_.find(held);  // the same areas
+    if (known != price_of_held_.end()) return known->second;
+    const double share = held / static_cast<double>(heights_.extent().samples());
+    const double worth = purpose_.seen ? kWorthOfFlatness * share : 0;
+    return price_of_held_[held] = ratioOf(std::move(areas), shape, steps) - worth;
+  }
+
+  double ratioOf(std::vector<FlatAreas> areas, const FlatShape& shape, const ComparedSteps& steps) {
+    constexpr double kHeaderBits = 64;  // what the header says of them
+    if (!beside_) {
+      beside_ = waveletBeside(finder_.areas(shape, whole()));
+      trials_ = std::vector<PartTrials>(parts_.begin(), parts_.end());
+    }
+    const TriedPlane plane(trials_, std::move(areas), *beside_, purpose_.threads);
+    return steps.ratio([&](double step) { return plane.cost(step); },
+                       kHeaderBits + plane.bitsOfAreas());
+  }
+
+  /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
+  WaveletHeader waveletBeside(const FlatAreas& areas) const {
+    WaveletHeader header =
+        chooseWavelet(heights_, areas.held(), purpose_.range_bits, purpose_.purpose);
+    if (header.first_doubled > 0) header.first_doubled = WaveletSpec().first_doubled;
+    return header;
+  }
+
+  const PlaneView<const int32_t>& heights_;
+  Mask valid_;
+  const HeightPurpose& purpose_;
+  FlatFinder finder_;
+  std::vector<CopiedPart> parts_;
+  std::map<double, double> price_of_held_;
+  WaveletHeader wavelet_;                ///< of the plane as it is
+  std::optional<WaveletHeader> beside_;  ///< that suits what the first areas leave
+  std::vector<PartTrials> trials_;       ///< of that wavelet
+};
+
+}  // namespace
+
+FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
+                           const HeightPurpose& purpose) {
+  return FlatTrials(heights, valid, purpose).choose();
+}
+
+}  // namespace tetrakis::inline coding_choice

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders choose here which flat areas are worth their shapes, and the filters that suit what is
+// left.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
+#include "codec/geometry/geometry_encoder.hpp"
+#include "wavelet/choice/filter_choice.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+/// Areas and their codeword; both are empty if none pays.
+struct FlatLayer {
+  FlatAreas areas;
+  std::vector<uint8_t> codeword;
+
+  /// Options for the coefficients beside them. The layer outlives the options.
+  CoefficientOptions beside(CoefficientOptions options) const {
+    if (!areas.empty()) options.flat = &areas;
+    return options;
+  }
+};
+
+/// What heights in steps are coded for.
+struct HeightPurpose {
+  int range_bits;  ///< the steps span less than 2^range_bits
+  Purpose purpose;
+  uint64_t bytes = UINT64_MAX;  ///< that there will be for them
+  double mean_square = 0;       ///< > 0: the error wanted, in squared steps
+  uint32_t threads = 1;         ///< nothing depends on them
+  bool seen = false;            ///< nothing corrects what is decoded from prefixes
+};
+
+struct FlatChoice {
+  FlatLayer flat;
+  WaveletHeader wavelet;
+};
+
+/// heights: in steps, with the samples that are lifted. valid: those that are not void; its bytes
+/// outlive the call.
+FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
+                           const HeightPurpose& purpose);
+
+}  // namespace tetrakis::inline coding_choice

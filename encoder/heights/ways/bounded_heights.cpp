@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/ways/bounded_heights.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "codec/geometry/coding_choice/bound_choice.hpp"
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "codec/geometry/quantiser/bridges.hpp"
+#include "codec/geometry/quantiser/step_choice.hpp"
+#include "codec/geometry/quantiser/step_errors.hpp"
+#include "codec/geometry/quantiser/voids.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
+#include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/height_options.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/lossless_heights.hpp"
+#include "ratecontrol/needs/candidate.hpp"
+
+namespace tetrakis::inline ways {
+
+namespace {
+
+using Quantised = std::shared_ptr<const QuantisedHeights>;
+
+/// What all attempts have in common.
+struct Bound {
+  Quantised quantised;
+  Purpose purpose;        ///< of coefficients that will be cut
+  WaveletHeader wavelet;  ///< that suits them where nothing is flat
+  CoefficientOptions options;
+  double error;  ///< the largest one wanted, in sample units, less what floats lose by rounding
+};
+
+/// The distance from the largest sample to the next float; 0 for integers, which are exact.
+double floatSpacing(const QuantisedHeights& heights) {
+  if (heights.samples->sample != TKS_F32) return 0;
+  const SampleRange range = rangeOf(*heights.samples, heights.steps.valid);
+  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+  return std::ldexp(1.0, spacingExponent(static_cast<float>(largest)));
+}
+
+/// The same heights in other steps, coded to the last bit.
+CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
+  assert(!bound.quantised->restored());
+  const QuantisedHeights& quantised = *bound.quantised;
+  const tks_heights& samples = *quantised.samples;
+  const uint8_t bridge = quantised.steps.bridge;
+  QuantisedHeights rounded{.samples = &samples,
+                           .steps = withBridges(std::move(steps), extentOf(samples), bridge),
+                           .layers = quantised.layers,
+                           .validity = quantised.validity,
+                           .shown_by = quantised.shown_by};
+  if (!rounded.steps.exact) rounded.left = rounded.squaresOf(rounded.steps);
+  HeightTarget target(Purpose::kLossless);
+  target.tried = true;
+  return codeHeights(std::make_shared<const QuantisedHeights>(std::move(rounded)), target,
+                     bound.options);
+}
+
+/// Floats whose step is not given, rounded to the widest step that the bound allows; nothing if
+/// there is none wider than the exact one, or multiples of that are clearly wider.
+std::optional<CodedHeights> widen(const Bound& bound, int32_t largest) {
+  constexpr double kClearly = 1.02;
+  const tks_heights& samples = *bound.quantised->samples;
+  const double widest = 2 * bound.error, exact = bound.quantised->steps.step;
+  if (samples.sample != TKS_F32 || samples.step > 0 || widest <= exact) return {};
+  if ((2.0 * largest + 1) * exact > kClearly * widest) return {};
+  Result<HeightSteps> wide = toSteps(samples, {.given = widest});
+  if (!wide.ok()) return {};
+  return codeRounded(bound, std::move(*wide));
+}
+
+/// Rounds to multiples of the exact step.
+CodedHeights round(const Bound& bound, int32_t largest) {
+  HeightSteps steps = bound.quantised->steps;
+  if (largest > 0) {
+    for (int32_t& q : steps.steps) q = nearestMultiple(q, largest);
+    steps.step *= 2 * largest + 1;
+    steps.exact = false;
+    steps.range_bits = std::max(steps.range_bits - std::ilogb(2 * largest + 1), 1);
+  }
+  return codeRounded(bound, std::move(steps));
+}
+
+uint64_t fewestOf(const std::vector<Candidate<CodedHeights>>& made) {
+  uint64_t fewest = UINT64_MAX;
+  for (const auto& one : made) fewest = std::min(fewest, one.bytes());
+  return fewest;
+}
+
+/// All attempts at a largest error in steps, whether they keep it or not.
+std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
+  const tks_heights& samples = *bound.quantised->samples;
+  const BoundWays ways =
+      boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
+  std::vector<Candidate<CodedHeights>> made;
+  if (ways.round) {
+    if (std::optional<CodedHeights> wide = widen(bound, largest))
+      made.push_back(candidateOf(*std::move(wide)));
+    made.push_back(candidateOf(round(bound, largest)));
+  }
+  const bool one_track = bound.options.region_log2 == 0;  // is cut, not many
+  if (ways.correct && one_track)
+    made.push_back(
+        candidateOf(codeCorrected({bound.quantised, bound.purpose, bound.options, largest},
+                                  {ways.mean_square, fewestOf(made)})));
+  return made;
+}
+
+bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
+  const SampleErrors errors =
+      sampleErrorsOf(coded, codewordsOf(coded.tracks), inputs.options.threads);
+  return errors.largest * std::abs(inputs.heights->scale) <= inputs.options.max_error;
+}
+
+}  // namespace
+
+/// Exact steps leave an error of their own; what is left of the bound, in whole steps, the coding
+/// may use. Where floats are then rounded beyond the bound one step less will do; none, the exact
+/// steps, is always within.
+std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
+                                                       Quantised quantised) {
+  const double wanted = inputs.options.max_error / std::abs(inputs.heights->scale);
+  assert(wanted > 0);
+  const CoefficientOptions options = heightOptions(inputs);
+  const auto exactly = [&] {
+    return candidateOf(codeHeights(quantised, Purpose::kLossless, options)).coded;
+  };
+  if (quantised->restored()) return codeLosslessHeights(inputs, quantised);
+  const double finest = quantised->steps.step * std::abs(inputs.heights->scale);
+  const bool fine = inputs.options.max_error < 2 * finest;
+  const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;
+  const Bound bound{quantised, purpose, chooseHeightFilters(*quantised, purpose), options,
+                    wanted - floatSpacing(*quantised) / 2};
+  const double room =
+      (wanted - errorsOf(*inputs.heights, quantised->steps).largest) / quantised->steps.step;
+  constexpr double kMost = 1 << 24;
+  const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
+  std::vector<Candidate<CodedHeights>> kept;
+  for (const int32_t tried : {largest, std::max(largest - 1, 0), 0}) {
+    if (tried == 0 && !kept.empty()) break;
+    std::vector<Candidate<CodedHeights>> made = attempts(bound, tried);
+    std::stable_sort(made.begin(), made.end(),
+                     [](const auto& a, const auto& b) { return a.bytes() < b.bytes(); });
+    const auto keeps = [&](const auto& one) { return keepsBound(inputs, *one.coded); };
+    const auto shortest = std::find_if(made.begin(), made.end(), keeps);
+    if (shortest != made.end()) kept.push_back(*shortest);
+    if (shortest == made.begin()) break;  // longer ones need not be looked at
+  }
+  if (kept.empty()) return exactly();
+  const std::shared_ptr<const CodedHeights> best = fewestBytes(std::move(kept)).coded;
+  return std::make_shared<const CodedHeights>(withRounding(*best));
+}
+
+}  // namespace tetrakis::inline ways

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/ways/corrected_heights.hpp"
+
+#include <cassert>
+#include <span>
+#include <utility>
+
+#include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "encoder/heights/height_options.hpp"
+
+namespace tetrakis::inline ways {
+
+namespace {
+
+/// The first bytes of a track of coefficients.
+EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
+  assert(bytes <= whole.codeword.size());
+  EncodedTrack cut = whole;
+  cut.codeword.resize(bytes);
+  std::erase_if(cut.points, [&](const RatePoint& p) { return p.bytes > 0 && p.bytes >= bytes; });
+  cut.complete = false;
+  if (bytes > 0) cut.points.push_back({bytes, distortionAt(whole.points, bytes)});
+  return cut;
+}
+
+/// What a cut that corrections follow usually leaves.
+HeightPurpose cutPurpose(const Correctable& heights) {
+  return {heights.quantised->steps.range_bits, heights.purpose, UINT64_MAX,
+          usualCut(heights.largest), heights.options.threads};
+}
+
+/// One track of coefficients as a whole, and what lies around it.
+struct UncutHeights {
+  HeightLayers layers;
+  EncodedTrack track;
+  bool may_go_on;  ///< coding was to end at a small error, and did
+};
+
+/// enough: the mean squared error, in steps, at which coding ends; 0: it does not.
+UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double enough) {
+  const QuantisedHeights& quantised = *heights.quantised;
+  HeightLayers layers = layersAround(quantised, std::move(choice), heights.options.priorities);
+  CoefficientOptions options = layers.flat.beside(heights.options);
+  if (enough > 0) options.enough = enough * quantised.counted();
+  EncodedTrack track = std::move(codeCoefficients(quantised, layers.wavelet, options).front());
+  layers.wavelet.rounded_bytes = exactBytes(std::span(&track, 1));
+  const bool may_go_on = enough > 0 && !track.complete;
+  return {std::move(layers), std::move(track), may_go_on};
+}
+
+/// The layers with corrections to a largest error. distortion: of the cut before them, in the
+/// account's own measure, which the audit corrects later.
+HeightLayers withCorrections(HeightLayers layers, const Corrected& corrected, int32_t largest,
+                             double distortion) {
+  if (corrected.codeword.empty()) return layers;
+  layers.corrections = corrected.codeword;
+  layers.corrected_to = distortion * corrected.after / corrected.before;
+  layers.layers.corrections = CorrectionKind::kSteps;
+  layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
+  return layers;
+}
+
+/// The heights with the best cut of the coefficients; nothing if that comes near their end and they
+/// may go on.
+std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeights& uncut,
+                                    const CutTarget& target) {
+  constexpr double kNear = 1.5;
+  const auto& [layers, track, may_go_on] = uncut;
+  const GeometryHeader header = headerOf(*heights.quantised, layers, track.planes);
+  CorrectedCut cut(heights.quantised->steps, layers.flat.areas, header, track, heights.largest);
+  const uint64_t bytes =
+      target.mean_square ? cut.bytesFor(*target.mean_square) : cut.best(target.rival);
+  const bool near = kNear * static_cast<double>(bytes) > static_cast<double>(track.codeword.size());
+  if (near && may_go_on) return {};
+  const Corrected corrected = cut.correct(bytes);
+  const double distortion = distortionAt(track.points, bytes);
+  return joinLayers(heights.quantised,
+                    withCorrections(layers, corrected, heights.largest, distortion),
+                    {cutAt(track, bytes)}, heights.options.region_log2);
+}
+
+/// Codes the heights beside flat areas. Coding ends at a small part of the error that cuts usually
+/// leave, unless the best one comes near that.
+CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
+                        const CutTarget& target) {
+  constexpr double kPart = 1. / 32;
+  assert(heights.quantised->corrections.empty());
+  const double left = target.mean_square.value_or(usualCut(heights.largest));
+  if (std::optional<CodedHeights> coded =
+          codeCut(heights, codeUncut(heights, choice, left * kPart), target))
+    return *std::move(coded);
+  return *codeCut(heights, codeUncut(heights, choice, 0), target);
+}
+
+}  // namespace
+
+CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target) {
+  const HeightSteps& steps = heights.quantised->steps;
+  const PlaneView<const int32_t> plane = steps.lifting(extentOf(*heights.quantised->samples));
+  return codeBeside(chooseFlatAreas(plane, steps.valid, cutPurpose(heights)), heights, target);
+}
+
+CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {
+  assert(lossy.tracks.size() == 1 && lossy.quantised->steps.exact &&
+         lossy.quantised->table.empty());
+  const Correctable heights{lossy.quantised, Purpose::kLossy, heightOptions(inputs)};
+  return codeBeside({lossy.flat, lossy.header.wavelet}, heights, {cut * cut});
+}
+
+}  // namespace tetrakis::inline ways

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lossy coefficients are cut, and what then is off by more than a largest error gets a correction
+// (codec/geometry/coding_choice/corrected_cut.hpp).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+
+namespace tetrakis::inline ways {
+
+/// Heights that can be cut and corrected.
+struct Correctable {
+  std::shared_ptr<const QuantisedHeights> quantised;  ///< without corrections
+  Purpose purpose;                                    ///< of the coefficients
+  CoefficientOptions options;                         ///< of one track
+  int32_t largest = 0;                                ///< error, in steps, that corrections leave
+};
+
+/// What a cut is to be.
+struct CutTarget {
+  std::optional<double> mean_square = {};  ///< that it leaves, in steps; nothing: fewest bytes
+  uint64_t rival = UINT64_MAX;             ///< heights that clearly take more bytes are of no use
+};
+
+/// Beside the flat areas and with the filters that suit such a cut. If nothing is off, there are no
+/// corrections.
+CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target);
+
+/// Lossy heights cut at an RMSE, in steps, and corrections of all that are still off. Prefixes up
+/// to the cut are those of the lossy heights, and the end is exact. lossy: of one track, of exact
+/// steps without a table.
+CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut);
+
+}  // namespace tetrakis::inline ways

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/ways/exact_heights.hpp"
+
+#include <cassert>
+
+#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
+#include "encoder/heights/quantised_heights.hpp"
+#include "encoder/heights/ways/lossless_heights.hpp"
+#include "wavelet/choice/typical_plane.hpp"
+
+namespace tetrakis::inline ways {
+
+std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
+                                                    uint64_t lossy_bytes) {
+  constexpr double kMostSteps = 2;  // of error, if heights are multiples of a step
+  constexpr double kClearly = 1.4;  // 14 DEMs take 0.88 to 1.15 of what is estimated
+  assert(inputs.heights != nullptr && inputs.options.lossless == 0);
+  tks_encode_options options = inputs.options;
+  options.bytes = 0;
+  options.psnr = options.max_error = 0;
+  options.lossless = 1;
+  const EncodeInputs lossless = inputs.with(options, inputs.priorities);
+  const Result<std::shared_ptr<const QuantisedHeights>> heights = quantiseHeights(lossless);
+  if (!heights.ok()) return nullptr;
+  const HeightSteps& steps = (*heights)->steps;
+  const PlaneView<const int32_t> plane(steps.steps, extentOf(*inputs.heights), steps.valid);
+  const bool few = !steps.table.empty() || drawingMayFit(plane, lossy_bytes);
+  if (few) return codeLosslessHeights(lossless, *heights);
+  if (error < relativeStepOf(**heights)) return codeLosslessHeights(lossless, *heights);
+  if (error > kMostSteps * steps.step) return nullptr;
+  const double bytes = typicalCost(steps.lifting(plane.extent()), steps.range_bits, 0).bits / 8;
+  if (bytes > kClearly * static_cast<double>(lossy_bytes)) return nullptr;
+  return codeLosslessHeights(lossless, *heights);
+}
+
+}  // namespace tetrakis::inline ways

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/ways/heights_for_target.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "codec/geometry/quantiser/voids.hpp"
+#include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/height_options.hpp"
+#include "encoder/heights/ways/bounded_heights.hpp"
+#include "encoder/heights/ways/exact_heights.hpp"
+#include "encoder/heights/ways/lossless_heights.hpp"
+
+namespace tetrakis::inline ways {
+
+namespace {
+
+using Quantised = std::shared_ptr<const QuantisedHeights>;
+using Heights = std::shared_ptr<const CodedHeights>;
+
+/// An error, in sample units, that leaves nothing but the exact steps: no coarser multiples of
+/// these, and of floats no other step.
+bool leavesExactSteps(const QuantisedHeights& heights, double error) {
+  const bool any_step = heights.samples->sample == TKS_F32;
+  return heights.steps.exact && !heights.restored() &&
+         error < heights.steps.step / (any_step ? 2 : 1);
+}
+
+/// Codes the heights within the largest error, or exactly where that takes fewer bytes.
+Heights codeWithinBound(const EncodeInputs& inputs, Quantised quantised) {
+  const double error = inputs.options.max_error / std::abs(inputs.heights->scale);
+  if (leavesExactSteps(*quantised, error)) {
+    if (Heights exact = exactHeightsFor(inputs, error, UINT64_MAX)) return exact;
+  }
+  Heights bounded = codeBoundedHeights(inputs, std::move(quantised));
+  const uint64_t bytes = bytesOf(bounded->tracks);
+  Heights exact = exactHeightsFor(inputs, error, bytes);
+  return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
+}
+
+/// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
+/// samples are rounded, which counts where few steps are left. Where that is not enough it goes on.
+CodedHeights codeUntilReached(const EncodeInputs& inputs, const Quantised& quantised,
+                              HeightTarget target) {
+  const SampleRange range = rangeOf(*inputs.heights, quantised->steps.valid);
+  const double wanted =
+      worstMeanSquare(range.high - range.low, inputs.options.psnr) / inputs.heaviest();
+  target.mean_square = wanted / (quantised->steps.step * quantised->steps.step);
+  CoefficientOptions options = heightOptions(inputs);
+  if (target.mean_square > 1 && !quantised->restored())
+    options.enough = target.mean_square / 2 * quantised->counted();
+  CodedHeights coded = codeHeights(quantised, target, options);
+  if (coded.tracks.front().complete) return coded;
+  const Codewords whole = codewordsOf(coded.tracks);
+  if (sampleErrorsOf(coded, whole, options.threads).mean_square <= wanted) return coded;
+  return codeHeights(quantised, target, heightOptions(inputs));
+}
+
+}  // namespace
+
+Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
+  if (inputs.options.max_error > 0) return codeWithinBound(inputs, std::move(quantised));
+  if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, quantised);
+  HeightTarget target(quantised->restored() ? Purpose::kLossless : purposeOf(inputs));
+  // What a texture leaves of a budget is not known yet; most of it is the texture's.
+  constexpr uint64_t kShareBesideTexture = 4;
+  if (inputs.budgeted())
+    target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
+  if (inputs.options.psnr > 0)
+    return std::make_shared<const CodedHeights>(codeUntilReached(inputs, quantised, target));
+  return std::make_shared<const CodedHeights>(
+      codeHeights(quantised, target, heightOptions(inputs)));
+}
+
+}  // namespace tetrakis::inline ways

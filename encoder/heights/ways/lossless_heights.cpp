@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/ways/lossless_heights.hpp"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "codec/geometry/coding_choice/bound_choice.hpp"
+#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
+#include "encoder/heights/height_options.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/relative_heights.hpp"
+#include "ratecontrol/needs/candidate.hpp"
+#include "wavelet/choice/typical_plane.hpp"
+
+namespace tetrakis::inline ways {
+
+namespace {
+
+using Quantised = std::shared_ptr<const QuantisedHeights>;
+
+/// The samples that coefficients show: lifted ones outside flat areas; empty: all.
+std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
+  const HeightSteps& steps = heights.quantised->steps;
+  std::vector<uint8_t> free = steps.bridge > 0 ? steps.lifted : steps.valid;
+  const std::vector<uint16_t>& areas = heights.flat.areas.numbers;
+  if (free.empty()) free.assign(areas.size(), 1);
+  for (size_t i = 0; i < areas.size(); ++i) free[i] = free[i] != 0 && areas[i] == 0;
+  return free;
+}
+
+/// Whether corrections behind a cut may take fewer bytes than the whole coefficients. In the mean
+/// of all samples flat areas hide what the free ones would gain; where the areas are holes in
+/// noise, free samples alone lack the surface that the transform would have without areas. Either
+/// hint is worth a trial.
+bool correctionsMayPay(const CodedHeights& whole) {
+  const HeightSteps& steps = whole.quantised->steps;
+  const uint64_t bytes = bytesOf(whole.tracks);
+  const auto may_pay = [&](const std::vector<uint8_t>& mask) {
+    const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.quantised->samples), mask);
+    return correctionsMayPay(plane, steps.range_bits, bytes);
+  };
+  const bool some_flat = !whole.flat.areas.heights.empty();
+  return may_pay(freeSamples(whole)) ||
+         (some_flat && may_pay(steps.bridge > 0 ? steps.lifted : steps.valid));
+}
+
+/// Codes heights to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
+/// corrections behind it.
+std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
+                                                     const Quantised& quantised) {
+  CoefficientOptions options = heightOptions(inputs);
+  auto whole = candidateOf(codeHeights(quantised, Purpose::kLossless, options));
+  const HeightSteps& steps = quantised->steps;
+  if (whole.coded->tracks.size() > 1 || !steps.exact || !steps.table.empty()) return whole.coded;
+  if (!correctionsMayPay(*whole.coded)) return whole.coded;
+  options.limit = whole.bytes();
+  auto corrected =
+      candidateOf(codeCorrected({quantised, Purpose::kLossy, options}, {{}, whole.bytes()}));
+  // Without corrections its account would not end at exact.
+  if (corrected.coded->layers.corrections == CorrectionKind::kNone) return whole.coded;
+  return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
+}
+
+/// Whether the steps need not be tried: by the estimate, their coefficients alone take more bytes.
+bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
+  const HeightSteps& steps = quantised.steps;
+  if (!steps.table.empty()) return false;
+  const PlaneView<const int32_t> plane = steps.lifting(extentOf(*quantised.samples));
+  return typicalCost(plane, steps.range_bits, 0).bits / 8 > static_cast<double>(bytes);
+}
+
+/// Samples with a relative step mostly take far fewer bytes from it.
+std::shared_ptr<const CodedHeights> codeFromRelative(const EncodeInputs& inputs,
+                                                     const QuantisedHeights& quantised) {
+  const double relative_step = relativeStepOf(quantised);
+  const Quantised fine = relative_step > 0 ? quantiseForRelative(inputs, relative_step) : nullptr;
+  return fine ? candidateOf(codeRelative(inputs, fine, relative_step)).coded : nullptr;
+}
+
+}  // namespace
+
+/// A drawing shows shapes and slopes between them, and no roughness: its prefixes suit only heights
+/// of few values, of which it takes clearly fewer bytes than the wavelet. So it has to save a
+/// sixteenth. It is tried where the estimate, which is often off by a twentieth, says that it is
+/// the shorter one.
+std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
+                                                        const Quantised& quantised) {
+  constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
+  const std::shared_ptr<const CodedHeights> relative = codeFromRelative(inputs, *quantised);
+  if (relative && takesMore(*quantised, bytesOf(relative->tracks))) return relative;
+  std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, quantised);
+  if (relative) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {relative}}).coded;
+  if (whole->tracks.size() > 1) return whole;
+  const HeightSteps& steps = quantised->steps;
+  const auto bytes = static_cast<double>(bytesOf(whole->tracks));
+  if (estimateDrawing({steps.steps, extentOf(*quantised->samples), steps.valid}) >
+      kEstimateOff * bytes)
+    return whole;
+  std::optional<CodedHeights> drawn = drawHeights(quantised);
+  if (!drawn || static_cast<double>(bytesOf(drawn->tracks)) > kMostOfWavelet * bytes) return whole;
+  return std::make_shared<const CodedHeights>(*std::move(drawn));
+}
+
+}  // namespace tetrakis::inline ways

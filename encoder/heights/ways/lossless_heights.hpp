@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights to the last bit: coefficients without fraction bits, corrections behind a cut of lossy
+// coefficients (of steps, or from a relative step), or a drawing, whichever takes the fewest bytes.
+#pragma once
+
+#include <memory>
+
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+
+namespace tetrakis::inline ways {
+
+/// quantised: from quantiseHeights(inputs).
+std::shared_ptr<const CodedHeights> codeLosslessHeights(
+    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& quantised);
+
+}  // namespace tetrakis::inline ways

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samples that have a relative step (codec/geometry/relative/) are on no grid of steps, and yet few
+// bits restore them: coefficients are cut at a part of that step, and corrections follow.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+
+namespace tetrakis::inline ways {
+
+/// The relative step of what lossy heights show, if corrections from it can follow a cut of theirs;
+/// 0: there is none.
+double relativeStepOf(const CodedHeights& lossy);
+
+/// The lossy heights cut, and the corrections behind them; nothing if they do not come so far.
+/// relative_step: positive, from relativeStepOf().
+std::optional<CodedHeights> codeRelative(const CodedHeights& lossy, double relative_step,
+                                         uint32_t threads);
+
+/// Heights to the last bit, in any number of tracks. quantised: from quantiseForRelative().
+CodedHeights codeRelative(const EncodeInputs& inputs,
+                          const std::shared_ptr<const QuantisedHeights>& quantised,
+                          double relative_step);
+
+}  // namespace tetrakis::inline ways

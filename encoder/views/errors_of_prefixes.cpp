@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/views/errors_of_prefixes.hpp"
+
+#include <algorithm>
+
+#include "encoder/views/decoded_nodes.hpp"
+#include "encoder/views/view_inputs.hpp"
+#include "ratecontrol/pictures/picture_errors.hpp"
+
+namespace tetrakis::inline views {
+
+namespace {
+
+/// Pixels for whole streams, which differ by less than pairs of prefixes do.
+constexpr size_t kPrefixPixels = 4 * kViewPixels;
+
+/// A component's part of some prefixes of a stream, as points of a curve: one for each. With
+/// priorities errors count by what viewers see of them.
+template <class Coded>
+ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& packets,
+                               std::span<const uint64_t> lengths) {
+  const CodedTracks tracks = coded.accounted();
+  ComponentCurve curve;
+  curve.packets = packets;
+  for (const uint64_t length : lengths) {
+    uint64_t left = length, bytes = 0;
+    for (const Packet& packet : packets) {
+      const uint64_t head = overheadOf(packet), payload = packet.length();
+      if (left <= head) break;
+      const uint64_t taken = std::min(left - head, payload);
+      left -= head + taken;
+      if (packet.component == tracks.component && (!packet.whole || taken == payload))
+        bytes += taken;
+    }
+    double squares = 0;
+    const Codewords prefix = prefixAfter(tracks, packets, bytes);
+    for (size_t i = 0; i < prefix.size(); ++i)
+      squares += distortionAt(coded.tracks[i].points, prefix[i].size());
+    curve.points.push_back({bytes, squares / coded.counted()});
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection& selection,
+                                     std::span<const uint64_t> lengths) {
+  const CodedHeights& heights = *selection.heights;
+  const CodedTexture& texture = *selection.texture;
+  const ComponentCurve of_heights = curveOfPrefixes(heights, selection.packets, lengths);
+  const ComponentCurve of_texture = curveOfPrefixes(texture, selection.packets, lengths);
+  DecodedNodes decoded(inputs, {heights, of_heights}, {texture, of_texture});
+  const GroundRays ground(decoded.original());
+  const std::vector<Camera> cameras = camerasOf(inputs.options, ground.bounds());
+  if (cameras.empty()) return {};
+  const PictureErrors pictures(cameras, kPrefixPixels, ground, decoded.originalTexels());
+  std::vector<double> errors;
+  for (size_t i = 0; i < lengths.size(); ++i) {
+    const auto surface =
+        pictures.surfaceOf(GroundRays(decoded.shownAt(of_heights.points[i].bytes)));
+    const ScreenTexture shown = decoded.textureAt(of_texture.points[i].bytes);
+    errors.push_back(pictures.inside(surface, shown) + surface.outlines);
+  }
+  return errors;
+}
+
+}  // namespace tetrakis::inline views

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The prefixes of both components whose pairs are looked at.
+#pragma once
+
+#include <vector>
+
+#include "bitstream/track/track_encoder.hpp"
+
+namespace tetrakis::inline views {
+
+/// Points of either curve, from the first to the last.
+struct Nodes {
+  std::vector<RatePoint> heights, textures;
+};
+
+}  // namespace tetrakis::inline views

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/views/pairs.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "encoder/views/modelled_pairs.hpp"
+#include "encoder/views/nodes.hpp"
+#include "encoder/views/rendered_pairs.hpp"
+
+namespace tetrakis::inline views {
+
+namespace {
+
+/// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
+/// `ratio` times the bytes of the one before, up to the first beyond a third of the budget: behind
+/// that errors fall as they did (PairErrors), and the last nodes take most time.
+template <class Coded>
+std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t budget) {
+  constexpr double kFirst = 64;  // bytes
+  const ComponentCurve& curve = rated.curve;
+  const std::span<const RatePoint> points = endsWithPasses(rated)
+                                                ? std::span(curve.passes)
+                                                : std::span(curve.points).subspan(curve.opened);
+  std::vector<RatePoint> nodes = {points.front()};
+  double next = kFirst;
+  for (size_t i = 1; i < points.size(); ++i) {
+    const auto bytes = static_cast<double>(points[i].bytes - points.front().bytes);
+    const bool last = i + 1 == points.size();
+    if (bytes < next && !last) continue;
+    if (!(points[i].distortion > 0 && points[i].distortion < nodes.back().distortion)) continue;
+    nodes.push_back(points[i]);
+    next = std::max(bytes, next) * ratio;
+    if (points[i].bytes >= budget / 3) break;
+  }
+  return nodes;
+}
+
+std::vector<double> squaresAt(const std::vector<RatePoint>& nodes) {
+  std::vector<double> squares;
+  for (const RatePoint& node : nodes) squares.push_back(node.distortion);
+  return squares;
+}
+
+/// Errors as if those of both components were seen as large as they are at first, and added.
+PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
+  const auto first = [](const ComponentCurve& curve) {
+    const double square = curve.points[curve.opened].distortion;
+    return std::vector<double>{square > 0 ? square : 1};
+  };
+  return {{first(heights), first(texture)}, {2, 1, 1, 0}};
+}
+
+}  // namespace
+
+PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
+                        const Rated<CodedTexture>& texture) {
+  const bool rendered = inputs.options.picture_error != nullptr;
+  const bool meshes_for_cameras =
+      inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.quantised);
+  // Pictures that are drawn take long, and meshes for cameras: fewer of them.
+  const double ratio = rendered || meshes_for_cameras ? 4 : 2;
+  const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
+  const Nodes nodes = {nodesOf(heights, ratio, budget), nodesOf(texture, ratio, budget)};
+  PairNodes squares = {squaresAt(nodes.heights), squaresAt(nodes.textures)};
+  const bool exact = squares.heights.front() <= 0 || squares.textures.front() <= 0;
+  if (exact) return unseen(heights.curve, texture.curve);
+  std::vector<double> errors;
+  if (rendered) {
+    DecodedNodes decoded(inputs, heights, texture);
+    errors = renderedErrors(inputs, decoded, nodes);
+  }
+  if (errors.empty()) {
+    DecodedNodes decoded(inputs, heights, texture);
+    errors = modelledErrors(inputs, decoded, nodes);
+  }
+  if (errors.empty() || !(errors.front() > 0)) return unseen(heights.curve, texture.curve);
+  return {std::move(squares), std::move(errors)};
+}
+
+}  // namespace tetrakis::inline views

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rendered engine: a renderer of the caller's (tks_picture_error) looks at all pairs of
+// prefixes.
+#pragma once
+
+#include <vector>
+
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/views/decoded_nodes.hpp"
+#include "encoder/views/nodes.hpp"
+
+namespace tetrakis::inline views {
+
+/// Errors of the pictures of all pairs, in the order that PairErrors takes; none if the renderer
+/// failed. inputs: with a renderer.
+std::vector<double> renderedErrors(const EncodeInputs& inputs, DecodedNodes& decoded,
+                                   const Nodes& nodes);
+
+}  // namespace tetrakis::inline views

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/allocation/allocation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace tetrakis::inline allocation {
+
+namespace {
+
+/// One component on its way through its points.
+class Progress {
+ public:
+  Progress(const ComponentCurve& curve, std::vector<PairErrors::Place> places)
+      : curve_(curve), places_(std::move(places)), next_(curve.packets.begin()) {}
+
+  bool done() const { return at_ + 1 >= curve_.points.size(); }
+  const PairErrors::Place& place() const { return places_[worthFrom()]; }
+
+  /// The steepest slope to a point further on, of 1, 2, 4, ... of them; error: of a place.
+  template <class Error>
+  double slope(Error&& error) const {
+    double steepest = -std::numeric_limits<double>::infinity();
+    const size_t from = std::min(worthFrom(), curve_.points.size() - 2);
+    const double now = error(places_[from]);
+    for (size_t step = 1;; step *= 2) {
+      const size_t to = std::min(from + step, curve_.points.size() - 1);
+      const auto bytes = static_cast<double>(curve_.points[to].bytes - curve_.points[from].bytes);
+      steepest = std::max(steepest, (now - error(places_[to])) / bytes);
+      if (to + 1 == curve_.points.size()) return steepest;
+    }
+  }
+
+  /// Takes the packets up to the next point.
+  void advance(std::vector<Packet>& order) {
+    const uint64_t end = curve_.points[++at_].bytes;
+    for (; sent_ < end && next_ != curve_.packets.end(); ++next_) {
+      sent_ += next_->length();
+      order.push_back(*next_);
+    }
+    assert(sent_ == end);
+  }
+
+ private:
+  /// The opening is worth what comes behind it.
+  size_t worthFrom() const { return std::max(at_, curve_.opened); }
+
+  const ComponentCurve& curve_;
+  std::vector<PairErrors::Place> places_;  ///< of the points
+  std::vector<Packet>::const_iterator next_;
+  size_t at_ = 0;
+  uint64_t sent_ = 0;
+};
+
+double meanSlope(const Packet& a, const Packet& b) {
+  const auto bytes_a = static_cast<double>(a.length()), bytes_b = static_cast<double>(b.length());
+  return (a.slope * bytes_a + b.slope * bytes_b) / (bytes_a + bytes_b);
+}
+
+}  // namespace
+
+std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves,
+                             const PairErrors& errors) {
+  std::vector<PairErrors::Place> heights, textures;
+  for (const RatePoint& p : curves[0].points) heights.push_back(errors.heightsAt(p.distortion));
+  for (const RatePoint& p : curves[1].points) textures.push_back(errors.textureAt(p.distortion));
+  Progress geometry(curves[0], std::move(heights)), texture(curves[1], std::move(textures));
+  std::vector<Packet> order;
+  using Place = PairErrors::Place;
+  while (!geometry.done() || !texture.done()) {
+    bool take_geometry = texture.done();
+    if (!geometry.done() && !texture.done()) {
+      const double g =
+          geometry.slope([&](const Place& place) { return errors.at(place, texture.place()); });
+      const double t =
+          texture.slope([&](const Place& place) { return errors.at(geometry.place(), place); });
+      take_geometry = g >= t;
+    }
+    (take_geometry ? geometry : texture).advance(order);
+  }
+  return order;
+}
+
+std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
+  constexpr int kQualitySteps = 2;
+  std::vector<Packet> joined;
+  // Stated of each component ahead of the last packet, and with it.
+  std::array<int, kComponents> before = {511, 511}, stated = {511, 511};
+  for (const Packet& packet : packets) {
+    const auto component = static_cast<size_t>(packet.component);
+    const bool same_track = !joined.empty() && joined.back().component == packet.component &&
+                            joined.back().track == packet.track;
+    if (same_track && !joined.back().whole && !packet.whole &&
+        before[component] - packet.quality <= kQualitySteps) {
+      Packet& last = joined.back();
+      assert(last.end == packet.begin);
+      last.slope = meanSlope(last, packet);
+      last.end = packet.end;
+      last.quality = packet.quality;
+    } else {
+      before[component] = stated[component];
+      joined.push_back(packet);
+    }
+    stated[component] = packet.quality;
+  }
+  return joined;
+}
+
+}  // namespace tetrakis::inline allocation

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Marginal analysis (thesis 6.3.2): this file puts the packets of both components into one order.
+// What comes next is what takes the most off the error of the picture per byte, and both slopes are
+// renewed after each step, because errors of heights and of textures do not add. Read backwards,
+// the order gives up first what costs least per byte. It does not depend on any budget.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/packet.hpp"
+#include "ratecontrol/allocation/pair_errors.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
+
+namespace tetrakis::inline allocation {
+
+/// Within a component the order of its packets. Equal slopes: geometry first. A slope is the
+/// steepest of those to points further on: where heights are still so coarse that the next packet
+/// changes little, the ones behind it count. Openings come before what needs them, whatever they
+/// cost.
+std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves,
+                             const PairErrors& errors);
+
+/// The same bytes in fewer packets: neighbours of one track become one, as long as it takes less
+/// than two steps of stated quality (1.5 dB). Packets that count only when whole stay as they are.
+std::vector<Packet> joinNeighbours(std::span<const Packet> packets);
+
+}  // namespace tetrakis::inline allocation

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/curves/audit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace tetrakis::inline curves {
+
+namespace {
+
+// A prefix may fall by 0.03 dB: by so much where every byte is measured, and by less where some are
+// not.
+constexpr double kDip = 1.0067, kSparseDip = 1.005;
+constexpr uint64_t kFirstBytes = 8192;  // of which each is measured
+// Samples that small tracks decode for it in all: a few tenths of a second.
+constexpr uint64_t kDecodedSamples = uint64_t{1} << 23;
+
+/// The points that improve on all before them, and what dips between.
+class Records {
+ public:
+  void add(const RatePoint& point, double dip) {
+    if (points_.empty() || point.distortion < points_.back().distortion) {
+      points_.push_back({point.bytes, point.distortion, dips_ || point.dips, point.beyond});
+      dips_ = false;
+    } else {
+      dips_ |= point.dips || point.distortion > dip * points_.back().distortion;
+    }
+  }
+  bool exact() const { return !points_.empty() && points_.back().distortion == 0; }
+  std::vector<RatePoint> take() { return std::move(points_); }
+
+ private:
+  std::vector<RatePoint> points_;
+  bool dips_ = false;
+};
+
+/// How many prefixes to measure from each point of the account to the next.
+class MeasuringPlan {
+ public:
+  MeasuringPlan(std::span<const RatePoint> points, const AuditScope& scope) : scope_(scope) {
+    const uint64_t most = kDecodedSamples / scope.samples;
+    first_bytes_ = std::min(kFirstBytes, most / 2);
+    const uint64_t reach =
+        scope.budget < UINT64_MAX / 2 ? scope.budget + scope.budget / 4 : UINT64_MAX;
+    parts_.assign(points.size(), 1);
+    uint64_t first = 0, later = 0;
+    for (size_t i = 1; i < points.size(); ++i) {
+      parts_[i] = wantedBetween(points[i - 1], points[i]);
+      (points[i].bytes <= first_bytes_ ? first : later) += parts_[i];
+    }
+    const double share =
+        std::min(1., static_cast<double>(most - first) / static_cast<double>(later));
+    for (size_t i = 1; i < points.size(); ++i) {
+      if (points[i].bytes > reach)
+        parts_[i] = 1;
+      else if (points[i].bytes > first_bytes_)
+        parts_[i] = 1 + static_cast<uint64_t>(share * static_cast<double>(parts_[i] - 1));
+    }
+  }
+  /// Between point i - 1 and point i: from 1 to as many as there are bytes.
+  uint64_t between(size_t i) const { return parts_[i]; }
+
+ private:
+  /// All prefixes of tiny tracks and of the first bytes, where single coefficients count most; else
+  /// so many that the quality of neighbours differs by 0.03 dB (in 12 288 samples, less in fewer)
+  /// and that they are no more than a few bytes apart: passes of little gain are those that dip.
+  uint64_t wantedBetween(const RatePoint& a, const RatePoint& b) const {
+    constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
+    const double gain =
+        b.distortion > 0 ? std::min(kMost, 10 * std::log10(a.distortion / b.distortion)) : kMost;
+    const double wanted =
+        std::ceil(gain / (kDecibelsPerSample * static_cast<double>(scope_.samples)));
+    const uint64_t bytes = b.bytes - a.bytes;
+    if (b.bytes <= first_bytes_) return bytes;
+    return std::min(bytes, std::max(static_cast<uint64_t>(wanted),
+                                    1 + bytes * (kTinySamples / 2) / scope_.samples));
+  }
+
+  AuditScope scope_;
+  uint64_t first_bytes_ = 0;
+  std::vector<uint64_t> parts_;
+};
+
+std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScope& scope,
+                                      const Measure& measure) {
+  const MeasuringPlan plan(track.points, scope);
+  Records records;
+  records.add({0, measure(0)}, kDip);
+  for (size_t i = 1; i < track.points.size() && !records.exact(); ++i) {
+    const RatePoint &a = track.points[i - 1], &b = track.points[i];
+    assert(a.bytes < b.bytes);
+    const uint64_t parts = plan.between(i);
+    for (uint64_t k = 1; k <= parts && !records.exact(); ++k) {
+      const uint64_t bytes = a.bytes + (b.bytes - a.bytes) * k / parts;
+      records.add({bytes, measure(bytes)}, parts == b.bytes - a.bytes ? kDip : kSparseDip);
+    }
+  }
+  return records.take();
+}
+
+/// Estimates say nothing of dips: where one rises above those before it, nobody has seen a prefix
+/// that does.
+std::vector<RatePoint> falling(std::span<const RatePoint> points) {
+  Records records;
+  for (const RatePoint& point : points) records.add(point, std::numeric_limits<double>::infinity());
+  return records.take();
+}
+
+/// Ratio of measured to stated distortion at a few points, interpolated over the logarithm of the
+/// stated one.
+class Correction {
+ public:
+  Correction(std::span<const RatePoint> points, const std::vector<size_t>& measured,
+             const Measure& measure) {
+    for (const size_t i : measured) {
+      const double stated = points[i].squares();
+      if (stated <= 0) continue;
+      const double squares = measure(points[i].bytes);
+      if (squares > 0) knots_.push_back({std::log(stated), std::log(squares / stated)});
+    }
+  }
+  /// What it is to be multiplied with.
+  double operator()(double squares) const {
+    if (squares <= 0 || knots_.empty()) return 1;
+    const double x = std::log(squares);  // knots fall in x
+    const auto after =
+        std::find_if(knots_.begin(), knots_.end(), [&](const Knot& k) { return k.x < x; });
+    if (after == knots_.begin()) return std::exp(knots_.front().ratio);
+    if (after == knots_.end()) return std::exp(knots_.back().ratio);
+    const Knot &a = *(after - 1), &b = *after;
+    return std::exp(a.ratio + (b.ratio - a.ratio) * (a.x - x) / (a.x - b.x));
+  }
+
+ private:
+  struct Knot {
+    double x, ratio;
+  };
+  std::vector<Knot> knots_;
+};
+
+/// Points of an account that is not measured as a whole. Of an exact one they come later, the last
+/// just before the end: the fewer coefficients are missing the more counts what samples lose by
+/// being rounded.
+std::vector<size_t> pointsToMeasure(std::span<const RatePoint> points) {
+  static constexpr std::array kExact = {0.5, 0.65, 0.8, 0.9};
+  static constexpr std::array kOther = {0.25, 0.5, 0.75};
+  const bool exact = points.back().squares() == 0;
+  std::vector<size_t> measured;
+  for (const double part : exact ? std::span<const double>(kExact) : kOther)
+    measured.push_back(static_cast<size_t>(part * static_cast<double>(points.size() - 1)));
+  if (exact && points.size() > 1) measured.push_back(points.size() - 2);
+  return measured;
+}
+
+std::vector<RatePoint> scaled(std::span<const RatePoint> points, const Correction& correction) {
+  std::vector<RatePoint> corrected(points.begin(), points.end());
+  for (RatePoint& point : corrected) {
+    const double factor = correction(point.squares());
+    point.distortion *= factor;
+    point.beyond *= factor;
+  }
+  return corrected;
+}
+
+}  // namespace
+
+std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
+                             const Measure& measure) {
+  // Measures know nothing of priorities.
+  const bool alike = std::all_of(track.points.begin(), track.points.end(),
+                                 [](const RatePoint& point) { return point.beyond == 0; });
+  if (alike && scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);
+  const std::span<const RatePoint> points = track.points;
+  if (scope.budget < UINT64_MAX) return falling(points);
+  return falling(scaled(points, {points, pointsToMeasure(points), measure}));
+}
+
+std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure) {
+  if (points.size() < 2 || points.back().squares() > 0) return {points.begin(), points.end()};
+  const std::vector<size_t> measured = {points.size() * 3 / 5, points.size() - 2};
+  return scaled(points, {points, measured, measure});
+}
+
+}  // namespace tetrakis::inline curves

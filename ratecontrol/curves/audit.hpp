@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The encoder's account of a track is kept in the transform domain; a viewer sees samples. The
+// audit decodes prefixes and corrects the account, as often as the size of the track allows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "bitstream/track/track_encoder.hpp"
+
+namespace tetrakis::inline curves {
+
+/// Squared error of the decoded samples for a prefix of that many bytes, in the units of the
+/// points. Asked for rising bytes.
+using Measure = std::function<double(uint64_t bytes)>;
+
+/// What is audited.
+struct AuditScope {
+  uint64_t samples = 0;
+  uint64_t budget = UINT64_MAX;  ///< bytes of the track that can be sent at most
+};
+
+/// Returns the track's points so that their distortion falls strictly.
+///   small tracks    every point is measured, and so many prefixes in between that the quality
+///                   between two of them changes by little, or as many as 2^23 decoded samples
+///                   allow: all of the first bytes (8192 of 512 samples, 256 of 16 384). Dips are
+///                   those that were seen. A quarter behind the budget is as far as anything in
+///                   it can depend on
+///   large tracks    a few points are measured and the others scaled in between; not with a
+///                   budget, because the order must not depend on it. Of exact tracks more
+///                   points are measured late, where samples lose most by being rounded
+std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
+                             const Measure& measure);
+
+/// The account of several tracks in their order, whose last point is exact, corrected likewise by
+/// two points; any other as it is.
+std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure);
+
+inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
+inline constexpr uint64_t kSmallSamples = uint64_t{1} << 14;
+
+}  // namespace tetrakis::inline curves

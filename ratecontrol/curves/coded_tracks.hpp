@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// This is how rate control sees a coded component: as codewords with their accounts. Whether they
+// hold heights or texels does not matter here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/stream/packet.hpp"
+#include "bitstream/track/track_encoder.hpp"
+
+namespace tetrakis::inline curves {
+
+struct CodedTracks {
+  Component component = Component::kGeometry;
+  std::span<const EncodedTrack> tracks;  ///< at least one; they outlive this
+  /// Bytes of the first track that come before, and behind, everything else.
+  uint64_t opening = 0, closing = 0;
+};
+
+/// All codewords, in the order of the tracks, which they refer to.
+Codewords codewordsOf(std::span<const EncodedTrack> tracks);
+
+/// Squared error that an account states for that many bytes; linear between its points.
+double distortionAt(std::span<const RatePoint> points, uint64_t bytes);
+
+/// What a decoder has of the codewords after the first `bytes` payload bytes of the component's
+/// packets. packets: all of the component's in their order; others among them are skipped.
+Codewords prefixAfter(const CodedTracks& coded, std::span<const Packet> packets, uint64_t bytes);
+
+}  // namespace tetrakis::inline curves

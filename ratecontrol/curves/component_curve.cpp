@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/curves/component_curve.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "ratecontrol/curves/hull.hpp"
+#include "ratecontrol/curves/track_order.hpp"
+
+namespace tetrakis::inline curves {
+
+namespace {
+
+/// A packet is at least this fraction of its track's bytes before it: heads stay below 1 %.
+constexpr double kPacketGrowth = 0.1;
+
+/// Raises the first point so that the first `opening` bytes are worth the most of all: what they
+/// hold, the rest needs.
+void favour(std::vector<RatePoint>& points, uint64_t opening) {
+  double steepest = 0;
+  const auto opened = std::find_if(points.begin(), points.end(),
+                                   [&](const RatePoint& p) { return p.bytes >= opening; });
+  if (opened == points.begin() || opened == points.end()) return;
+  for (auto p = opened + 1; p != points.end(); ++p) {
+    const auto bytes = static_cast<double>(p->bytes - opened->bytes);
+    steepest = std::max(steepest, (opened->distortion - p->distortion) / bytes);
+  }
+  const double worth = 1.01 * steepest * static_cast<double>(opened->bytes);
+  points.front().distortion = std::max(points.front().distortion, opened->distortion + worth);
+}
+
+uint8_t statedQuality(double squares, const Pricing& pricing) {
+  return qualityOf(std::sqrt(squares / pricing.samples));
+}
+
+double costOf(double squares, const Pricing& pricing) {
+  return std::max(squares / pricing.samples, pricing.floor);
+}
+
+/// points: of a hull.
+size_t openedAt(const std::vector<RatePoint>& points, uint64_t opening) {
+  size_t first = 0;
+  while (first + 1 < points.size() && points[first].bytes < opening) ++first;
+  return first;
+}
+
+/// Where a packet is divided, so that no step of the allocation is long: single passes over the
+/// finest bands take a quarter of all bytes so far. Divided packets that stay neighbours are joined
+/// again.
+std::vector<uint64_t> divided(uint64_t begin, uint64_t end) {
+  constexpr uint64_t kLeast = 256;  // bytes: the head takes 2 % of that
+  constexpr double kShare = 0.06;   // of the track's bytes so far
+  const auto most = std::max(kLeast, static_cast<uint64_t>(kShare * static_cast<double>(begin)));
+  const uint64_t parts = std::max<uint64_t>(1, (end - begin) / most);
+  std::vector<uint64_t> ends;
+  for (uint64_t i = 1; i <= parts; ++i) ends.push_back(begin + (end - begin) * i / parts);
+  return ends;
+}
+
+/// The quality that the last point within so many bytes states.
+uint8_t qualityWithin(const std::map<uint64_t, uint8_t>& quality, uint64_t bytes) {
+  return std::prev(quality.upper_bound(bytes))->second;
+}
+
+/// The place of so many bytes on the chord of two points.
+RatePoint between(const RatePoint& a, const RatePoint& b, uint64_t bytes) {
+  const double rest = static_cast<double>(b.bytes - bytes) / static_cast<double>(b.bytes - a.bytes);
+  return {bytes, b.distortion + (a.distortion - b.distortion) * rest};
+}
+
+/// points: of the only track, audited.
+ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> points,
+                          const Pricing& pricing) {
+  std::map<uint64_t, uint8_t> quality;
+  for (RatePoint& point : points) {
+    quality[point.bytes] = statedQuality(point.squares(), pricing);
+    point.distortion = costOf(point.distortion, pricing);
+  }
+  std::vector<RatePoint> behind_opening;
+  for (const RatePoint& point : points)
+    if (point.bytes >= coded.opening) behind_opening.push_back(point);
+  favour(points, coded.opening);
+  const std::vector<RatePoint> hull = lowerHull(points, kPacketGrowth);
+  ComponentCurve curve{{hull.front()}, {}};
+  curve.passes = std::move(behind_opening);
+  uint64_t begin = 0;
+  for (size_t i = 1; i < hull.size(); ++i) {
+    for (const RatePoint& end : packetEnds(points, hull[i - 1], hull[i])) {
+      const bool divisible = pricing.shared && !end.dips && begin >= coded.opening;
+      for (const uint64_t part : divisible ? divided(begin, end.bytes) : std::vector{end.bytes}) {
+        curve.packets.push_back(
+            {coded.component, end.dips, qualityWithin(quality, part), begin, part, {}});
+        begin = part;
+        if (divisible) curve.points.push_back(between(hull[i - 1], hull[i], part));
+      }
+    }
+    if (curve.points.back().bytes < begin) curve.points.push_back(hull[i]);
+  }
+  assert(begin == hull.back().bytes);
+  curve.points.back() = hull.back();
+  curve.opened = openedAt(curve.points, coded.opening);
+  return curve;
+}
+
+ComponentCurve curveOfMany(const CodedTracks& coded, const MeasurePackets& measure,
+                           const Pricing& pricing) {
+  OrderedTracks tracks = orderTracks(coded, pricing.order);
+  tracks.points =
+      auditTogether(tracks.points, [&](uint64_t bytes) { return measure(tracks.packets, bytes); });
+  for (size_t i = 0; i < tracks.packets.size(); ++i)
+    tracks.packets[i].quality = statedQuality(tracks.points[i + 1].squares(), pricing);
+  for (RatePoint& point : tracks.points) point.distortion = costOf(point.distortion, pricing);
+  favour(tracks.points, coded.opening);
+  ComponentCurve curve{lowerHull(tracks.points, 0), std::move(tracks.packets)};
+  curve.opened = openedAt(curve.points, coded.opening);
+  return curve;
+}
+
+}  // namespace
+
+ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope,
+                       const MeasurePackets& measure, const Pricing& pricing) {
+  assert(!coded.tracks.empty() && pricing.samples > 0);
+  if (coded.tracks.size() > 1) return curveOfMany(coded, measure, pricing);
+  const auto measure_track = [&](uint64_t bytes) { return measure({}, bytes); };
+  ComponentCurve curve =
+      curveOfOne(coded, audit(coded.tracks.front(), scope, measure_track), pricing);
+  if (scope.samples <= kSmallSamples) curve.passes.clear();  // prefixes of any length are measured
+  return curve;
+}
+
+}  // namespace tetrakis::inline curves

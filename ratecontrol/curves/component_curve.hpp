@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file cuts a coded component into packets and says what their bytes are worth. The account of
+// the tracks is audited and thinned to its hull, and every packet states the quality that it leads
+// to. What the errors of a component are worth beside those of another one is not its business:
+// ratecontrol/allocation/pair_errors.hpp.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bitstream/stream/packet.hpp"
+#include "bitstream/track/track_encoder.hpp"
+#include "ratecontrol/curves/audit.hpp"
+#include "ratecontrol/curves/coded_tracks.hpp"
+#include "ratecontrol/curves/track_order.hpp"
+
+namespace tetrakis::inline curves {
+
+/// One component as the allocation sees it: its packets in their order, and the hull of its mean
+/// squared errors, whose points lie at ends of packets.
+struct ComponentCurve {
+  std::vector<RatePoint> points;  ///< from {0, ...}; convex; fewer than two: no packets
+  std::vector<Packet> packets;
+  size_t opened = 0;  ///< the first point behind the opening
+  /// A large component in one track has the points of its account, which are ends of passes, behind
+  /// the opening. A point within a pass takes longer to decode. Else empty.
+  std::vector<RatePoint> passes = {};
+};
+
+/// How the errors of a component become what its packets are worth, and how it is divided into
+/// packets.
+struct Pricing {
+  double samples = 1;   ///< squared errors are divided by it: packets state means
+  double floor = 0;     ///< bytes that lower the mean squared error below it are worth nothing
+  bool shared = false;  ///< there is another component, whose packets may come between the parts of
+                        ///< a long packet: such packets are divided
+  TrackOrder order = TrackOrder::kSlopes;  ///< of several tracks among each other
+};
+
+/// Squared error of the decoded samples for the first bytes of such packets; without packets, of
+/// the only track. Asked for rising bytes.
+using MeasurePackets = std::function<double(const std::vector<Packet>& packets, uint64_t bytes)>;
+
+/// Several tracks are ordered among each other by their accounts (orderTracks()). What these come
+/// to together is audited with `measure`, and so is a single one first. The opening comes first,
+/// whatever it costs.
+ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope,
+                       const MeasurePackets& measure, const Pricing& pricing);
+
+}  // namespace tetrakis::inline curves

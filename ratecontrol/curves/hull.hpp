@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file thins an operational rate-distortion curve to its lower convex hull, which holds the
+// only points that a marginal analysis ever stops at (thesis 6.3; Y. Shoham, A. Gersho 1988), and
+// divides the bytes between two of them into packets.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bitstream/track/track_encoder.hpp"
+
+namespace tetrakis::inline curves {
+
+/// Hull vertices from the first to the last point, at least `growth` times the bytes so far (and
+/// kLeastPacket) apart so that packet heads stay cheap.
+std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growth);
+
+inline constexpr uint64_t kLeastPacket = 24;
+
+/// Where packets end on the way from one vertex of the hull of `points` to another: at `to`, and
+/// around what dips, because a packet that dips counts only when complete: it should be short.
+/// RatePoint::dips is that of the packet.
+std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RatePoint& from,
+                                  const RatePoint& to);
+
+}  // namespace tetrakis::inline curves

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/curves/track_order.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "ratecontrol/curves/hull.hpp"
+
+namespace tetrakis::inline curves {
+
+namespace {
+
+/// Packets of regions are at least this fraction of their track's bytes before them. Smaller than
+/// for one track, because tracks are compared packet by packet: against one region, 2100^2 heights
+/// lose 1.3 % of the bytes at 0.2, 1.1 at 0.12, 0.8 at 0.06 and below.
+constexpr double kRegionGrowth = 0.04;
+
+/// A packet and what it does to the distortion.
+struct Piece {
+  double slope;  ///< distortion removed per byte
+  Packet packet;
+  double removed, beyond;  ///< RatePoint
+};
+
+Piece pieceBetween(const RatePoint& a, const RatePoint& b, Component component, size_t track) {
+  assert(a.bytes < b.bytes);
+  const double removed = a.distortion - b.distortion;
+  return {removed / static_cast<double>(b.bytes - a.bytes),
+          {component, b.dips, 0, a.bytes, b.bytes, static_cast<uint32_t>(track)},
+          removed,
+          a.beyond - b.beyond};
+}
+
+void appendHull(std::span<const RatePoint> points, Component component, size_t track,
+                std::vector<Piece>& pieces) {
+  const std::vector<RatePoint> hull = lowerHull(points, kRegionGrowth);
+  for (size_t i = 1; i < hull.size(); ++i) {
+    const double slope = pieceBetween(hull[i - 1], hull[i], component, track).slope;
+    RatePoint begin = hull[i - 1];
+    for (const RatePoint& end : packetEnds(points, hull[i - 1], hull[i])) {
+      pieces.push_back(pieceBetween(begin, end, component, track));
+      pieces.back().slope = slope;
+      begin = end;
+    }
+  }
+}
+
+/// Pieces that lie side by side in the same class are in the order of their tracks.
+int classOf(const Piece& piece, TrackOrder order) {
+  if (order == TrackOrder::kTracks || piece.slope <= 0) return std::numeric_limits<int>::min();
+  return std::ilogb(piece.slope * piece.slope);
+}
+
+/// Hulls are convex, and packets between two vertices share a slope: stable sorts keep every
+/// codeword in order.
+void sortPieces(std::span<Piece> pieces, TrackOrder order) {
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.slope > b.slope; });
+  if (order == TrackOrder::kSlopes) return;
+  std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
+    const int of_a = classOf(a, order), of_b = classOf(b, order);
+    return of_a != of_b ? of_a > of_b : a.packet.track < b.packet.track;
+  });
+}
+
+/// All pieces in their order.
+std::vector<Piece> orderedPieces(const CodedTracks& coded, TrackOrder order) {
+  const auto& [component, tracks, opening_bytes, closing_bytes] = coded;
+  const std::span<const RatePoint> base = tracks.front().points;
+  std::vector<Piece> pieces;
+  const size_t opening = opening_bytes > 0 ? 1 : 0, closing = closing_bytes > 0 ? 1 : 0;
+  assert(base.size() > opening + closing);
+  if (opening > 0) pieces.push_back(pieceBetween(base[0], base[1], component, 0));
+  appendHull(base.subspan(opening, base.size() - opening - closing), component, 0, pieces);
+  for (size_t i = 1; i < tracks.size(); ++i) appendHull(tracks[i].points, component, i, pieces);
+  sortPieces(std::span(pieces).subspan(opening), order);
+  if (closing > 0) pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));
+  return pieces;
+}
+
+}  // namespace
+
+OrderedTracks orderTracks(const CodedTracks& coded, TrackOrder by) {
+  assert(!coded.tracks.empty());
+  const std::vector<Piece> pieces = orderedPieces(coded, by);
+  // Summed from the end, so that rounding leaves every packet but the last something to do.
+  OrderedTracks order;
+  order.packets.resize(pieces.size());
+  order.points.resize(pieces.size() + 1);
+  double left = 0, beyond = 0;
+  uint64_t bytes = 0;
+  for (const EncodedTrack& track : coded.tracks) {
+    left += track.points.back().distortion;
+    beyond += track.points.back().beyond;
+  }
+  for (const Piece& piece : pieces) bytes += piece.packet.length();
+  order.points.back() = {bytes, left, false, beyond};
+  for (size_t i = pieces.size(); i-- > 0;) {
+    left += pieces[i].removed;
+    beyond += pieces[i].beyond;
+    bytes -= pieces[i].packet.length();
+    order.points[i] = {bytes, left, false, beyond};
+    order.packets[i] = pieces[i].packet;
+  }
+  assert(bytes == 0);
+  return order;
+}
+
+}  // namespace tetrakis::inline curves

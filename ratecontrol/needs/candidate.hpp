@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A candidate is what an attempt to code a component has made of it. Attempts do not know of each
+// other and change nothing that they are given, so none of them has anything to take back: one
+// function chooses among the candidates.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ratecontrol/curves/component_curve.hpp"
+#include "ratecontrol/needs/target.hpp"
+
+namespace tetrakis::inline needs {
+
+/// Coded: CodedHeights or CodedTexture.
+template <class Coded>
+struct Candidate {
+  std::shared_ptr<const Coded> coded;
+  std::optional<ComponentCurve> curve = {};  ///< once somebody needed it
+  uint64_t need = kAllBytes;                 ///< bytes of its packets that the target needs
+
+  uint64_t bytes() const { return std::min(need, bytesOf(coded->tracks)); }
+};
+
+/// A candidate of all bytes, without a curve.
+template <class Coded>
+Candidate<Coded> candidateOf(Coded coded) {
+  return {std::make_shared<const Coded>(std::move(coded))};
+}
+
+/// The candidate of the fewest bytes; the first of equals. There is at least one.
+template <class Coded>
+Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates) {
+  assert(!candidates.empty());
+  const auto best = std::min_element(
+      candidates.begin(), candidates.end(),
+      [](const Candidate<Coded>& a, const Candidate<Coded>& b) { return a.bytes() < b.bytes(); });
+  return std::move(*best);
+}
+
+}  // namespace tetrakis::inline needs

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file finds out how many bytes of every component a target needs, and keeps the packets that
+// hold them. It decodes nothing: the callers say what a number of bytes is worth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/packet.hpp"
+
+namespace tetrakis::inline needs {
+
+/// Payload bytes of each component's packets, in their order.
+using Needs = std::array<uint64_t, kComponents>;
+inline constexpr uint64_t kAllBytes = UINT64_MAX;
+
+/// The least bytes that `meets` accepts, to 1/64 of a packet, by bisection, as quality rises with
+/// bytes; nothing if it accepts no end of a packet. packets: of one component.
+std::optional<uint64_t> leastBytes(std::span<const Packet> packets,
+                                   const std::function<bool(uint64_t bytes)>& meets);
+
+/// What has been sent of each component when the first `bytes` of `component` have; all of it if
+/// there are fewer.
+Needs sentWith(std::span<const Packet> packets, Component component, uint64_t bytes);
+
+/// The packets that hold what is needed. The last packet of a component ends where its need does,
+/// and quality_after says what it then states.
+std::vector<Packet> keepNeeded(
+    std::span<const Packet> packets, const Needs& needs,
+    const std::function<uint8_t(Component component, uint64_t bytes)>& quality_after);
+
+/// Keeps the packets that begin within a budget of bytes, their heads counted.
+std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
+
+/// Orders packets so that those of a component end within a budget of bytes, if it has room for
+/// them: what of the other component would push the last of them out comes behind it.
+std::vector<Packet> endWithin(std::span<const Packet> packets, Component component,
+                              uint64_t budget);
+
+/// Bytes of the codewords that all packets hold.
+uint64_t payloadOf(std::span<const Packet> packets);
+
+/// Heads and payload of all packets.
+uint64_t bytesOfPackets(std::span<const Packet> packets);
+
+/// The RMSE of each component that the last packet within the budget states; without one the
+/// largest that can be stated.
+std::array<double, kComponents> statedWithin(std::span<const Packet> packets, uint64_t budget);
+
+}  // namespace tetrakis::inline needs

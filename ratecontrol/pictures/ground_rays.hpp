@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where rays meet a height field: the two triangles of every cell, with the diagonals of the
+// tetrakis tiling. A pyramid of the highest vertices lets rays pass over what lies below them
+// (A. Tevs, I. Ihrke, H.-P. Seidel 2008: maximum mipmaps).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "ground/frame.hpp"
+#include "ground/vec3.hpp"
+
+namespace tetrakis::inline pictures {
+
+/// Heights in metres, row by row; NaN: void.
+struct Relief {
+  GroundFrame frame;
+  std::vector<float> heights;
+  /// Columns and rows of the frame from one height to the next. The last ones lie on the border or
+  /// beyond it.
+  uint32_t step = 1;
+
+  /// How many heights there are.
+  Extent extent() const { return {along(frame.width), along(frame.height)}; }
+
+ private:
+  uint32_t along(uint32_t size) const { return size < 2 ? size : (size - 2) / step + 2; }
+};
+
+/// A half-line in the axes of GroundFrame.
+struct Ray {
+  Vec3 origin{}, direction{};
+};
+
+/// A point of the ground and the plane of its triangle: height = at + slope_c c + slope_r r.
+struct GroundHit {
+  double column = 0, row = 0;
+  double far = 0;  ///< in lengths of the ray's direction
+  double at = 0, slope_c = 0, slope_r = 0;
+};
+
+class GroundRays {
+ public:
+  explicit GroundRays(Relief relief);
+
+  /// The first triangle that the ray meets, from either side; none touches a void. One column or
+  /// row of heights has no triangles.
+  std::optional<GroundHit> hit(const Ray& ray) const;
+
+  /// Where the ray meets the plane of a hit, in columns and rows; nothing if it runs along it.
+  std::optional<std::array<double, 2>> onPlane(const GroundHit& plane, const Ray& ray) const;
+
+  /// Height of the ground between the samples; nothing beyond the border and at voids.
+  std::optional<double> heightAt(double x, double z) const;
+
+  const GroundFrame& frame() const { return relief_.frame; }
+  const Bounds& bounds() const { return bounds_; }
+
+ private:
+  struct Level {
+    uint32_t width = 0, height = 0;  ///< in blocks of this level
+    std::vector<float> highest;
+
+    /// Of the block around a cell. level: which this one is.
+    float highestAt(uint32_t column, uint32_t row, size_t level) const {
+      return highest[size_t{row >> level} * width + (column >> level)];
+    }
+  };
+  static Level cellsOf(const std::vector<float>& heights, Extent grid);
+  static Level halved(const Level& fine);
+  struct Path;  ///< a ray in columns and rows
+  /// When a ray is between the borders, and no higher or lower than any height.
+  struct Stay {
+    double enter, leave;
+  };
+  std::optional<Stay> stayOf(const Path& path) const;
+
+  /// Hits are in the columns and rows of the relief's own heights, as those of hitInCell().
+  std::optional<GroundHit> firstHit(const Path& path) const;
+  std::optional<GroundHit> hitInCell(uint32_t column, uint32_t row, const Path& path, double enter,
+                                     double leave) const;
+
+  Relief relief_;
+  std::vector<Level> levels_;  ///< from single cells up
+  Bounds bounds_;
+};
+
+}  // namespace tetrakis::inline pictures

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where ground ends before the sky, errors are large and lie at few pixels: points spread over a
+// picture hardly see them. Outlines are therefore followed: some hundred columns of the pictures
+// say where they meet the outlines of the true ground, and how far those of other surfaces have
+// moved. An outline that moves by some pixels shows ground instead of sky or sky instead of ground
+// there.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "ground/camera.hpp"
+#include "ratecontrol/pictures/ground_rays.hpp"
+#include "ratecontrol/pictures/picture_point.hpp"
+#include "ratecontrol/pictures/screen_texture.hpp"
+
+namespace tetrakis::inline pictures {
+
+class Outlines {
+ public:
+  /// columns: over all cameras, shared by their weights, of which at least one is positive.
+  /// texture: of the true ground. texels: its size.
+  Outlines(const std::vector<Camera>& cameras, size_t columns, const GroundRays& truth,
+           const ScreenTexture& texture, Extent texels);
+
+  /// Squared error of a sample of R, G or B, spread over the pixels that show the true ground; the
+  /// mean over the cameras that see any, by their weights. 0 if none does.
+  ///
+  /// Pixels smooth a shift s of less than a pixel: an edge then errs by s^2 - s^3 / 3 pixels, by
+  /// s - 1 / 3 beyond; but as they are means of 2 x 2 samples, of which one makes a sixteenth, by
+  /// s / 4 at least.
+  double errorOf(const GroundRays& surface) const;
+
+ private:
+  /// A place in a column where ground and sky meet.
+  struct Crossing {
+    double column, row;
+    double from, to;    ///< rows between which it may move: half the way to the next crossings
+    bool ground_below;  ///< else the sky is
+    double contrast;    ///< squared difference of a sample between both
+  };
+  struct View {
+    CameraPoints points;
+    double height;       ///< of the picture
+    double weight = 0;   ///< of 1
+    double covered = 0;  ///< pixels of the columns that show ground
+    std::vector<Crossing> crossings = {};
+  };
+
+  /// What all points of a column show, from its first row to the last.
+  static void follow(View& view, double column, const GroundRays& truth,
+                     const ScreenTexture& texture, Extent texels);
+  /// Pixels by which the outline of another surface has moved.
+  static double shiftOf(const View& view, const Crossing& crossing, const GroundRays& surface);
+
+  std::vector<View> views_;  ///< those that see ground
+};
+
+}  // namespace tetrakis::inline pictures
