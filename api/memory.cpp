@@ -10,6 +10,7 @@
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/screen/screen_weights.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
+#include "texture_wavelet/tables/channel_tables.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -242,7 +243,7 @@ class TextureBytes {
     const uint64_t samples = view_.window ? components * kValue * shown_ : all;
     const uint64_t state = stateBytes(decoder_, header_, components, masked_, Component::kTexture);
     const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnce : kOnce;
-    return once + opening() + trackBytes(header_) +
+    return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
            std::max({all + state, all + masks + planes.work, samples + masks + out});
   }
 

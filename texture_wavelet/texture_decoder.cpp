@@ -12,6 +12,7 @@
 #include "texture_wavelet/colour/colour_levels.hpp"
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 #include "texture_wavelet/stored_texture_decoder.hpp"
+#include "texture_wavelet/tables/channel_tables.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -26,12 +27,21 @@ void finish(const TextureHeader& header, int fraction_bits, std::span<std::vecto
   const size_t count = texels.extent().samples(), channels = texels.channels;
   const int32_t most = texels.most();
   const ColourTransform colour = colourOf(header);
+  const ChannelTables tables = channelTablesOf(header);
   texels.samples.resize(count * channels);
   parallelFor(threads, (count + kColourChunk - 1) / kColourChunk, [&](size_t i) {
     const size_t first = i * kColourChunk, size = std::min(kColourChunk, count - first);
     std::vector<int32_t*> chunk(planes.size());
     for (size_t c = 0; c < planes.size(); ++c) chunk[c] = planes[c].data() + first;
-    inverseColour(colour, chunk, size, fraction_bits);
+    inverseShears(colour, chunk, size);
+    for (size_t c = 0; c < planes.size(); ++c) {
+      const std::span channel(chunk[c], size);
+      if (tables[c].empty()) {
+        restoreSamples(channel, colour.centre[c], fraction_bits);
+      } else {
+        placesToSamples(tables[c], colour.centre[c], fraction_bits, channel);
+      }
+    }
     uint16_t* out = texels.samples.data() + first * channels;
     for (size_t c = 0; c < planes.size(); ++c) {
       for (size_t k = 0; k < size; ++k)

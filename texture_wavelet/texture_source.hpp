@@ -22,6 +22,9 @@ struct TextureSource {
   /// are not coded.
   Mask counted(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
 
+  /// Channels that are colour planes: all but the alpha of a cut-out.
+  uint32_t colours() const { return texels.channels - (cutout.empty() ? 0 : 1); }
+
   Texels texels;
   std::vector<uint8_t> cutout;  ///< cutoutOf(texels)
 };

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/plane.hpp"
@@ -46,6 +47,22 @@ struct BandWeights {
   }
 };
 
+/// The values that the channels of components have, where their type could hold more: the wavelet
+/// codes places in these tables (texture_wavelet/tables/channel_tables.hpp).
+struct ChannelTablesHeader {
+  static constexpr uint32_t kMostValues = 1u << 16;
+
+  bool present = false;
+  std::array<uint32_t, 4> values{};  ///< how many a channel's table has; 0: it has none
+  std::string code;
+
+  template <class V>
+  void visit(V& v, uint32_t components) {
+    for (uint32_t c = 0; c < components; ++c) v.varint("table_values", values[c], 0, kMostValues);
+    v.text("value_tables", code);
+  }
+};
+
 /// Texture: centre, order and shears as in texture_wavelet/colour/colour.hpp. Drawn and stored ones
 /// end with `planes`.
 struct TextureHeader {
@@ -56,9 +73,10 @@ struct TextureHeader {
   uint8_t colour_order = 0;
   /// Textures of 3 components or more have the shears of samples, then those of coefficients.
   std::vector<std::array<int64_t, 6>> colour_shears{{}};
-  std::array<uint16_t, 4> centre{};   ///< one per component
+  std::array<uint16_t, 4> centre{};   ///< one per component; of a table a place
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
+  ChannelTablesHeader tables;
   PriorityHeader priorities;
   RegionHeader regions;  ///< a part of the header of its own
   BandWeights weights;
@@ -72,6 +90,7 @@ struct TextureHeader {
 
   Extent extent() const { return {width, height}; }
   Extent shown() const { return extent(); }
+  int sampleBits() const { return sample == TKS_U8 ? 8 : 16; }
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
   template <class V>
@@ -81,7 +100,10 @@ struct TextureHeader {
     uint8_t kind = static_cast<uint8_t>(alpha_bytes == 0 ? channels : 4 + channels / 2);
     v.u8("channels", kind, 1, 6);
     channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
-    v.u8("texture_sample", sample, 0, TKS_U16);
+    auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0));
+    v.u8("texture_sample", type, 0, kWithTables + TKS_U16);
+    sample = type % kWithTables;
+    tables.present = type >= kWithTables;
     const uint8_t overlaid = kDrawnPlanes + 1;
     auto coding = static_cast<uint8_t>(
         (stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
@@ -103,7 +125,22 @@ struct TextureHeader {
       v.varint("centre", centre[c], 0, 0xffff);
       v.zigzag("priority", priority[c], kMaxPriority);
     }
-    if (components() < 3) return;
+    if (components() >= 3) visitShears(v);
+    if (tables.present) tables.visit(v, components());
+  }
+  bool drawn() const { return direct() && !stored; }
+  /// The texture was coded without a transform: drawn or stored.
+  bool direct() const { return planes == kDrawnPlanes; }
+
+  static constexpr uint8_t kWithTables = 4;       ///< bit beside the type of the samples
+  static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
+  static constexpr int64_t kMaxPriority = 128;
+  static constexpr uint8_t kOrders = 6;      ///< of channels
+  static constexpr uint8_t kMostShears = 8;  ///< sets of shears
+
+ private:
+  template <class V>
+  void visitShears(V& v) {
     auto colour = static_cast<uint8_t>(colour_order + kOrders * (colour_shears.size() - 1));
     v.u8("colour", colour, 0, kOrders * kMostShears - 1);
     colour_order = colour % kOrders;
@@ -112,14 +149,6 @@ struct TextureHeader {
       for (int64_t& shear : shears) v.zigzag("colour_shear", shear, INT16_MAX);
     }
   }
-  bool drawn() const { return direct() && !stored; }
-  /// The texture was coded without a transform: drawn or stored.
-  bool direct() const { return planes == kDrawnPlanes; }
-
-  static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
-  static constexpr int64_t kMaxPriority = 128;
-  static constexpr uint8_t kOrders = 6;      ///< of channels
-  static constexpr uint8_t kMostShears = 8;  ///< sets of shears
 };
 
 }  // namespace tetrakis::inline stream

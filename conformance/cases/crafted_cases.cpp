@@ -227,7 +227,7 @@ std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = weightCases();
   for (const auto& cases :
        {wideCases(), craftedTableCases(), flatCases(), repeatedCases(), correctionCases(),
-        nodataCases(), shearCases(), drawnCases(), roundedCases()})
+        nodataCases(), shearCases(), channelTableCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

@@ -125,6 +125,8 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
   }
   if (vector_case.texture) {
     picture = samples::make(*vector_case.texture);
+    if (vector_case.levels > 0)
+      picture = samples::withFewTexels(picture, vector_case.levels, vector_case.levels_of);
     const auto mask = [&](samples::VoidShape shape) {
       return samples::validity(shape, picture.width, picture.height);
     };

@@ -2,6 +2,7 @@
 // Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 12).
 #include "conformance/reference_decoder/stream.hpp"
 
+#include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/metadata.hpp"
 #include "conformance/reference_decoder/reader.hpp"
 #include "conformance/reference_decoder/regions.hpp"
@@ -156,13 +157,16 @@ TextureHeader readTexture(Reader& in) {
   const bool cutout = kind > 4;
   t.components = cutout ? 2 * kind - 9 : kind;
   t.channels = t.components + cutout;
-  t.sample = in.u8(kU8, kU16);
-  if (t.sample == kI8) in.fail(Outcome::kCorrupt);
+  const int type = in.u8(0, 6);
+  const bool tables = type >= 4;
+  t.sample = type % 4;
+  if (t.sample != kU8 && t.sample != kU16) in.fail(Outcome::kCorrupt);
   const int all = in.u8(0, 126), coding = all % 64;
   t.planes = coding % 32;
   t.stored = coding == 63;
   if (all >= 64) t.priorities = readPriorities(in, t.width, t.height);
   if (all >= 64 && t.planes == kDrawnPlanes) in.fail(Outcome::kCorrupt);
+  if (t.planes == kDrawnPlanes && tables) in.fail(Outcome::kCorrupt);
   if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
   if (cutout) {
@@ -182,6 +186,12 @@ TextureHeader readTexture(Reader& in) {
       for (int& h : shears) h = in.zigzag(32767);
     }
   }
+  if (!tables) return t;
+  std::vector<uint32_t> values;
+  for (int i = 0; i < t.components; ++i)
+    values.push_back(static_cast<uint32_t>(in.varint(0, 65536)));
+  const auto code = in.take(in.varint(0, UINT64_MAX));
+  t.tables = decodeTables(code, values, t.sample == kU8 ? 8 : 16);
   return t;
 }
 

@@ -88,7 +88,8 @@ struct TextureHeader {
   /// [component][level - 1][1 for HH], as many levels as the header tells.
   std::array<std::vector<std::array<int, 2>>, 4> bandPriority;
   int colourOrder = 0;
-  std::vector<std::array<int, 6>> shears;  ///< of samples, of level 2, 3, ...
+  std::vector<std::array<int, 6>> shears;     ///< of samples, of level 2, 3, ...
+  std::vector<std::vector<uint32_t>> tables;  ///< of each component; empty: it has none
 };
 
 /// The codewords of a component's tracks.

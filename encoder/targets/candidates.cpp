@@ -69,9 +69,9 @@ bool hasLosslessWay(const CodedHeights& heights) {
   return heights.of->steps.exact;
 }
 
-/// Drawn and stored textures are lossless as they stand.
+/// Drawn and stored textures are lossless as they stand; tables of values are another way.
 bool hasLosslessWay(const CodedTexture& texture) {
-  return !texture.header.direct();
+  return !texture.header.direct() || gapOfValues(texture) > 1;
 }
 
 HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/samples.hpp"
@@ -57,6 +59,14 @@ CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
   TextureOptions to_the_end = textureOptions(inputs, coded.of->texels);
   to_the_end.mean_square = 0;
   return codedBy(coded.of, encodeTexture(*coded.of, purposeOf(inputs), to_the_end));
+}
+
+double gapOfValues(const CodedTexture& texture) {
+  const FewValues few = fewValuesOf(*texture.of, {});
+  const uint32_t colours = texture.of->colours();
+  const double squares =
+      std::accumulate(few.squares.begin(), few.squares.begin() + static_cast<int>(colours), 0.);
+  return std::sqrt(squares / colours);
 }
 
 CodedTexture storeTexture(std::shared_ptr<const TextureSource> of) {
