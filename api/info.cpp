@@ -120,7 +120,7 @@ void fillInfo(const tks_decoder& decoder, tks_info& info) {
     info.nodata = header.layers.nodata;
   }
   if (header.texture) {
-    const Extent shown = View{decoder.texture_level, {}}.extentIn(header.texture->extent());
+    const Extent shown = View{decoder.texture_level, {}}.extentIn(header.texture->shown());
     info.texture_width = shown.width;
     info.texture_height = shown.height;
     info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.texture));

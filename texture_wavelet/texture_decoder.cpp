@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "codec/lines/shown_lines.hpp"
 #include "texture_wavelet/colour/colour_levels.hpp"
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 #include "texture_wavelet/stored_texture_decoder.hpp"
@@ -143,9 +144,11 @@ uint64_t TextureMemory::bytes() const {
   return bytes;
 }
 
-Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
-                     const DecodeContext<TextureMemory>& context) {
-  assert(!codewords.empty() && (context.memory == nullptr || !view.window));
+namespace {
+
+/// A view of the lines that are coded.
+Texels decodeLines(const TextureHeader& header, const Codewords& codewords, const View& view,
+                   const DecodeContext<TextureMemory>& context) {
   if (header.direct()) return decodeDirect(header, codewords.front(), view);
   TextureMemory* const memory = context.memory;
   Codewords coefficients = codewords;
@@ -160,6 +163,20 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, co
   finish(header, precision.fraction_bits, planes, context.threads, texels);
   finishAlpha(cut(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);
   opening->paint(header.extent(), view, texels);
+  return texels;
+}
+
+}  // namespace
+
+Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
+                     const DecodeContext<TextureMemory>& context) {
+  assert(!codewords.empty() && (context.memory == nullptr || !view.window));
+  const ShownLines lines(header, view);
+  Texels texels = decodeLines(header, codewords, lines.coded(), context);
+  if (lines.none()) return texels;
+  texels.samples = lines.shown(texels.samples, texels.channels);
+  texels.width = static_cast<uint32_t>(lines.columns().size());
+  texels.height = static_cast<uint32_t>(lines.rows().size());
   return texels;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/coding_headers.hpp"
+#include "bitstream/stream/line_repeats.hpp"
 #include "bitstream/track/band.hpp"
 #include "tetrakis/tetrakis.h"
 
@@ -66,7 +67,8 @@ struct ChannelTablesHeader {
 /// Texture: centre, order and shears as in texture_wavelet/colour/colour.hpp. Drawn and stored ones
 /// end with `planes`.
 struct TextureHeader {
-  uint32_t width = 0, height = 0;
+  uint32_t width = 0, height = 0;  ///< of the lines that are coded
+  LineRepeats repeats;             ///< which of those that are shown they are
   uint8_t channels = 0;
   uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
@@ -89,21 +91,26 @@ struct TextureHeader {
   bool stored = false;  ///< sample by sample, without a transform
 
   Extent extent() const { return {width, height}; }
-  Extent shown() const { return extent(); }
+  Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
   int sampleBits() const { return sample == TKS_U8 ? 8 : 16; }
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
   template <class V>
   void visit(V& v) {
-    v.varint("texture_width", width, 1, kMaxTextureSide);
-    v.varint("texture_height", height, 1, kMaxTextureSide);
+    LineFields lines(repeats, extent());
+    v.varint("texture_width", lines.whole.width, 1, kMaxTextureSide);
+    v.varint("texture_height", lines.whole.height, 1, kMaxTextureSide);
     uint8_t kind = static_cast<uint8_t>(alpha_bytes == 0 ? channels : 4 + channels / 2);
     v.u8("channels", kind, 1, 6);
     channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
-    auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0));
-    v.u8("texture_sample", type, 0, kWithTables + TKS_U16);
+    auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0) +
+                                     (lines.repeated() ? kWithRepeats : 0));
+    v.u8("texture_sample", type, 0, kWithRepeats + kWithTables + TKS_U16);
     sample = type % kWithTables;
-    tables.present = type >= kWithTables;
+    tables.present = (type & kWithTables) != 0;
+    const Extent coded = lines.visitMap(v, type >= kWithRepeats);
+    width = coded.width;
+    height = coded.height;
     const uint8_t overlaid = kDrawnPlanes + 1;
     auto coding = static_cast<uint8_t>(
         (stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
@@ -133,6 +140,7 @@ struct TextureHeader {
   bool direct() const { return planes == kDrawnPlanes; }
 
   static constexpr uint8_t kWithTables = 4;       ///< bit beside the type of the samples
+  static constexpr uint8_t kWithRepeats = 8;      ///< another one
   static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
   static constexpr int64_t kMaxPriority = 128;
   static constexpr uint8_t kOrders = 6;      ///< of channels

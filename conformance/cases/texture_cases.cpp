@@ -39,6 +39,36 @@ std::vector<VectorCase> fewTexelsCases() {
   };
 }
 
+VectorCase copied(VectorCase vector_case, uint32_t across, uint32_t down) {
+  vector_case.texel_copies[0] = across;
+  vector_case.texel_copies[1] = down;
+  return vector_case;
+}
+
+std::vector<VectorCase> copiedTexelsCases() {
+  const auto image = [](Pattern pattern, uint32_t channels, tks_sample sample) {
+    return Recipe{pattern, 33, 26, channels, sample, 7};
+  };
+  return {
+      copied(textureCase("texel_copies_2x2_65x51", "texels copied to a larger grid, lossless",
+                         image(Pattern::kRidges, 3, TKS_U8), lossless()),
+             2, 2),
+      copied(leveled(textureCase("texel_copies_3x1_regions_97x26",
+                                 "copies in tables of values, in regions",
+                                 image(Pattern::kRidges, 1, TKS_U8), inRegions(lossless(), 16)),
+                     90, TKS_U16),
+             3, 1),
+      asCutout(
+          copied(textureCase("texel_copies_cutout_33x101", "copies beside a mask, by a byte budget",
+                             image(Pattern::kRidges, 4, TKS_U8), budget(900)),
+                 1, 4),
+          samples::VoidShape::kCoast),
+      copied(textureCase("drawn_copies_rgb_97x76", "a drawing whose lines repeat",
+                         image(Pattern::kSteps, 3, TKS_U8), lossless()),
+             3, 3),
+  };
+}
+
 }  // namespace
 
 std::vector<VectorCase> textureCases() {
@@ -110,7 +140,8 @@ std::vector<VectorCase> textureCases() {
       weighted(textureCase("weights_rgba_70x40", "bands of each component have priorities",
                            image(Pattern::kRidges, 70, 40, 4, TKS_U8), budget(1500))),
   };
-  for (VectorCase& of_tables : fewTexelsCases()) cases.push_back(std::move(of_tables));
+  for (auto some : {fewTexelsCases(), copiedTexelsCases()})
+    for (VectorCase& each : some) cases.push_back(std::move(each));
   return cases;
 }
 

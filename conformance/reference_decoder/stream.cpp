@@ -49,7 +49,8 @@ PriorityHeader readPriorities(Reader& in, int width, int height) {
 }
 
 /// FORMAT 8.3: the size becomes that of the coded lines.
-void readLines(Reader& in, GeometryHeader& g) {
+template <class Header>
+void readLines(Reader& in, Header& g) {
   const auto code = in.take(in.varint(0, UINT64_MAX));
   if (in.outcome() != Outcome::kDone) return;
   g.lines = LineMap(code, g.width, g.height);
@@ -157,10 +158,11 @@ TextureHeader readTexture(Reader& in) {
   const bool cutout = kind > 4;
   t.components = cutout ? 2 * kind - 9 : kind;
   t.channels = t.components + cutout;
-  const int type = in.u8(0, 6);
-  const bool tables = type >= 4;
+  const int type = in.u8(0, 14);
+  const bool tables = type & 4;
   t.sample = type % 4;
   if (t.sample != kU8 && t.sample != kU16) in.fail(Outcome::kCorrupt);
+  if (type >= 8) readLines(in, t);
   const int all = in.u8(0, 126), coding = all % 64;
   t.planes = coding % 32;
   t.stored = coding == 63;
@@ -234,7 +236,7 @@ void skipIndex(Reader& in, const Stream& stream) {
 uint64_t samplesOf(const Stream& stream) {
   uint64_t heights = 0, texels = 0;
   if (const auto& g = stream.geometry) heights = uint64_t(g->shownWidth()) * g->shownHeight();
-  if (const auto& t = stream.texture) texels = uint64_t(t->width) * t->height;
+  if (const auto& t = stream.texture) texels = uint64_t(t->shownWidth()) * t->shownHeight();
   return std::max(heights, texels);
 }
 
@@ -338,7 +340,7 @@ Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels leve
     decoded.heights =
         decodeShownHeights(*stream.geometry, stream.layers, stream.codewords[0], levels.heights);
   if (stream.texture)
-    decoded.texture = decodeTexture(*stream.texture, stream.codewords[1], levels.texture);
+    decoded.texture = decodeShownTexture(*stream.texture, stream.codewords[1], levels.texture);
   return decoded;
 }
 

@@ -26,7 +26,8 @@ uint8_t statedAfter(const EncodeInputs& inputs, const Candidate<Coded>& candidat
   const Coded& coded = *candidate.coded;
   const Codewords prefix = prefixAfter(coded.rated(), candidate.curve->packets, bytes);
   const double squares = squaresOf(coded, prefix, inputs.options.threads);
-  const double weight = std::is_same_v<Coded, CodedHeights> ? inputs.heaviest() : 1;
+  const bool heights = std::is_same_v<Coded, CodedHeights>;
+  const double weight = heights ? inputs.heaviest() : inputs.heaviestTexel();
   return qualityOf(std::sqrt(squares * weight / coded.counted()));
 }
 

@@ -83,7 +83,7 @@ double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t 
 
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix) {
   const double squares = squaresOf(texture, prefix, inputs.options.threads);
-  return squares / texture.counted() <=
+  return squares / texture.counted() * inputs.heaviestTexel() <=
          worstMeanSquare(texture.of->texels.most(), inputs.options.psnr);
 }
 
