@@ -106,8 +106,8 @@ bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const Texture
 EncodedTexture encodeOnce(const TextureSource& source, Purpose purpose,
                           const TextureOptions& options, Mask photograph) {
   assert(options.region_log2 == 0);
-  const FewValues few =
-      purpose == Purpose::kLossless ? fewValuesOf(source, photograph) : FewValues();
+  const bool may_pay = purpose == Purpose::kLossless && options.tables;
+  const FewValues few = may_pay ? fewValuesOf(source, photograph) : FewValues();
   if (few.none()) return encodeByWavelet(source, purpose, options, photograph);
   EncodedTexture in_tables = encodeInTables(source, few, options, photograph);
   TextureOptions until = options;
@@ -179,7 +179,8 @@ Contest contestWhole(const EncodedTexture& drawn, const TextureSource& source, P
   if (bytes <= kFewBytes) return {true, {}};
   const bool lossless = purpose == Purpose::kLossless;
   const TextureOptions until = {.limit = lossless ? withinReach(bytes) : 2 * bytes,
-                                .threads = options.threads};
+                                .threads = options.threads,
+                                .tables = lossless};
   Contest contest{true, {}};
   const EncodedTexture& wavelet = challenge(source, Purpose::kLossless, until, contest.attempts);
   if (!wavelet.tracks.front().complete) return {true, {}};
@@ -245,10 +246,12 @@ Contest contestOf(const EncodedTexture& drawn, const TextureSource& source, Purp
 
 /// What does not look drawn has to save a fifth of the photograph's bytes, or to fit whole into the
 /// budget, to be tried. Lossy tracks without an aim have bits behind the last one of the texels.
+/// Estimates of what has few values are up to 2.5 times the bytes.
 uint64_t mostToTry(const EncodedTexture& photograph, Purpose purpose,
                    const TextureOptions& options) {
   const uint64_t bytes = bytesOf(photograph);
   if (options.room < bytes) return options.room;
+  if (photograph.header.tables.present) return 5 * bytes / 2;
   const bool aimed = purpose == Purpose::kLossless || options.mean_square > 0;
   return aimed && bytes > kFewBytes ? bytes - bytes / 5 : 0;
 }

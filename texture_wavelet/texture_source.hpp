@@ -37,6 +37,7 @@ struct TextureOptions {
   bool visual = false;          ///< what is seen comes first, not what is off most
   uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
   double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
+  bool tables = true;           ///< of values: lossless textures may have them
   const PriorityMap* priorities = nullptr;  ///< what comes earlier; null: nothing
 };
 

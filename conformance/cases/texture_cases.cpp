@@ -105,7 +105,7 @@ std::vector<VectorCase> textureCases() {
       asCutout(textureCase("cutout_grey16_1x41", "cut-out of 16-bit grey, one column",
                            image(Pattern::kRidges, 1, 41, 2, TKS_U16), quality(40)),
                samples::VoidShape::kSpeckle),
-      textureCase("checker_rgb_16x16", "highest frequency: tables of two values",
+      textureCase("checker_rgb_16x16", "the highest frequency",
                   image(Pattern::kChecker, 16, 16, 3, TKS_U8), lossless()),
       textureCase("ramp_129x96", "another filter from level 3 on",
                   image(Pattern::kRamp, 129, 96, 1, TKS_U8), quality(58)),
