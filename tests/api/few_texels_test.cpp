@@ -97,7 +97,7 @@ TEST(FewTexels, EveryPrefixAndLevelAgreesWithTheText) {
 }
 
 TEST(FewTexels, DamagedHeadersAgreeWithTheText) {
-  const Raster image = withFewTexels(ridges(24, 19, 2), 60, TKS_U16);
+  const Raster image = withFewTexels(ridges(60, 33, 2), 200, TKS_U16);
   const Bytes good = encode(nullptr, &image, lossless());
   ASSERT_TRUE(hasTables(good));
   const size_t header = static_cast<size_t>(Stream(good).info().header_bytes);
