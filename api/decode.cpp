@@ -46,7 +46,7 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
   const int level = texture ? decoder.texture_level : decoder.heights_level;
   if (window == nullptr) return View{level, {}};
   if (level > 0) return Status(TKS_USAGE, "Windows are parts of level 0; set the level to 0.");
-  const Extent extent = texture ? header.texture->extent() : header.geometry->shown();
+  const Extent extent = texture ? header.texture->shown() : header.geometry->shown();
   const Window asked{window->x, window->y, window->width, window->height};
   if (asked.isInside(extent)) return View{0, asked};
   return Status(TKS_USAGE, "The window must lie inside the " + std::to_string(extent.width) +
@@ -162,7 +162,7 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
   if (!view.ok()) return view.status();
   const TextureHeader& header = *decoder.parsed.header.texture;
   const auto sample = static_cast<tks_sample>(header.sample);
-  const size_t count = view->extentIn(header.extent()).samples();
+  const size_t count = view->extentIn(header.shown()).samples();
   const size_t texel_bytes = tks_sample_bytes(sample) * header.channels;
   if (Status s = call.check(decoder, *view, count, texel_bytes); !s.ok()) return s;
   if (decoder.packets.payload.nothingOf(Component::kTexture)) {

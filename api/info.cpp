@@ -130,7 +130,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   if (!header.texture) return;
   const TextureHeader& texture = *header.texture;
-  const Extent shown = View{decoder.texture_level, {}}.extentIn(texture.extent());
+  const Extent shown = View{decoder.texture_level, {}}.extentIn(texture.shown());
   info.texture_width = shown.width;
   info.texture_height = shown.height;
   info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.texture));

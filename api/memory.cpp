@@ -4,11 +4,12 @@
 #include <algorithm>
 
 #include "codec/geometry/height_layers.hpp"
-#include "codec/geometry/repeats/shown_lines.hpp"
 #include "codec/geometry/values/value_table.hpp"
+#include "codec/lines/shown_lines.hpp"
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/screen/screen_weights.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
+#include "texture_wavelet/tables/channel_tables.hpp"
 #include "wavelet/region_decoder.hpp"
 #include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -68,6 +69,14 @@ struct PlanesBytes {
     work = at_a_time * synthesis.workBytes(decoder.threads, masked);
   }
 };
+
+/// So many samples that are copied from coded lines, and the maps of lines.
+uint64_t copyBytes(const auto& header, uint64_t samples, uint64_t sample_bytes) {
+  constexpr uint64_t kLine = 4 * sizeof(uint32_t);
+  if (header.repeats.none()) return 0;
+  const auto [width, height] = header.shown();
+  return samples * sample_bytes + kLine * (uint64_t{width} + height);
+}
 
 class HeightsBytes {
  public:
@@ -140,14 +149,8 @@ class HeightsBytes {
     return kDrawnOnce + shown_ * kSample + masks + joinedBytes() + behind;
   }
 
-  /// Heights, marks, mask and corrections that are copied, beside what they are copied from, and
-  /// the maps of lines.
-  uint64_t copyBytes() const {
-    constexpr uint64_t kLine = 4 * sizeof(uint32_t);
-    if (header_.repeats.none()) return 0;
-    const auto [width, height] = header_.shown();
-    return copied_ * 2 * (kValue + 1) + kLine * (uint64_t{width} + height);
-  }
+  /// Heights, marks, mask and corrections that are copied, beside what they are copied from.
+  uint64_t copyBytes() const { return api::copyBytes(header_, copied_, 2 * (kValue + 1)); }
   /// Rows that corrections are decoded beside.
   uint64_t rows() const {
     const bool relative = layers_.corrections == CorrectionKind::kRelative;
@@ -225,13 +228,18 @@ class TextureBytes {
   TextureBytes(const tks_decoder& decoder, const View& view)
       : decoder_(decoder),
         header_(*decoder.parsed.header.texture),
-        view_(view),
-        shown_(area(view.extentIn(header_.extent()))),
+        view_(codedView(header_, view)),
+        shown_(area(view_.extentIn(header_.extent()))),
+        copied_(header_.repeats.none() ? 0 : area(view.extentIn(header_.shown()))),
         seen_(header_.alpha_bytes > 0),
         masked_(header_.hidden || header_.overlay_bytes > 0) {}
 
-  uint64_t decoding() const {
-    const uint64_t out = shown_ * header_.channels * sizeof(uint16_t);
+  uint64_t decoding() const { return decodingLines() + copyBytes(header_, copied_, texel()); }
+
+ private:
+  uint64_t texel() const { return header_.channels * sizeof(uint16_t); }
+  uint64_t decodingLines() const {
+    const uint64_t out = shown_ * texel();
     if (header_.direct())
       return kDrawnOnce + direct(view_.window ? area(header_) : shown_) + (view_.window ? out : 0);
     const uint32_t components = header_.components();
@@ -242,14 +250,11 @@ class TextureBytes {
     const uint64_t samples = view_.window ? components * kValue * shown_ : all;
     const uint64_t state = stateBytes(decoder_, header_, components, masked_, Component::kTexture);
     const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnce : kOnce;
-    return once + opening() + trackBytes(header_) +
+    return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
            std::max({all + state, all + masks + planes.work, samples + masks + out});
   }
-
- private:
   uint64_t direct(uint64_t count) const {
-    return count *
-           ((header_.drawn() ? sizeof(DrawnIndex) : 0) + header_.channels * sizeof(uint16_t));
+    return count * ((header_.drawn() ? sizeof(DrawnIndex) : 0) + texel());
   }
   /// What the opening takes: a mask of the texels that can be seen, the colours of the overlay and
   /// a mask of the texels that are coded, each of a whole plane.
@@ -261,7 +266,8 @@ class TextureBytes {
   const tks_decoder& decoder_;
   const TextureHeader& header_;
   const View view_;
-  uint64_t shown_;  ///< texels of the view
+  uint64_t shown_;   ///< texels of the view, of coded lines
+  uint64_t copied_;  ///< of the view; 0: no lines are copied
   bool seen_, masked_;
 };
 

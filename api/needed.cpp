@@ -8,7 +8,7 @@
 #include "api/ranges.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
 #include "codec/geometry/height_layers.hpp"
-#include "codec/geometry/repeats/shown_lines.hpp"
+#include "codec/lines/shown_lines.hpp"
 #include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -33,7 +33,8 @@ std::vector<bool> neededTracks(const auto& header, const View& view) {
 }
 
 std::vector<bool> neededTracks(const StreamHeader& header, Component component, const View& view) {
-  if (component == Component::kTexture) return neededTracks(*header.texture, view);
+  if (component == Component::kTexture)
+    return neededTracks(*header.texture, codedView(*header.texture, view));
   const View lines = codedView(*header.geometry, view);
   return neededTracks(*header.geometry, decodedView(*header.geometry, header.layers, lines));
 }

@@ -34,7 +34,8 @@ Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
     if (samples > most_samples) return exceeds("height samples", samples, most_samples);
   }
   if (header.texture) {
-    const uint64_t texels = uint64_t{header.texture->width} * header.texture->height;
+    const Extent shown = header.texture->shown();
+    const uint64_t texels = uint64_t{shown.width} * shown.height;
     if (texels > most_texels) return exceeds("texels", texels, most_texels);
   }
   return {};

@@ -12,7 +12,7 @@ namespace tetrakis::inline api {
 Result<CoarseGround> coarseGround(tks_decoder& decoder) {
   constexpr uint32_t kMostPoints = 128;  // a side: hidden ground need not be known more finely
   const StreamHeader& header = decoder.parsed.header;
-  const Extent plane = header.geometry ? header.geometry->shown() : header.texture->extent();
+  const Extent plane = header.geometry ? header.geometry->shown() : header.texture->shown();
   View view;
   while ((std::max(plane.width, plane.height) - 1) >> view.level >= kMostPoints) ++view.level;
   if (header.geometry) view.level = std::min(view.level, coarsestLevelOf(header.geometry));

@@ -38,6 +38,7 @@ DecodedHeights unsentHeights(const StreamHeader& header) {
 Texels unsentTexel(const TextureHeader& header) {
   TextureHeader smallest = header;
   smallest.width = smallest.height = 1;
+  smallest.repeats = {};
   return decodeTexture(smallest, Codewords(1));
 }
 

@@ -14,6 +14,7 @@
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/meet_target.hpp"
 #include "encoder/textures/coded_texture.hpp"
+#include "encoder/textures/repeated_texels.hpp"
 #include "encoder/views/camera_checks.hpp"
 #include "encoder/views/map_worth.hpp"
 #include "encoder/views/view_priorities.hpp"
@@ -99,7 +100,11 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   const CodedLines lines = linesToCode(given);
   std::optional<tks_heights> some;
   if (!lines.repeats.none()) some = lines.of(*given.heights);
-  const EncodeInputs inputs = some ? given.ofLines(*some, lines) : given;
+  const CodedLines texel_lines = texelLinesToCode(given);
+  std::optional<tks_image> some_texels;
+  if (!texel_lines.repeats.none()) some_texels = texel_lines.of(*given.image);
+  const EncodeInputs of_lines = some ? given.ofLines(*some, lines) : given;
+  const EncodeInputs inputs = some_texels ? of_lines.ofLines(*some_texels, texel_lines) : of_lines;
   const ViewPriorities priorities = prioritiesOf(inputs);
   const Result<Selection> selection = selectWithMaps(inputs, priorities);
   if (!selection.ok()) return selection.status();

@@ -14,14 +14,14 @@ namespace {
 
 /// The grid that the columns and rows of views count.
 Extent gridOf(const StreamHeader& header) {
-  return header.geometry ? header.geometry->shown() : header.texture->extent();
+  return header.geometry ? header.geometry->shown() : header.texture->shown();
 }
 
 /// Pixels of a texel for a point with so many of a sample.
 double texelsPixels(const StreamHeader& header, double pixels) {
   if (!header.texture) return pixels;
   return pixels * static_cast<double>(gridOf(header).samples()) /
-         static_cast<double>(header.texture->extent().samples());
+         static_cast<double>(header.texture->shown().samples());
 }
 
 /// What a height error of 1 costs at a point beside a texel's error of 1. It moves the texture by

@@ -21,10 +21,20 @@ namespace tetrakis::inline texture {
 
 namespace {
 
+/// Bytes of the header that not every way to code an image has.
+uint64_t tableBytes(const EncodedTexture& encoded) {
+  return encoded.header.tables.code.size();
+}
+
+uint64_t bytesOf(const EncodedTexture& encoded) {
+  return tableBytes(encoded) + bytesOf(encoded.tracks);
+}
+
 /// The distortion that at most so many bytes leave. What lies between two points of the account is
 /// not known to be better than the first.
 double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
   const std::vector<RatePoint>& points = encoded.tracks.front().points;
+  bytes -= std::min(bytes, tableBytes(encoded));
   const auto above = std::find_if(points.begin() + 1, points.end(),
                                   [&](const RatePoint& p) { return p.bytes > bytes; });
   return (above - 1)->distortion;
@@ -65,12 +75,12 @@ uint64_t bytesFor(const EncodedTexture& encoded, double squares) {
   const EncodedTrack& track = encoded.tracks.front();
   const auto reached = std::find_if(track.points.begin(), track.points.end(),
                                     [&](const RatePoint& p) { return p.distortion <= squares; });
-  if (reached != track.points.end()) return reached->bytes;
-  return track.complete ? track.codeword.size() : UINT64_MAX;
+  if (reached != track.points.end()) return tableBytes(encoded) + reached->bytes;
+  return track.complete ? bytesOf(encoded) : UINT64_MAX;
 }
 
 bool isWhole(const EncodedTexture& encoded, uint64_t room) {
-  return encoded.tracks.front().complete && bytesOf(encoded.tracks) <= room;
+  return encoded.tracks.front().complete && bytesOf(encoded) <= room;
 }
 
 /// Whether a shows the image better than b where they will be cut: in fewer bytes if there is an
@@ -87,9 +97,24 @@ bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const Texture
     const double price = 1 - (aimed ? kAimedPerDb : kWholePerDb) * loss;
     return static_cast<double>(bytes_a) < static_cast<double>(bytes_b) * price;
   }
-  const uint64_t reach = std::min({options.room, bytesOf(a.tracks), bytesOf(b.tracks)});
+  const uint64_t reach = std::min({options.room, bytesOf(a), bytesOf(b)});
   const double loss = lossOf(distortionAt(a, reach), distortionAt(b, reach));
   return kEndPerPrefix * loss + prefixLoss(a, b, reach) < 0;
+}
+
+/// Codes the image by wavelet in one track, with tables of values where these pay.
+EncodedTexture encodeOnce(const TextureSource& source, Purpose purpose,
+                          const TextureOptions& options, Mask photograph) {
+  assert(options.region_log2 == 0);
+  const bool may_pay = purpose == Purpose::kLossless && options.tables;
+  const FewValues few = may_pay ? fewValuesOf(source, photograph) : FewValues();
+  if (few.none()) return encodeByWavelet(source, purpose, options, photograph);
+  EncodedTexture in_tables = encodeInTables(source, few, options, photograph);
+  TextureOptions until = options;
+  until.limit = std::min(options.limit, withinReach(bytesOf(in_tables)));
+  EncodedTexture plain = encodeByWavelet(source, purpose, until, photograph);
+  const bool pays = showsBetter(in_tables, plain, until, source.texels.samples.size());
+  return pays ? std::move(in_tables) : std::move(plain);
 }
 
 /// What is made of a photograph in one track: as it is, and with an overlay.
@@ -101,9 +126,9 @@ struct Attempts {
 void attempt(const TextureSource& source, Purpose purpose, const TextureOptions& options,
              const std::vector<uint8_t>& photograph, Attempts& attempts) {
   const TextureOptions one_track = oneTrack(options);
-  if (!attempts.plain) attempts.plain = encodeByWavelet(source, purpose, one_track);
+  if (!attempts.plain) attempts.plain = encodeOnce(source, purpose, one_track, {});
   if (!attempts.overlaid && !photograph.empty())
-    attempts.overlaid = encodeByWavelet(source, purpose, one_track, photograph);
+    attempts.overlaid = encodeOnce(source, purpose, one_track, photograph);
 }
 
 bool overlayPays(const TextureSource& source, Purpose purpose, const TextureOptions& options,
@@ -150,11 +175,12 @@ Attempts completeOnes(Attempts attempts) {
 /// about as many, or within twice as many if that is not asked for.
 Contest contestWhole(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
                      const TextureOptions& options) {
-  const uint64_t bytes = bytesOf(drawn.tracks);
+  const uint64_t bytes = bytesOf(drawn);
   if (bytes <= kFewBytes) return {true, {}};
   const bool lossless = purpose == Purpose::kLossless;
   const TextureOptions until = {.limit = lossless ? withinReach(bytes) : 2 * bytes,
-                                .threads = options.threads};
+                                .threads = options.threads,
+                                .tables = lossless};
   Contest contest{true, {}};
   const EncodedTexture& wavelet = challenge(source, Purpose::kLossless, until, contest.attempts);
   if (!wavelet.tracks.front().complete) return {true, {}};
@@ -170,7 +196,7 @@ Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Pur
                    const TextureOptions& options) {
   if (!source.cutout.empty()) return {false, {}};
   TextureOptions one_track = oneTrack(options);
-  if (options.mean_square > 0) one_track.limit = withinReach(bytesOf(drawn.tracks));
+  if (options.mean_square > 0) one_track.limit = withinReach(bytesOf(drawn));
   Contest contest{false, {}};
   const EncodedTexture& wavelet = challenge(source, purpose, one_track, contest.attempts);
   contest.drawn_wins = showsBetter(drawn, wavelet, options, source.texels.samples.size());
@@ -184,7 +210,7 @@ EncodedTexture encodeToCompare(const TextureSource& source, Purpose purpose,
                                const TextureOptions& options) {
   TextureOptions compared = oneTrack(options);
   compared.limit = std::min(options.limit, options.room);
-  return encodeByWavelet(source, purpose, compared);
+  return encodeOnce(source, purpose, compared, {});
 }
 
 /// Codes the image by wavelet, with an overlay or without. Both are coded in one track to compare
@@ -194,7 +220,8 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
                                 const TextureOptions& options, Attempts attempts) {
   const std::vector<uint8_t> photograph = photographOf(source, purpose);
   const bool one_track = options.region_log2 == 0;
-  if (photograph.empty() && !one_track)
+  const bool in_tables = purpose == Purpose::kLossless && !fewValuesOf(source, {}).none();
+  if (photograph.empty() && !one_track && !in_tables)
     return encodeByWavelet(source, purpose, options, {},
                            attempts.plain ? &attempts.plain->header : nullptr);
   const bool ends_early = !photograph.empty() && !attempts.plain && options.room < options.limit &&
@@ -213,16 +240,18 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
 Contest contestOf(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
                   TextureOptions options) {
   options.priorities = nullptr;
-  const bool whole = bytesOf(drawn.tracks) <= options.room && options.mean_square == 0;
+  const bool whole = bytesOf(drawn) <= options.room && options.mean_square == 0;
   return (whole ? contestWhole : contestCut)(drawn, source, purpose, options);
 }
 
 /// What does not look drawn has to save a fifth of the photograph's bytes, or to fit whole into the
 /// budget, to be tried. Lossy tracks without an aim have bits behind the last one of the texels.
+/// Estimates of what has few values are up to 2.5 times the bytes.
 uint64_t mostToTry(const EncodedTexture& photograph, Purpose purpose,
                    const TextureOptions& options) {
-  const uint64_t bytes = bytesOf(photograph.tracks);
+  const uint64_t bytes = bytesOf(photograph);
   if (options.room < bytes) return options.room;
+  if (photograph.header.tables.present) return 5 * bytes / 2;
   const bool aimed = purpose == Purpose::kLossless || options.mean_square > 0;
   return aimed && bytes > kFewBytes ? bytes - bytes / 5 : 0;
 }
@@ -249,7 +278,7 @@ EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, Textu
   if (purpose == Purpose::kLossless) options.mean_square = 0;
   EncodedTexture encoded = encodeModelled(source, purpose, options);
   const uint64_t stored = storedBytes(source.texels);
-  const bool shorter = stored < bytesOf(encoded.tracks) && stored <= options.room;
+  const bool shorter = stored < bytesOf(encoded) && stored <= options.room;
   return purpose == Purpose::kLossless && shorter ? encodeStoredTexture(source.texels)
                                                   : std::move(encoded);
 }

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "codec/lines/shown_lines.hpp"
 #include "texture_wavelet/colour/colour_levels.hpp"
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 #include "texture_wavelet/stored_texture_decoder.hpp"
+#include "texture_wavelet/tables/channel_tables.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "wavelet/synthesis/view_synthesis.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -26,12 +28,21 @@ void finish(const TextureHeader& header, int fraction_bits, std::span<std::vecto
   const size_t count = texels.extent().samples(), channels = texels.channels;
   const int32_t most = texels.most();
   const ColourTransform colour = colourOf(header);
+  const ChannelTables tables = channelTablesOf(header);
   texels.samples.resize(count * channels);
   parallelFor(threads, (count + kColourChunk - 1) / kColourChunk, [&](size_t i) {
     const size_t first = i * kColourChunk, size = std::min(kColourChunk, count - first);
     std::vector<int32_t*> chunk(planes.size());
     for (size_t c = 0; c < planes.size(); ++c) chunk[c] = planes[c].data() + first;
-    inverseColour(colour, chunk, size, fraction_bits);
+    inverseShears(colour, chunk, size);
+    for (size_t c = 0; c < planes.size(); ++c) {
+      const std::span channel(chunk[c], size);
+      if (tables[c].empty()) {
+        restoreSamples(channel, colour.centre[c], fraction_bits);
+      } else {
+        placesToSamples(tables[c], colour.centre[c], fraction_bits, channel);
+      }
+    }
     uint16_t* out = texels.samples.data() + first * channels;
     for (size_t c = 0; c < planes.size(); ++c) {
       for (size_t k = 0; k < size; ++k)
@@ -133,9 +144,11 @@ uint64_t TextureMemory::bytes() const {
   return bytes;
 }
 
-Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
-                     const DecodeContext<TextureMemory>& context) {
-  assert(!codewords.empty() && (context.memory == nullptr || !view.window));
+namespace {
+
+/// A view of the lines that are coded.
+Texels decodeLines(const TextureHeader& header, const Codewords& codewords, const View& view,
+                   const DecodeContext<TextureMemory>& context) {
   if (header.direct()) return decodeDirect(header, codewords.front(), view);
   TextureMemory* const memory = context.memory;
   Codewords coefficients = codewords;
@@ -150,6 +163,20 @@ Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, co
   finish(header, precision.fraction_bits, planes, context.threads, texels);
   finishAlpha(cut(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);
   opening->paint(header.extent(), view, texels);
+  return texels;
+}
+
+}  // namespace
+
+Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
+                     const DecodeContext<TextureMemory>& context) {
+  assert(!codewords.empty() && (context.memory == nullptr || !view.window));
+  const ShownLines lines(header, view);
+  Texels texels = decodeLines(header, codewords, lines.coded(), context);
+  if (lines.none()) return texels;
+  texels.samples = lines.shown(texels.samples, texels.channels);
+  texels.width = static_cast<uint32_t>(lines.columns().size());
+  texels.height = static_cast<uint32_t>(lines.rows().size());
   return texels;
 }
 

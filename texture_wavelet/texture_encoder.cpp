@@ -2,8 +2,10 @@
 #include "texture_wavelet/texture_encoder.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -13,6 +15,7 @@
 #include "texture_wavelet/colour/lossless_colour.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
+#include "texture_wavelet/tables/channel_tables_encoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "texture_wavelet/visual_weights.hpp"
 #include "wavelet/choice/rounding_choice.hpp"
@@ -35,19 +38,24 @@ Planes separate(const Texels& texels, uint32_t channels) {
   return planes;
 }
 
+/// What the squared error of each channel counts.
+using ChannelWeights = std::array<double, 4>;
+
 /// Squared error of all channels per squared error of each component's coefficients of a level;
 /// alpha counts like a colour.
-std::vector<double> energiesOf(size_t components, const ColourTransform& colour, int level) {
-  std::vector<double> energies(components, 1.0);
+std::vector<double> energiesOf(size_t components, const ColourTransform& colour, int level,
+                               const ChannelWeights& weights) {
+  std::vector<double> energies(weights.begin(), weights.begin() + static_cast<int>(components));
   if (components >= 3) {
-    const std::array<double, 3> rgb = componentEnergies(colour, level);
+    const std::array<double, 3> rgb =
+        componentEnergies(colour, level, {weights[0], weights[1], weights[2]});
     std::copy(rgb.begin(), rgb.end(), energies.begin());
   }
   return energies;
 }
 
 TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
-                         const WaveletHeader& wavelet, size_t components) {
+                         const WaveletHeader& wavelet, size_t components, const FewValues& few) {
   TextureHeader header;
   header.width = texels.width;
   header.height = texels.height;
@@ -59,9 +67,12 @@ TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
   std::copy(colour.shears.begin(), colour.shears.end(), header.colour_shears.front().begin());
   for (const Shears& shears : colour.level_shears)
     std::copy(shears.begin(), shears.end(), header.colour_shears.emplace_back().begin());
-  const std::vector<double> energies = energiesOf(components, colour, 1);
+  if (!few.none()) header.tables = headerOf(few.tables, texels.bits);
+  const std::vector<double> energies = energiesOf(components, colour, 1, few.squares);
+  const double usual =
+      *std::min_element(few.squares.begin(), few.squares.begin() + static_cast<int>(components));
   for (size_t c = 0; c < components; ++c) {
-    const double priority = std::round(8 * std::log2(energies[c]));
+    const double priority = std::round(8 * std::log2(energies[c] / usual));
     header.priority[c] = static_cast<int64_t>(std::clamp(priority, -128.0, 128.0));
   }
   return header;
@@ -92,7 +103,7 @@ struct Fit {
 /// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of
 /// it, else by green, or grey, because it must be known how many fraction bits go in.
 WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, const Texels& texels,
-                               Mask coded, Planes& planes) {
+                               int bits, Mask coded, Planes& planes) {
   const auto view_of = [&](const std::vector<int32_t>& plane) {
     return PlaneView<const int32_t>(plane, texels.extent(), coded);
   };
@@ -100,24 +111,25 @@ WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, c
     transformColours(colour, 0, planes);
     std::vector<PlaneView<const int32_t>> all;
     for (const std::vector<int32_t>& plane : planes) all.push_back(view_of(plane));
-    return chooseLosslessWavelet(all, texels.bits);
+    return chooseLosslessWavelet(all, bits);
   }
   const WaveletHeader wavelet =
-      chooseWavelet(view_of(planes[texels.channels >= 3 ? 1 : 0]), texels.bits, purpose);
+      chooseWavelet(view_of(planes[texels.channels >= 3 ? 1 : 0]), bits, purpose);
   transformColours(colour, wavelet.fraction_bits, planes);
   return wavelet;
 }
 
-/// Chooses colours and filters, or takes those of `like`, and transforms the colours of the planes.
-Fit fitAndTransform(const Texels& texels, Purpose purpose, Mask coded, const TextureHeader* like,
-                    Planes& planes) {
+/// Chooses colours and filters, or takes those of `like`, and transforms the colours of the planes,
+/// whose samples have so many bits.
+Fit fitAndTransform(const Texels& texels, Purpose purpose, int bits, Mask coded,
+                    const TextureHeader* like, Planes& planes) {
   if (like != nullptr) {
     const Fit fit{colourOf(*like), like->wavelet};
     transformColours(fit.colour, fit.wavelet.fraction_bits, planes);
     return fit;
   }
   const ColourTransform colour = fitColours(planes, texels, purpose);
-  return {colour, transformColours(colour, purpose, texels, coded, planes)};
+  return {colour, transformColours(colour, purpose, texels, bits, coded, planes)};
 }
 
 void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track) {
@@ -146,7 +158,8 @@ std::vector<uint8_t> intersection(Mask a, Mask b) {
 }
 
 std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const ColourTransform& colour,
-                                       Mask coded, const TrackOptions& options, Planes& planes) {
+                                       const ChannelWeights& weights, Mask coded,
+                                       const TrackOptions& options, Planes& planes) {
   const TexturePlan plan(header, coded);
   const PlaneLayout& layout = plan.layout();
   const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
@@ -163,7 +176,7 @@ std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const Colour
   const auto add = [&](size_t c, size_t region, TrackSource& source) {
     for (const BandPart& part : plan.parts(region)) {
       const int level = layout.subbands()[part.subband].level;
-      const double energy = energiesOf(planes.size(), colour, level)[c];
+      const double energy = energiesOf(planes.size(), colour, level, weights)[c];
       source.bands.push_back(
           {layout.gather(planes[c], part), layout.energy(part.subband) * energy * unit, worth});
     }
@@ -195,22 +208,33 @@ TrackOptions untilReached(const TextureOptions& options, uint64_t samples) {
   return tracks;
 }
 
-}  // namespace
+/// How many bits the samples of the channels have, of which those with tables are places.
+int bitsOf(const Texels& texels, uint32_t channels, const FewValues& few) {
+  int bits = 1;
+  for (uint32_t c = 0; c < channels; ++c) {
+    const size_t values = few.tables[c].size();
+    bits = std::max(bits, values == 0 ? texels.bits : static_cast<int>(std::bit_width(values - 1)));
+  }
+  return bits;
+}
 
-EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
-                               const TextureOptions& options, Mask photograph,
-                               const TextureHeader* like) {
+/// few: none, or tables of the samples that are coded.
+EncodedTexture encode(const TextureSource& source, Purpose purpose, const TextureOptions& options,
+                      Mask photograph, const TextureHeader* like, const FewValues& few) {
   const Texels& texels = source.texels;
   const std::vector<uint8_t>& seen = source.cutout;
   const bool hidden = !seen.empty() && purpose == Purpose::kLossy;
-  Planes planes = separate(texels, texels.channels - (seen.empty() ? 0 : 1));
+  Planes planes = separate(texels, source.colours());
+  for (size_t c = 0; c < planes.size(); ++c)
+    if (!few.tables[c].empty()) samplesToPlaces(few.tables[c], planes[c]);
   std::vector<uint8_t> common;
   if (hidden && !photograph.all()) common = intersection(seen, photograph);
   const Mask coded = !common.empty() ? Mask(common) : hidden ? Mask(seen) : photograph;
   hideColours(coded, planes);
-  auto [colour, wavelet] = fitAndTransform(texels, purpose, coded, like, planes);
+  const int bits = bitsOf(texels, source.colours(), few);
+  auto [colour, wavelet] = fitAndTransform(texels, purpose, bits, coded, like, planes);
   if (options.windows) wavelet = withShortReach(wavelet);
-  EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size()), {}};
+  EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size(), few), {}};
   TextureHeader& header = encoded.header;
   header.hidden = hidden;
   if (options.priorities != nullptr) header.priorities = headerOf(*options.priorities);
@@ -224,14 +248,36 @@ EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
   const uint64_t counted = countedSamples(texels, source.counted(hidden));
   double squares = 0;  // by the first component, which holds most of the bits
   if (wavelet.fraction_bits == 0)
-    squares = static_cast<double>(planes.size()) *
+    squares = std::accumulate(few.squares.begin(),
+                              few.squares.begin() + static_cast<int>(planes.size()), 0.) *
               roundedSquares({planes.front(), texels.extent(), coded}, {}, wavelet);
-  encoded.tracks = encodePlanes(header, colour, coded, untilReached(options, counted), planes);
+  encoded.tracks =
+      encodePlanes(header, colour, few.squares, coded, untilReached(options, counted), planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   if (wavelet.fraction_bits == 0)
     header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, squares);
   prependOpening(texels, overlay, mask, encoded.tracks.front());
   return encoded;
+}
+
+}  // namespace
+
+EncodedTexture encodeByWavelet(const TextureSource& source, Purpose purpose,
+                               const TextureOptions& options, Mask photograph,
+                               const TextureHeader* like) {
+  const bool in_tables = like != nullptr && like->tables.present;
+  assert(!in_tables || purpose == Purpose::kLossless);
+  return encode(source, purpose, options, photograph, like,
+                in_tables ? fewValuesOf(source, photograph) : FewValues());
+}
+
+EncodedTexture encodeInTables(const TextureSource& source, const FewValues& few,
+                              const TextureOptions& options, Mask photograph) {
+  return encode(source, Purpose::kLossless, options, photograph, nullptr, few);
+}
+
+FewValues fewValuesOf(const TextureSource& source, Mask photograph) {
+  return fewValuesOf(source.texels, source.colours(), photograph);
 }
 
 }  // namespace tetrakis::inline texture

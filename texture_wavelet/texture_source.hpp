@@ -22,6 +22,9 @@ struct TextureSource {
   /// are not coded.
   Mask counted(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
 
+  /// Channels that are colour planes: all but the alpha of a cut-out.
+  uint32_t colours() const { return texels.channels - (cutout.empty() ? 0 : 1); }
+
   Texels texels;
   std::vector<uint8_t> cutout;  ///< cutoutOf(texels)
 };
@@ -34,6 +37,7 @@ struct TextureOptions {
   bool visual = false;          ///< what is seen comes first, not what is off most
   uint64_t room = UINT64_MAX;   ///< bytes that will be sent at most, if there is a budget
   double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
+  bool tables = true;           ///< of values: lossless textures may have them
   const PriorityMap* priorities = nullptr;  ///< what comes earlier; null: nothing
 };
 

@@ -39,14 +39,15 @@ struct GeometryHeader {
 
   template <class V>
   void visit(V& v) {
-    Extent whole = shown();
-    v.varint("geometry_width", whole.width, 1, kMaxSide);
-    v.varint("geometry_height", whole.height, 1, kMaxSide);
-    auto kind = static_cast<uint8_t>(sample + (repeats.none() ? 0 : kWithRepeats));
+    LineFields lines(repeats, extent());
+    v.varint("geometry_width", lines.whole.width, 1, kMaxSide);
+    v.varint("geometry_height", lines.whole.height, 1, kMaxSide);
+    auto kind = static_cast<uint8_t>(sample + (lines.repeated() ? kWithRepeats : 0));
     v.u8("geometry_sample", kind, 0, kWithRepeats + TKS_F32);
     sample = kind % kWithRepeats;
-    if (kind >= kWithRepeats) v.text("repeated_lines", repeats.code);
-    if (v.ok()) setLines(whole, kind >= kWithRepeats);
+    const Extent coded = lines.visitMap(v, kind >= kWithRepeats);
+    width = coded.width;
+    height = coded.height;
     auto coding =
         static_cast<uint8_t>(planes + (drawn || !priorities.none() ? kWithPriorities : 0));
     v.u8("geometry_planes", coding, 0, kWithPriorities + kDirectPlanes);
@@ -70,14 +71,6 @@ struct GeometryHeader {
   static constexpr uint8_t kDirectPlanes = 31;
   static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes
   static constexpr uint8_t kWithRepeats = 8;      ///< bit beside the type of the samples
-
- private:
-  void setLines(Extent whole, bool repeated) {
-    if (repeated) repeats.shown = whole;
-    const Extent coded = repeated ? lineMapsOf(repeats).coded() : whole;
-    width = coded.width;
-    height = coded.height;
-  }
 };
 
 /// A point of the polyline that stands for a table of values while that is missing.

@@ -70,7 +70,7 @@ void visitGeoreference(V& v, StreamHeader& header) {
   if (header.geometry) place.visitHeights(v, basis);
   if (!header.texture) return;
   if (header.geometry && place.heights.has_transform) {
-    const double columns = header.texture->width, rows = header.texture->height;
+    const double columns = header.texture->shown().width, rows = header.texture->shown().height;
     basis.heights = stretched(place.heights.transform, header.geometry->shown().width / columns,
                               header.geometry->shown().height / rows);
     basis.has_heights = true;
@@ -125,7 +125,8 @@ uint8_t levelFor(const StreamHeader& header) {
     samples = uint64_t{shown.width} * shown.height;
   }
   if (header.texture) {
-    samples = std::max(samples, uint64_t{header.texture->width} * header.texture->height);
+    const Extent shown = header.texture->shown();
+    samples = std::max(samples, uint64_t{shown.width} * shown.height);
   }
   const int bits = samples <= 1 ? 0 : static_cast<int>(std::bit_width(samples - 1));
   return static_cast<uint8_t>(std::max(0, (bits + 1) / 2 - 8));

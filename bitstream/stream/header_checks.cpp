@@ -114,9 +114,11 @@ Status checkTexture(const StreamHeader& header) {
   if (t.sample != TKS_U8 && t.sample != TKS_U16) {
     return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
   }
-  if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0 || !t.priorities.none())) {
+  if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0 || !t.priorities.none() ||
+                     t.tables.present)) {
     return {TKS_CORRUPT,
-            "Corrupt stream: a drawn or stored texture has regions, weights or priorities."};
+            "Corrupt stream: a drawn or stored texture has regions, weights, priorities or "
+            "tables."};
   }
   return {};
 }

@@ -68,4 +68,28 @@ struct LineMaps {
 /// The map that a header describes. Safe on any code.
 LineMaps lineMapsOf(const LineRepeats& repeats);
 
+/// Fields of headers: the lines of the plane that is shown, and which of them repeat others.
+class LineFields {
+ public:
+  /// coded: lines of the plane as far as they are known.
+  LineFields(LineRepeats& repeats, Extent coded) : repeats_(repeats), repeated_(!repeats.none()) {
+    whole = repeated_ ? repeats.shown : coded;
+  }
+  bool repeated() const { return repeated_; }
+  /// Reads or writes the map. repeated: there is one. Returns the coded lines.
+  template <class V>
+  Extent visitMap(V& v, bool repeated) {
+    if (repeated) v.text("repeated_lines", repeats_.code);
+    if (!v.ok() || !repeated) return whole;
+    repeats_.shown = whole;
+    return lineMapsOf(repeats_).coded();
+  }
+
+  Extent whole;  ///< that is shown
+
+ private:
+  LineRepeats& repeats_;
+  bool repeated_;
+};
+
 }  // namespace tetrakis::inline stream

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/plane.hpp"
 #include "bitstream/stream/coding_headers.hpp"
+#include "bitstream/stream/line_repeats.hpp"
 #include "bitstream/track/band.hpp"
 #include "tetrakis/tetrakis.h"
 
@@ -46,19 +48,37 @@ struct BandWeights {
   }
 };
 
+/// The values that the channels of components have, where their type could hold more: the wavelet
+/// codes places in these tables (texture_wavelet/tables/channel_tables.hpp).
+struct ChannelTablesHeader {
+  static constexpr uint32_t kMostValues = 1u << 16;
+
+  bool present = false;
+  std::array<uint32_t, 4> values{};  ///< how many a channel's table has; 0: it has none
+  std::string code;
+
+  template <class V>
+  void visit(V& v, uint32_t components) {
+    for (uint32_t c = 0; c < components; ++c) v.varint("table_values", values[c], 0, kMostValues);
+    v.text("value_tables", code);
+  }
+};
+
 /// Texture: centre, order and shears as in texture_wavelet/colour/colour.hpp. Drawn and stored ones
 /// end with `planes`.
 struct TextureHeader {
-  uint32_t width = 0, height = 0;
+  uint32_t width = 0, height = 0;  ///< of the lines that are coded
+  LineRepeats repeats;             ///< which of those that are shown they are
   uint8_t channels = 0;
   uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
   uint8_t colour_order = 0;
   /// Textures of 3 components or more have the shears of samples, then those of coefficients.
   std::vector<std::array<int64_t, 6>> colour_shears{{}};
-  std::array<uint16_t, 4> centre{};   ///< one per component
+  std::array<uint16_t, 4> centre{};   ///< one per component; of a table a place
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
   WaveletHeader wavelet;
+  ChannelTablesHeader tables;
   PriorityHeader priorities;
   RegionHeader regions;  ///< a part of the header of its own
   BandWeights weights;
@@ -71,17 +91,26 @@ struct TextureHeader {
   bool stored = false;  ///< sample by sample, without a transform
 
   Extent extent() const { return {width, height}; }
-  Extent shown() const { return extent(); }
+  Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
+  int sampleBits() const { return sample == TKS_U8 ? 8 : 16; }
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
 
   template <class V>
   void visit(V& v) {
-    v.varint("texture_width", width, 1, kMaxTextureSide);
-    v.varint("texture_height", height, 1, kMaxTextureSide);
+    LineFields lines(repeats, extent());
+    v.varint("texture_width", lines.whole.width, 1, kMaxTextureSide);
+    v.varint("texture_height", lines.whole.height, 1, kMaxTextureSide);
     uint8_t kind = static_cast<uint8_t>(alpha_bytes == 0 ? channels : 4 + channels / 2);
     v.u8("channels", kind, 1, 6);
     channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
-    v.u8("texture_sample", sample, 0, TKS_U16);
+    auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0) +
+                                     (lines.repeated() ? kWithRepeats : 0));
+    v.u8("texture_sample", type, 0, kWithRepeats + kWithTables + TKS_U16);
+    sample = type % kWithTables;
+    tables.present = (type & kWithTables) != 0;
+    const Extent coded = lines.visitMap(v, type >= kWithRepeats);
+    width = coded.width;
+    height = coded.height;
     const uint8_t overlaid = kDrawnPlanes + 1;
     auto coding = static_cast<uint8_t>(
         (stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
@@ -103,7 +132,23 @@ struct TextureHeader {
       v.varint("centre", centre[c], 0, 0xffff);
       v.zigzag("priority", priority[c], kMaxPriority);
     }
-    if (components() < 3) return;
+    if (components() >= 3) visitShears(v);
+    if (tables.present) tables.visit(v, components());
+  }
+  bool drawn() const { return direct() && !stored; }
+  /// The texture was coded without a transform: drawn or stored.
+  bool direct() const { return planes == kDrawnPlanes; }
+
+  static constexpr uint8_t kWithTables = 4;       ///< bit beside the type of the samples
+  static constexpr uint8_t kWithRepeats = 8;      ///< another one
+  static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
+  static constexpr int64_t kMaxPriority = 128;
+  static constexpr uint8_t kOrders = 6;      ///< of channels
+  static constexpr uint8_t kMostShears = 8;  ///< sets of shears
+
+ private:
+  template <class V>
+  void visitShears(V& v) {
     auto colour = static_cast<uint8_t>(colour_order + kOrders * (colour_shears.size() - 1));
     v.u8("colour", colour, 0, kOrders * kMostShears - 1);
     colour_order = colour % kOrders;
@@ -112,14 +157,6 @@ struct TextureHeader {
       for (int64_t& shear : shears) v.zigzag("colour_shear", shear, INT16_MAX);
     }
   }
-  bool drawn() const { return direct() && !stored; }
-  /// The texture was coded without a transform: drawn or stored.
-  bool direct() const { return planes == kDrawnPlanes; }
-
-  static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
-  static constexpr int64_t kMaxPriority = 128;
-  static constexpr uint8_t kOrders = 6;      ///< of channels
-  static constexpr uint8_t kMostShears = 8;  ///< sets of shears
 };
 
 }  // namespace tetrakis::inline stream

@@ -11,7 +11,7 @@
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/relative/relative_decoder.hpp"
-#include "codec/geometry/repeats/shown_lines.hpp"
+#include "codec/geometry/shown_heights.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/stored_heights_decoder.hpp"
 #include "codec/geometry/values/value_stand_in.hpp"
@@ -254,7 +254,7 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
                              const Codewords& codewords, const View& view,
                              const DecodeContext<HeightsMemory>& context) {
   const ShownLines lines(header, view);
-  return lines.shown(decodeLines(header, layers, codewords, lines.coded(), context));
+  return shownHeights(lines, decodeLines(header, layers, codewords, lines.coded(), context));
 }
 
 }  // namespace tetrakis::inline geometry

@@ -37,6 +37,7 @@ std::vector<VectorCase> damagedCases();
 std::vector<VectorCase> craftedCases();
 // crafted_wavelet_cases.cpp
 std::vector<VectorCase> weightCases();
+std::vector<VectorCase> channelTableCases();
 std::vector<VectorCase> shearCases();
 std::vector<VectorCase> roundedCases();
 // crafted_drawing_cases.cpp

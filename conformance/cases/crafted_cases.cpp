@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "codec/geometry/flat/flat_encoder.hpp"
-#include "codec/geometry/repeats/line_repeats_encoder.hpp"
+#include "codec/lines/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
 
@@ -150,6 +150,8 @@ std::vector<VectorCase> repeatedCases() {
   corrected.geometry->repeats = encodeRepeats(runs(70, 1), runs(31, 2));
   corrected.layers.corrections = CorrectionKind::kSamples;
   corrected.layers.coefficient_bytes = 300;
+  StreamHeader texels = textureHeader(61, 44, 4, TKS_U16, 14);
+  texels.texture->repeats = encodeRepeats(runs(61, 5), runs(44, 6));
   ends.geometry->repeats = {{40, 60}, std::string("\x35\x17", 2)};
   one.geometry->repeats = encodeRepeats(std::vector<uint8_t>{0, 1, 1, 1, 1, 1, 1}, runs(50, 3));
   return {crafted("noise_repeats_7x50", "noise: one column, which all others repeat",
@@ -157,7 +159,9 @@ std::vector<VectorCase> repeatedCases() {
           crafted("noise_repeats_f32_70x31", "noise: repeated lines in runs of any lengths",
                   streamOf(corrected, noise(900, 91))),
           crafted("noise_repeats_end_40x60", "noise: a map of repeated lines that ends early",
-                  streamOf(ends, noise(700, 92)))};
+                  streamOf(ends, noise(700, 92))),
+          crafted("noise_repeats_texels_61x44", "noise: repeated lines of four channels",
+                  streamOf(texels, noise(900, 94)))};
 }
 
 std::vector<VectorCase> correctionCases() {
@@ -231,7 +235,7 @@ std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = weightCases();
   for (const auto& cases :
        {wideCases(), craftedTableCases(), flatCases(), repeatedCases(), correctionCases(),
-        nodataCases(), shearCases(), drawnCases(), roundedCases()})
+        nodataCases(), shearCases(), channelTableCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

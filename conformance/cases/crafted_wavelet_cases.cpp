@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields of wavelets that no encoder writes: shears and priorities for any levels, roundings that
 // begin elsewhere, low bands that are doubled elsewhere.
+#include <array>
 #include <functional>
 
 #include "conformance/cases/cases.hpp"
@@ -55,10 +56,32 @@ VectorCase waveletCase(const std::string& name, const std::string& purpose,
   return crafted(name, purpose, std::move(bytes));
 }
 
+/// Tables of noise: values in any order, and coefficients of noise.
+VectorCase tablesOfNoise(const std::string& name, const std::string& purpose, StreamHeader header,
+                         const std::array<uint32_t, 4>& values, size_t bytes) {
+  header.texture->tables = {true, values, {}};
+  for (const uint8_t byte : noise(bytes, values[0])) header.texture->tables.code += char(byte);
+  return crafted(name, purpose, streamOf(header, noise(900, values[1])));
+}
+
 }  // namespace
 
 std::vector<VectorCase> weightCases() {
   return {weightCase(3, 2), weightCase(4, 8)};
+}
+
+std::vector<VectorCase> channelTableCases() {
+  StreamHeader eighths = textureHeader(40, 33, 3, TKS_U8, 9),
+               one = textureHeader(31, 9, 1, TKS_U8, 8);
+  eighths.texture->wavelet.fraction_bits = 3;
+  StreamHeader deep = textureHeader(30, 41, 4, TKS_U16, 30);
+  deep.texture->wavelet.fraction_bits = 8;
+  return {tablesOfNoise("noise_tables_40x33", "noise: tables in any order, three fraction bits",
+                        eighths, {40, 0, 256, 0}, 400),
+          tablesOfNoise("noise_tables_end_30x41", "noise: tables that end early, beside one value",
+                        deep, {1, 300, 65536, 5}, 900),
+          tablesOfNoise("noise_tables_one_31x9", "noise: more values than the type has", one,
+                        {700, 0, 0, 0}, 900)};
 }
 
 std::vector<VectorCase> shearCases() {

@@ -13,13 +13,13 @@
 namespace tetrakis::conformance {
 namespace {
 
-/// Each height as often as the case says, the first ones of either side once less.
+/// Each sample, or texel, as often as the case says, the first ones of either side once less.
 samples::Raster enlarged(const samples::Raster& of, const uint32_t (&copies)[2]) {
   samples::Raster raster = of;
   raster.width = of.width * copies[0] - (copies[0] - 1);
   raster.height = of.height * copies[1] - (copies[1] - 1);
   raster.data.clear();
-  const size_t bytes = tks_sample_bytes(of.sample);
+  const size_t bytes = tks_sample_bytes(of.sample) * of.channels;
   for (uint32_t y = 0; y < raster.height; ++y) {
     const size_t row = (y + copies[1] - 1) / copies[1];
     for (uint32_t x = 0; x < raster.width; ++x) {
@@ -125,11 +125,14 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
   }
   if (vector_case.texture) {
     picture = samples::make(*vector_case.texture);
+    if (vector_case.levels > 0)
+      picture = samples::withFewTexels(picture, vector_case.levels, vector_case.levels_of);
     const auto mask = [&](samples::VoidShape shape) {
       return samples::validity(shape, picture.width, picture.height);
     };
     if (vector_case.overlay) samples::drawOver(picture, mask(*vector_case.overlay));
     if (vector_case.cutout) samples::cutOut(picture, mask(*vector_case.cutout));
+    picture = enlarged(picture, vector_case.texel_copies);
     image = picture.image();
   }
   if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);

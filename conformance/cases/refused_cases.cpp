@@ -188,6 +188,15 @@ std::vector<VectorCase> refusedHeaders() {
   });
   refuse("registration", "a registration that there is not",
          [](StreamHeader& h) { h.georeference.heights.registration = 3; });
+  refuse("drawn_tables", "a drawn texture with tables of values", [](StreamHeader& h) {
+    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+    h.texture->tables.present = true;
+  });
+  refuse("table_texels", "a table of more values than samples may have", [](StreamHeader& h) {
+    h = textureHeader(9, 9, 1, TKS_U16, 8);
+    h.texture->tables.present = true;
+    h.texture->tables.values[0] = ChannelTablesHeader::kMostValues + 1;
+  });
   refuse("texels", "a texture of signed samples",
          [](StreamHeader& h) { h = textureHeader(9, 9, 1, TKS_I8, 8); });
   return cases;

@@ -1,16 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures: channels, filters, drawings, overlays, cut-outs.
+#include <utility>
+
 #include "conformance/cases/case_builders.hpp"
 #include "conformance/cases/cases.hpp"
 
 namespace tetrakis::conformance {
+
+namespace {
+
+/// Channels have few values.
+VectorCase leveled(VectorCase vector_case, uint32_t levels, tks_sample of) {
+  vector_case.levels = levels;
+  vector_case.levels_of = of;
+  return vector_case;
+}
+
+std::vector<VectorCase> fewTexelsCases() {
+  const auto image = [](uint32_t width, uint32_t height, uint32_t channels) {
+    return Recipe{Pattern::kRidges, width, height, channels, TKS_U8, 7};
+  };
+  return {
+      leveled(textureCase("tables_rgb_50x37", "tables of the values of channels", image(50, 37, 3),
+                          lossless()),
+              90, TKS_U8),
+      leveled(textureCase("tables_grey_alpha16_60x33", "tables of 16 bits, of alpha too",
+                          image(60, 33, 2), lossless()),
+              200, TKS_U16),
+      leveled(textureCase("tables_regions_rgb16_70x50", "tables of 16 bits, regions, index",
+                          image(70, 50, 3), inRegions(indexed(lossless()), 16)),
+              150, TKS_U16),
+      asCutout(drawnOver(leveled(textureCase("tables_overlay_80x60",
+                                             "tables beside a mask and an overlay",
+                                             image(80, 60, 4), lossless()),
+                                 100, TKS_U8),
+                         samples::VoidShape::kCoast),
+               samples::VoidShape::kFrame),
+  };
+}
+
+VectorCase copied(VectorCase vector_case, uint32_t across, uint32_t down) {
+  vector_case.texel_copies[0] = across;
+  vector_case.texel_copies[1] = down;
+  return vector_case;
+}
+
+std::vector<VectorCase> copiedTexelsCases() {
+  const auto image = [](Pattern pattern, uint32_t channels, tks_sample sample) {
+    return Recipe{pattern, 33, 26, channels, sample, 7};
+  };
+  return {
+      copied(textureCase("texel_copies_2x2_65x51", "texels copied to a larger grid, lossless",
+                         image(Pattern::kRidges, 3, TKS_U8), lossless()),
+             2, 2),
+      copied(leveled(textureCase("texel_copies_3x1_regions_97x26",
+                                 "copies in tables of values, in regions",
+                                 image(Pattern::kRidges, 1, TKS_U8), inRegions(lossless(), 16)),
+                     90, TKS_U16),
+             3, 1),
+      asCutout(
+          copied(textureCase("texel_copies_cutout_33x101", "copies beside a mask, by a byte budget",
+                             image(Pattern::kRidges, 4, TKS_U8), budget(900)),
+                 1, 4),
+          samples::VoidShape::kCoast),
+      copied(textureCase("drawn_copies_rgb_97x76", "a drawing whose lines repeat",
+                         image(Pattern::kSteps, 3, TKS_U8), lossless()),
+             3, 3),
+  };
+}
+
+}  // namespace
 
 std::vector<VectorCase> textureCases() {
   const auto image = [](Pattern pattern, uint32_t width, uint32_t height, uint32_t channels,
                         tks_sample sample) {
     return Recipe{pattern, width, height, channels, sample, 7};
   };
-  return {
+  std::vector<VectorCase> cases = {
       textureCase("texture_1x1", "smallest texture: no wavelet step",
                   image(Pattern::kRidges, 1, 1, 3, TKS_U8), lossless()),
       textureCase("texture_1x23", "one column", image(Pattern::kRidges, 1, 23, 1, TKS_U8),
@@ -39,7 +105,7 @@ std::vector<VectorCase> textureCases() {
       asCutout(textureCase("cutout_grey16_1x41", "cut-out of 16-bit grey, one column",
                            image(Pattern::kRidges, 1, 41, 2, TKS_U16), quality(40)),
                samples::VoidShape::kSpeckle),
-      textureCase("checker_rgb_16x16", "highest frequency at full range: every bit-plane is used",
+      textureCase("checker_rgb_16x16", "the highest frequency",
                   image(Pattern::kChecker, 16, 16, 3, TKS_U8), lossless()),
       textureCase("ramp_129x96", "another filter from level 3 on",
                   image(Pattern::kRamp, 129, 96, 1, TKS_U8), quality(58)),
@@ -47,8 +113,9 @@ std::vector<VectorCase> textureCases() {
                   image(Pattern::kRamp, 90, 40, 1, TKS_U8), quality(58)),
       textureCase("drawn_grey_70x33", "drawn: one channel",
                   image(Pattern::kSteps, 70, 33, 1, TKS_U8), lossless()),
-      textureCase("drawn_rgba16_45x60", "drawn: four channels of 16 bits",
-                  image(Pattern::kSteps, 45, 60, 4, TKS_U16), lossless()),
+      leveled(textureCase("drawn_rgba16_45x60", "drawn: four channels of 16 bits",
+                          image(Pattern::kRidges, 45, 60, 4, TKS_U8), lossless()),
+              3, TKS_U16),
       drawnOver(textureCase("overlay_rgb_64x50", "drawn over an image: its wavelet stops there",
                             image(Pattern::kRidges, 64, 50, 3, TKS_U8), lossless()),
                 samples::VoidShape::kCoast),
@@ -73,6 +140,9 @@ std::vector<VectorCase> textureCases() {
       weighted(textureCase("weights_rgba_70x40", "bands of each component have priorities",
                            image(Pattern::kRidges, 70, 40, 4, TKS_U8), budget(1500))),
   };
+  for (auto some : {fewTexelsCases(), copiedTexelsCases()})
+    for (VectorCase& each : some) cases.push_back(std::move(each));
+  return cases;
 }
 
 }  // namespace tetrakis::conformance

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/status.hpp"
+#include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/few_values.hpp"
 #include "conformance/samples/offset_heights.hpp"
 #include "conformance/samples/terrain_samples.hpp"
@@ -32,15 +33,18 @@ struct VectorCase {
   uint32_t copies[2] = {1, 1};              ///< heights are enlarged so many times, across and down
   std::optional<samples::VoidShape> cutout;   ///< alpha is 0 there, else the largest value
   std::optional<samples::VoidShape> overlay;  ///< drawn over there
-  double nodata = NAN;                        ///< the value of voids; a number is declared
-  bool apart = false;                         ///< valid samples that equal nodata are changed
-  int exponent = 0;                           ///< float heights are multiplied by 2^exponent
-  uint32_t spikes = 0;                        ///< one in so many heights stands out of a plain
-  bool placed = false;                        ///< heights and texture have a georeference
-  bool told = false;                          ///< a camera looks down on the north-west
-  std::vector<uint8_t> stream;  ///< not empty: nothing is encoded, these are the bytes
-  bool dense = false;           ///< cuts lie close to each other in the middle
-  int damaged_byte = -1;        ///< inverted after encoding; such a stream must not open
+  uint32_t levels = 0;  ///< > 0: u8 texels become samples of `levels_of` with so many values
+  tks_sample levels_of = TKS_U8;
+  uint32_t texel_copies[2] = {1, 1};  ///< the image is enlarged so many times, across and down
+  double nodata = NAN;                ///< the value of voids; a number is declared
+  bool apart = false;                 ///< valid samples that equal nodata are changed
+  int exponent = 0;                   ///< float heights are multiplied by 2^exponent
+  uint32_t spikes = 0;                ///< one in so many heights stands out of a plain
+  bool placed = false;                ///< heights and texture have a georeference
+  bool told = false;                  ///< a camera looks down on the north-west
+  std::vector<uint8_t> stream;        ///< not empty: nothing is encoded, these are the bytes
+  bool dense = false;                 ///< cuts lie close to each other in the middle
+  int damaged_byte = -1;              ///< inverted after encoding; such a stream must not open
 };
 
 /// All cases, in the order of the manifest.

@@ -319,7 +319,7 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   std::vector<uint8_t> first(ahead.begin(), ahead.end());
   std::vector<uint32_t> table;
   if (hasTable) {
-    table = decodeTable(take(codeword, layers.tableBytes), layers.tableValues);
+    table = decodeTables(take(codeword, layers.tableBytes), {layers.tableValues}, 32)[0];
     const auto behind = take(codeword, bytes - layers.tableAfter);
     first.insert(first.end(), behind.begin(), behind.end());
   }

@@ -31,8 +31,10 @@ Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t 
 std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const Plane& plane,
                                         const std::vector<int>& hints);
 
-/// So many words; none if a decision does not count.
-std::vector<uint32_t> decodeTable(std::span<const uint8_t> codeword, uint32_t values);
+/// Tables of so many words each, one behind the other; none from the first on of which a decision
+/// does not count. bits: of the first word.
+std::vector<std::vector<uint32_t>> decodeTables(std::span<const uint8_t> codeword,
+                                                const std::vector<uint32_t>& values, int bits);
 
 /// Takes up to `count` bytes off the front.
 inline std::span<const uint8_t> take(std::span<const uint8_t>& codeword, uint64_t count) {

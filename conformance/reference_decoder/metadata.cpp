@@ -25,8 +25,8 @@ Transform readTransform(Reader& in, int form, const Transform& spacing, const Tr
 
 /// Of a texture over the ground of the heights.
 Transform stretched(Transform t, const Stream& stream) {
-  const double columns = double(stream.geometry->shownWidth()) / stream.texture->width;
-  const double rows = double(stream.geometry->shownHeight()) / stream.texture->height;
+  const double columns = double(stream.geometry->shownWidth()) / stream.texture->shownWidth();
+  const double rows = double(stream.geometry->shownHeight()) / stream.texture->shownHeight();
   for (const int i : {1, 4}) t[i] *= columns;
   for (const int i : {2, 5}) t[i] *= rows;
   return t;

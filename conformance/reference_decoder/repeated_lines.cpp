@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: heights with repeated lines (docs/FORMAT.md, section 8.3).
+// Reference decoder: repeated lines (docs/FORMAT.md, section 8.3).
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -33,20 +33,22 @@ LineMap::LineMap(std::span<const uint8_t> code, int width, int height) {
   }
 }
 
-std::vector<uint8_t> decodeShownHeights(const GeometryHeader& header, const Layers& layers,
-                                        const Codewords& codewords, int level) {
-  const LineMap& map = header.lines;
-  if (map.columns.empty()) return decodeHeights(header, layers, codewords, level);
+namespace {
+
+/// The mip level of what is shown. decode(level): the samples of the coded lines, width x height.
+template <class Decode>
+std::vector<uint8_t> shownSamples(const LineMap& map, int codedWidth, int codedHeight, int level,
+                                  const Decode& decode) {
+  if (map.columns.empty()) return decode(level);
   const int width = static_cast<int>(map.columns.size()),
             height = static_cast<int>(map.rows.size());
   level = std::min(level, subbandsOf(width, height).front().level);
   int apart = 0;
-  while (int64_t{header.width} << apart < width || int64_t{header.height} << apart < height)
-    ++apart;
-  const int coarsest = subbandsOf(header.width, header.height).front().level;
+  while (int64_t{codedWidth} << apart < width || int64_t{codedHeight} << apart < height) ++apart;
+  const int coarsest = subbandsOf(codedWidth, codedHeight).front().level;
   const int coded = std::clamp(level - apart, 0, coarsest);
-  const std::vector<uint8_t> samples = decodeHeights(header, layers, codewords, coded);
-  const int columns = ((header.width - 1) >> coded) + 1, rows = ((header.height - 1) >> coded) + 1;
+  const std::vector<uint8_t> samples = decode(coded);
+  const int columns = ((codedWidth - 1) >> coded) + 1, rows = ((codedHeight - 1) >> coded) + 1;
   const size_t bytes = samples.size() / (size_t(columns) * rows);
   const int half = coded > 0 ? 1 << (coded - 1) : 0;
   std::vector<uint8_t> shown;
@@ -59,6 +61,20 @@ std::vector<uint8_t> decodeShownHeights(const GeometryHeader& header, const Laye
     }
   }
   return shown;
+}
+
+}  // namespace
+
+std::vector<uint8_t> decodeShownHeights(const GeometryHeader& header, const Layers& layers,
+                                        const Codewords& codewords, int level) {
+  return shownSamples(header.lines, header.width, header.height, level,
+                      [&](int coded) { return decodeHeights(header, layers, codewords, coded); });
+}
+
+std::vector<uint8_t> decodeShownTexture(const TextureHeader& header, const Codewords& codewords,
+                                        int level) {
+  return shownSamples(header.lines, header.width, header.height, level,
+                      [&](int coded) { return decodeTexture(header, codewords, coded); });
 }
 
 }  // namespace tetrakis::reference

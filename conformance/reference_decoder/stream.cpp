@@ -2,6 +2,7 @@
 // Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 12).
 #include "conformance/reference_decoder/stream.hpp"
 
+#include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/metadata.hpp"
 #include "conformance/reference_decoder/reader.hpp"
 #include "conformance/reference_decoder/regions.hpp"
@@ -47,7 +48,8 @@ PriorityHeader readPriorities(Reader& in, int width, int height) {
 }
 
 /// FORMAT 8.3: the size becomes that of the coded lines.
-void readLines(Reader& in, GeometryHeader& g) {
+template <class Header>
+void readLines(Reader& in, Header& g) {
   const auto code = in.take(in.varint(0, UINT64_MAX));
   if (in.outcome() != Outcome::kDone) return;
   g.lines = LineMap(code, g.width, g.height);
@@ -159,13 +161,17 @@ TextureHeader readTexture(Reader& in) {
   const bool cutout = kind > 4;
   t.components = cutout ? 2 * kind - 9 : kind;
   t.channels = t.components + cutout;
-  t.sample = in.u8(kU8, kU16);
-  if (t.sample == kI8) in.fail(Outcome::kCorrupt);
+  const int type = in.u8(0, 14);
+  const bool tables = type & 4;
+  t.sample = type % 4;
+  if (t.sample != kU8 && t.sample != kU16) in.fail(Outcome::kCorrupt);
+  if (type >= 8) readLines(in, t);
   const int all = in.u8(0, 126), coding = all % 64;
   t.planes = coding % 32;
   t.stored = coding == 63;
   if (all >= 64) t.priorities = readPriorities(in, t.width, t.height);
   if (all >= 64 && t.planes == kDrawnPlanes) in.fail(Outcome::kCorrupt);
+  if (t.planes == kDrawnPlanes && tables) in.fail(Outcome::kCorrupt);
   if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
   if (cutout) {
@@ -185,6 +191,12 @@ TextureHeader readTexture(Reader& in) {
       for (int& h : shears) h = in.zigzag(32767);
     }
   }
+  if (!tables) return t;
+  std::vector<uint32_t> values;
+  for (int i = 0; i < t.components; ++i)
+    values.push_back(static_cast<uint32_t>(in.varint(0, 65536)));
+  const auto code = in.take(in.varint(0, UINT64_MAX));
+  t.tables = decodeTables(code, values, t.sample == kU8 ? 8 : 16);
   return t;
 }
 
@@ -227,7 +239,7 @@ void skipIndex(Reader& in, const Stream& stream) {
 uint64_t samplesOf(const Stream& stream) {
   uint64_t heights = 0, texels = 0;
   if (const auto& g = stream.geometry) heights = uint64_t(g->shownWidth()) * g->shownHeight();
-  if (const auto& t = stream.texture) texels = uint64_t(t->width) * t->height;
+  if (const auto& t = stream.texture) texels = uint64_t(t->shownWidth()) * t->shownHeight();
   return std::max(heights, texels);
 }
 
@@ -331,7 +343,7 @@ Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels leve
     decoded.heights =
         decodeShownHeights(*stream.geometry, stream.layers, stream.codewords[0], levels.heights);
   if (stream.texture)
-    decoded.texture = decodeTexture(*stream.texture, stream.codewords[1], levels.texture);
+    decoded.texture = decodeShownTexture(*stream.texture, stream.codewords[1], levels.texture);
   return decoded;
 }
 

@@ -78,7 +78,10 @@ struct Layers {
 
 struct TextureHeader {
   int width = 0, height = 0, channels = 0, components = 0, sample = 0, planes = 0;
+  LineMap lines;  ///< width and height are of the coded ones
   bool stored = false;
+  int shownWidth() const { return lines.columns.empty() ? width : int(lines.columns.size()); }
+  int shownHeight() const { return lines.rows.empty() ? height : int(lines.rows.size()); }
   uint64_t alphaBytes = 0;    ///< 0: no cut-out
   uint64_t overlayBytes = 0;  ///< 0: no overlay
   bool hidden = false;
@@ -89,7 +92,8 @@ struct TextureHeader {
   /// [component][level - 1][1 for HH], as many levels as the header tells.
   std::array<std::vector<std::array<int, 2>>, 4> bandPriority;
   int colourOrder = 0;
-  std::vector<std::array<int, 6>> shears;  ///< of samples, of level 2, 3, ...
+  std::vector<std::array<int, 6>> shears;     ///< of samples, of level 2, 3, ...
+  std::vector<std::vector<uint32_t>> tables;  ///< of each component; empty: it has none
 };
 
 /// The codewords of a component's tracks.
@@ -120,6 +124,10 @@ std::vector<uint8_t> decodeShownHeights(const GeometryHeader& header, const Laye
 /// Samples of the header's type, channels interleaved, little endian (FORMAT 9).
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
                                    int level);
+
+/// The same with repeated lines (FORMAT 8.3).
+std::vector<uint8_t> decodeShownTexture(const TextureHeader& header, const Codewords& codewords,
+                                        int level);
 
 /// The same for kDrawnPlanes (FORMAT 9.1).
 std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,

@@ -65,6 +65,16 @@ void unshearLevels(const TextureHeader& header, const std::vector<Subband>& subb
   }
 }
 
+/// FORMAT 9, "Tables": what lies at place v, in units of 2^-f.
+int32_t valueAt(const std::vector<uint32_t>& table, int64_t v, int f, int32_t largest) {
+  const auto value = [&](size_t i) { return static_cast<int32_t>(table[i]) & largest; };
+  const int64_t place = std::clamp<int64_t>(v, 0, static_cast<int64_t>(table.size() - 1) << f);
+  const auto i = static_cast<size_t>(place >> f);
+  const auto part = static_cast<int32_t>(place - (static_cast<int64_t>(i) << f));
+  if (part == 0) return value(i);
+  return value(i) + (((value(i + 1) - value(i)) * part + (1 << (f - 1))) >> f);
+}
+
 /// The samples of one texel, by channel.
 std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4> planes, int f) {
   constexpr size_t kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
@@ -78,6 +88,11 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
   }
   const int32_t largest = header.sample == kU8 ? 255 : 65535;
   for (size_t i = 0; i < 4; ++i) {
+    if (i < header.tables.size() && !header.tables[i].empty()) {
+      const int64_t v = channels[i] + (int64_t{header.centre[i]} << f);
+      channels[i] = valueAt(header.tables[i], v, f, largest);
+      continue;
+    }
     const int32_t rounded = f == 0 ? channels[i] : wrap(channels[i] + (int64_t{1} << (f - 1))) >> f;
     channels[i] = std::clamp(wrap(int64_t{rounded} + header.centre[i]), 0, largest);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: the table of values (docs/FORMAT.md, section 8.1).
+// Reference decoder: tables of values (docs/FORMAT.md, sections 8.1 and 9).
 #include <array>
 #include <list>
 #include <optional>
@@ -10,14 +10,26 @@
 namespace tetrakis::reference {
 namespace {
 
-/// FORMAT 8.1, "Table of values". Nothing: a decision does not count.
+/// FORMAT 8.1, "Table of values".
 class TableDecoder {
  public:
   explicit TableDecoder(std::span<const uint8_t> codeword) : decoder_(codeword) {}
 
-  std::optional<uint32_t> firstWord() {
+  /// Nothing: a decision does not count.
+  std::optional<std::vector<uint32_t>> table(uint32_t values, int bits) {
+    std::vector<uint32_t> words;
+    for (uint32_t i = 0; i < values; ++i) {
+      const std::optional<uint32_t> next = i == 0 ? firstWord(bits) : gap();
+      if (!next) return std::nullopt;
+      words.push_back(i == 0 ? *next : words.back() + *next);
+    }
+    return words;
+  }
+
+ private:
+  std::optional<uint32_t> firstWord(int bits) {
     uint32_t word = 0;
-    for (int i = 0; i < 32; ++i) {
+    for (int i = 0; i < bits; ++i) {
       const std::optional<int> bit = decoder_.decode(1 << 15);
       if (!bit) return std::nullopt;
       word = 2 * word + static_cast<uint32_t>(*bit);
@@ -43,7 +55,6 @@ class TableDecoder {
     return fresh;
   }
 
- private:
   std::optional<uint32_t> freshGap() {
     int k = 1;
     for (; k < 32; ++k) {
@@ -72,15 +83,16 @@ class TableDecoder {
 
 }  // namespace
 
-std::vector<uint32_t> decodeTable(std::span<const uint8_t> codeword, uint32_t values) {
-  TableDecoder table(codeword);
-  std::vector<uint32_t> words;
-  for (uint32_t i = 0; i < values; ++i) {
-    const std::optional<uint32_t> next = i == 0 ? table.firstWord() : table.gap();
-    if (!next) return {};
-    words.push_back(i == 0 ? *next : words.back() + *next);
+std::vector<std::vector<uint32_t>> decodeTables(std::span<const uint8_t> codeword,
+                                                const std::vector<uint32_t>& values, int bits) {
+  TableDecoder decoder(codeword);
+  std::vector<std::vector<uint32_t>> tables(values.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    const std::optional<std::vector<uint32_t>> table = decoder.table(values[i], bits);
+    if (!table) break;
+    tables[i] = *table;
   }
-  return words;
+  return tables;
 }
 
 }  // namespace tetrakis::reference

@@ -34,6 +34,8 @@ struct CodedHeights {
   /// The complete tracks restore every sample.
   bool restoresSamples() const;
   bool corrects() const { return layers.restoresSamples(); }
+  /// Bytes of the header that not every way to code them has.
+  uint64_t inHeader() const { return 0; }
   /// Samples that count in the error.
   double counted() const { return quantised->counted(); }
   /// Behind the opening there is one codeword, of coefficients.

@@ -9,9 +9,6 @@
 
 namespace tetrakis::inline heights {
 
-/// Heights of more samples are coded in regions unless the caller says otherwise.
-inline constexpr uint64_t kOneRegionHeights = 1025 * 1025;
-
 /// inputs: with heights.
 CoefficientOptions heightOptions(const EncodeInputs& inputs);
 

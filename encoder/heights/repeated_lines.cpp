@@ -1,151 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/heights/repeated_lines.hpp"
 
-#include <algorithm>
-#include <cassert>
-#include <cstring>
-#include <numeric>
-#include <utility>
-#include <vector>
-
 #include "codec/geometry/quantiser/voids.hpp"
-#include "codec/geometry/repeats/line_repeats_encoder.hpp"
-#include "encoder/heights/height_options.hpp"
+#include "encoder/inputs/repeated_lines.hpp"
 
 namespace tetrakis::inline heights {
-
-namespace {
-
-/// The samples as bytes.
-class SampleBytes {
- public:
-  explicit SampleBytes(const tks_heights& heights)
-      : data_(static_cast<const std::byte*>(heights.data)),
-        width_(heights.width),
-        height_(heights.height),
-        size_(tks_sample_bytes(heights.sample)) {}
-
-  /// 1 for each row that equals the one before.
-  std::vector<uint8_t> repeatedRows() const {
-    std::vector<uint8_t> repeated(height_);
-    for (uint32_t y = 1; y < height_; ++y)
-      repeated[y] = std::memcmp(at(0, y), at(0, y - 1), width_ * size_) == 0;
-    return repeated;
-  }
-  /// 1 for columns that repeat the one before. Columns that differ somewhere are not looked at
-  /// again.
-  std::vector<uint8_t> repeatedColumns() const {
-    std::vector<uint32_t> alike(width_ - 1);
-    std::iota(alike.begin(), alike.end(), 1u);
-    for (uint32_t y = 0; y < height_ && !alike.empty(); ++y) {
-      std::erase_if(alike,
-                    [&](uint32_t x) { return std::memcmp(at(x, y), at(x - 1, y), size_) != 0; });
-    }
-    std::vector<uint8_t> repeated(width_);
-    for (const uint32_t x : alike) repeated[x] = 1;
-    return repeated;
-  }
-  /// The samples of the lines that repeat no other.
-  std::vector<std::byte> without(const std::vector<uint8_t>& columns,
-                                 const std::vector<uint8_t>& rows) const {
-    std::vector<std::byte> samples;
-    for (uint32_t y = 0; y < height_; ++y) {
-      if (rows[y]) continue;
-      for (uint32_t x = 0; x < width_; ++x) {
-        if (!columns[x]) samples.insert(samples.end(), at(x, y), at(x, y) + size_);
-      }
-    }
-    return samples;
-  }
-
- private:
-  const std::byte* at(uint32_t x, uint32_t y) const {
-    return data_ + (size_t{y} * width_ + x) * size_;
-  }
-
-  const std::byte* data_;
-  uint32_t width_, height_;
-  size_t size_;
-};
-
-/// The lengths of a line and its repeats.
-std::vector<uint32_t> runsOf(const std::vector<uint8_t>& repeated) {
-  std::vector<uint32_t> runs;
-  for (const uint8_t repeat : repeated) {
-    if (!repeat) runs.push_back(0);
-    ++runs.back();
-  }
-  return runs;
-}
-
-uint32_t codedOf(const std::vector<uint8_t>& repeated) {
-  return static_cast<uint32_t>(std::count(repeated.begin(), repeated.end(), 0));
-}
-
-struct EvenLines {
-  std::vector<uint8_t> repeated;
-  uint32_t longest;  ///< of their runs
-};
-
-/// Breaks runs that are longer than 19 of 20 runs are, and such as would leave fewer than `least`
-/// lines: lines in them are coded though they repeat others. Where the longest run that is left is
-/// still more than twice the mean, no line counts as repeated.
-EvenLines evened(std::vector<uint8_t> repeated, uint32_t least) {
-  std::vector<uint32_t> runs = runsOf(repeated);
-  const auto usual = runs.begin() + static_cast<ptrdiff_t>((runs.size() - 1) * 19 / 20);
-  std::nth_element(runs.begin(), usual, runs.end());
-  const uint32_t most =
-      std::min(*usual, static_cast<uint32_t>((repeated.size() + least - 1) / least));
-  uint32_t run = 0;
-  for (uint8_t& repeat : repeated) {
-    if (run == most) repeat = 0;
-    run = repeat ? run + 1 : 1;
-  }
-  const bool uneven = size_t{most} * codedOf(repeated) > 2 * repeated.size();
-  if (uneven) return {std::vector<uint8_t>(repeated.size()), 1};
-  return {std::move(repeated), most};
-}
-
-/// least: how many columns, and how many rows, are coded at least where there are as many.
-CodedLines findRepeatedLines(const tks_heights& heights, uint32_t least) {
-  constexpr double kPays = 0.9;  // of the samples are left
-  assert(heights.width > 0 && heights.height > 0 && least > 0);
-  const SampleBytes samples(heights);
-  auto [columns, most_columns] = evened(samples.repeatedColumns(), least);
-  auto [rows, most_rows] = evened(samples.repeatedRows(), least);
-  CodedLines lines;
-  lines.extent = {codedOf(columns), codedOf(rows)};
-  const uint64_t samples_of_all = uint64_t{heights.width} * heights.height;
-  // A map of lines takes more bytes than one height does, but fewer than one height in regions.
-  const bool one_height = lines.extent.width <= least && lines.extent.height <= least;  // likely
-  if (one_height && samples_of_all <= kOneRegionHeights) return {};
-  const auto all = static_cast<double>(samples_of_all);
-  const double left = static_cast<double>(lines.extent.samples()) / all;
-  if (left > kPays) return {};
-  lines.heaviest = static_cast<double>(uint64_t{most_columns} * most_rows) * left;
-  lines.samples = samples.without(columns, rows);
-  const std::vector<uint32_t> across = runsOf(columns), down = runsOf(rows);
-  for (const uint32_t rows_of_one : down) {
-    for (const uint32_t columns_of_one : across)
-      lines.shown_by.push_back(rows_of_one * columns_of_one);
-  }
-  lines.repeats = encodeRepeats(std::move(columns), std::move(rows));
-  return lines;
-}
-
-}  // namespace
 
 /// Beside a texture cameras look at the coded heights: two lines have an area, one has none.
 CodedLines linesToCode(const EncodeInputs& inputs) {
   const tks_encode_options& options = inputs.options;
   if (inputs.heights == nullptr || options.picture_error != nullptr) return {};
-  CodedLines lines = findRepeatedLines(*inputs.heights, inputs.image == nullptr ? 1 : 2);
+  const tks_heights& heights = *inputs.heights;
+  CodedLines lines = findRepeatedLines(
+      {heights.data, {heights.width, heights.height}, tks_sample_bytes(heights.sample)},
+      inputs.image == nullptr ? 1 : 2);
   if (lines.repeats.none()) return lines;
-  const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
+  const Result<std::vector<uint8_t>> valid = findVoids(heights);
   const bool has_voids = !valid.ok() || !valid->empty();
   if (options.psnr > 0 && (has_voids || lines.heaviest > 1.1)) return {};
-  constexpr uint64_t kMostOfBudget = 8;
-  if (inputs.budgeted() && lines.repeats.code.size() > options.bytes / kMostOfBudget) return {};
+  if (inputs.budgeted() && lines.codeIsLongFor(options.bytes)) return {};
   return lines;
 }
 

@@ -7,11 +7,9 @@
 
 namespace tetrakis::inline heights {
 
-/// The lines to code; none where all are. Lines are taken to repeat others where runs of them are
-/// about as long everywhere, so that all coded samples count alike: a sea in the first hundred rows
-/// is no reason to code one of them. A judge of pictures takes whole heights. A PSNR is that of all
-/// samples, of which those of long runs count more: with voids nobody knows by how much. Small
-/// budgets have no bytes for a long map.
+/// The lines to code; none where all are. A judge of pictures takes whole heights. A PSNR is that
+/// of all samples, of which those of long runs count more: with voids nobody knows by how much.
+/// Small budgets have no bytes for a long map.
 CodedLines linesToCode(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline heights

@@ -17,4 +17,12 @@ tks_heights CodedLines::of(const tks_heights& whole) const {
   return coded;
 }
 
+tks_image CodedLines::of(const tks_image& whole) const {
+  tks_image coded = whole;
+  coded.width = extent.width;
+  coded.height = extent.height;
+  coded.data = samples.data();
+  return coded;
+}
+
 }  // namespace tetrakis::inline inputs

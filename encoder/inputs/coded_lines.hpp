@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights that were enlarged by copying samples are coded without the columns and rows that repeat
-// the one before them (bitstream/stream/line_repeats.hpp).
+// Heights and images that were enlarged by copying samples are coded without the columns and rows
+// that repeat the one before them (bitstream/stream/line_repeats.hpp).
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace tetrakis::inline inputs {
 
-/// Heights without the lines that repeat others.
+/// Heights, or an image, without the lines that repeat others.
 struct CodedLines {
   LineRepeats repeats;             ///< none: it does not pay
   std::vector<std::byte> samples;  ///< of the lines that are coded
@@ -23,8 +23,11 @@ struct CodedLines {
   double heaviest = 1;
   std::vector<uint32_t> shown_by;  ///< how many samples each coded one stands for
 
-  /// The heights that are coded; their data is `samples`, which outlives them.
+  /// What is coded of these; the data is `samples`, which outlives it.
   tks_heights of(const tks_heights& whole) const;
+  tks_image of(const tks_image& whole) const;
+  /// The map takes too much of so small a budget.
+  bool codeIsLongFor(uint64_t budget) const { return repeats.code.size() > budget / 8; }
 };
 
 }  // namespace tetrakis::inline inputs

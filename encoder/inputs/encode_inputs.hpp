@@ -28,6 +28,9 @@ struct EncodeInputs {
   /// The caller's heights, and those lines of them that `heights` are; null: they are all lines.
   const tks_heights* whole = nullptr;
   const CodedLines* lines = nullptr;
+  /// The same of the caller's image.
+  const tks_image* whole_image = nullptr;
+  const CodedLines* texel_lines = nullptr;
 
   bool budgeted() const { return options.bytes != 0; }
   /// The caller's heights with all their lines.
@@ -38,15 +41,26 @@ struct EncodeInputs {
   std::span<const uint32_t> shownBy() const {
     return lines != nullptr ? std::span(lines->shown_by) : std::span<const uint32_t>();
   }
+  /// The caller's image with all its lines.
+  const tks_image* allTexels() const { return texel_lines != nullptr ? whole_image : image; }
+  /// The mean squared error of all texels is at most so many times that of the coded ones.
+  double heaviestTexel() const { return texel_lines != nullptr ? texel_lines->heaviest : 1; }
   /// The same inputs with some lines of the heights alone, which are `coded`; both outlive the
   /// result.
   EncodeInputs ofLines(const tks_heights& coded, const CodedLines& some) const {
-    return {.heights = &coded,
-            .image = image,
-            .options = options,
-            .priorities = priorities,
-            .whole = heights,
-            .lines = &some};
+    EncodeInputs inputs = *this;
+    inputs.whole = heights;
+    inputs.heights = &coded;
+    inputs.lines = &some;
+    return inputs;
+  }
+  /// The same of the image.
+  EncodeInputs ofLines(const tks_image& coded, const CodedLines& some) const {
+    EncodeInputs inputs = *this;
+    inputs.whole_image = image;
+    inputs.image = &coded;
+    inputs.texel_lines = &some;
+    return inputs;
   }
   /// The same inputs under other options, which outlive the result, and with other priorities.
   EncodeInputs with(const tks_encode_options& other, const ViewPriorities* others) const {
@@ -55,7 +69,9 @@ struct EncodeInputs {
             .options = other,
             .priorities = others,
             .whole = whole,
-            .lines = lines};
+            .lines = lines,
+            .whole_image = whole_image,
+            .texel_lines = texel_lines};
   }
 };
 

@@ -7,6 +7,9 @@
 
 namespace tetrakis::inline inputs {
 
+/// Heights that are more lie in several regions unless the caller says otherwise.
+inline constexpr uint64_t kOneRegionHeights = 1025 * 1025;
+
 struct RegionChoice {
   int side_log2 = 0;     ///< 0: one region
   bool windows = false;  ///< the stream is made to be read by windows of it

@@ -52,8 +52,11 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     if (inputs.lines != nullptr) header.geometry->repeats = inputs.lines->repeats;
     header.metadata = metadataOf(*inputs.allHeights());
   }
-  if (selection.texture) header.texture = selection.texture->header;
-  header.georeference = georeferenceOf(inputs.allHeights(), inputs.image);
+  if (selection.texture) {
+    header.texture = selection.texture->header;
+    if (inputs.texel_lines != nullptr) header.texture->repeats = inputs.texel_lines->repeats;
+  }
+  header.georeference = georeferenceOf(inputs.allHeights(), inputs.allTexels());
   if (options.index != 0) header.index = indexOf(selection.packets);
   return header;
 }

@@ -25,7 +25,8 @@ uint8_t statedAfter(const EncodeInputs& inputs, const Candidate<Coded>& candidat
   const Coded& coded = *candidate.coded;
   const Codewords prefix = prefixAfter(coded.accounted(), candidate.curve->packets, bytes);
   const double squares = squaresOf(coded, prefix, inputs.options.threads);
-  const double weight = std::is_same_v<Coded, CodedHeights> ? inputs.heaviest() : 1;
+  const bool heights = std::is_same_v<Coded, CodedHeights>;
+  const double weight = heights ? inputs.heaviest() : inputs.heaviestTexel();
   return qualityOf(std::sqrt(squares * weight / coded.counted()));
 }
 
@@ -68,9 +69,9 @@ bool hasLosslessWay(const CodedHeights& heights) {
   return heights.quantised->steps.exact;
 }
 
-/// Drawn and stored textures are lossless as they stand.
+/// Drawn and stored textures are lossless as they stand; tables of values are another way.
 bool hasLosslessWay(const CodedTexture& texture) {
-  return !texture.header.direct();
+  return !texture.header.direct() || gapOfValues(texture) > 1;
 }
 
 HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights) {

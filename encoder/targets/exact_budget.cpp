@@ -33,12 +33,13 @@ struct Nearly {
 /// relative_step: that of the heights, in sample units, or 0.
 Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection, double relative_step) {
   const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
-  if (!selection.heights) return {true, rmse[1] <= kNearlyExact};
+  const bool texture =
+      !selection.texture || rmse[1] <= kNearlyExact * gapOfValues(*selection.texture);
+  if (!selection.heights) return {true, texture};
   const CodedHeights& heights = *selection.heights;
   const bool all = bytesOfPackets(selection.packets) <= inputs.options.bytes;
   const double step = std::max(1., relative_step / heights.quantised->steps.step);
-  return {rmse[0] <= kNearlyExact * step || (all && canBeRestored(heights)),
-          !selection.texture || rmse[1] <= kNearlyExact};
+  return {rmse[0] <= kNearlyExact * step || (all && canBeRestored(heights)), texture};
 }
 
 /// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
@@ -101,13 +102,18 @@ std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
   return whole;
 }
 
-/// The texture likewise. Drawn and stored ones are lossless as they stand.
+/// The texture likewise. Drawn and stored ones are lossless as they stand, but tables of values may
+/// take fewer bytes; where these leave half of the budget, prefixes do not matter.
 std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
                                              const TextureCandidate& lossy, uint64_t room) {
   if (!hasLosslessWay(*lossy.coded)) return lossy;
-  TextureCandidate whole = candidateOf(codeReversibly(inputs, *lossy.coded));
+  const bool few = gapOfValues(*lossy.coded) > 1;
+  TextureCandidate whole =
+      few ? codeLossless(inputs, *lossy.coded) : candidateOf(codeReversibly(inputs, *lossy.coded));
+  if (lossy.coded->header.direct() && lossy.bytes() <= whole.bytes()) return lossy;
   if (whole.bytes() >= room) return {};
   whole.curve = curveOfTexture(inputs, *whole.coded);
+  if (few && 2 * whole.bytes() <= inputs.options.bytes) return whole;
   if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
   return whole;
 }

@@ -94,7 +94,8 @@ Result<HeightsCandidate> reachingPsnr(const EncodeInputs& inputs, HeightsCandida
 /// fewer bytes.
 TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy) {
   if (!hasLosslessWay(*lossy.coded)) return lossy;
-  if (rmseOf(qualityAfter(inputs, lossy, lossy.bytes())) > kNearlyExact) return lossy;
+  const double rmse = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
+  if (rmse > kNearlyExact * gapOfValues(*lossy.coded)) return lossy;
   TextureCandidate lossless = codeLossless(inputs, *lossy.coded);
   return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)});
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/samples.hpp"
@@ -59,6 +61,14 @@ CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
   return codedBy(coded.source, encodeTexture(*coded.source, purposeOf(inputs), to_the_end));
 }
 
+double gapOfValues(const CodedTexture& texture) {
+  const FewValues few = fewValuesOf(*texture.source, {});
+  const uint32_t colours = texture.source->colours();
+  const double squares =
+      std::accumulate(few.squares.begin(), few.squares.begin() + static_cast<int>(colours), 0.);
+  return std::sqrt(squares / colours);
+}
+
 CodedTexture storeTexture(std::shared_ptr<const TextureSource> source) {
   EncodedTexture stored = encodeStoredTexture(source->texels);
   return codedBy(std::move(source), std::move(stored));
@@ -74,7 +84,7 @@ double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t 
 
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix) {
   const double squares = squaresOf(texture, prefix, inputs.options.threads);
-  return squares / texture.counted() <=
+  return squares / texture.counted() * inputs.heaviestTexel() <=
          worstMeanSquare(texture.source->texels.most(), inputs.options.psnr);
 }
 

@@ -22,6 +22,8 @@ struct CodedTexture {
   TextureHeader header;
   std::vector<EncodedTrack> tracks;  ///< distortion: squared error over the samples that count
 
+  /// Bytes of the header that not every way to code it has.
+  uint64_t inHeader() const { return header.tables.code.size(); }
   /// Samples that count in the error.
   double counted() const;
   /// Behind the opening there is one codeword, of coefficients.
@@ -44,6 +46,9 @@ CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
 /// Codes the same texture to the last bit, with the colours and filters of `lossy`, which is
 /// neither drawn nor stored.
 CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy);
+
+/// How far apart values of the texture are that tables would hold; 1 if tables would not pay.
+double gapOfValues(const CodedTexture& texture);
 
 /// The samples written as they are.
 CodedTexture storeTexture(std::shared_ptr<const TextureSource> source);

@@ -13,13 +13,14 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
   const ViewPriorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->texture.empty();
   const bool to_psnr = options.psnr > 0;
+  const double heaviest = inputs.heaviestTexel();
   return {.limit = limitOf(inputs),
           .region_log2 = regions.side_log2,
           .threads = options.threads,
           .windows = regions.windows,
           .visual = options.weights == TKS_WEIGHTS_VISUAL,
           .room = inputs.budgeted() ? options.bytes : UINT64_MAX,
-          .mean_square = to_psnr ? worstMeanSquare(texels.most(), options.psnr) : 0,
+          .mean_square = to_psnr ? worstMeanSquare(texels.most(), options.psnr) / heaviest : 0,
           .priorities = some_first ? &priorities->texture : nullptr};
 }
 

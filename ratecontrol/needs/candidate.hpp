@@ -24,7 +24,7 @@ struct Candidate {
   std::optional<ComponentCurve> curve = {};  ///< once somebody needed it
   uint64_t need = kAllBytes;                 ///< bytes of its packets that the target needs
 
-  uint64_t bytes() const { return std::min(need, bytesOf(coded->tracks)); }
+  uint64_t bytes() const { return std::min(need, bytesOf(coded->tracks)) + coded->inHeader(); }
 };
 
 /// A candidate of all bytes, without a curve.

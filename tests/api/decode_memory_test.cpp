@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bitstream/stream/header.hpp"
+#include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/few_values.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
@@ -272,6 +273,29 @@ TEST(DecodeMemory, RepeatedLinesStayBelowTheBound) {
   };
   expectCopies(encode(&large, nullptr, inRegions(budget(2000), 16)), "copies in regions");
   expectCopies(withVoids(large, lossless()), "copies beside voids");
+}
+
+/// Texels that were copied to a grid three times as wide, drawn, stored and by wavelet; and those
+/// that tables hold.
+TEST(DecodeMemory, TexturesOfKindsStayBelowTheBound) {
+  for (const Pattern pattern : {Pattern::kRidges, Pattern::kSteps, Pattern::kExtreme}) {
+    const Raster small = make({pattern, 50, 41, 3, TKS_U8, 3});
+    Raster large = small;
+    large.width = 150;
+    large.data.clear();
+    for (size_t i = 0; i < small.data.size(); i += 3) {
+      const auto texel = small.data.begin() + static_cast<ptrdiff_t>(i);
+      for (int copy = 0; copy < 3; ++copy) large.data.insert(large.data.end(), texel, texel + 3);
+    }
+    const Bytes bytes = encode(nullptr, &large, lossless());
+    EXPECT_FALSE(readHeader(bytes)->header.texture->repeats.none());
+    expectWithinBounds(bytes, "copied texels");
+  }
+  const Raster whole = make({Pattern::kRidges, 150, 141, 3, TKS_U8, 3});
+  const Raster few = samples::withFewTexels(whole, 90, TKS_U16);
+  const Bytes bytes = encode(nullptr, &few, lossless());
+  EXPECT_TRUE(readHeader(bytes)->header.texture->tables.present);
+  expectWithinBounds(bytes, "few values of channels");
 }
 
 /// Few values in large shapes, whole, beside voids, counted by a table, beside corrections.

@@ -108,10 +108,15 @@ TEST(StreamPrefix, LargerTexturesImproveAtEveryByte) {
   expectProgress(nullptr, &colour, visual);
 }
 
-/// A drawing of a few samples more than the encoder measures closely (kSmallSamples). Each decoder
-/// of a drawing begins with models of a megabyte, so that larger ones take long.
+/// A drawing, of three colours, of a few samples more than the encoder measures closely
+/// (kSmallSamples). Each decoder of a drawing begins with models of a megabyte, so that larger ones
+/// take long.
 TEST(StreamPrefix, DrawingsImproveAtEveryByte) {
-  const Raster drawing = make({Pattern::kSteps, 76, 72, 3, TKS_U8, 3});
+  Raster drawing = make({Pattern::kSteps, 76, 72, 3, TKS_U8, 3});
+  for (size_t i = 0; i < drawing.data.size(); i += 3) {
+    const auto third = std::to_integer<uint32_t>(drawing.data[i]) * 3 / 256;
+    for (uint32_t c = 0; c < 3; ++c) drawing.data[i + c] = std::byte(third * (60 + 20 * c));
+  }
   const Bytes bytes = encode(nullptr, &drawing, lossless());
   ASSERT_TRUE(Stream(bytes).info().texture_drawn);
   expectProgress(bytes, nullptr, &drawing, lossless());

@@ -109,20 +109,27 @@ void forwardColour(const ColourTransform& transform, std::span<int32_t* const> p
   shearAll<int32_t, true>(transform.shears, planes, count);
 }
 
+void inverseShears(const ColourTransform& transform, std::span<int32_t* const> planes,
+                   size_t count) {
+  assert(planes.size() >= 1 && planes.size() <= transform.centre.size());
+  if (planes.size() < 3) return;
+  const auto& order = orderOf(transform);
+  shearAll<int32_t, false>(transform.shears, planes, count);
+  swapPlanes(planes[1], planes[secondPartner(order)], count);
+  swapPlanes(planes[0], planes[order[0]], count);
+}
+
+void restoreSamples(std::span<int32_t> channel, uint16_t centre, int fraction_bits) {
+  assert(fraction_bits >= 0 && fraction_bits <= 8);
+  if (fraction_bits > 0) dropFraction(channel.data(), channel.size(), fraction_bits);
+  addCentre(channel.data(), channel.size(), centre);
+}
+
 void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
                    int fraction_bits) {
-  assert(planes.size() >= 1 && planes.size() <= transform.centre.size());
-  assert(fraction_bits >= 0 && fraction_bits <= 8);
-  if (planes.size() >= 3) {
-    const auto& order = orderOf(transform);
-    shearAll<int32_t, false>(transform.shears, planes, count);
-    swapPlanes(planes[1], planes[secondPartner(order)], count);
-    swapPlanes(planes[0], planes[order[0]], count);
-  }
-  for (size_t p = 0; p < planes.size(); ++p) {
-    if (fraction_bits > 0) dropFraction(planes[p], count, fraction_bits);
-    addCentre(planes[p], count, transform.centre[p]);
-  }
+  inverseShears(transform, planes, count);
+  for (size_t p = 0; p < planes.size(); ++p)
+    restoreSamples({planes[p], count}, transform.centre[p], fraction_bits);
 }
 
 void forwardLevelColour(const ColourTransform& transform, int level,
@@ -150,14 +157,16 @@ Matrix3 colourMatrix(const ColourTransform& transform, int level) {
   return matrix;
 }
 
-std::array<double, 3> componentEnergies(const ColourTransform& transform, int level) {
+std::array<double, 3> componentEnergies(const ColourTransform& transform, int level,
+                                        const std::array<double, 3>& weights) {
   std::array<double, 3> energies{};
+  const auto& order = orderOf(transform);
   for (size_t i = 0; i < 3; ++i) {
     std::array<double, 3> colour{};
     colour[i] = 1;
     if (const Shears* shears = shearsAt(transform, level)) shearExactly(*shears, false, colour);
     shearExactly(transform.shears, false, colour);
-    for (double channel : colour) energies[i] += channel * channel;
+    for (size_t j = 0; j < 3; ++j) energies[i] += weights[order[j]] * colour[j] * colour[j];
   }
   return energies;
 }

@@ -56,6 +56,14 @@ void forwardColour(const ColourTransform& transform, std::span<int32_t* const> p
 void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
                    int fraction_bits);
 
+/// The first half of inverseColour: components to channels, which keep their fraction and miss
+/// their centres.
+void inverseShears(const ColourTransform& transform, std::span<int32_t* const> planes,
+                   size_t count);
+
+/// The other half, of one channel.
+void restoreSamples(std::span<int32_t> channel, uint16_t centre, int fraction_bits);
+
 /// Shears the coefficients of one level, in place: three planes of `count` values. Sums are
 /// of 64 bits, because low bands outgrow samples. Exactly undone by inverseLevelColour.
 void forwardLevelColour(const ColourTransform& transform, int level,
@@ -74,6 +82,8 @@ Matrix3 colourMatrix(const ColourTransform& transform, int level = 1);
 
 /// Squared RGB error, summed over the three channels, for a unit squared error in each component of
 /// a level's coefficients.
-std::array<double, 3> componentEnergies(const ColourTransform& transform, int level = 1);
+/// weights: what the squared error of each channel counts.
+std::array<double, 3> componentEnergies(const ColourTransform& transform, int level = 1,
+                                        const std::array<double, 3>& weights = {1, 1, 1});
 
 }  // namespace tetrakis::inline colour

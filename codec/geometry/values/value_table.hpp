@@ -30,6 +30,8 @@ struct ValueTable {
   uint32_t wordOf(int32_t q) const { return words[placeOf(q)]; }
 };
 
+inline constexpr int kWordBits = 32;
+
 /// Heights of a table lie between steps.
 inline constexpr int kTableFractionBits = 4;
 

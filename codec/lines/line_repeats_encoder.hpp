@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes which columns and rows of heights repeat the one before them.
+// Codes which columns and rows repeat the one before them.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 #include "bitstream/stream/line_repeats.hpp"
 
-namespace tetrakis::inline repeats {
+namespace tetrakis::inline lines {
 
 /// columns, rows: 1 where a line repeats the one before, 0 for the first.
 LineRepeats encodeRepeats(std::vector<uint8_t> columns, std::vector<uint8_t> rows);
 
-}  // namespace tetrakis::inline repeats
+}  // namespace tetrakis::inline lines

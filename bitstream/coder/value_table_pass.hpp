@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of a table of values: the first word, then the gap from each value to the next. Gaps of
-// such tables come back again and again (3, 3, 4, 3, 3, 4 where metres became feet), so the eight
-// latest different ones are kept, the last one first (J. L. Bentley et al., "A locally adaptive
-// data compression scheme", 1986). A gap is one of these, named by its place; or it is new: its
-// number of bits in unary, then the bits below the highest.
+// Coding of a table of the values that samples have, where their type could hold many more: the
+// first word, then the gap from each value to the next. Gaps of such tables come back again and
+// again (3, 3, 4, 3, 3, 4 where metres became feet), so the eight latest different ones are kept,
+// the last one first (J. L. Bentley et al., "A locally adaptive data compression scheme", 1986). A
+// gap is one of these, named by its place; or it is new: its number of bits in unary, then the bits
+// below the highest.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 
 #include "bitstream/coder/adaptive_bit.hpp"
 
-namespace tetrakis::inline values {
+namespace tetrakis::inline coder {
 
 /// Io is the encoder's or the decoder's side of a decision, of which the encoder knows the answer:
 ///   bool decide(AdaptiveBit&, bool answer)   bool even(bool answer)   at even odds
@@ -25,21 +26,24 @@ namespace tetrakis::inline values {
 template <class Io>
 class ValueTablePass {
  public:
-  explicit ValueTablePass(Io& io) : io_(io) { std::iota(recent_.begin(), recent_.end(), 1u); }
+  /// bits: of a word.
+  ValueTablePass(Io& io, int bits) : io_(io), bits_(bits) {
+    std::iota(recent_.begin(), recent_.end(), 1u);
+  }
 
   /// words: of the encoder the table, of the decoder as many zeros, which it fills. Words behind
-  /// the first decision that does not count mean nothing.
+  /// the first decision that does not count mean nothing. Further tables learn from earlier ones.
   void run(std::vector<uint32_t>& words) {
     uint32_t before = 0;
     for (size_t i = 0; i < words.size() && !io_.stopped(); ++i) {
       const uint32_t gap = words[i] - before;
-      before += i == 0 ? plain(gap, kWordBits) : next(gap);
+      before += i == 0 ? plain(gap, bits_) : next(gap);
       words[i] = before;
     }
   }
 
  private:
-  static constexpr int kWordBits = 32;
+  static constexpr int kMostBits = 32;  ///< of a gap
   static constexpr size_t kRecent = 8;
   static constexpr int kModelledBits = 3;  ///< below the highest
 
@@ -65,7 +69,7 @@ class ValueTablePass {
   uint32_t fresh(uint32_t gap) {
     const int wanted = static_cast<int>(std::bit_width(gap));
     int bits = 1;
-    while (bits < kWordBits && io_.decide(more_[last_bits_][bits - 1], wanted > bits)) ++bits;
+    while (bits < kMostBits && io_.decide(more_[last_bits_][bits - 1], wanted > bits)) ++bits;
     last_bits_ = static_cast<size_t>(bits);
     uint32_t value = 1;
     for (int position = bits - 2; position >= 0; --position) {
@@ -85,11 +89,12 @@ class ValueTablePass {
   }
 
   Io& io_;
+  int bits_;
   std::array<uint32_t, kRecent> recent_{};
   size_t last_place_ = 0, last_bits_ = 0;
   std::array<std::array<AdaptiveBit, kRecent>, kRecent + 1> hit_;
-  std::array<std::array<AdaptiveBit, kWordBits>, kWordBits + 1> more_;
-  std::array<std::array<AdaptiveBit, 1u << kModelledBits>, kWordBits + 1> high_;
+  std::array<std::array<AdaptiveBit, kMostBits>, kMostBits + 1> more_;
+  std::array<std::array<AdaptiveBit, 1u << kModelledBits>, kMostBits + 1> high_;
 };
 
-}  // namespace tetrakis::inline values
+}  // namespace tetrakis::inline coder

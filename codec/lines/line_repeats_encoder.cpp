@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/repeats/line_repeats_encoder.hpp"
+#include "codec/lines/line_repeats_encoder.hpp"
 
 #include <string>
 
 #include "bitstream/coder/decision_encoding.hpp"
 
-namespace tetrakis::inline repeats {
+namespace tetrakis::inline lines {
 
 LineRepeats encodeRepeats(std::vector<uint8_t> columns, std::vector<uint8_t> rows) {
   const Extent shown{static_cast<uint32_t>(columns.size()), static_cast<uint32_t>(rows.size())};
@@ -17,4 +17,4 @@ LineRepeats encodeRepeats(std::vector<uint8_t> columns, std::vector<uint8_t> row
   return {shown, std::string(code.begin(), code.end())};
 }
 
-}  // namespace tetrakis::inline repeats
+}  // namespace tetrakis::inline lines

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images as files hold them that were stretched over their type: few values, unevenly spaced.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "conformance/samples/terrain_samples.hpp"
+
+namespace tetrakis::samples {
+
+/// image: u8. Each channel gets so many levels at most, the square roots of which lie over all of
+/// the type `sample`, u8 or u16.
+inline Raster withFewTexels(const Raster& image, uint32_t levels, tks_sample sample) {
+  Raster out = image;
+  out.sample = sample;
+  out.data.resize(image.data.size() * tks_sample_bytes(sample));
+  const double most = sample == TKS_U8 ? 255 : 65535;
+  for (size_t i = 0; i < image.data.size(); ++i) {
+    const uint32_t level = std::to_integer<uint32_t>(image.data[i]) * levels / 256;
+    const auto value = static_cast<uint16_t>(std::lround(most * std::sqrt(level / (levels - 1.))));
+    std::memcpy(out.data.data() + i * tks_sample_bytes(sample), &value, tks_sample_bytes(sample));
+  }
+  return out;
+}
+
+}  // namespace tetrakis::samples

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables of channels to what a header says of them.
+#pragma once
+
+#include "bitstream/stream/texture_header.hpp"
+#include "texture_wavelet/tables/channel_tables.hpp"
+
+namespace tetrakis::inline tables {
+
+/// sample_bits: of the values.
+ChannelTablesHeader headerOf(const ChannelTables& tables, int sample_bits);
+
+}  // namespace tetrakis::inline tables

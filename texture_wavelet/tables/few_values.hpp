@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds channels that have few of the values that their type could hold. Encoder only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/texels.hpp"
+#include "texture_wavelet/tables/channel_tables.hpp"
+
+namespace tetrakis::inline tables {
+
+struct FewValues {
+  ChannelTables tables;  ///< of the channels for which they save bits
+  /// For each channel, the squared error of samples per squared error of places.
+  std::array<double, 4> squares = {1, 1, 1, 1};
+
+  bool none() const;
+};
+
+/// The tables of the first channels of an image, if they may save more than a 32nd of a bit a
+/// sample. coded: the texels whose samples they hold.
+FewValues fewValuesOf(const Texels& texels, uint32_t channels, Mask coded);
+
+/// Turns the samples of a channel into places; those that are not coded into 0 where their value is
+/// in no table.
+void samplesToPlaces(const std::vector<uint16_t>& table, std::vector<int32_t>& channel);
+
+}  // namespace tetrakis::inline tables
