@@ -199,6 +199,7 @@ class Terrain {
         return;
       } catch (error) {
         if (error.code !== 'truncated') throw error;
+        if (have === 0) throw new TksError('truncated', 'The file is empty.');
         if (have < bytes) {
           throw new TksError('truncated', `The file is cut short: it ends after ${have} bytes, ` +
             'inside the header of the stream.');
