@@ -4,7 +4,7 @@ import {abortable} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './module.js';
-import {FIRST_BYTES, FIRST_FRAME, GROWTH, nextBytes} from './pace.js';
+import {Arrival, FIRST_BYTES, FIRST_FRAME, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
 
@@ -36,6 +36,14 @@ function plannedView(view) {
   }
   const pixels = (side) => Math.min(32768, Math.round(side));
   return {clip: [...view.clip], width: pixels(view.width), height: pixels(view.height)};
+}
+
+/** Resolves when the promise ends, however it does, or after so many ms. */
+async function within(ms, promise) {
+  let timer;
+  const end = new Promise((resolve) => (timer = setTimeout(resolve, ms)));
+  await Promise.race([promise.catch(() => {}), end]);
+  clearTimeout(timer);
 }
 
 /** A stream that is open. Made by open(). */
@@ -167,17 +175,24 @@ class Terrain {
     }
     const leave = new AbortController();
     const ended = signal ? AbortSignal.any([signal, leave.signal]) : leave.signal;
+    const arrival = new Arrival(this.#held.bytes);
     const all = this.load(limit, {...options, signal: ended});
     all.catch(() => {});
+    let took = 0;
     try {
       if (beginning) yield await beginning;
       if (first) shown = 0;  // not yet as it is asked for
       for (;;) {
         const wanted = headerBytes + GROWTH * Math.max(shown - headerBytes, FIRST_BYTES);
         await abortable(this.#reached(2 * wanted > limit ? limit : wanted, all), signal);
+        const here = this.#held.bytes, patience = arrival.patience(here, limit - here, took);
+        if (patience) await abortable(within(patience, all), signal);
         const taken = nextBytes(shown, Math.min(this.#held.bytes, limit));
         if (taken <= shown) return;
-        yield await this.#frame((shown = taken), {...options, signal});
+        const begun = performance.now();
+        const frame = await this.#frame((shown = taken), {...options, signal});
+        took = performance.now() - begun;
+        yield frame;
       }
     } finally {
       leave.abort();

@@ -13,6 +13,26 @@ export const GROWTH = 4;
 /** So many bytes cost no more than the transform that a frame takes in any case. */
 const CHEAP_BYTES = 2 ** 18;
 
+/** A frame that may be whole so soon, in ms, or within the time that the last one took, waits for it. */
+const SOON = 150;
+/** Foretells when bytes come, by how fast those before did. */
+export class Arrival {
+  #begin = performance.now();
+  #from;
+  constructor(here) {
+    this.#from = here;
+  }
+  /**
+   * How many ms to wait for the `rest` behind the `here` bytes, if it comes soon: a frame without it
+   * would only delay the last one. `took`: ms of the last frame.
+   */
+  patience(here, rest, took) {
+    if (rest <= 0) return 0;
+    const most = Math.max(SOON, took), elapsed = performance.now() - this.#begin;
+    return rest * elapsed <= most * (here - this.#from) ? most : 0;
+  }
+}
+
 /** How many of the `here` bytes the frame behind one of `shown` takes. */
 export const nextBytes = (shown, here) =>
   Math.min(here, Math.max(CHEAP_BYTES, GROWTH ** 2 * shown));

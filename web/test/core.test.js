@@ -7,8 +7,10 @@ import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {gzipSync} from 'node:zlib';
 
+import {encode} from '../src/encode.js';
 import {FIRST_FRAME, TksError, open} from '../src/index.js';
 import {serve} from './server.js';
+import {terrainOf} from './terrain.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
 const NAME = 'joint_budget_97x97_128x128.tks';
@@ -285,6 +287,16 @@ test('bytes come on while frames are made; who leaves ends their coming', async 
   // All was there behind the first picture: there is nothing to be shown between.
   assert.deepEqual(frames.map(({bytes: here}) => here), [4096, bytes.length]);
   assert.ok(frames[1].mesh.triangles.length > 3000);
+});
+
+test('what comes soon is waited for, instead of a frame without it', async () => {
+  await writeFile(join(folder, 'large.tks'), await encode({...terrainOf(193), bytes: 90000}));
+  await withServer({pause: [70000, 30]}, async (server) => {
+    const terrain = await open(server.url + 'large.tks');
+    const frames = await framesOf(terrain);
+    assert.deepEqual(frames.map((frame) => frame.bytes), [4096, terrain.info.streamBytes]);
+    terrain.dispose();
+  });
 });
 
 test('on a slow link frames follow each other at fourfold bytes', async () => {
