@@ -13,8 +13,8 @@ export const GROWTH = 4;
 /** So many bytes cost no more than the transform that a frame takes in any case. */
 const CHEAP_BYTES = 2 ** 18;
 
-/** A frame that may be whole so soon, in ms, or within the time that the last one took, waits for it. */
-const SOON = 150;
+/** What comes so soon, in ms, is waited for; so is what comes within a quarter of the time so far. */
+const SOON = 150, NOT_SO_SOON = 1000;
 /** Foretells when bytes come, by how fast those before did. */
 export class Arrival {
   #begin = performance.now();
@@ -28,7 +28,8 @@ export class Arrival {
    */
   patience(here, rest, took) {
     if (rest <= 0) return 0;
-    const most = Math.max(SOON, took), elapsed = performance.now() - this.#begin;
+    const elapsed = performance.now() - this.#begin;
+    const most = Math.max(SOON, took, Math.min(elapsed / 4, NOT_SO_SOON));
     return rest * elapsed <= most * (here - this.#from) ? most : 0;
   }
 }
