@@ -192,6 +192,7 @@ async function pump() {
 }
 
 function fail(error) {
+  $('progress').hidden = true;
   tell(error.message);
   document.body.dataset.state = 'failed';
   if (object?.frame) return;
@@ -239,7 +240,7 @@ async function openInput(input, name, asked) {
   opening = asked?.stop ?? new AbortController();
   const {signal} = opening;
   tell('');
-  $('welcome').hidden = $('save').hidden = true;
+  $('welcome').hidden = $('save').hidden = $('progress').hidden = true;
   $('name').textContent = name;
   document.title = `${name} – Tetrakis`;
   $('size').textContent = 'opening …';
@@ -269,7 +270,7 @@ async function openSources(files) {
   opening = new AbortController();
   const {signal} = opening, names = files.map(({name}) => name).join(' + ');
   tell('');
-  $('welcome').hidden = true;
+  $('welcome').hidden = $('progress').hidden = true;
   $('name').textContent = names;
   $('size').textContent = 'reading …';
   document.body.dataset.state = 'busy';
@@ -279,7 +280,12 @@ async function openSources(files) {
     const samples = [input.heights, input.texture].filter(Boolean)
       .reduce((sum, {width, height}) => sum + width * height, 0);
     const bytes = Math.max(LEAST_BYTES, Math.round((BITS * samples) / 8));
-    const progress = (done) => ($('size').textContent = `encoding … ${Math.round(100 * done)} %`);
+    $('progress').hidden = false;
+    const progress = (done) => {
+      $('progress').value = done;
+      $('size').textContent = `encoding … ${Math.round(100 * done)} %`;
+    };
+    progress(0);
     const stream = await encode({...input, bytes, index: true}, {...encoder, signal, progress});
     if (signal.aborted) return;
     const file = new File([stream], `${files[0].name.replace(/\.[^.]*$/, '')}.tks`);
@@ -318,7 +324,7 @@ function place(name) {
 /** What is higher than wide, often because nothing states how far its samples lie apart, is flattened. */
 function exaggerate() {
   if (!object?.frame) return;
-  const {tallness} = picture, usual = tallness > 1 ? 1 / (4 * tallness) : 1;
+  const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
   const times = usual * 10 ** ($('exaggeration').value / 20);
   $('times').value = times.toPrecision(2);
   picture.setExaggeration(times);
