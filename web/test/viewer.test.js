@@ -2,7 +2,7 @@
 // The viewer in headless Chromium: what is drawn, after how many requests, and what it says of bad
 // files. TETRAKIS_CLI: a built `tetrakis`, whose `view` then serves the page in one of the tests.
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
+import {spawn, spawnSync} from 'node:child_process';
 import {once} from 'node:events';
 import {existsSync} from 'node:fs';
 import {cp, mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
@@ -342,6 +342,11 @@ test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async 
     const last = await page.request.get(new URL('/whole.tks', address).href,
       {headers: {Range: 'bytes=5990-99999999'}});
     assert.deepEqual(await last.body(), bytes.subarray(5990));
+    const {port} = new URL(address);
+    const {status: code, stderr} = spawnSync(
+      CLI, ['view', '--no-browser', '--port', port, join(folder, 'whole.tks')], {timeout: 5000});
+    assert.equal(code, 2);
+    assert.match(String(stderr), new RegExp(port));
   } finally {
     await page.close();
     child.kill();
