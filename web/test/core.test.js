@@ -455,7 +455,7 @@ test('memory returns: a hundred frames take no more than one', async () => {
 });
 
 test('the modules are small', async () => {
-  const limits = {tetrakis: 183, 'tetrakis-raster': 127, 'tetrakis-encode': 370};
+  const limits = {tetrakis: 168, 'tetrakis-raster': 114, 'tetrakis-encode': 362};
   for (const [name, limit] of Object.entries(limits)) {
     const file = await readFile(new URL(`../dist/${name}.wasm`, import.meta.url));
     const zipped = gzipSync(file, {level: 9}).length;
