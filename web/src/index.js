@@ -4,7 +4,7 @@ import {abortable} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './module.js';
-import {Arrival, FIRST_BYTES, FIRST_FRAME, GROWTH, nextBytes} from './pace.js';
+import {FIRST_BYTES, FIRST_FRAME, Flow, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
 
@@ -51,6 +51,7 @@ class Terrain {
   #source;
   #decoder;
   #held = new Held();
+  #flow = new Flow();
   #reading = Promise.resolve();
   #awaited = new Set();  // {bytes, resolve}: who waits for so many
 
@@ -118,6 +119,7 @@ class Terrain {
     if (!gap) return;
     const [begin, end] = gap;
     let place = begin;
+    this.#flow.request();
     await this.#source.next(begin, Math.min(end, begin + bytes), async (piece) => {
       this.#take(place, piece);
       place += piece.length;
@@ -127,6 +129,7 @@ class Terrain {
   async #fetchPlanned(view, bytes, triangles, signal) {
     const {requestBytes} = this;
     const plan = await this.#call('plan', {view, bytes, triangles, requestBytes}, signal);
+    this.#flow.request();
     const answers = requestsFor(plan, this.#source.size).map(([begin, end]) =>
       ({begin, chunk: this.#source.scattered(begin, end, signal)}));
     for (const {chunk} of answers) chunk.catch(() => {});  // the first failure is told
@@ -144,6 +147,7 @@ class Terrain {
       put.catch(() => {});  // of a decoder that failed, and says so to all
     }
     this.#held.add(begin, begin + chunk.length);
+    this.#flow.take(chunk.length);
     for (const {bytes, resolve} of this.#awaited) {
       if (this.#held.bytes >= bytes) resolve();
     }
@@ -175,7 +179,6 @@ class Terrain {
     }
     const leave = new AbortController();
     const ended = signal ? AbortSignal.any([signal, leave.signal]) : leave.signal;
-    const arrival = new Arrival(this.#held.bytes);
     const all = this.load(limit, {...options, signal: ended});
     all.catch(() => {});
     let took = 0;
@@ -185,7 +188,7 @@ class Terrain {
       for (;;) {
         const wanted = headerBytes + GROWTH * Math.max(shown - headerBytes, FIRST_BYTES);
         await abortable(this.#reached(2 * wanted > limit ? limit : wanted, all), signal);
-        const here = this.#held.bytes, patience = arrival.patience(here, limit - here, took);
+        const patience = this.#flow.patience(limit - this.#held.bytes, took);
         if (patience) await abortable(within(patience, all), signal);
         const taken = nextBytes(shown, Math.min(this.#held.bytes, limit));
         if (taken <= shown) return;

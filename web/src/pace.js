@@ -15,22 +15,26 @@ const CHEAP_BYTES = 2 ** 18;
 
 /** What comes so soon, in ms, is waited for; so is what comes within a quarter of the time so far. */
 const SOON = 150, NOT_SO_SOON = 1000;
-/** Foretells when bytes come, by how fast those before did. */
-export class Arrival {
-  #begin = performance.now();
-  #from;
-  constructor(here) {
-    this.#from = here;
+/** Foretells when the last bytes of a request come, by how fast the first ones did. */
+export class Flow {
+  #begin = 0;
+  #bytes = 0;  // behind the first ones, whose time is that of the request
+  request() {
+    this.#begin = this.#bytes = 0;
+  }
+  take(bytes) {
+    if (this.#begin) this.#bytes += bytes;
+    else this.#begin = performance.now();
   }
   /**
-   * How many ms to wait for the `rest` behind the `here` bytes, if it comes soon: a frame without it
-   * would only delay the last one. `took`: ms of the last frame.
+   * How many ms to wait for the `rest`, if it comes soon: a frame without it would only delay the last
+   * one. `took`: ms of the last frame.
    */
-  patience(here, rest, took) {
+  patience(rest, took) {
     if (rest <= 0) return 0;
-    const elapsed = performance.now() - this.#begin;
+    const elapsed = this.#begin ? performance.now() - this.#begin : 0;
     const most = Math.max(SOON, took, Math.min(elapsed / 4, NOT_SO_SOON));
-    return rest * elapsed <= most * (here - this.#from) ? most : 0;
+    return !this.#bytes || rest * elapsed <= most * this.#bytes ? most : 0;
   }
 }
 

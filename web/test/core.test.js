@@ -296,6 +296,14 @@ test('what comes soon is waited for, instead of a frame without it', async () =>
     const frames = await framesOf(terrain);
     assert.deepEqual(frames.map((frame) => frame.bytes), [4096, terrain.info.streamBytes]);
     terrain.dispose();
+    // Whoever asked for it, and however much is here.
+    const other = await open(server.url + 'large.tks');
+    const loading = other.load(Infinity);
+    await until(() => other.loaded.bytes > 60000);
+    const rest = await framesOf(other, {after: 4096});
+    assert.deepEqual(rest.map((frame) => frame.bytes), [other.info.streamBytes]);
+    await loading;
+    other.dispose();
   });
 });
 
