@@ -336,6 +336,7 @@ test('of a stream with an index all comes in few requests, and is drawn as a map
     const here = Number(await page.locator('#fetched').getAttribute('data-bytes'));
     assert.ok(here > stream.length - 4096 && here <= stream.length, `${here} of ${stream.length}`);
     assert.ok(await page.locator('#ground').isVisible());
+    assert.match(await text(page, '#fetched-text'), /requests, and for which ground/);
   });
 });
 

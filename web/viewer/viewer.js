@@ -83,7 +83,8 @@ function readOut(frame, triangles) {
   $('texture-share').hidden = !info.hasTexture;
   const {requests, bytes} = terrain.loaded;
   const how = requests ? `fetched in ${requests === 1 ? '1 request' : `${requests} requests`}` : 'read';
-  $('fetched-text').textContent = `${formatBytes(bytes)} ${how}`;
+  const where = $('ground').hidden ? '' : ', and for which ground';
+  $('fetched-text').textContent = `${formatBytes(bytes)} ${how}${where}`;
   map.draw();
 }
 
