@@ -174,10 +174,9 @@ def test_vsicurl_reads_only_what_it_needs(server):
     rough = opened(server, "BYTES=65536")
     assert rough.ReadAsArray().shape == (1500, 1400)
     assert max(last for _, last in Server.ranges) <= 65536, Server.ranges
-    # Overview 3 is made of level 2, of 375 x 350 samples.
     overview = dataset.GetRasterBand(1).GetOverview(2).ReadAsArray()
-    taken = 375 * 350 * 2 + 16384
-    assert max(last for _, last in Server.ranges) <= taken + 16384 < len(Server.data) // 2
+    taken = max(last for _, last in Server.ranges)
+    assert taken <= 65536 + 188 * 175 * 2 + 16384 < len(Server.data) // 5, taken
     off = overview - means_over(heights, 188, 175)
     assert np.sqrt(np.mean(off**2)) < 0.005 * 65536
     np.testing.assert_array_equal(dataset.ReadAsArray(), heights)
@@ -227,7 +226,7 @@ def test_overviews_of_a_stream_for_windows(tmp_path):
         copy(heights, tmp_path / "a.tks", f"BLOCKSIZE={side}", "INDEX=" + index)
         dataset = opened(tmp_path / "a.tks")
         overview = dataset.GetRasterBand(1).GetOverview(1).ReadAsArray()
-        assert np.sqrt(np.mean((overview - means) ** 2)) < 80  # of missing regions 290
+        assert np.sqrt(np.mean((overview - means) ** 2)) < 100  # of missing regions 290
 
 
 def test_windows_of_an_indexed_file(tmp_path):
