@@ -15,29 +15,6 @@ struct DatasetCloser {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 
-/// The numbers of the bands in a texture's order: red, green, blue, alpha. What is none of these
-/// stays where it is.
-std::vector<int> bandsOf(GDALDataset& dataset) {
-  const auto rank = [&](int band) {
-    switch (dataset.GetRasterBand(band)->GetColorInterpretation()) {
-      case GCI_RedBand:
-        return 0;
-      case GCI_GreenBand:
-        return 1;
-      case GCI_BlueBand:
-        return 2;
-      case GCI_AlphaBand:
-        return 4;
-      default:
-        return 3;
-    }
-  };
-  std::vector<int> bands(static_cast<size_t>(dataset.GetRasterCount()));
-  std::iota(bands.begin(), bands.end(), 1);
-  std::stable_sort(bands.begin(), bands.end(), [&](int a, int b) { return rank(a) < rank(b); });
-  return bands;
-}
-
 /// Why it is no texture; "" if it is one.
 std::string objection(GDALDataset& dataset) {
   const int bands = dataset.GetRasterCount();
@@ -51,7 +28,7 @@ std::string objection(GDALDataset& dataset) {
     if (each.GetColorTable() != nullptr)
       return "A texture has no colour table (gdal_translate -expand rgb).";
   }
-  const int last = bandsOf(dataset).back();
+  const int last = textureBands(dataset).back();
   const bool alpha = dataset.GetRasterBand(last)->GetColorInterpretation() == GCI_AlphaBand;
   if (alpha != (bands % 2 == 0)) {
     return "The bands of a texture are grey, grey and alpha, RGB, or RGB and alpha "
@@ -75,7 +52,7 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
   copy.texels.resize(static_cast<size_t>(line) * height);
   const int bands = dataset.GetRasterCount();
   if (dataset.RasterIO(GF_Read, 0, 0, width, height, copy.texels.data(), width, height, type, bands,
-                       bandsOf(dataset).data(), pixel, line, sample, nullptr) != CE_None)
+                       textureBands(dataset).data(), pixel, line, sample, nullptr) != CE_None)
     return false;
   if (static_cast<int>(image.channels) == bands) return true;
   std::byte* const alpha = copy.texels.data() + (bands * sample);
@@ -92,6 +69,27 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
 }
 
 }  // namespace
+
+std::vector<int> textureBands(GDALDataset& dataset) {
+  const auto rank = [&](int band) {
+    switch (dataset.GetRasterBand(band)->GetColorInterpretation()) {
+      case GCI_RedBand:
+        return 0;
+      case GCI_GreenBand:
+        return 1;
+      case GCI_BlueBand:
+        return 2;
+      case GCI_AlphaBand:
+        return 4;
+      default:
+        return 3;
+    }
+  };
+  std::vector<int> bands(static_cast<size_t>(dataset.GetRasterCount()));
+  std::iota(bands.begin(), bands.end(), 1);
+  std::stable_sort(bands.begin(), bands.end(), [&](int a, int b) { return rank(a) < rank(b); });
+  return bands;
+}
 
 bool isPicture(GDALDataset& dataset) {
   return dataset.GetRasterCount() > 1 && objection(dataset).empty();
