@@ -153,7 +153,7 @@ bool Source::loadRanges(const std::vector<tks_range>& ranges) {
   return status == TKS_OK || failed(status);
 }
 
-bool Source::loadShares(std::vector<tks_range> ranges, uint64_t bytes) {
+bool Source::cutShares(std::vector<tks_range>& ranges, uint64_t bytes) {
   // The last bit-planes are noise, which costs every sample alike: without the same number of bytes
   // each, regions err alike.
   const auto without = [&](uint64_t most) {
@@ -173,10 +173,9 @@ bool Source::loadShares(std::vector<tks_range> ranges, uint64_t bytes) {
       most = middle;
     }
   }
-  if (most == 0) return reopen(end_);
   ranges = without(most);
   std::erase_if(ranges, [](const tks_range& range) { return range.size == 0; });
-  return loadRanges(ranges);
+  return most > 0;
 }
 
 uint64_t Source::bytesOfOverviewAbove(uint32_t level) const {
@@ -203,9 +202,9 @@ bool Source::load(uint32_t level, const tks_window* window) {
   if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
   // Of a shorter file the first bytes are asked for, not what a window would need of all.
   if (opened_ == first || !complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
-  const auto ranges = neededRanges(level, window);
+  auto ranges = neededRanges(level, window);
   if (!ranges) return false;
-  if (level > 0 && apart) return loadShares(*ranges, enough);
+  if (level > 0 && apart && cutShares(*ranges, enough)) return loadRanges(*ranges);
   const uint64_t cost = FileBytes::costOf(*ranges);
   if (cost >= first - first / 4) return reopen(first);
   // Who has read most of it will read the rest. The whole stream decodes to the same.

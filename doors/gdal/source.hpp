@@ -77,8 +77,9 @@ class Source {
   /// What a level or a window takes, by the index. Nothing after a reported error.
   std::optional<std::vector<tks_range>> neededRanges(uint32_t level, const tks_window* window);
   bool loadRanges(const std::vector<tks_range>& ranges);
-  /// The first range whole and a first part of each other one, that many bytes together.
-  bool loadShares(std::vector<tks_range> ranges, uint64_t bytes);
+  /// Leaves the first range whole and a first part of each other one, that many bytes together.
+  /// Whether that took anything off.
+  static bool cutShares(std::vector<tks_range>& ranges, uint64_t bytes);
   bool failed(tks_status status);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
 
