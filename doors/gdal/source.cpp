@@ -201,10 +201,12 @@ bool Source::load(uint32_t level, const tks_window* window) {
   const uint64_t first = cuts ? std::min(end_, info_.header_bytes + enough) : end_;
   if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
   // Of a shorter file the first bytes are asked for, not what a window would need of all.
-  if (opened_ == first || !complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
+  if (!complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
+  const bool shares = level > 0 && apart;
+  if (opened_ == first && !shares) return true;
   auto ranges = neededRanges(level, window);
   if (!ranges) return false;
-  if (level > 0 && apart && cutShares(*ranges, enough)) return loadRanges(*ranges);
+  if (shares && cutShares(*ranges, enough)) return loadRanges(*ranges);
   const uint64_t cost = FileBytes::costOf(*ranges);
   if (cost >= first - first / 4) return reopen(first);
   // Who has read most of it will read the rest. The whole stream decodes to the same.

@@ -234,6 +234,11 @@ def test_overviews_of_a_stream_for_windows(tmp_path):
         dataset = opened(tmp_path / "a.tks")
         overview = dataset.GetRasterBand(1).GetOverview(1).ReadAsArray()
         assert np.sqrt(np.mean((overview - means) ** 2)) < 100  # of missing regions 290
+        again = opened(tmp_path / "a.tks")
+        np.testing.assert_array_equal(again.ReadAsArray(), heights)
+        np.testing.assert_array_equal(
+            again.GetRasterBand(1).GetOverview(1).ReadAsArray(), overview
+        )
 
 
 def test_a_coarse_overview_of_a_stream_for_windows_reads_no_fine_regions(tmp_path):
