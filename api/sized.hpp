@@ -15,24 +15,21 @@ namespace tetrakis::inline api {
 /// No struct is ever as large: a greater size was never set.
 inline constexpr size_t kMostStructBytes = 4096;
 
+/// Whether a struct of `size` bytes has at least `least` ones, and sets no field behind the first
+/// `known`.
+Status checkSized(const std::string& name, const void* given, size_t size, size_t least,
+                  size_t known);
+
 /// Copies what the caller has of a struct; fields that it lacks are 0. `least` bytes are needed.
 /// Fields unknown to this library may be there as long as they are 0, which is every field's
 /// default. A field does not straddle a multiple of alignof(T), so no half of one is taken.
 template <class T>
 Status takeSized(const std::string& name, const T& given, size_t least, T& out) {
-  const size_t size = given.size;
-  if (size < least || size > kMostStructBytes) {
-    return {TKS_USAGE, "The struct of the " + name + " takes a size of at least " +
-                           std::to_string(least) + " bytes, not " + std::to_string(size) + "."};
-  }
-  const auto* bytes = reinterpret_cast<const std::byte*>(&given);
-  if (size > sizeof(T) &&
-      std::any_of(bytes + sizeof(T), bytes + size, [](std::byte b) { return b != std::byte{0}; })) {
-    return {TKS_UNSUPPORTED,
-            "The struct of the " + name + " sets a field that this library does not know."};
-  }
+  Status status = checkSized(name, &given, given.size, least, sizeof(T));
+  if (!status.ok()) return status;
+  const size_t bytes = std::min<size_t>(given.size, sizeof(T)) / alignof(T) * alignof(T);
   out = T{};
-  std::memcpy(&out, bytes, std::min(size, sizeof(T)) / alignof(T) * alignof(T));
+  std::memcpy(&out, &given, bytes);
   out.size = sizeof(T);
   return {};
 }

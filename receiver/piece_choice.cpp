@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/heap_sort.hpp"
+
 namespace tetrakis::inline receiver {
 
 namespace {
@@ -120,7 +122,7 @@ std::vector<uint32_t> rankedPieces(std::span<const Piece> pieces) {
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < pieces.size(); ++i)
     if (pieces[i].is_missing) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
+  heapSort(order, [&](uint32_t i, uint32_t j) {
     const PacketWorth &a = pieces[i].worth, &b = pieces[j].worth;
     return helpsMore(a, b) || (!helpsMore(b, a) && i < j);
   });

@@ -42,12 +42,18 @@ GroundPoint usualPoint(const StreamHeader& header) {
   return {pixels, pixels / kSine * kCosine * kCosine / area * metres * metres};
 }
 
+/// By log10(), which decoders need as well: the tables of std::log2() are one part in 80 of a
+/// WebAssembly module.
+double log4(double value) {
+  return std::log10(value) / 0.6020599913279624;
+}
+
 /// The share of a region's levels that a picture with so many pixels a sample shows: a level's
 /// finest waves are 2^level samples long, and take two pixels. coarsest_unseen: finer levels than
 /// the next are not decoded.
 double shownShare(const Region& region, double pixels, int coarsest_unseen) {
   const int last = region.isBase() ? region.first_level + kRegionLevels - 1 : region.last_level;
-  const double finest = std::max<double>(1 - std::log2(pixels) / 2, coarsest_unseen + 1);
+  const double finest = std::max<double>(1 - log4(pixels), coarsest_unseen + 1);
   return std::clamp((last + 1 - finest) / (last + 1 - region.first_level), 0.0, 1.0);
 }
 
@@ -56,7 +62,7 @@ int levelBelowMesh(const StreamHeader& header, uint32_t triangles) {
   if (triangles == 0) return 0;
   constexpr double kSamples = 20;
   const double most = static_cast<double>(gridOf(header).samples()) / (kSamples * triangles);
-  return most < 4 ? 0 : static_cast<int>(std::floor(std::log2(most) / 2));
+  return most < 4 ? 0 : std::ilogb(most) / 2;
 }
 
 /// Ground of absurd spacing costs nothing.

@@ -60,6 +60,18 @@ def anywhere(name):
     return 1000 * (time.process_time() - start) / len(places)
 
 
+def means_over(heights, rows, columns):
+    """Of the areas of so many pixels, all of the same size, that share the raster."""
+    for length in (rows, columns):
+        sums = np.pad(np.cumsum(heights, axis=0, dtype=np.float64), ((1, 0), (0, 0)))
+        ends = np.arange(length + 1) * len(heights) / length
+        whole = np.minimum(ends.astype(int), len(heights) - 1)
+        part = (ends - whole)[:, None]
+        at = sums[whole] * (1 - part) + sums[whole + 1] * part
+        heights = (np.diff(at, axis=0) * length / len(heights)).T
+    return heights
+
+
 def by_blocks(name):
     """Milliseconds of all blocks, row by row."""
     start = time.process_time()
@@ -81,10 +93,7 @@ def measure(folder, heights, label, driver, options):
     whole, array = read(name)
     off = array.astype(np.float64) - heights
     rmse = np.sqrt(np.mean(off**2))
-    whole_pixels = SIDE // OVERVIEW
-    cut = heights[: whole_pixels * OVERVIEW, : whole_pixels * OVERVIEW]
-    means = cut.reshape(whole_pixels, OVERVIEW, whole_pixels, OVERVIEW).mean(axis=(1, 3))
-    blur = np.sqrt(np.mean((pixels[:whole_pixels, :whole_pixels] - means) ** 2))
+    blur = np.sqrt(np.mean((pixels - means_over(heights, *pixels.shape)) ** 2))
     size = Path(name).stat().st_size
     print(f"| {label} | {size / 1000:.0f} | {rmse:.2f} | {np.abs(off).max():.0f} | {encoding:.1f} "
           f"| {window:.0f} | {anywhere(name):.0f} | {overview:.0f} | {blur:.2f} | {whole:.0f} "

@@ -9,6 +9,14 @@ void FieldReader::fail(const std::string& name, const std::string& why) {
                                     std::to_string(origin_ + at_) + " " + why + ".");
 }
 
+bool FieldReader::isWithin(const char* name, uint64_t raw, uint64_t low, uint64_t high) {
+  if (ok() && (raw < low || raw > high)) {
+    fail(name, "is " + std::to_string(raw) + ", allowed are " + std::to_string(low) + " to " +
+                   std::to_string(high));
+  }
+  return ok();
+}
+
 uint8_t FieldReader::next() {
   if (!ok()) return 0;
   if (at_ == bytes_.size()) {

@@ -109,14 +109,10 @@ class FieldReader {
   uint8_t next();
   template <class T>
   void accept(const char* name, uint64_t raw, uint64_t low, uint64_t high, T& value) {
-    if (!ok()) return;
-    if (raw < low || raw > high) {
-      fail(name, "is " + std::to_string(raw) + ", allowed are " + std::to_string(low) + " to " +
-                     std::to_string(high));
-    } else {
-      value = static_cast<T>(raw);
-    }
+    if (isWithin(name, raw, low, high)) value = static_cast<T>(raw);
   }
+  /// Whether nothing has failed, this range included.
+  bool isWithin(const char* name, uint64_t raw, uint64_t low, uint64_t high);
 
   std::span<const uint8_t> bytes_;
   size_t origin_;

@@ -57,6 +57,9 @@ struct CopiedTexture {
 std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
                                            bool strict, const ProgressPart& progress);
 
+/// The numbers of the bands in a texture's order: red, green, blue, what is none of these, alpha.
+std::vector<int> textureBands(GDALDataset& dataset);
+
 /// Whether it becomes a texture without heights: colours, or anything with alpha.
 bool isPicture(GDALDataset& dataset);
 

@@ -2,6 +2,8 @@
 // A dataset of GDAL as the texture of a stream.
 #include <algorithm>
 #include <memory>
+#include <numeric>
+#include <vector>
 
 #include "doors/gdal/copied_raster.hpp"
 #include "doors/gdal/source.hpp"
@@ -26,7 +28,8 @@ std::string objection(GDALDataset& dataset) {
     if (each.GetColorTable() != nullptr)
       return "A texture has no colour table (gdal_translate -expand rgb).";
   }
-  const bool alpha = dataset.GetRasterBand(bands)->GetColorInterpretation() == GCI_AlphaBand;
+  const int last = textureBands(dataset).back();
+  const bool alpha = dataset.GetRasterBand(last)->GetColorInterpretation() == GCI_AlphaBand;
   if (alpha != (bands % 2 == 0)) {
     return "The bands of a texture are grey, grey and alpha, RGB, or RGB and alpha "
            "(gdal_translate -b, -colorinterp).";
@@ -49,7 +52,7 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
   copy.texels.resize(static_cast<size_t>(line) * height);
   const int bands = dataset.GetRasterCount();
   if (dataset.RasterIO(GF_Read, 0, 0, width, height, copy.texels.data(), width, height, type, bands,
-                       nullptr, pixel, line, sample, nullptr) != CE_None)
+                       textureBands(dataset).data(), pixel, line, sample, nullptr) != CE_None)
     return false;
   if (static_cast<int>(image.channels) == bands) return true;
   std::byte* const alpha = copy.texels.data() + (bands * sample);
@@ -66,6 +69,27 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
 }
 
 }  // namespace
+
+std::vector<int> textureBands(GDALDataset& dataset) {
+  const auto rank = [&](int band) {
+    switch (dataset.GetRasterBand(band)->GetColorInterpretation()) {
+      case GCI_RedBand:
+        return 0;
+      case GCI_GreenBand:
+        return 1;
+      case GCI_BlueBand:
+        return 2;
+      case GCI_AlphaBand:
+        return 4;
+      default:
+        return 3;
+    }
+  };
+  std::vector<int> bands(static_cast<size_t>(dataset.GetRasterCount()));
+  std::iota(bands.begin(), bands.end(), 1);
+  std::stable_sort(bands.begin(), bands.end(), [&](int a, int b) { return rank(a) < rank(b); });
+  return bands;
+}
 
 bool isPicture(GDALDataset& dataset) {
   return dataset.GetRasterCount() > 1 && objection(dataset).empty();

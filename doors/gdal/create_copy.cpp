@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doors/gdal/create_copy.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <cpl_vsi_error.h>
 #include <gdal_pam.h>
@@ -146,6 +148,9 @@ GDALDataset* openCopy(const std::string& name, GDALDataset& source, double round
   int has_nodata = FALSE;
   copy->GetRasterBand(1)->GetNoDataValue(&has_nodata);
   if (has_nodata) flags &= ~GCIF_NODATA;
+  const std::vector<int> bands = textureBands(source);
+  if (!std::is_sorted(bands.begin(), bands.end()))  // what is said of one would be of another
+    flags &= ~(GCIF_BAND_METADATA | GCIF_BAND_DESCRIPTION);
   copy->CloneInfo(&source, flags);
   const OGRSpatialReference* const wanted = source.GetSpatialRef();
   const OGRSpatialReference* const got = copy->GetSpatialRef();

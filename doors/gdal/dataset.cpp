@@ -236,7 +236,9 @@ bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
     if (level_ == 0 && readsWindows()) return source_->window(window, out);
     const uint32_t below = level_ == 0 ? 0 : level_ - 1;
     const uint32_t width = source_->width(below), height = source_->height(below);
-    tks_window area = level_ == 0 ? window : areaBelow(window, width, height);
+    const OverviewAxis across{level_, source_->width(0), source_->width(level_), width};
+    const OverviewAxis down{level_, source_->height(0), source_->height(level_), height};
+    tks_window area = level_ == 0 ? window : areaBelow(across, down, window);
     std::vector<std::byte> part;
     const std::byte* pixels = nullptr;
     if (readsWindows()) {
@@ -254,9 +256,8 @@ bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
                   window.width * pixel);
       return true;
     }
-    const FinerLevel finer{pixels,     area, width, height, source_->sample(), source_->channels(),
-                           void_value_};
-    makeOverview(finer, level_, window, out.data());
+    const FinerLevel finer{pixels, area, source_->sample(), source_->channels(), void_value_};
+    makeOverview(finer, across, down, window, out.data());
     return true;
   } catch (const std::bad_alloc&) {
     reportFailure(TKS_NO_MEMORY, source_->name(), "");

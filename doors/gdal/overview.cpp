@@ -6,19 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 namespace tetrakis::gdal {
 namespace {
 
-/// Samples 2X, 2X + 1 and 2X + 2 of level k - 1 beneath pixel X of overview k. In samples of that
-/// level the pixel is 2 wide and reaches from 2X - 2^-k to 2X + 2 - 2^-k, and sample i from i - 1/2
-/// to i + 1/2: these are the shares of its area. Overview 1 is the mean of 2 x 2.
 using Shares = std::array<double, 3>;
-
-Shares sharesOf(uint32_t k) {
-  const double shift = std::ldexp(1.0, -static_cast<int>(k));
-  return {(0.5 + shift) / 2, 0.5, (0.5 - shift) / 2};
-}
 
 template <class T>
 T rounded(double value) {
@@ -30,16 +23,18 @@ T rounded(double value) {
 template <class T>
 class Averager {
  public:
-  Averager(const FinerLevel& finer, uint32_t k) : finer_(finer), shares_(sharesOf(k)) {}
+  explicit Averager(const FinerLevel& finer) : finer_(finer) {}
 
-  void pixel(uint32_t x, uint32_t y, T* out) const {
+  /// Of three rows and columns of samples, from (x, y) of the level on.
+  void pixel(uint32_t x, uint32_t y, const Shares& across, const Shares& down, T* out) const {
     std::array<double, 4> sums{}, plain{};
     double weight = 0, opaque = 0;
     for (uint32_t row = 0; row < 3; ++row) {
       for (uint32_t column = 0; column < 3; ++column) {
-        const T* const from = at(2 * uint64_t{x} + column, 2 * uint64_t{y} + row);
-        const double share = shares_[row] * shares_[column];
-        if (from == nullptr || share == 0 || isVoid(*from)) continue;
+        const double share = down[row] * across[column];
+        if (share == 0) continue;
+        const T* const from = at(x + column, y + row);
+        if (isVoid(*from)) continue;
         const double alpha = hasAlpha() ? static_cast<double>(from[finer_.channels - 1]) : 1;
         weight += share;
         opaque += share * alpha;
@@ -64,11 +59,9 @@ class Averager {
  private:
   bool hasAlpha() const { return finer_.channels % 2 == 0; }
 
-  /// Null outside of the level.
-  const T* at(uint64_t x, uint64_t y) const {
+  const T* at(uint32_t x, uint32_t y) const {
     const tks_window& window = finer_.window;
-    if (x >= finer_.width || y >= finer_.height) return nullptr;
-    const uint64_t pixel = (y - window.y) * window.width + (x - window.x);
+    const uint64_t pixel = uint64_t{y - window.y} * window.width + (x - window.x);
     return reinterpret_cast<const T*>(finer_.pixels) + pixel * finer_.channels;
   }
 
@@ -101,43 +94,78 @@ class Averager {
   }
 
   const FinerLevel& finer_;
-  Shares shares_;
 };
 
 template <class T>
-void average(const FinerLevel& finer, uint32_t k, const tks_window& part, std::byte* out) {
-  const Averager<T> averager(finer, k);
+void average(const FinerLevel& finer, const OverviewAxis& across, const OverviewAxis& down,
+             const tks_window& part, std::byte* out) {
+  const Averager<T> averager(finer);
+  struct Column {
+    uint32_t first;
+    Shares shares;
+  };
+  std::vector<Column> columns;
+  for (uint32_t x = part.x; x < part.x + part.width; ++x)
+    columns.push_back({across.first(x), across.shares(x)});
   T* to = reinterpret_cast<T*>(out);
   for (uint32_t y = part.y; y < part.y + part.height; ++y) {
-    for (uint32_t x = part.x; x < part.x + part.width; ++x, to += finer.channels)
-      averager.pixel(x, y, to);
+    const uint32_t first = down.first(y);
+    const Shares shares = down.shares(y);
+    for (const Column& column : columns) {
+      averager.pixel(column.first, first, column.shares, shares, to);
+      to += finer.channels;
+    }
   }
 }
 
 }  // namespace
 
-tks_window areaBelow(const tks_window& part, uint32_t finer_width, uint32_t finer_height) {
-  const uint32_t x = 2 * part.x, y = 2 * part.y;
-  return {x, y, std::min(2 * part.width + 1, finer_width - x),
-          std::min(2 * part.height + 1, finer_height - y)};
+double OverviewAxis::start(uint32_t pixel) const {
+  const double sample = static_cast<double>(uint64_t{pixel} * raster) / overview - 0.5;
+  return std::ldexp(sample, 1 - static_cast<int>(k));
 }
 
-void makeOverview(const FinerLevel& finer, uint32_t k, const tks_window& part, std::byte* out) {
+uint32_t OverviewAxis::first(uint32_t pixel) const {
+  return static_cast<uint32_t>(start(pixel) + 0.5);
+}
+
+std::array<double, 3> OverviewAxis::shares(uint32_t pixel) const {
+  const double begin = start(pixel), end = start(pixel + 1);
+  std::array<double, 3> shares{};
+  for (uint32_t i = 0; i < 3; ++i) {
+    const double sample = first(pixel) + i;
+    if (sample < finer)
+      shares[i] = std::max(std::min(end, sample + 0.5) - std::max(begin, sample - 0.5), 0.0);
+  }
+  return shares;
+}
+
+tks_window areaBelow(const OverviewAxis& x, const OverviewAxis& y, const tks_window& part) {
+  const auto end = [](const OverviewAxis& axis, uint32_t last) {
+    return std::min(axis.first(last) + 3, axis.finer);
+  };
+  const uint32_t left = x.first(part.x), top = y.first(part.y);
+  return {left, top, end(x, part.x + part.width - 1) - left,
+          end(y, part.y + part.height - 1) - top};
+}
+
+void makeOverview(const FinerLevel& finer, const OverviewAxis& x, const OverviewAxis& y,
+                  const tks_window& part, std::byte* out) {
   switch (finer.sample) {
     case TKS_U8:
-      return average<uint8_t>(finer, k, part, out);
+      return average<uint8_t>(finer, x, y, part, out);
     case TKS_I8:
-      return average<int8_t>(finer, k, part, out);
+      return average<int8_t>(finer, x, y, part, out);
     case TKS_U16:
-      return average<uint16_t>(finer, k, part, out);
+      return average<uint16_t>(finer, x, y, part, out);
     case TKS_I16:
-      return average<int16_t>(finer, k, part, out);
+      return average<int16_t>(finer, x, y, part, out);
     case TKS_U32:
-      return average<uint32_t>(finer, k, part, out);
+      return average<uint32_t>(finer, x, y, part, out);
     case TKS_I32:
-      return average<int32_t>(finer, k, part, out);
+      return average<int32_t>(finer, x, y, part, out);
     case TKS_F32:
-      return average<float>(finer, k, part, out);
+      return average<float>(finer, x, y, part, out);
   }
 }
 

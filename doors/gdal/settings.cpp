@@ -98,8 +98,10 @@ class Options {
     const char* const given =
         CSLFetchNameValueDef(options_, "NUM_THREADS", CPLGetConfigOption("GDAL_NUM_THREADS", "1"));
     if (EQUAL(given, "ALL_CPUS")) return static_cast<uint32_t>(CPLGetNumCPUs());
-    const int number = std::atoi(given);
-    if (number >= 1 && number <= 1024) return static_cast<uint32_t>(number);
+    uint32_t number = 0;
+    const char* const end = given + std::strlen(given);
+    const auto [stop, error] = std::from_chars(given, end, number);
+    if (error == std::errc() && stop == end && number >= 1 && number <= 1024) return number;
     refuse(std::string("NUM_THREADS=") + given + " is neither a number of threads nor ALL_CPUS.");
     return 1;
   }

@@ -153,7 +153,7 @@ bool Source::loadRanges(const std::vector<tks_range>& ranges) {
   return status == TKS_OK || failed(status);
 }
 
-bool Source::loadShares(std::vector<tks_range> ranges, uint64_t bytes) {
+bool Source::cutShares(std::vector<tks_range>& ranges, uint64_t bytes) {
   // The last bit-planes are noise, which costs every sample alike: without the same number of bytes
   // each, regions err alike.
   const auto without = [&](uint64_t most) {
@@ -173,10 +173,19 @@ bool Source::loadShares(std::vector<tks_range> ranges, uint64_t bytes) {
       most = middle;
     }
   }
-  if (most == 0) return reopen(end_);
   ranges = without(most);
   std::erase_if(ranges, [](const tks_range& range) { return range.size == 0; });
-  return loadRanges(ranges);
+  return most > 0;
+}
+
+uint64_t Source::bytesOfOverviewAbove(uint32_t level) const {
+  const uint64_t pixels = uint64_t{width(level + 1)} * height(level + 1);
+  // Of heights and texture either may have most of the first bytes. Shares of regions are not cut
+  // by what their bytes are worth.
+  uint64_t copies = 1;
+  if (info_.index == TKS_INDEX_WINDOWS) copies = 2;
+  if (info_.has_heights && info_.has_texture) copies = 4;
+  return copies * pixels * pixelBytes();
 }
 
 bool Source::load(uint32_t level, const tks_window* window) {
@@ -185,17 +194,19 @@ bool Source::load(uint32_t level, const tks_window* window) {
     if (const tks_status sound = tks_verify(decoder_.get()); sound != TKS_OK) return failed(sound);
     verified_ = true;
   }
-  const uint64_t pixels = uint64_t{width(level)} * height(level) * pixelBytes();
   // A prefix of a stream for windows lacks most regions: a level takes a first part of each.
   const bool apart = info_.index == TKS_INDEX_WINDOWS;
   const bool cuts = level > 0 && !apart;
-  const uint64_t first = cuts ? std::min(end_, info_.header_bytes + pixels) : end_;
+  const uint64_t enough = bytesOfOverviewAbove(level);
+  const uint64_t first = cuts ? std::min(end_, info_.header_bytes + enough) : end_;
   if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
   // Of a shorter file the first bytes are asked for, not what a window would need of all.
-  if (opened_ == first || !complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
-  const auto ranges = neededRanges(level, window);
+  if (!complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
+  const bool shares = level > 0 && apart;
+  if (opened_ == first && !shares) return true;
+  auto ranges = neededRanges(level, window);
   if (!ranges) return false;
-  if (level > 0 && apart) return loadShares(*ranges, pixels);
+  if (shares && cutShares(*ranges, enough)) return loadRanges(*ranges);
   const uint64_t cost = FileBytes::costOf(*ranges);
   if (cost >= first - first / 4) return reopen(first);
   // Who has read most of it will read the rest. The whole stream decodes to the same.

@@ -53,8 +53,8 @@ class Source {
 
   /// All pixels of a level, channels interleaved; of level 0 and the last other level they are
   /// kept. Null after an error was reported. A level above 0 takes no more bytes of the stream than
-  /// its pixels have (what it shows comes first, and a small map takes a small download), or those
-  /// that it needs, where these are fewer or no prefix shows all ground.
+  /// the overview that is made of it has (what it shows comes first, and a small map takes a small
+  /// download), or those that it needs, where these are fewer or no prefix shows all ground.
   const std::byte* level(uint32_t level);
   /// A part of level 0.
   bool window(const tks_window& window, std::vector<std::byte>& out);
@@ -70,13 +70,16 @@ class Source {
   tks_status openPrefix(uint64_t bytes);
   bool reopen(uint64_t bytes);
   bool read(std::span<const tks_range> ranges);
+  /// How many bytes of the stream show a level well enough for the overview made of it.
+  uint64_t bytesOfOverviewAbove(uint32_t level) const;
   /// Opens what a level takes, or, at level 0, a window of it (null: all).
   bool load(uint32_t level, const tks_window* window);
   /// What a level or a window takes, by the index. Nothing after a reported error.
   std::optional<std::vector<tks_range>> neededRanges(uint32_t level, const tks_window* window);
   bool loadRanges(const std::vector<tks_range>& ranges);
-  /// The first range whole and a first part of each other one, that many bytes together.
-  bool loadShares(std::vector<tks_range> ranges, uint64_t bytes);
+  /// Leaves the first range whole and a first part of each other one, that many bytes together.
+  /// Whether that took anything off.
+  static bool cutShares(std::vector<tks_range>& ranges, uint64_t bytes);
   bool failed(tks_status status);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
 

@@ -24,6 +24,32 @@ TEST_F(CliTest, HeightsForEnginesComeWithTheirScales) {
   EXPECT_EQ(cli("decode a.tks --height - --size unity").out, content("u.raw"));
 }
 
+TEST_F(CliTest, TexturesForEnginesAreTurnedAsTheHeights) {
+  tools::HeightFile north_up = hills(17), east_first = north_up;
+  north_up.geotransform = {400000, 30, 0, 3800000, 0, -30};
+  east_first.geotransform = {400000, 0, 30, 3800000, -30, 0};  // rows are columns
+  north_up.crs = east_first.crs = "EPSG:32611";
+  tools::ImageFile picture{5, 3, 1, TKS_U8, {}}, transposed{3, 5, 1, TKS_U8, {}};
+  for (uint32_t i = 0; i < 15; ++i) {
+    picture.data.push_back(static_cast<std::byte>(i));
+    transposed.data.push_back(static_cast<std::byte>(i % 3 * 5 + i / 3));
+  }
+  const auto texture = [&](const tools::HeightFile& heights, const tools::ImageFile& image) {
+    EXPECT_TRUE(tools::writeHeights(path("h.tif"), heights).ok());
+    EXPECT_TRUE(tools::writeImage(path("t.png"), image).ok());
+    EXPECT_EQ(cli("encode h.tif --texture t.png --lossless -f -o a.tks").code, 0);
+    const Outcome run = cli("decode a.tks -f --height u.r16 --size unreal:127 --texture u.png");
+    EXPECT_EQ(run.code, 0) << run.err;
+    return tools::readImage(path("u.png"));
+  };
+  for (const auto& [heights, image] : {std::pair(north_up, picture), {east_first, transposed}}) {
+    const auto out = texture(heights, image);
+    ASSERT_TRUE(out.ok());
+    EXPECT_EQ(out->width, 5U);
+    EXPECT_EQ(out->data, picture.data);
+  }
+}
+
 TEST_F(CliTest, WhatIsGuessedOfTheGroundIsTold) {
   tools::HeightFile bare = hills(17);
   bare.unit = "";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis decode: heights, texture and mesh out of a stream or a prefix of one.
 #include <algorithm>
+#include <array>
 #include <future>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/plain_heights.hpp"
 #include "tools/files/text.hpp"
+#include "tools/files/turned_image.hpp"
 #include "tools/output/output.hpp"
 #include "tools/report/draped_texture.hpp"
 #include "tools/report/surface_normals.hpp"
@@ -141,6 +143,11 @@ class Decoding {
   Status writeTexture() {
     const Result<ImageFile>& image = decodedImage();
     if (!image.ok()) return image.status();
+    const QuarterTurn turn(textureAxes());
+    if (engine_ && !turn.none()) {  // as the heights
+      return texture_->stage(
+          [&](const std::string& path) { return writeImage(path, turned(*image, turn)); });
+    }
     return texture_->stage([&](const std::string& path) { return writeImage(path, *image); });
   }
 
@@ -218,10 +225,6 @@ class Decoding {
     if (heights->askew)
       tellNote("the raster lies askew: " + height_->name() + " has north only about at its top",
                quiet_);
-    if (heights->turned && texture_)
-      tellNote(height_->name() + " has north at its top, which " + texture_->name() +
-                   " has not: turn that alike",
-               quiet_);
     if (arguments_.json) {
       engine_json_ = engineJson(*heights);
     } else if (!quiet_) {
@@ -229,6 +232,13 @@ class Decoding {
     }
     return height_->stage(
         [&](const std::string& path) { return writeEngineHeights(path, *heights); });
+  }
+
+  GroundAxes textureAxes() const {
+    const tks_info& info = decoder_.info();
+    if (!info.texture_has_geotransform) return frameOf(info).axes;
+    return groundAxes(std::to_array(info.texture_geotransform), info.texture_width,
+                      info.texture_height, *info.texture_crs ? info.texture_crs : info.crs);
   }
 
   bool wantsTexture() const { return !arguments_.texture.empty() || !arguments_.mesh.empty(); }
@@ -243,8 +253,9 @@ class Decoding {
     return stream_.bytes.size() + 2 * heightsBytes(decoder_.info(), window());
   }
   uint64_t textureCopies() const {
-    const uint64_t in_mesh = arguments_.mesh.empty() ? 0 : 1;
-    return stream_.bytes.size() + (3 + in_mesh) * imageBytes(decoder_.info(), textureWindow());
+    const uint64_t in_mesh = arguments_.mesh.empty() ? 0 : 1, turned = engine_ ? 1 : 0;
+    return stream_.bytes.size() +
+           (3 + in_mesh + turned) * imageBytes(decoder_.info(), textureWindow());
   }
   uint64_t meshCopies() const {
     constexpr uint64_t kTriangle = 64;  // in space with half a vertex, and in the file's order

@@ -133,8 +133,13 @@ void addStream(httplib::Server& server, const std::string& name,
   });
 }
 
-/// The port that is asked for, or with 0 a free one.
+/// The port that is asked for, or with 0 a free one. By default httplib shares a port with whoever
+/// listens there, and either gets the other's requests.
 Result<int> bind(httplib::Server& server, int port) {
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   const int bound = port == 0                              ? server.bind_to_any_port(kLoopback)
                     : server.bind_to_port(kLoopback, port) ? port
                                                            : -1;

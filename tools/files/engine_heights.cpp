@@ -50,19 +50,6 @@ std::vector<Taps> tapsOf(uint32_t side, uint32_t samples) {
   return taps;
 }
 
-/// Which row and column of the ground a row and a column of the square are.
-struct QuarterTurn {
-  bool transposed, rows_back, columns_back;
-
-  explicit QuarterTurn(const GroundAxes& axes)
-      : transposed(std::abs(axes.along[1]) + std::abs(axes.down[0]) >
-                   std::abs(axes.along[0]) + std::abs(axes.down[1])),
-        rows_back(axes.down[transposed ? 0 : 1] < 0),
-        columns_back(axes.along[transposed ? 1 : 0] < 0) {}
-
-  bool none() const { return !transposed && !rows_back && !columns_back; }
-};
-
 bool isAskew(const GroundAxes& axes) {
   constexpr double kSlack = 1e-6;
   const auto leans = [](const std::array<double, 2>& axis) {
@@ -152,7 +139,6 @@ Result<EngineHeights> engineHeights(const EngineGround& ground, const EngineSize
   const QuarterTurn turn(ground.axes);
   if (turn.transposed) std::swap(out.width, out.length);
   out.samples = resampled(ground, size.side, turn, {low, high});
-  out.turned = !turn.none();
   out.askew = isAskew(ground.axes);
   return out;
 }

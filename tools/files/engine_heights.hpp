@@ -46,7 +46,6 @@ struct EngineHeights {
   double lowest = 0, highest = 0;  ///< metres
   double width = 0, length = 0;    ///< metres from the first sample to the last
   size_t voids = 0;                ///< samples of the ground without a height: the lowest
-  bool turned = false;             ///< the first sample is another one than that of the ground
   bool askew = false;              ///< rows run neither north and south nor east and west
 };
 

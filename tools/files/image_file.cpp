@@ -10,6 +10,7 @@
 #include "tools/files/pictures/tiff.hpp"
 #include "tools/files/place/world_file.hpp"
 #include "tools/files/plain_heights.hpp"
+#include "tools/files/turned_image.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -73,24 +74,11 @@ std::string noteOn(const Raster& raster, bool widened) {
 /// Applies the orientation tag (TIFF 6.0: where the stored row 0 and column 0 stand in the
 /// picture). From 5 on rows and columns change places.
 ImageFile turnedUpright(const ImageFile& stored, int orientation) {
-  const bool swapped = orientation >= 5;
-  const bool flip_column = orientation == 2 || orientation == 3 || orientation >= 7;
-  const bool flip_row =
-      orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
-  ImageFile upright = stored;
-  if (swapped) std::swap(upright.width, upright.height);
-  const size_t pixel_bytes = stored.channels * tks_sample_bytes(stored.sample);
-  auto pixel = upright.data.begin();
-  for (uint32_t y = 0; y < upright.height; ++y) {
-    for (uint32_t x = 0; x < upright.width; ++x) {
-      uint32_t column = swapped ? y : x, row = swapped ? x : y;
-      if (flip_column) column = stored.width - 1 - column;
-      if (flip_row) row = stored.height - 1 - row;
-      const size_t from = (size_t{row} * stored.width + column) * pixel_bytes;
-      pixel = std::copy_n(stored.data.begin() + from, pixel_bytes, pixel);
-    }
-  }
-  return upright;
+  QuarterTurn turn{GroundAxes()};
+  turn.transposed = orientation >= 5;
+  turn.columns_back = orientation == 2 || orientation == 3 || orientation >= 7;
+  turn.rows_back = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+  return turned(stored, turn);
 }
 
 /// Of the pixels as they are stored. Tags go before a world file beside.

@@ -4,7 +4,7 @@ import {abortable} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './module.js';
-import {FIRST_BYTES, FIRST_FRAME, GROWTH, nextBytes} from './pace.js';
+import {FIRST_BYTES, FIRST_FRAME, Flow, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
 
@@ -38,11 +38,20 @@ function plannedView(view) {
   return {clip: [...view.clip], width: pixels(view.width), height: pixels(view.height)};
 }
 
+/** Resolves when the promise ends, however it does, or after so many ms. */
+async function within(ms, promise) {
+  let timer;
+  const end = new Promise((resolve) => (timer = setTimeout(resolve, ms)));
+  await Promise.race([promise.catch(() => {}), end]);
+  clearTimeout(timer);
+}
+
 /** A stream that is open. Made by open(). */
 class Terrain {
   #source;
   #decoder;
   #held = new Held();
+  #flow = new Flow();
   #reading = Promise.resolve();
   #awaited = new Set();  // {bytes, resolve}: who waits for so many
 
@@ -110,6 +119,7 @@ class Terrain {
     if (!gap) return;
     const [begin, end] = gap;
     let place = begin;
+    this.#flow.request();
     await this.#source.next(begin, Math.min(end, begin + bytes), async (piece) => {
       this.#take(place, piece);
       place += piece.length;
@@ -119,6 +129,7 @@ class Terrain {
   async #fetchPlanned(view, bytes, triangles, signal) {
     const {requestBytes} = this;
     const plan = await this.#call('plan', {view, bytes, triangles, requestBytes}, signal);
+    this.#flow.request();
     const answers = requestsFor(plan, this.#source.size).map(([begin, end]) =>
       ({begin, chunk: this.#source.scattered(begin, end, signal)}));
     for (const {chunk} of answers) chunk.catch(() => {});  // the first failure is told
@@ -136,6 +147,7 @@ class Terrain {
       put.catch(() => {});  // of a decoder that failed, and says so to all
     }
     this.#held.add(begin, begin + chunk.length);
+    this.#flow.take(chunk.length);
     for (const {bytes, resolve} of this.#awaited) {
       if (this.#held.bytes >= bytes) resolve();
     }
@@ -169,15 +181,21 @@ class Terrain {
     const ended = signal ? AbortSignal.any([signal, leave.signal]) : leave.signal;
     const all = this.load(limit, {...options, signal: ended});
     all.catch(() => {});
+    let took = 0;
     try {
       if (beginning) yield await beginning;
       if (first) shown = 0;  // not yet as it is asked for
       for (;;) {
         const wanted = headerBytes + GROWTH * Math.max(shown - headerBytes, FIRST_BYTES);
         await abortable(this.#reached(2 * wanted > limit ? limit : wanted, all), signal);
+        const patience = this.#flow.patience(limit - this.#held.bytes, took);
+        if (patience) await abortable(within(patience, all), signal);
         const taken = nextBytes(shown, Math.min(this.#held.bytes, limit));
         if (taken <= shown) return;
-        yield await this.#frame((shown = taken), {...options, signal});
+        const begun = performance.now();
+        const frame = await this.#frame((shown = taken), {...options, signal});
+        took = performance.now() - begun;
+        yield frame;
       }
     } finally {
       leave.abort();
@@ -199,6 +217,7 @@ class Terrain {
         return;
       } catch (error) {
         if (error.code !== 'truncated') throw error;
+        if (have === 0) throw new TksError('truncated', 'The file is empty.');
         if (have < bytes) {
           throw new TksError('truncated', `The file is cut short: it ends after ${have} bytes, ` +
             'inside the header of the stream.');

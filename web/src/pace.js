@@ -13,6 +13,31 @@ export const GROWTH = 4;
 /** So many bytes cost no more than the transform that a frame takes in any case. */
 const CHEAP_BYTES = 2 ** 18;
 
+/** What comes so soon, in ms, is waited for; so is what comes within a quarter of the time so far. */
+const SOON = 150, NOT_SO_SOON = 1000;
+/** Foretells when the last bytes of a request come, by how fast the first ones did. */
+export class Flow {
+  #begin = 0;
+  #bytes = 0;  // behind the first ones, whose time is that of the request
+  request() {
+    this.#begin = this.#bytes = 0;
+  }
+  take(bytes) {
+    if (this.#begin) this.#bytes += bytes;
+    else this.#begin = performance.now();
+  }
+  /**
+   * How many ms to wait for the `rest`, if it comes soon: a frame without it would only delay the last
+   * one. `took`: ms of the last frame.
+   */
+  patience(rest, took) {
+    if (rest <= 0) return 0;
+    const elapsed = this.#begin ? performance.now() - this.#begin : 0;
+    const most = Math.max(SOON, took, Math.min(elapsed / 4, NOT_SO_SOON));
+    return !this.#bytes || rest * elapsed <= most * this.#bytes ? most : 0;
+  }
+}
+
 /** How many of the `here` bytes the frame behind one of `shown` takes. */
 export const nextBytes = (shown, here) =>
   Math.min(here, Math.max(CHEAP_BYTES, GROWTH ** 2 * shown));

@@ -124,7 +124,7 @@ export class UrlSource {
   }
   async #answered(begin, end, take, stop) {
     const answer = await this.#fetch(begin, end, stop);
-    if (answer.status === 416 && begin > 0) {
+    if (answer.status === 416) {
       this.size = Math.min(this.size, begin);
       return true;
     }

@@ -157,12 +157,12 @@ test('a hundred terrains that are opened and disposed leave nothing', async () =
         await Promise.allSettled([aborted, open(new Uint8Array(100), given)]);
       }
     }, [server.url + 'a.tks', times, options]);
-    for (const options of [{}, {worker: false}]) {
+    for (const [count, options] of [[100, {}], [30, {worker: false}]]) {
       await opened(5, options);
       const before = await heap();
-      await opened(100, options);
+      await opened(count, options);
       const growth = await heap() - before;
-      assert.ok(growth < 2e5, `${growth} bytes, ${JSON.stringify(options)}`);
+      assert.ok(growth < 2000 * count, `${growth} bytes, ${JSON.stringify(options)}`);
       // Those that still end do so soon; of others this is never told.
       await Promise.all(page.workers().map((worker) => worker.waitForEvent('close', {timeout: 5000})));
     }

@@ -7,8 +7,10 @@ import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {gzipSync} from 'node:zlib';
 
+import {encode} from '../src/encode.js';
 import {FIRST_FRAME, TksError, open} from '../src/index.js';
 import {serve} from './server.js';
+import {terrainOf} from './terrain.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url).pathname;
 const NAME = 'joint_budget_97x97_128x128.tks';
@@ -287,6 +289,24 @@ test('bytes come on while frames are made; who leaves ends their coming', async 
   assert.ok(frames[1].mesh.triangles.length > 3000);
 });
 
+test('what comes soon is waited for, instead of a frame without it', async () => {
+  await writeFile(join(folder, 'large.tks'), await encode({...terrainOf(193), bytes: 90000}));
+  await withServer({pause: [70000, 30]}, async (server) => {
+    const terrain = await open(server.url + 'large.tks');
+    const frames = await framesOf(terrain);
+    assert.deepEqual(frames.map((frame) => frame.bytes), [4096, terrain.info.streamBytes]);
+    terrain.dispose();
+    // Whoever asked for it, and however much is here.
+    const other = await open(server.url + 'large.tks');
+    const loading = other.load(Infinity);
+    await until(() => other.loaded.bytes > 60000);
+    const rest = await framesOf(other, {after: 4096});
+    assert.deepEqual(rest.map((frame) => frame.bytes), [other.info.streamBytes]);
+    await loading;
+    other.dispose();
+  });
+});
+
 test('on a slow link frames follow each other at fourfold bytes', async () => {
   await withServer({most: 700}, async (server) => {
     const terrain = await open(server.url + 'whole.tks');
@@ -443,7 +463,7 @@ test('memory returns: a hundred frames take no more than one', async () => {
 });
 
 test('the modules are small', async () => {
-  const limits = {tetrakis: 183, 'tetrakis-raster': 127, 'tetrakis-encode': 370};
+  const limits = {tetrakis: 168, 'tetrakis-raster': 114, 'tetrakis-encode': 362};
   for (const [name, limit] of Object.entries(limits)) {
     const file = await readFile(new URL(`../dist/${name}.wasm`, import.meta.url));
     const zipped = gzipSync(file, {level: 9}).length;

@@ -5,18 +5,26 @@ import {createReadStream} from 'node:fs';
 import {stat} from 'node:fs/promises';
 import {createServer} from 'node:http';
 import {extname, join, normalize} from 'node:path';
+import {pipeline} from 'node:stream/promises';
 
 const TYPES = {
   '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
   '.tks': 'application/octet-stream', '.svg': 'image/svg+xml', '.mjs': 'text/javascript',
 };
 
+async function sendInTwo(response, file, [start, end], [bytes, ms]) {
+  await pipeline(createReadStream(file, {start, end: start + bytes - 1}), response, {end: false});
+  await new Promise((resolve) => setTimeout(resolve, ms));
+  createReadStream(file, {start: start + bytes, end}).pipe(response);
+}
+
 /**
  * Serves `folder`. Of `faults`: noRanges (200 and the whole file), etag (called for each answer),
  * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always),
  * types (content types by the ends of names), overstated (ranges are said to end where they were
  * asked to), most (the bytes of an answer to a range, at most), stall (so many bytes of an answer go
- * out, the others never do). A request's `ended` resolves to whether all of its answer went out.
+ * out, the others never do), pause ([bytes, ms]: behind so many of a part's bytes the server rests).
+ * A request's `ended` resolves to whether all of its answer went out.
  */
 export async function serve(folder, faults = {}) {
   const requests = [];
@@ -35,6 +43,8 @@ export async function serve(folder, faults = {}) {
     const send = (start, last) => {
       const {stall = Infinity} = faults, end = Math.min(last, start + stall - 1);
       if (end < start) return response.flushHeaders();
+      const {pause} = faults;
+      if (pause && end - start > pause[0]) return sendInTwo(response, file, [start, end], pause);
       createReadStream(file, {start, end}).pipe(response, {end: end === last});
     };
     const type = {...TYPES, ...faults.types}[extname(path)] ?? 'text/plain';

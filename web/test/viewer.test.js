@@ -2,7 +2,7 @@
 // The viewer in headless Chromium: what is drawn, after how many requests, and what it says of bad
 // files. TETRAKIS_CLI: a built `tetrakis`, whose `view` then serves the page in one of the tests.
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
+import {spawn, spawnSync} from 'node:child_process';
 import {once} from 'node:events';
 import {existsSync} from 'node:fs';
 import {cp, mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
@@ -13,6 +13,7 @@ import {chromium} from 'playwright-core';
 
 import {encode} from '../src/encode.js';
 import {open} from '../src/index.js';
+import {psnr} from './pictures.js';
 import {serve} from './server.js';
 import {terrainOf, tiffOf} from './terrain.js';
 
@@ -33,6 +34,8 @@ before(async () => {
   await writeFile(join(folder, 'damaged.tks'), damaged);
   await writeFile(join(folder, 'short.tks'), bytes.subarray(0, 3000));
   await writeFile(join(folder, 'page.tks'), '<!doctype html><title>Sign in</title>');
+  await writeFile(join(folder, 'empty.tks'), '');
+  await cp(vectors + 'column_1x300.tks', join(folder, 'column.tks'));
 });
 after(async () => {
   await browser.close();
@@ -86,7 +89,8 @@ test('a picture after one request, then refinement to the last byte', async () =
     assert.equal(ranges(server)[0], 'bytes=0-4095');
     assert.equal(ranges(server).length, 2);
     assert.equal(await page.locator('body').getAttribute('data-bytes'), String(bytes.length));
-    assert.match(await text(page, '#split-text'), /heights .* texture .* 2 requests/);
+    assert.match(await text(page, '#split-text'), /heights .*texture /);
+    assert.match(await text(page, '#fetched-text'), /12 kB fetched in 2 requests/);
     assert.match(await text(page, '#psnr'), /dB/);
     const {distinct, ground} = await colours(page);
     assert.ok(distinct > 40 && ground > 0.05, JSON.stringify({distinct, ground}));
@@ -134,16 +138,22 @@ test('a server without ranges', async () => {
 });
 
 test('files that cannot be shown say why, and others can be opened', async () => {
-  for (const [name, pattern] of [
-    ['damaged.tks', /./], ['page.tks', /not a Tetrakis stream/], ['none.tks', /answered 404/],
-  ]) {
-    await withPage('?tks=' + name, async (page) => {
-      assert.match(await page.getByRole('alert').textContent(), pattern);
-      await page.locator('#file').setInputFiles(join(folder, 'whole.tks'));
-      await page.waitForFunction((size) => document.body.dataset.bytes === size, String(bytes.length));
-      assert.equal(await page.getByRole('alert').isVisible(), false);
-    });
-  }
+  await withPage('', async (page, server) => {
+    for (const [name, pattern] of [
+      ['damaged.tks', /profile 255/], ['page.tks', /not a Tetrakis stream/],
+      ['none.tks', /answered 404/], ['empty.tks', /The file is empty/],
+      ['column.tks', /1 x 300 samples have no area/],
+    ]) {
+      await page.locator('#address input').fill(server.url + name);
+      await page.locator('#address button').click();
+      await page.getByRole('alert').filter({hasText: pattern}).waitFor();
+      assert.equal(await page.locator('#panel').isVisible(), false);
+    }
+    await page.locator('#file').setInputFiles(join(folder, 'whole.tks'));
+    await page.waitForFunction((size) => document.body.dataset.bytes === size, String(bytes.length));
+    assert.equal(await page.getByRole('alert').isVisible(), false);
+    assert.ok(await page.locator('#panel').isVisible());
+  });
 });
 
 test('a server that lets no other page read its files is named on the page', async () => {
@@ -201,23 +211,80 @@ test('a lost context comes back', async () => {
   });
 });
 
+test('a browser without WebGL is told apart', async () => {
+  const page = await browser.newPage(), server = await serve(folder);
+  try {
+    await page.addInitScript(() => (HTMLCanvasElement.prototype.getContext = () => null));
+    await page.goto(server.url + 'index.html?tks=whole.tks');
+    await ended(page);
+    assert.match(await page.getByRole('alert').textContent(), /no WebGL/);
+  } finally {
+    await page.close();
+    await server.close();
+  }
+});
+
 test('a phone: the controls unfold, nothing is wider than the screen', async () => {
   await withPage('?tks=whole.tks', async (page) => {
     assert.equal(await page.locator('#bytes').isVisible(), false);
     await page.locator('#fold').tap();
     assert.ok(await page.locator('#bytes').isVisible());
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+    assert.match(await text(page, '#help'), /finger/);
+    await page.setViewportSize({width: 844, height: 390});
+    const {x, y, width, height} = await page.locator('#panel').boundingBox();
+    assert.ok(x >= 0 && y >= 0 && x + width <= 844 && y + height <= 390, 'the panel is on the screen');
   }, {}, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true});
 });
 
 test('every kind of stream is drawn', async () => {
-  for (const name of ['geometry_budget_129x97.tks', 'rgba_32x32.tks', 'coast_budget_90x70.tks',
-    'nothing_valid_12x7.tks', 'texture_1x1.tks', 'tiny_2x2.tks']) {
-    await cp(vectors + name, join(folder, name));
-    await withPage('?tks=' + name, async (page) => {
+  await withPage('', async (page) => {
+    for (const [name, note = /^$/] of [['geometry_budget_129x97'], ['rgba_32x32'],
+      ['coast_budget_90x70'], ['nothing_valid_12x7', /All heights of this stream are voids/],
+      ['cutout_all_hidden_33x20', /The cut-out of this stream hides all texels/], ['texture_1x1'],
+      ['tiny_2x2']]) {
+      await page.locator('#file').setInputFiles(`${vectors}${name}.tks`);
+      await page.waitForFunction((begin) => document.title.startsWith(begin) &&
+        document.body.dataset.state !== 'busy', name);
+      await ended(page);
       assert.equal(await page.locator('body').getAttribute('data-state'), 'done', name);
+      assert.match(await text(page, '#message'), note);
+    }
+  });
+});
+
+test('what lies high, or is higher than wide, is in the picture, exaggerated or not', async () => {
+  const {heights} = terrainOf(65);
+  const high = {...heights, data: heights.data.map((metres) => metres + 20000)};
+  await writeFile(join(folder, 'high.tks'), await encode({heights: high}));
+  await writeFile(join(folder, 'tall.tks'), await encode({heights: {...high, spacing: 0}}));
+  for (const [name, least, most] of [['high', 1, 1], ['tall', 0.001, 0.1]]) {
+    await withPage(`?tks=${name}.tks`, async (page) => {
+      const times = Number(await text(page, '#times'));
+      assert.ok(times >= least && times <= most, `${name}: × ${times}`);
+      assert.ok((await colours(page)).ground > 0.1, name);
+      await page.locator('#exaggeration').fill('10');
+      assert.ok((await colours(page)).ground > 0.1, name + ', exaggerated');
     });
   }
+});
+
+test('keys turn the picture and come nearer, and Home brings all of it back', async () => {
+  await withPage('?tks=whole.tks', async (page) => {
+    const picture = async () => {
+      await page.waitForTimeout(700);  // what moves comes to rest
+      return page.locator('#picture').screenshot({style: 'aside, header { display: none }'});
+    };
+    const before = await picture();
+    await page.locator('#picture').focus();
+    for (const key of ['ArrowLeft', 'ArrowUp', '+', '+']) await page.keyboard.press(key);
+    const after = await picture();
+    assert.notDeepEqual(after, before);
+    await page.keyboard.press('Home');
+    const dB = await psnr(browser, [await picture(), before],
+      Array(2).fill({x: 0, y: 0, width: 1000, height: 600}));
+    assert.ok(dB > 40, `${dB} dB`);
+  });
 });
 
 /** Keys of UTM zone 11 north; a sample is the value at its middle. */
@@ -269,6 +336,7 @@ test('of a stream with an index all comes in few requests, and is drawn as a map
     const here = Number(await page.locator('#fetched').getAttribute('data-bytes'));
     assert.ok(here > stream.length - 4096 && here <= stream.length, `${here} of ${stream.length}`);
     assert.ok(await page.locator('#ground').isVisible());
+    assert.match(await text(page, '#fetched-text'), /requests, and for which ground/);
   });
 });
 
@@ -294,6 +362,11 @@ test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async 
     const last = await page.request.get(new URL('/whole.tks', address).href,
       {headers: {Range: 'bytes=5990-99999999'}});
     assert.deepEqual(await last.body(), bytes.subarray(5990));
+    const {port} = new URL(address);
+    const {status: code, stderr} = spawnSync(
+      CLI, ['view', '--no-browser', '--port', port, join(folder, 'whole.tks')], {timeout: 5000});
+    assert.equal(code, 2);
+    assert.match(String(stderr), new RegExp(port));
   } finally {
     await page.close();
     child.kill();

@@ -2,13 +2,25 @@
 // What is drawn and from where: light, camera, and the two ways to move it. Pictures are drawn
 // when something has changed, not all the time.
 import {
-  AmbientLight, Box3, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  AmbientLight, Box3, DirectionalLight, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
+import {placeFor} from './fit.js';
 import {Fly} from './fly.js';
 
 const REST = 150;  // ms
+const TURN = 0.08, NEARER = 0.9;
+/** Keys of the picture while nobody flies. */
+const KEYS = {
+  'ArrowLeft': (orbit) => orbit.rotateLeft(-TURN),
+  'ArrowRight': (orbit) => orbit.rotateLeft(TURN),
+  'ArrowUp': (orbit) => orbit.rotateUp(-TURN),
+  'ArrowDown': (orbit) => orbit.rotateUp(TURN),
+  '+': (orbit) => orbit.dollyIn(1 / NEARER),
+  '=': (orbit) => orbit.dollyIn(1 / NEARER),
+  '-': (orbit) => orbit.dollyOut(1 / NEARER),
+};
 
 export class Picture {
   #scene = new Scene();
@@ -18,11 +30,15 @@ export class Picture {
   #pending = false;
   #last = 0;
   #radius = 1;
+  #middle = new Vector3();
+  #times = 1;
   #resting = 0;
   /** Called when the camera has moved and rests. */
   onrest = () => {};
 
-  constructor(canvas) {
+  /** `free()`: the part of the page, {left, right, top, bottom}, that nothing lies over. */
+  constructor(canvas, free) {
+    this.free = free;
     this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.camera = new PerspectiveCamera(45, 1, 1, 1e7);
@@ -30,20 +46,24 @@ export class Picture {
     this.orbit.enableDamping = true;
     this.orbit.dampingFactor = 0.12;
     this.orbit.maxPolarAngle = 1.53;
+    this.orbit.screenSpacePanning = false;
+    this.orbit.zoomToCursor = true;
     this.orbit.addEventListener('change', () => this.#moved());
     this.fly = new Fly(this.camera, canvas, () => this.#moved());
     this.#scene.add(this.#ambient, this.#sun);
     this.setShaded(true);
     canvas.addEventListener('webglcontextrestored', () => this.draw());
-    addEventListener('resize', () => this.#resize());
-    this.#resize();
+    canvas.addEventListener('keydown', (event) => this.#pressed(event));
+    addEventListener('resize', () => this.resize());
+    this.resize();
   }
 
-  #resize() {
+  /** The page, or what lies over it, has another size. */
+  resize() {
     this.renderer.setSize(innerWidth, innerHeight, false);
     this.camera.aspect = innerWidth / innerHeight;
-    // The middle of the picture is that of what the panel leaves free.
-    const [right, down] = innerWidth > 640 ? [150, 0] : [0, 40];
+    // The middle of the picture is about that of what the panel leaves free.
+    const [right, down] = innerWidth > 640 ? [150, 0] : [0, (innerHeight - this.free().bottom) / 2];
     this.camera.setViewOffset(innerWidth, innerHeight, right, down, innerWidth, innerHeight);
     this.camera.updateProjectionMatrix();
     this.draw();
@@ -52,6 +72,12 @@ export class Picture {
   /** Rows of the picture. */
   get pixels() {
     return this.renderer.domElement.height;
+  }
+  #pressed(event) {
+    if (event.key === 'Home') this.home();
+    else if (!this.fly.enabled && KEYS[event.key]) KEYS[event.key](this.orbit);
+    else return;
+    event.preventDefault();
   }
   #moved() {
     clearTimeout(this.#resting);
@@ -76,7 +102,7 @@ export class Picture {
   }
   /** The depth buffer is spent on what lies between the camera and the far end of the terrain. */
   #fitDepth() {
-    const distance = this.camera.position.length() + 2 * this.#radius;
+    const distance = this.camera.position.distanceTo(this.#middle) + 2 * this.#radius;
     this.camera.near = Math.max(distance / 5000, 1e-3 * this.#radius);
     this.camera.far = 2 * distance;
     this.camera.updateProjectionMatrix();
@@ -92,23 +118,69 @@ export class Picture {
     this.draw();
   }
 
+  /** How many times as high as wide the terrain is. */
+  get tallness() {
+    const size = this.#bounds().getSize(new Vector3());
+    return size.y / Math.max(size.x, size.z);
+  }
+  #bounds() {
+    const {geometry} = this.#object;
+    geometry.computeBoundingBox();
+    return geometry.boundingBox.isEmpty() ? new Box3(new Vector3(-1, 0, -1), new Vector3(1, 0, 1))
+      : geometry.boundingBox;
+  }
+  /** Heights are drawn so many times as large, around the middle one. */
+  setExaggeration(times) {
+    this.#times = times;
+    this.#stretch();
+    this.draw();
+  }
+  #stretch() {
+    if (!this.#object) return;
+    this.#object.scale.y = this.#times;
+    this.#object.position.y = this.#middle.y * (1 - this.#times);
+    this.#object.updateMatrixWorld();
+  }
+
   /** From the south, above, with all of the terrain in the picture. */
   home() {
-    this.#object.updateMatrixWorld();
-    const box = new Box3().setFromObject(this.#object), size = box.getSize(new Vector3());
-    const middle = box.getCenter(new Vector3());
-    this.#radius = Math.max(size.x, size.z) / 2;
-    // In a narrow picture the width decides, in a wide one the height.
-    const narrow = Math.max(1, 1.5 / this.camera.aspect);
-    const away = 2.25 * this.#radius * narrow;
-    this.camera.position.set(middle.x + 0.35 * away, middle.y + 0.62 * away, middle.z + away);
-    this.orbit.target.copy(middle);
+    if (!this.#object) return;
+    const box = this.#bounds();
+    box.getCenter(this.#middle);
+    this.#stretch();
+    const size = box.getSize(new Vector3());
+    this.#radius = Math.max(size.x, size.y * this.#times, size.z) / 2;
     this.orbit.minDistance = this.#radius / 100;
     this.orbit.maxDistance = this.#radius * 12;
-    this.camera.lookAt(middle);
     this.#sun.position.set(-1, 1.1, -0.7).multiplyScalar(this.#radius);
+    this.#lookAtAll(box);
     this.orbit.update();
     this.draw();
+  }
+  #lookAtAll(box) {
+    const {left, right, top, bottom} = this.free();
+    // A tall page shows more of what is seen from further above.
+    const steepness = MathUtils.clamp((0.9 * (bottom - top)) / (right - left), 0.62, 1.8);
+    const ahead = new Vector3(-0.35, -steepness, -1).normalize();
+    const across = new Vector3().crossVectors(ahead, this.camera.up).normalize();
+    const pixel = Math.tan(MathUtils.degToRad(this.camera.fov) / 2) / (innerHeight / 2);
+    const {offsetX, offsetY} = this.camera.view;
+    const window = {
+      left: (left - innerWidth / 2 + offsetX) * pixel, right: (right - innerWidth / 2 + offsetX) * pixel,
+      low: (innerHeight / 2 - offsetY - bottom) * pixel, high: (innerHeight / 2 - offsetY - top) * pixel,
+    };
+    const axes = {ahead, right: across, up: new Vector3().crossVectors(across, ahead)};
+    const {matrixWorld, geometry} = this.#object, places = geometry.getAttribute('position');
+    const point = new Vector3();
+    const place = placeFor(axes, window, (take) => {
+      for (let i = 0; i < places.count; ++i) {
+        take(point.fromBufferAttribute(places, i).applyMatrix4(matrixWorld));
+      }
+    });
+    if (!isFinite(place.length())) place.copy(this.#middle).addScaledVector(ahead, -box.max.x * 4);
+    this.camera.position.copy(place);
+    // What orbits turn around lies at the middle height.
+    this.orbit.target.copy(place).addScaledVector(ahead, (this.#middle.y - place.y) / ahead.y);
   }
 
   /** From a place in metres around the middle of the terrain, towards another. */

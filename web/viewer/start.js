@@ -16,5 +16,14 @@ if (address) {
   asked = {address, stop, terrain, first};
   for (const each of [terrain, first]) each.catch(() => {});  // the viewer tells why
 }
-const {begin} = await import('./viewer.js');
-begin(asked);
+try {
+  const {begin} = await import('./viewer.js');
+  begin(asked);
+} catch (error) {
+  const message = document.getElementById('message');
+  message.textContent = /WebGL/.test(error.message)
+    ? 'This browser has no WebGL, with which the viewer draws. Is it switched off?'
+    : `The viewer does not start: ${error.message}`;
+  message.hidden = false;
+  document.body.dataset.state = 'failed';
+}

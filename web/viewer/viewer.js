@@ -14,7 +14,20 @@ const $ = (id) => document.getElementById(id);
 const FREE_BYTES = 8 << 20;
 const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
 
-const picture = new Picture($('picture'));
+/** As in style.css. */
+const SMALL_SCREEN = '(max-width: 640px), (max-height: 520px)';
+
+/** What neither the name nor the panel lies over. */
+function freeArea() {
+  const margin = 24, name = document.querySelector('header').getBoundingClientRect();
+  const panel = $('panel').getBoundingClientRect();
+  const isBelow = panel.width >= innerWidth, isBeside = panel.width > 0 && !isBelow;
+  return {
+    left: margin, right: (isBeside ? panel.left : innerWidth) - margin,
+    top: name.bottom + margin, bottom: (isBelow ? panel.top : innerHeight) - margin,
+  };
+}
+const picture = new Picture($('picture'), freeArea);
 const map = new FetchMap($('fetched'), $('ground'));
 /** What files are coded into: so many bits for each height and texel. */
 const BITS = 1, LEAST_BYTES = 32768;
@@ -64,13 +77,24 @@ function readOut(frame, triangles) {
   const share = (bytes) => `${(100 * bytes) / info.streamBytes}%`;
   $('split-heights').style.width = share(info.geometryBytes);
   $('split-texture').style.width = share(info.textureBytes);
-  const parts = [];
-  if (info.hasHeights) parts.push(`heights ${formatBytes(info.geometryBytes)}`);
-  if (info.hasTexture) parts.push(`texture ${formatBytes(info.textureBytes)}`);
-  const {requests} = terrain.loaded;
-  if (requests) parts.push(requests === 1 ? '1 request' : `${requests} requests`);
-  $('split-text').textContent = parts.join(' · ');
+  $('heights-share').textContent = `heights ${formatBytes(info.geometryBytes)}`;
+  $('texture-share').textContent = `texture ${formatBytes(info.textureBytes)}`;
+  $('heights-share').hidden = !info.hasHeights;
+  $('texture-share').hidden = !info.hasTexture;
+  const {requests, bytes} = terrain.loaded;
+  const how = requests ? `fetched in ${requests === 1 ? '1 request' : `${requests} requests`}` : 'read';
+  const where = $('ground').hidden ? '' : ', and for which ground';
+  $('fetched-text').textContent = `${formatBytes(bytes)} ${how}${where}`;
   map.draw();
+}
+
+/** What leaves the picture empty, if anything does. */
+function emptiness({info, mesh, texture, complete}) {
+  if (!complete) return '';
+  if (info.hasHeights && mesh?.triangles.length === 0) return 'All heights of this stream are voids';
+  if (!info.textureCutout || !texture) return '';
+  for (let i = 3; i < texture.data.length; i += 4) if (texture.data[i] > 0) return '';
+  return 'The cut-out of this stream hides all texels';
 }
 
 function show(frame) {
@@ -78,9 +102,12 @@ function show(frame) {
   object.show(frame);
   if (frame.surface && $('textured').checked) object.setMap(textureOf(tint(frame.surface)));
   if (first) {
+    exaggerate();
     picture.home();
     if (place('eye') && place('target')) picture.look(place('eye'), place('target'));
   }
+  const empty = emptiness(frame);
+  if (empty) tell(`${empty}: there is nothing to draw.`, true);
   readOut(frame, frame.mesh ? frame.mesh.triangles.length / 3 : 2);
   document.body.dataset.bytes = frame.bytes;
   picture.draw();
@@ -149,7 +176,7 @@ async function pump() {
   if (pumping || !terrain) return;
   pumping = true;
   const current = terrain, {signal} = opening;
-  document.body.dataset.state = 'busy';
+  document.body.dataset.state = 'refining';
   try {
     while (current === terrain && !isShown()) {
       if (!shown.bytes) await drawFirst(current);
@@ -166,9 +193,12 @@ async function pump() {
 }
 
 function fail(error) {
+  $('progress').hidden = true;
   tell(error.message);
   document.body.dataset.state = 'failed';
-  if (!object?.frame) $('welcome').hidden = false;
+  if (object?.frame) return;
+  $('welcome').hidden = false;
+  $('panel').hidden = true;
 }
 
 function setWanted() {
@@ -193,10 +223,12 @@ const mostTriangles = () =>
 /** Sliders and switches for what was opened. */
 function prepareControls(info) {
   $('panel').hidden = false;
+  picture.resize();
   $('bytes').value = toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(), info.streamBytes);
   $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, mostTriangles()), LEAST_TRIANGLES,
     mostTriangles());
-  $('triangles').disabled = $('exaggeration').disabled = !info.hasHeights;
+  for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
+  $('textured-name').textContent = info.hasTexture ? 'Texture' : 'Colours';
   const sizes = [];
   if (info.hasHeights) sizes.push(`${info.width} × ${info.height} heights`);
   if (info.hasTexture) sizes.push(`${info.textureWidth} × ${info.textureHeight} texels`);
@@ -209,8 +241,9 @@ async function openInput(input, name, asked) {
   opening = asked?.stop ?? new AbortController();
   const {signal} = opening;
   tell('');
-  $('welcome').hidden = $('save').hidden = true;
+  $('welcome').hidden = $('save').hidden = $('progress').hidden = true;
   $('name').textContent = name;
+  document.title = `${name} – Tetrakis`;
   $('size').textContent = 'opening …';
   document.body.dataset.state = 'busy';
   try {
@@ -222,7 +255,6 @@ async function openInput(input, name, asked) {
     begun = asked?.first ?? null;
     object = new TksTerrain(terrain);
     object.material.wireframe = $('wireframe').checked;
-    object.scale.y = exaggeration();
     picture.setObject(object);
     prepareControls(terrain.info);
     setWanted();
@@ -239,7 +271,7 @@ async function openSources(files) {
   opening = new AbortController();
   const {signal} = opening, names = files.map(({name}) => name).join(' + ');
   tell('');
-  $('welcome').hidden = true;
+  $('welcome').hidden = $('progress').hidden = true;
   $('name').textContent = names;
   $('size').textContent = 'reading …';
   document.body.dataset.state = 'busy';
@@ -249,7 +281,12 @@ async function openSources(files) {
     const samples = [input.heights, input.texture].filter(Boolean)
       .reduce((sum, {width, height}) => sum + width * height, 0);
     const bytes = Math.max(LEAST_BYTES, Math.round((BITS * samples) / 8));
-    const progress = (done) => ($('size').textContent = `encoding … ${Math.round(100 * done)} %`);
+    $('progress').hidden = false;
+    const progress = (done) => {
+      $('progress').value = done;
+      $('size').textContent = `encoding … ${Math.round(100 * done)} %`;
+    };
+    progress(0);
     const stream = await encode({...input, bytes, index: true}, {...encoder, signal, progress});
     if (signal.aborted) return;
     const file = new File([stream], `${files[0].name.replace(/\.[^.]*$/, '')}.tks`);
@@ -285,16 +322,19 @@ function place(name) {
   return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
 }
 
-const exaggeration = () => 10 ** ($('exaggeration').value / 20);
+/** What is higher than wide, often because nothing states how far its samples lie apart, is flattened. */
+function exaggerate() {
+  if (!object?.frame) return;
+  const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
+  const times = usual * 10 ** ($('exaggeration').value / 20);
+  $('times').value = times.toPrecision(2);
+  picture.setExaggeration(times);
+}
 
 function listen() {
   $('bytes').addEventListener('input', setWanted);
   $('triangles').addEventListener('input', setWanted);
-  $('exaggeration').addEventListener('input', () => {
-    $('times').value = exaggeration().toPrecision(2);
-    if (object) object.scale.y = exaggeration();
-    picture.draw();
-  });
+  $('exaggeration').addEventListener('input', exaggerate);
   $('wireframe').addEventListener('change', () => {
     if (object) object.material.wireframe = $('wireframe').checked;
     picture.draw();
@@ -311,12 +351,14 @@ function listen() {
   $('shaded').addEventListener('change', () => picture.setShaded($('shaded').checked));
   $('fly').addEventListener('change', () => {
     picture.setFlying($('fly').checked);
+    help();
     $('picture').focus();
   });
   $('home').addEventListener('click', () => object && picture.home());
   $('fold').addEventListener('click', () => {
     const folded = $('panel').classList.toggle('folded');
     $('fold').setAttribute('aria-expanded', String(!folded));
+    picture.resize();
   });
   for (const id of ['another', 'choose']) $(id).addEventListener('click', () => $('file').click());
   $('file').addEventListener('change', () => {
@@ -341,6 +383,16 @@ function listen() {
   });
 }
 
+/** How to move. */
+function help() {
+  const [touched, byHand] = $('fly').checked
+    ? ['One finger looks around, a second one goes ahead.',
+      'A drag looks around. W A S D or arrows go, Q and E sink and rise, Shift hurries.']
+    : ['One finger turns, two move and zoom.',
+      'A drag turns, with Shift it moves; the wheel zooms. Keys: arrows, + −, Home.'];
+  $('help').textContent = matchMedia('(hover: none)').matches ? touched : byHand;
+}
+
 /** The last part of an address. */
 function nameOf(address) {
   const [path] = String(address).split(/[?#]/), name = path.split('/').pop();
@@ -355,7 +407,8 @@ function nameOf(address) {
 export function begin(asked) {
   picture.onrest = replan;
   listen();
-  if (matchMedia('(max-width: 640px)').matches) $('fold').click();
+  help();
+  if (matchMedia(SMALL_SCREEN).matches) $('fold').click();
   const early = [...$('file').files];  // chosen while this script was on its way
   if (early.length > 0) openFiles(early);
   else if (asked) openInput(asked.address, nameOf(asked.address), asked);

@@ -240,8 +240,13 @@ std::vector<double> hullSides(const Lattice& lattice, std::span<const VertexId> 
 }
 
 std::vector<VertexId> ascending(std::span<const VertexId> order) {
-  std::vector<VertexId> vertices(order.begin(), order.end());
-  std::sort(vertices.begin(), vertices.end());
+  if (order.empty()) return {};
+  std::vector<bool> present(*std::max_element(order.begin(), order.end()) + 1);
+  for (const VertexId v : order) present[v] = true;
+  std::vector<VertexId> vertices;
+  vertices.reserve(order.size());
+  for (VertexId v = 0; v < present.size(); ++v)
+    if (present[v]) vertices.push_back(v);
   return vertices;
 }
 

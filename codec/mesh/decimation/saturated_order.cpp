@@ -27,9 +27,9 @@ std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const Ve
       slope = std::min(slope, order[v].slope);
     });
   const auto wanted = static_cast<size_t>(std::min<uint64_t>(order.size(), most + free));
-  const auto end = order.begin() + static_cast<ptrdiff_t>(wanted);
-  std::nth_element(order.begin(), end, order.end());
-  order.erase(end, order.end());
+  // By pointers, as std::sort does it: they share their code.
+  std::nth_element(order.data(), order.data() + wanted, order.data() + order.size());
+  order.resize(wanted);
   std::sort(order.begin(), order.end());
   std::vector<VertexId> vertices;
   vertices.reserve(order.size());

@@ -10,8 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "codec/mesh/gains/moments.hpp"
@@ -59,7 +59,7 @@ class FittedMoments {
   std::vector<FittedLeaf> leaves_;
   /// The moments of triangles that overhang the grid, against planes through their samples, by
   /// split vertex and side. Each triangle is rasterised once.
-  mutable std::unordered_map<uint64_t, TriangleMoments> rasters_;
+  mutable std::map<uint64_t, TriangleMoments> rasters_;
   bool full_ = true;  ///< all leaves are of full resolution, empty, and not stored
 };
 

@@ -7,6 +7,8 @@
 #include <cassert>
 #include <numeric>
 
+#include "base/heap_sort.hpp"
+
 namespace tetrakis::inline quadtree {
 namespace {
 
@@ -59,7 +61,7 @@ SemilinearQuadtree::SemilinearQuadtree(QuadtreeShape shape, std::span<const floa
 
 void SemilinearQuadtree::update(std::vector<Entry> inserted, std::vector<QuadtreePlace> erased) {
   if (!std::is_sorted(inserted.begin(), inserted.end(), before)) sortByPlace(inserted);
-  std::sort(erased.begin(), erased.end());
+  heapSort(erased);
   std::vector<Entry> entries = remaining(*this, inserted, erased);
   const auto middle = static_cast<std::ptrdiff_t>(entries.size());
   entries.insert(entries.end(), inserted.begin(), inserted.end());

@@ -115,7 +115,8 @@ def test_num_threads_changes_no_byte(tmp_path):
         copy(terrain(), tmp_path / "a.tks", "NUM_THREADS=" + threads)
         written.append((tmp_path / "a.tks").read_bytes())
     assert written[0] == written[1] == written[2]
-    refused(lambda: copy(terrain(), tmp_path / "b.tks", "NUM_THREADS=0"), "NUM_THREADS=0")
+    for wrong in ("NUM_THREADS=0", "NUM_THREADS=2.5"):
+        refused(lambda: copy(terrain(), tmp_path / "b.tks", wrong), wrong)
 
 
 @pytest.mark.parametrize(
@@ -177,6 +178,11 @@ def test_an_image_alone_is_a_texture(tmp_path):
             assert back.GetMetadataItem("COMPRESSION_REVERSIBILITY", "IMAGE_STRUCTURE") == "LOSSLESS"
             assert [back.GetRasterBand(i + 1).GetColorInterpretation()
                     for i in range(len(colours))] == list(colours)
+    backwards = memory(np.arange(4 * 48, dtype=np.uint8).reshape(4, 6, 8), colours=rgba[::-1])
+    backwards.GetRasterBand(1).SetDescription("cut out")
+    turned = copy(backwards, tmp_path / "a.tks")
+    np.testing.assert_array_equal(turned.ReadAsArray(), backwards.ReadAsArray()[::-1])
+    assert turned.GetRasterBand(1).GetDescription() == ""
     name = tmp_path / "a.tks"
     copy(memory(layers, colours=grey), name, "BYTES=1500")
     assert name.stat().st_size <= 1500

@@ -118,15 +118,29 @@ def test_index_comes_back(index):
 def test_slices_mean_what_they_mean_to_numpy(stream):
     opened = tetrakis.open(stream)
     whole = opened.heights()
-    for part in (np.s_[:, :], np.s_[-5:, 3:], np.s_[:10, :-50], np.s_[40:1000, 50:]):
+    for part in (np.s_[:, :], np.s_[-5:, 3:], np.s_[:10, :-50], np.s_[40:1000, 50:], np.s_[7:9]):
         np.testing.assert_array_equal(opened.heights(window=part), whole[part])
+
+
+def test_windows_of_levels(heights, texture):
+    voids = np.where(np.add.outer(np.arange(45), np.arange(59)) < 20, np.nan, heights)
+    opened = tetrakis.open(tetrakis.encode(voids.astype("f4"), texture))
+    part, taken = np.s_[2:9, 5:12], dict(level=1, window=np.s_[2:9, 5:12])
+    for read in (opened.heights, opened.surface, opened.validity, opened.texture):
+        np.testing.assert_array_equal(read(**taken), read(level=1)[part])
+        with pytest.raises(tetrakis.TksUsageError, match="inside"):
+            read(level=1, window=(0, 0, 45, 2))
+    masked = opened.heights(**taken, masked=True)
+    np.testing.assert_array_equal(masked.mask, ~opened.validity(**taken))
+    out = np.empty((7, 7), "f4")
+    assert opened.surface(**taken, out=out) is out
 
 
 @pytest.mark.parametrize(
     "window",
     [
         (0, 0, 60, 1), (59, 0, 1, 1), (0, 0, 0, 5), (-1, 0, 2, 2), (2**32, 0, 1, 1), (1, 2, 3),
-        (0.5, 0, 1, 1), np.s_[5:5, :], np.s_[::2, :], (2**32 - 1, 2**32 - 1, 2, 2),
+        (0.5, 0, 1, 1), 7, np.s_[5:5, :], np.s_[::2, :], (2**32 - 1, 2**32 - 1, 2, 2),
     ],
 )  # fmt: skip
 def test_windows_outside_are_refused(stream, window):
@@ -148,8 +162,6 @@ def test_levels(stream, heights):
     for level in (opened.info.coarsest_level + 1, -1, 2**32, 1.5):
         with pytest.raises(tetrakis.TksUsageError):
             opened.heights(level)
-    with pytest.raises(tetrakis.TksUsageError, match="level 0"):
-        opened.heights(1, (0, 0, 1, 1))
 
 
 def test_output_arrays(stream):

@@ -23,4 +23,10 @@ GroundAxes groundAxes(const GeoTransform& t, uint32_t width, uint32_t height,
   return std::abs(sine) >= kLeastSine ? axes : GroundAxes();
 }
 
+QuarterTurn::QuarterTurn(const GroundAxes& axes)
+    : transposed(std::abs(axes.along[1]) + std::abs(axes.down[0]) >
+                 std::abs(axes.along[0]) + std::abs(axes.down[1])),
+      rows_back(axes.down[transposed ? 0 : 1] < 0),
+      columns_back(axes.along[transposed ? 1 : 0] < 0) {}
+
 }  // namespace tetrakis::tools

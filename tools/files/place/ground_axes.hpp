@@ -41,4 +41,13 @@ struct GroundAxes {
 GroundAxes groundAxes(const GeoTransform& transform, uint32_t width, uint32_t height,
                       const std::string& crs);
 
+/// How a raster is turned so that its first row is the northern one, and its first sample the
+/// western one, or those that are nearest to that. Rows become columns first.
+struct QuarterTurn {
+  bool transposed, rows_back, columns_back;
+
+  explicit QuarterTurn(const GroundAxes& axes);
+  bool none() const { return !transposed && !rows_back && !columns_back; }
+};
+
 }  // namespace tetrakis::tools

@@ -29,13 +29,18 @@ def check_type(dtype: np.dtype) -> None:
     values.samples(np.empty((0, 0), dtype), "A chunk")
 
 
-def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> bytes:
-    """Axes of length 1 in front (time, band) are left out."""
+def layer(chunk: NDArray[Any]) -> NDArray[Any]:
+    """Without axes of length 1 in front (time, band), and of one channel."""
     array = chunk
     while array.ndim > 2 and array.shape[0] == 1:
         array = array[0]
     if array.ndim == 3 and array.shape[2] == 1:
         array = array[..., 0]
+    return array
+
+
+def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> bytes:
+    array = layer(chunk)
     if array.ndim not in (2, 3):
         raise TksUsageError(
             f"A chunk of shape {chunk.shape} is neither (rows, columns) nor (rows, columns, "

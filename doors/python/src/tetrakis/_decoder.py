@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from . import _info
 from . import _library as c
 from . import _values as values
-from ._errors import Status, error
+from ._errors import Status, TksUsageError, error
 
 
 class Decoder:
@@ -22,6 +22,7 @@ class Decoder:
     def __init__(self, data: builtins.bytes, limits: c.Limits, threads: int = 1) -> None:
         self._data = data
         self._handle = ctypes.c_void_p()
+        self._levels = {c.PART_HEIGHTS: 0, c.PART_TEXTURE: 0}
         message = ctypes.create_string_buffer(1024)
         status = c.lib.tks_open(data, len(data), limits, self._handle, message, len(message))
         if status != Status.OK:
@@ -47,6 +48,7 @@ class Decoder:
 
     def set_levels(self, heights: int, texture: int) -> None:
         self.check(c.lib.tks_set_levels(self._handle, heights, texture))
+        self._levels = {c.PART_HEIGHTS: heights, c.PART_TEXTURE: texture}
 
     def _allow(self, part: int, window: Optional[c.Window], beside: int) -> None:
         """Refused here, a stream that claims too much costs no array."""
@@ -60,8 +62,13 @@ class Decoder:
         out: Optional[NDArray[Any]],
     ) -> NDArray[Any]:
         """Calls tks_decode_<what>[_window] for `call` = (what, part); `target` is the shape and
-        type of all that the level holds."""
+        type of all that the level holds. The C interface has windows of level 0 only."""
         (what, part), (shape, dtype) = call, target
+        if window is not None and self._levels[part] > 0:
+            cut = _inside(window, shape)
+            array = values.output(out, (window.height, window.width, *shape[2:]), dtype)
+            array[...] = self._decode(call, None, target, None)[cut]
+            return array
         if window is not None:
             shape = (window.height, window.width, *shape[2:])
         count = int(np.prod(shape, dtype=object))
@@ -90,16 +97,11 @@ class Decoder:
         return self._decode(call, window, (info.shape or (0, 0), np.dtype("f4")), out)
 
     def validity(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
-        """The C interface has no window of it: all of the level, cut. What it says of such a window
-        of heights holds here as well."""
-        if window is not None:
-            self._allow(c.PART_HEIGHTS, window, 0)
+        """The C interface has no window of it: all of the level, cut."""
+        shape = info.shape or (0, 0)
+        cut = ... if window is None else _inside(window, shape)
         call = ("validity", c.PART_VALIDITY)
-        valid = self._decode(call, None, (info.shape or (0, 0), np.dtype("u1")), None).view(bool)
-        if window is None:
-            return valid
-        rows = slice(window.y, window.y + window.height)
-        return valid[rows, window.x : window.x + window.width]
+        return self._decode(call, None, (shape, np.dtype("u1")), None).view(bool)[cut]
 
     def texture(
         self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
@@ -139,6 +141,16 @@ class Decoder:
             c.lib.tks_free_mesh_tree(tree)
         if status != Status.OK:
             raise error(status, "The view must be a 4 x 4 matrix of finite numbers.")
+
+
+def _inside(window: c.Window, shape: Tuple[int, ...]) -> Tuple[slice, slice]:
+    """The window as slices."""
+    bottom, right = window.y + window.height, window.x + window.width
+    if not (0 < window.height and bottom <= shape[0] and 0 < window.width and right <= shape[1]):
+        raise TksUsageError(
+            f"The window must lie inside the {shape[1]} x {shape[0]} samples and hold one or more."
+        )
+    return slice(window.y, bottom), slice(window.x, right)
 
 
 def _copied(pointer: Any, count: int, dtype: str) -> NDArray[Any]:

@@ -170,8 +170,8 @@ class Stream:
         """Samples of the heights: (rows, columns) of `info.dtype`.
 
         level: 1/2^level of the resolution, up to `info.coarsest_level`.
-        window: (x, y, width, height) in samples of level 0, or slices: ``numpy.s_[0:64, 32:96]``.
-            The same samples as without it; in streams with regions much faster.
+        window: (x, y, width, height) in samples of the level, or slices: ``numpy.s_[0:64, 32:96]``.
+            The same samples as without it; at level 0 of streams with regions much faster.
         bytes: decodes a prefix of so many bytes.
         masked: gives a masked array whose mask is True at voids; otherwise these are `info.nodata`,
             or NaN without one.
@@ -241,8 +241,9 @@ class Stream:
         bytes: of a prefix of so many bytes.
         coordinates: of the vertices. "local": x = column * spacing, y = -row * spacing in metres,
             or in samples where the spacing is unknown; y = row * spacing where the geotransform is
-            that of a mirrored raster, such as one whose first row is the southern one. "crs": x and y by `info.geotransform`, at
-            the middle of samples, in units of the CRS. The third is the height in `info.unit`.
+            that of a mirrored raster, such as one whose first row is the southern one. "crs": x and
+            y by `info.geotransform`, at the middle of samples, in units of the CRS. The third is
+            the height in `info.unit`.
 
         Few triangles of a large stream decode only the levels that they can show. No triangle
         touches a void; where all samples are void the mesh is empty.

@@ -18,7 +18,8 @@ from ._errors import TksUsageError
 SAMPLES = tuple(np.dtype(name) for name in ("u1", "i1", "u2", "i2", "u4", "i4", "f4"))
 
 # (x, y, width, height) in samples, or the slices (rows, columns) that would cut it from an array.
-WindowLike = Union[Tuple[int, int, int, int], Tuple[slice, slice]]
+WindowLike = Union[Tuple[int, int, int, int], Tuple[slice, slice], slice]
+_WINDOW = "A window is (x, y, width, height), or slices of rows and columns."
 
 
 def unsigned(value: Any, what: str, bits: int = 32) -> int:
@@ -83,6 +84,12 @@ def window(asked: Optional[WindowLike], shape: Tuple[int, ...]) -> Optional[c.Wi
     """A window in an array of (rows, columns, ...); slices mean what they mean to NumPy."""
     if asked is None:
         return None
+    if isinstance(asked, slice):
+        asked = (asked, slice(None))
+    try:
+        asked = tuple(asked)
+    except TypeError:
+        raise TksUsageError(_WINDOW) from None
     if len(asked) == 2 and all(isinstance(part, slice) for part in asked):
         if any(part.step not in (None, 1) for part in asked):
             raise TksUsageError("The slices of a window must have step 1; take a level instead.")
@@ -91,7 +98,7 @@ def window(asked: Optional[WindowLike], shape: Tuple[int, ...]) -> Optional[c.Wi
         )
         asked = (left, top, max(right - left, 0), max(bottom - top, 0))
     if len(asked) != 4:
-        raise TksUsageError("A window is (x, y, width, height), or slices of rows and columns.")
+        raise TksUsageError(_WINDOW)
     return c.Window(*(unsigned(number, "A window's number") for number in asked))
 
 

@@ -14,8 +14,10 @@ import numpy as np
 from numcodecs.abc import Codec
 from numcodecs.compat import ensure_bytes, ndarray_copy
 from numcodecs.registry import register_codec
+from numpy.typing import NDArray
 
 from . import _chunk
+from ._errors import TksUsageError
 
 
 class Tetrakis(Codec):
@@ -39,10 +41,26 @@ class Tetrakis(Codec):
 
     def encode(self, buf: Any) -> Any:
         options = _chunk.configuration(self.bytes, self.psnr, self.max_error, self.nodata)
-        return _chunk.to_stream(np.asarray(buf), options)
+        return _chunk.to_stream(_as_it_lies(np.asarray(buf)), options)
 
     def decode(self, buf: Any, out: Any = None) -> Any:
         return ndarray_copy(_chunk.from_stream(ensure_bytes(buf)), out)
+
+
+def _as_it_lies(chunk: NDArray[Any]) -> NDArray[Any]:
+    """The chunk with its axes in the order of its memory. What decode() returns counts as memory:
+    nothing there tells the byte order or the order of axes that the array has."""
+    if not chunk.dtype.isnative:
+        raise TksUsageError(
+            f"Chunks of type {chunk.dtype.str} would come back in this machine's byte order: make "
+            f"the array of type {chunk.dtype.newbyteorder('=').str}."
+        )
+    if chunk.flags.c_contiguous or not chunk.flags.f_contiguous:
+        return chunk
+    layer = _chunk.layer(chunk)
+    if layer.ndim == 3:
+        raise TksUsageError("Chunks with channels are coded in C order only: use order='C'.")
+    return layer.T
 
 
 register_codec(Tetrakis)

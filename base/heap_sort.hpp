@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sorting in a tenth of the code of std::sort, and in about twice its time: where lists are short.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+
+namespace tetrakis::inline base {
+
+template <class Range, class Less = std::less<>>
+void heapSort(Range& range, const Less& less = {}) {
+  std::make_heap(range.begin(), range.end(), less);
+  std::sort_heap(range.begin(), range.end(), less);
+}
+
+}  // namespace tetrakis::inline base

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures turned by quarters, and mirrored.
+#pragma once
+
+#include "tools/files/files.hpp"
+#include "tools/files/place/ground_axes.hpp"
+
+namespace tetrakis::tools {
+
+/// The picture, and where its pixels lie, if that is known.
+ImageFile turned(const ImageFile& stored, const QuarterTurn& turn);
+
+}  // namespace tetrakis::tools
