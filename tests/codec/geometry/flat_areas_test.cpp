@@ -93,8 +93,8 @@ TEST(FlatAreas, AreChosenWhereTheyPayAlone) {
     for (uint32_t x = 40; x < 100; ++x) lake[size_t{y} * size.width + x] = 17;
   }
   const HeightPurpose purpose{12, Purpose::kLossless};
-  EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
-  EXPECT_EQ(chooseFlatAreas({lake, size.extent()}, purpose).flat.areas.heights,
+  EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, {}, purpose).flat.codeword.empty());
+  EXPECT_EQ(chooseFlatAreas({lake, size.extent()}, {}, purpose).flat.areas.heights,
             std::vector<int32_t>{17});
 }
 
@@ -125,8 +125,8 @@ TEST(FlatAreas, TilesStandForAPlane) {
   EXPECT_NEAR(stand_for, static_cast<double>(size.count()), 1e-6 * stand_for);
   EXPECT_NEAR(flat, static_cast<double>(water), 0.3 * flat);
   const HeightPurpose purpose{12, Purpose::kLossless};
-  EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, purpose).flat.codeword.empty());
-  EXPECT_EQ(chooseFlatAreas({ponds, size.extent()}, purpose).flat.areas.heights,
+  EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, {}, purpose).flat.codeword.empty());
+  EXPECT_EQ(chooseFlatAreas({ponds, size.extent()}, {}, purpose).flat.areas.heights,
             std::vector<int32_t>(count, 4017));
 }
 
@@ -180,7 +180,7 @@ TEST(FlatAreas, AreSimplerWhereBytesAreFew) {
   const PlaneView<const int32_t> plane(coast, size.extent());
   const std::vector<uint8_t> whole = encodeFlatAreas(
       FlatFinder(plane).areas({64}, {0, 0, size.width, size.height}), size.extent(), {});
-  const FlatLayer few = chooseFlatAreas(plane, {11, Purpose::kLossy, 2500, 0, 1, true}).flat;
+  const FlatLayer few = chooseFlatAreas(plane, {}, {11, Purpose::kLossy, 2500, 0, 1, true}).flat;
   EXPECT_LT(2 * few.codeword.size(), whole.size());
   double held = 0;
   for (size_t i = 0; i < coast.size(); ++i) {
