@@ -11,7 +11,7 @@ import numpy as np
 from osgeo import gdal
 
 gdal.UseExceptions()
-SIDE, FOOT = 512, 0.3048
+SIDE, FOOT, VOID = 512, 0.3048, -32768
 
 
 def middle(name):
@@ -27,6 +27,8 @@ def write(heights, name, options=()):
     rows, columns = heights.shape
     driver = gdal.GetDriverByName("GTiff")
     made = driver.Create(str(name), columns, rows, 1, kinds[heights.dtype.name], list(options))
+    if (heights == VOID).any():
+        made.GetRasterBand(1).SetNoDataValue(VOID)
     made.GetRasterBand(1).WriteArray(heights)
 
 
@@ -69,6 +71,19 @@ def square_roots(heights):
     return (np.sqrt((heights - heights.min()) / max(np.ptp(heights), 1)) * 65535).astype(np.uint16)
 
 
+def with_holes(heights, share):
+    """Whole metres without so many single samples."""
+    holes = np.random.default_rng(2).random(heights.shape) < share
+    return np.where(holes, VOID, np.round(heights)).astype(np.int16)
+
+
+def strips(heights):
+    """Whole metres between narrow gaps, as beside the paths of a scanner."""
+    y, x = np.mgrid[: heights.shape[0], : heights.shape[1]]
+    gaps = (0.97 * x - 0.2 * y) % 40 >= 33
+    return np.where(gaps, VOID, np.round(heights)).astype(np.int16)
+
+
 KINDS = {
     "feet": lambda h: (np.round(h / FOOT) * FOOT).astype(np.float32),
     "feet_whole_metres": lambda h: np.round(np.round(h / FOOT) * FOOT).astype(np.int16),
@@ -84,6 +99,9 @@ KINDS = {
     "decimetres_above_geoid": lambda h: (np.round(h * 10) / 10 + geoid(h)).astype(np.float32),
     "feet_above_geoid": lambda h: (np.round(h / FOOT) * FOOT + geoid(h)).astype(np.float32),
     "two_surveys": lambda h: two_surveys(h).astype(np.float32),
+    "holes_1_percent": lambda h: with_holes(h, 0.01),
+    "holes_20_percent": lambda h: with_holes(h, 0.2),
+    "strips": strips,
 }
 
 

@@ -31,9 +31,9 @@ std::string wktIn(const GeoKeys& keys) {
 GridUnit gridUnitIn(const GeoKeys& keys) {
   const uint16_t model = keys.code(kGtModelTypeGeoKey);
   if (model == kModelTypeGeographic) {
-    constexpr uint16_t kDegree = 9102;
+    constexpr uint16_t kWholeDegree = 9102;
     const uint16_t unit = keys.code(kGeogAngularUnitsGeoKey);
-    return {unit == 0 || unit == kDegree, 0};
+    return {unit == 0 || unit == kWholeDegree, 0};
   }
   if (model != kModelTypeProjected) return gridUnitOf(wktIn(keys));
   return {false, gridUnit(keys).value_or(0)};
