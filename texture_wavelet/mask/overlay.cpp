@@ -27,15 +27,18 @@ struct Use {
   size_t texels = 0, alike = 0;
 };
 
-/// How often each colour is used that occurs twice in a row. Photographs have next to none.
+/// How often each colour is used that occurs twice in a row, or in a column: lines are thin in one
+/// of them. Photographs have next to none.
 std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels, Mask seen) {
   std::unordered_map<uint64_t, Use> uses;
   const size_t count = size_t{texels.width} * texels.height;
-  Colour before = colourAt(texels, seen, 0);
-  for (size_t i = 1; i < count; ++i) {
+  std::vector<Colour> row_before(texels.width);
+  Colour before;
+  for (size_t i = 0; i < count; ++i) {
     const Colour colour = colourAt(texels, seen, i);
-    if (colour && colour == before) ++uses[*colour].alike;
-    before = colour;
+    Colour& above = row_before[i % texels.width];
+    if (colour && (colour == before || colour == above)) ++uses[*colour].alike;
+    before = above = colour;
   }
   return uses;
 }
