@@ -251,16 +251,19 @@ class TextureBytes {
     const uint64_t state = stateBytes(decoder_, header_, components, masked_, Component::kTexture);
     const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnce : kOnce;
     return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
-           std::max({all + state, all + masks + planes.work, samples + masks + out});
+           std::max({bridged() ? area(header_) : 0, all + state, all + masks + planes.work,
+                     samples + masks + out});
   }
+  /// A distance for each texel is there while bridges are found.
+  bool bridged() const { return header_.bridge > 0; }
   uint64_t direct(uint64_t count) const {
     return count * ((header_.drawn() ? sizeof(DrawnIndex) : 0) + texel());
   }
-  /// What the opening takes: a mask of the texels that can be seen, the colours of the overlay and
-  /// a mask of the texels that are coded, each of a whole plane.
+  /// What the opening takes: a mask of the texels that can be seen, the colours of the overlay, a
+  /// mask of the texels that are coded and one of those that are lifted, each of a whole plane.
   uint64_t opening() const {
     const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(DrawnIndex) : 0;
-    return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0));
+    return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0) + (bridged() ? 1 : 0));
   }
 
   const tks_decoder& decoder_;

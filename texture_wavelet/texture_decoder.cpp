@@ -81,9 +81,13 @@ Texels decodeDirect(const TextureHeader& header, std::span<const uint8_t> codewo
 /// The planes of a view, one for each component, from their tracks.
 class ComponentPlanes {
  public:
-  /// coded: of all texels. memory: of their tracks; null: there is none.
-  ComponentPlanes(const TextureHeader& header, Mask coded, const View& view, TrackMemory* memory)
-      : header_(header), view_(view), plan_(header, coded, memory ? memory->norms : std::nullopt) {
+  /// memory: of the tracks; null: there is none.
+  ComponentPlanes(const TextureHeader& header, const TextureOpening& opening, const View& view,
+                  TrackMemory* memory)
+      : header_(header),
+        opening_(opening),
+        view_(view),
+        plan_(header, opening.lifting(), memory ? memory->norms : std::nullopt) {
     if (memory != nullptr) memory->norms = plan_.layout().norms();
     const ViewSynthesis empty(specOf(header.wavelet), pyramid(), view);
     synthesis_.assign(header.components(), empty);
@@ -110,7 +114,8 @@ class ComponentPlanes {
   /// Called once, when everything is decoded.
   std::vector<std::vector<int32_t>> restore(uint32_t threads, bool rounds) {
     inverseColourLevels(colourOf(header_), pyramid(), synthesis_);
-    const std::vector<uint8_t> shown = cut(pyramid().valid().bytes(), header_.extent(), view_);
+    const std::vector<uint8_t> shown =
+        cut(std::span<const uint8_t>(opening_.coded), header_.extent(), view_);
     std::vector<std::vector<int32_t>> planes(synthesis_.size());
     // A window's inverse transform knows no threads, that of a whole plane does.
     parallelFor(view_.window ? threads : 1, planes.size(), [&](size_t c) {
@@ -128,6 +133,7 @@ class ComponentPlanes {
   }
 
   const TextureHeader& header_;
+  const TextureOpening& opening_;
   const View& view_;
   TexturePlan plan_;
   std::vector<ViewSynthesis> synthesis_;  ///< one for each component
@@ -138,7 +144,7 @@ class ComponentPlanes {
 uint64_t TextureMemory::bytes() const {
   uint64_t bytes = tracks.bytes();
   if (opening) {
-    bytes += opening->seen.size() + opening->coded.size();
+    bytes += opening->seen.size() + opening->coded.size() + opening->lifted.size();
     bytes += opening->overlay.indices.size() * sizeof(DrawnIndex);
   }
   return bytes;
@@ -156,7 +162,7 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   const bool growing = memory != nullptr && memory->opening != nullptr;
   TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
-  ComponentPlanes components(header, opening->coded, view, tracks);
+  ComponentPlanes components(header, *opening, view, tracks);
   const Precision precision = components.decode(coefficients, {context.threads, tracks});
   std::vector<std::vector<int32_t>> planes = components.restore(context.threads, precision.rounds);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));

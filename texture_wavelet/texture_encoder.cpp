@@ -16,6 +16,7 @@
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/tables/channel_tables_encoder.hpp"
+#include "texture_wavelet/texture_bridges.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "texture_wavelet/visual_weights.hpp"
 #include "wavelet/choice/rounding_choice.hpp"
@@ -103,9 +104,9 @@ struct Fit {
 /// Applies the colour transform and chooses the wavelet: for the last bit by all that comes out of
 /// it, else by green, or grey, because it must be known how many fraction bits go in.
 WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, const Texels& texels,
-                               int bits, Mask coded, Planes& planes) {
+                               int bits, Mask lifted, Planes& planes) {
   const auto view_of = [&](const std::vector<int32_t>& plane) {
-    return PlaneView<const int32_t>(plane, texels.extent(), coded);
+    return PlaneView<const int32_t>(plane, texels.extent(), lifted);
   };
   if (purpose == Purpose::kLossless) {
     transformColours(colour, 0, planes);
@@ -121,7 +122,7 @@ WaveletHeader transformColours(const ColourTransform& colour, Purpose purpose, c
 
 /// Chooses colours and filters, or takes those of `like`, and transforms the colours of the planes,
 /// whose samples have so many bits.
-Fit fitAndTransform(const Texels& texels, Purpose purpose, int bits, Mask coded,
+Fit fitAndTransform(const Texels& texels, Purpose purpose, int bits, Mask lifted,
                     const TextureHeader* like, Planes& planes) {
   if (like != nullptr) {
     const Fit fit{colourOf(*like), like->wavelet};
@@ -129,7 +130,7 @@ Fit fitAndTransform(const Texels& texels, Purpose purpose, int bits, Mask coded,
     return fit;
   }
   const ColourTransform colour = fitColours(planes, texels, purpose);
-  return {colour, transformColours(colour, purpose, texels, bits, coded, planes)};
+  return {colour, transformColours(colour, purpose, texels, bits, lifted, planes)};
 }
 
 void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track) {
@@ -157,12 +158,19 @@ std::vector<uint8_t> intersection(Mask a, Mask b) {
   return common;
 }
 
+/// The texels that have coefficients, and how much the errors of these count.
+struct LiftedTexels {
+  Mask texels;
+  double share;
+};
+
 std::vector<EncodedTrack> encodePlanes(const TextureHeader& header, const ColourTransform& colour,
-                                       const ChannelWeights& weights, Mask coded,
+                                       const ChannelWeights& weights, const LiftedTexels& lifted,
                                        const TrackOptions& options, Planes& planes) {
+  const Mask coded = lifted.texels;
   const TexturePlan plan(header, coded);
   const PlaneLayout& layout = plan.layout();
-  const double unit = std::exp2(-2 * header.wavelet.fraction_bits);
+  const double unit = lifted.share * std::exp2(-2 * header.wavelet.fraction_bits);
   const std::array<double, kPriorities> worth =
       worthOf(priorityMapOf(header.priorities, header.extent()));
   assert(planes.size() == header.components());
@@ -218,6 +226,26 @@ int bitsOf(const Texels& texels, uint32_t channels, const FewValues& few) {
   return bits;
 }
 
+/// What bridges are chosen for, behind an opening of so many bytes. Colours take about a third of
+/// those that are left.
+BridgeTarget bridgeTarget(Purpose purpose, const TextureOptions& options, uint32_t channels,
+                          uint64_t opening_bytes) {
+  BridgeTarget target{purpose};
+  if (purpose == Purpose::kLossless) return target;
+  target.mean_square = options.mean_square;
+  if (options.room == UINT64_MAX) return target;
+  const uint64_t left = options.room - std::min(options.room, opening_bytes);
+  target.bytes = channels >= 3 ? left / 3 * 2 : left;
+  return target;
+}
+
+/// The bridges of `like`, or those that pay, with the planes filled there.
+TextureBridges bridgesFor(const ChannelPlanes& channels, int bits, const BridgeTarget& target,
+                          const TextureHeader* like) {
+  return like != nullptr ? textureBridges(channels, like->bridge)
+                         : chooseTextureBridges(channels, bits, target);
+}
+
 /// few: none, or tables of the samples that are coded.
 EncodedTexture encode(const TextureSource& source, Purpose purpose, const TextureOptions& options,
                       Mask photograph, const TextureHeader* like, const FewValues& few) {
@@ -230,9 +258,16 @@ EncodedTexture encode(const TextureSource& source, Purpose purpose, const Textur
   std::vector<uint8_t> common;
   if (hidden && !photograph.all()) common = intersection(seen, photograph);
   const Mask coded = !common.empty() ? Mask(common) : hidden ? Mask(seen) : photograph;
+  std::vector<uint8_t> mask, overlay;
+  if (!seen.empty()) mask = encodeValidity({seen, texels.extent()});
+  if (!photograph.all()) overlay = encodeOverlay(texels, photograph);
   hideColours(coded, planes);
   const int bits = bitsOf(texels, source.colours(), few);
-  auto [colour, wavelet] = fitAndTransform(texels, purpose, bits, coded, like, planes);
+  const BridgeTarget target =
+      bridgeTarget(purpose, options, source.colours(), mask.size() + overlay.size());
+  const TextureBridges bridges = bridgesFor({texels.extent(), coded, &planes}, bits, target, like);
+  const LiftedTexels lifted{bridges.lifting(coded), bridges.share};
+  auto [colour, wavelet] = fitAndTransform(texels, purpose, bits, lifted.texels, like, planes);
   if (options.windows) wavelet = withShortReach(wavelet);
   EncodedTexture encoded{makeHeader(texels, colour, wavelet, planes.size(), few), {}};
   TextureHeader& header = encoded.header;
@@ -240,19 +275,18 @@ EncodedTexture encode(const TextureSource& source, Purpose purpose, const Textur
   if (options.priorities != nullptr) header.priorities = headerOf(*options.priorities);
   if (options.visual) header.weights = visualWeights(header.components());
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
-  std::vector<uint8_t> mask, overlay;
-  if (!seen.empty()) mask = encodeValidity({seen, texels.extent()});
-  if (!photograph.all()) overlay = encodeOverlay(texels, photograph);
   header.alpha_bytes = mask.size();
   header.overlay_bytes = overlay.size();
+  header.bridge = bridges.reach;
   const uint64_t counted = countedSamples(texels, source.counted(hidden));
   double squares = 0;  // by the first component, which holds most of the bits
   if (wavelet.fraction_bits == 0)
-    squares = std::accumulate(few.squares.begin(),
+    squares = lifted.share *
+              std::accumulate(few.squares.begin(),
                               few.squares.begin() + static_cast<int>(planes.size()), 0.) *
-              roundedSquares({planes.front(), texels.extent(), coded}, {}, wavelet);
+              roundedSquares({planes.front(), texels.extent(), lifted.texels}, {}, wavelet);
   encoded.tracks =
-      encodePlanes(header, colour, few.squares, coded, untilReached(options, counted), planes);
+      encodePlanes(header, colour, few.squares, lifted, untilReached(options, counted), planes);
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   if (wavelet.fraction_bits == 0)
     header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, squares);

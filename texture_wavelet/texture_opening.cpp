@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "lattice/validity_decoder.hpp"
+#include "wavelet/bridges.hpp"
 
 namespace tetrakis::inline texture {
 
@@ -24,11 +25,15 @@ TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_
   TextureOpening opening;
   if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.extent());
   if (header.hidden) opening.coded = opening.seen;
-  if (header.overlay_bytes == 0) return opening;
-  opening.overlay = decodeOverlay(header, drawn);
-  const std::vector<DrawnIndex>& indices = opening.overlay.indices;
-  if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
-  for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
+  if (header.overlay_bytes > 0) {
+    opening.overlay = decodeOverlay(header, drawn);
+    const std::vector<DrawnIndex>& indices = opening.overlay.indices;
+    if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
+    for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
+  }
+  opening.bridges = header.bridge > 0;
+  if (opening.bridges)
+    opening.lifted = liftedSamples(opening.coded, header.extent(), header.bridge);
   return opening;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "base/texels.hpp"
 #include "base/view.hpp"
 #include "bitstream/stream/texture_header.hpp"
@@ -17,8 +18,12 @@ namespace tetrakis::inline texture {
 struct TextureOpening {
   std::vector<uint8_t> seen;  ///< of all texels, 1 where alpha is not 0; empty: not a cut-out
   DrawnOverlay overlay;
-  std::vector<uint8_t> coded;  ///< of all texels, 1 where coefficients count; empty: everywhere
+  std::vector<uint8_t> coded;   ///< of all texels, 1 where coefficients count; empty: everywhere
+  std::vector<uint8_t> lifted;  ///< liftedSamples() of those, if they are bridged
+  bool bridges = false;
 
+  /// Which texels have coefficients.
+  Mask lifting() const { return bridges ? lifted : coded; }
   /// Draws what a view of the whole image shows of the overlay over the texels of that view.
   void paint(Extent whole, const View& view, Texels& texels) const;
 };

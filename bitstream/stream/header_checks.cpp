@@ -120,6 +120,8 @@ Status checkTexture(const StreamHeader& header) {
             "Corrupt stream: a drawn or stored texture has regions, weights, priorities or "
             "tables."};
   }
+  if (t.bridge > 0 && !t.hidden && t.overlay_bytes == 0)
+    return {TKS_CORRUPT, "Corrupt stream: its texture has bridges but nothing that they go over."};
   return {};
 }
 

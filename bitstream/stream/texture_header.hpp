@@ -88,6 +88,8 @@ struct TextureHeader {
   uint8_t hidden = 0;  ///< of a cut-out: colours where alpha is 0 are not coded
   /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
   uint64_t overlay_bytes = 0;
+  /// The reach of bridges over texels that are hidden or drawn over (wavelet/bridges.hpp); 0: none.
+  uint8_t bridge = 0;
   bool stored = false;  ///< sample by sample, without a transform
 
   Extent extent() const { return {width, height}; }
@@ -104,11 +106,14 @@ struct TextureHeader {
     v.u8("channels", kind, 1, 6);
     channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
     auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0) +
-                                     (lines.repeated() ? kWithRepeats : 0));
-    v.u8("texture_sample", type, 0, kWithRepeats + kWithTables + TKS_U16);
+                                     (lines.repeated() ? kWithRepeats : 0) +
+                                     (bridge > 0 ? kWithBridges : 0));
+    v.u8("texture_sample", type, 0, kWithBridges + kWithRepeats + kWithTables + TKS_U16);
     sample = type % kWithTables;
     tables.present = (type & kWithTables) != 0;
-    const Extent coded = lines.visitMap(v, type >= kWithRepeats);
+    const bool bridges = (type & kWithBridges) != 0;
+    if (bridges && bridge == 0) bridge = 1;  // until it is read, which direct textures do not
+    const Extent coded = lines.visitMap(v, (type & kWithRepeats) != 0);
     width = coded.width;
     height = coded.height;
     const uint8_t overlaid = kDrawnPlanes + 1;
@@ -128,6 +133,7 @@ struct TextureHeader {
       v.u8("hidden", hidden, 0, 1);
     }
     if (coding >= overlaid) v.varint("overlay_bytes", overlay_bytes, 1, UINT64_MAX >> 1);
+    if (bridges) v.u8("bridge", bridge, 1, 255);
     for (size_t c = 0; c < components() && v.ok(); ++c) {
       v.varint("centre", centre[c], 0, 0xffff);
       v.zigzag("priority", priority[c], kMaxPriority);
@@ -141,6 +147,7 @@ struct TextureHeader {
 
   static constexpr uint8_t kWithTables = 4;       ///< bit beside the type of the samples
   static constexpr uint8_t kWithRepeats = 8;      ///< another one
+  static constexpr uint8_t kWithBridges = 16;     ///< a third one
   static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
   static constexpr int64_t kMaxPriority = 128;
   static constexpr uint8_t kOrders = 6;      ///< of channels

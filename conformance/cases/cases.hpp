@@ -23,6 +23,7 @@ std::vector<VectorCase> waterCases();
 
 // texture_cases.cpp
 std::vector<VectorCase> textureCases();
+std::vector<VectorCase> bridgedTextureCases();
 
 // stream_cases.cpp
 std::vector<VectorCase> jointCases();

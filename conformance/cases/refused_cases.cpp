@@ -80,6 +80,15 @@ std::vector<VectorCase> refusedHeaders() {
   });
   refuse("bridges", "bridges over voids that there are not",
          [](StreamHeader& h) { h.layers.bridge = 1; });
+  refuse("texture_bridges", "bridges of a texture of which everything is coded",
+         [](StreamHeader& h) {
+           h = textureHeader(9, 9, 3, TKS_U8, 8);
+           h.texture->bridge = 255;
+         });
+  refuse("drawn_bridges", "a drawn texture with bridges", [](StreamHeader& h) {
+    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+    h.texture->bridge = 1;
+  });
   const auto draw = [](StreamHeader& h) {
     h.geometry->planes = GeometryHeader::kDirectPlanes;
     h.geometry->drawn = true;

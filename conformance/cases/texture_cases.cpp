@@ -145,4 +145,34 @@ std::vector<VectorCase> textureCases() {
   return cases;
 }
 
+/// Texels that are hidden or drawn over, where the wavelet goes on.
+std::vector<VectorCase> bridgedTextureCases() {
+  using samples::VoidShape;
+  const auto ridges = [](uint32_t width, uint32_t height, uint32_t channels,
+                         tks_sample sample = TKS_U8) {
+    return Recipe{Pattern::kRidges, width, height, channels, sample, 7};
+  };
+  VectorCase regions =
+      textureCase("bridged_overlay_regions_120x90", "a bridged overlay, in regions",
+                  ridges(120, 90, 3), budget(5000));
+  regions.options.regions = 32;
+  return {
+      drawnOver(textureCase("bridged_overlay_80x60", "the wavelet goes on below thin lines",
+                            ridges(80, 60, 3), budget(2500)),
+                VoidShape::kLines),
+      drawnOver(regions, VoidShape::kLines),
+      asCutout(textureCase("bridged_cutout_70x50", "single holes are bridged, and a coast is not",
+                           ridges(70, 50, 4), budget(2000)),
+               VoidShape::kHoles),
+      asCutout(textureCase("bridged_cutout_grey16_45x64", "all holes are bridged, 16 bits",
+                           ridges(45, 64, 2, TKS_U16), budget(2500)),
+               VoidShape::kSpeckle),
+      asCutout(
+          drawnOver(textureCase("bridged_overlay_cutout_90x60", "holes and lines, bridged together",
+                                ridges(90, 60, 4), budget(3000)),
+                    VoidShape::kLines),
+          VoidShape::kHoles),
+  };
+}
+
 }  // namespace tetrakis::conformance

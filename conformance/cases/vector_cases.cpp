@@ -18,6 +18,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
   for (VectorCase& next : bridgeCases()) all.push_back(std::move(next));
+  for (VectorCase& next : bridgedTextureCases()) all.push_back(std::move(next));
   for (VectorCase& next : copiedCases()) all.push_back(std::move(next));
   for (VectorCase& next : waterCases()) all.push_back(std::move(next));
   for (VectorCase& next : toldCases()) all.push_back(std::move(next));

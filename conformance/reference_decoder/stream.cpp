@@ -161,17 +161,17 @@ TextureHeader readTexture(Reader& in) {
   const bool cutout = kind > 4;
   t.components = cutout ? 2 * kind - 9 : kind;
   t.channels = t.components + cutout;
-  const int type = in.u8(0, 14);
-  const bool tables = type & 4;
+  const int type = in.u8(0, 30);
+  const bool tables = type & 4, bridges = type & 16;
   t.sample = type % 4;
   if (t.sample != kU8 && t.sample != kU16) in.fail(Outcome::kCorrupt);
-  if (type >= 8) readLines(in, t);
+  if (type & 8) readLines(in, t);
   const int all = in.u8(0, 126), coding = all % 64;
   t.planes = coding % 32;
   t.stored = coding == 63;
   if (all >= 64) t.priorities = readPriorities(in, t.width, t.height);
   if (all >= 64 && t.planes == kDrawnPlanes) in.fail(Outcome::kCorrupt);
-  if (t.planes == kDrawnPlanes && tables) in.fail(Outcome::kCorrupt);
+  if (t.planes == kDrawnPlanes && (tables || bridges)) in.fail(Outcome::kCorrupt);
   if (t.planes == kDrawnPlanes) return t;
   t.wavelet = readWavelet(in);
   if (cutout) {
@@ -179,6 +179,8 @@ TextureHeader readTexture(Reader& in) {
     t.hidden = in.u8(0, 1);
   }
   if (coding >= 32) t.overlayBytes = in.varint(1, INT64_MAX);
+  if (bridges) t.bridge = in.u8(1, 255);
+  if (bridges && !t.hidden && t.overlayBytes == 0) in.fail(Outcome::kCorrupt);
   for (int i = 0; i < t.components; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));
     t.priority[i] = in.zigzag(128);

@@ -85,6 +85,7 @@ struct TextureHeader {
   uint64_t alphaBytes = 0;    ///< 0: no cut-out
   uint64_t overlayBytes = 0;  ///< 0: no overlay
   bool hidden = false;
+  int bridge = 0;  ///< 0: none
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;

@@ -121,11 +121,11 @@ std::vector<uint8_t> decodeStored(const TextureHeader& header, std::span<const u
 
 /// The bands of all components in a track, as they stand before it is decoded.
 std::vector<Band> bandsBefore(const TextureHeader& header, const std::vector<Part>& parts,
-                              const Plane& coded, const PriorityMap& priorities, int level) {
+                              const Plane& lifted, const PriorityMap& priorities, int level) {
   std::vector<Band> bands = bandsOfAll(header, parts);
   for (int c = 0; c < header.components; ++c) {
     const auto own = std::span(bands).subspan(c * parts.size(), parts.size());
-    markAbsent(parts, coded, own);
+    markAbsent(parts, lifted, own);
     setPriorities(parts, priorities, own);
     dropFiner(parts, level, own);
   }
@@ -155,19 +155,23 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     coded.valid.resize(overlay.size(), 1);
     for (size_t i = 0; i < overlay.size(); ++i) coded.valid[i] &= !overlay[i];
   }
+  Plane lifted{header.width, header.height, {}};  // its validity: what section 7 takes for valid
+  lifted.valid = header.bridge == 0
+                     ? coded.valid
+                     : bridged(coded.valid, header.width, header.height, header.bridge);
   const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
   std::vector<std::vector<Part>> parts;
   std::vector<std::vector<Band>> bands;
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     parts.push_back(partsOf(subbands, region));
-    bands.push_back(bandsBefore(header, parts.back(), coded, priorities, level));
+    bands.push_back(bandsBefore(header, parts.back(), lifted, priorities, level));
     decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
   }
   const auto [f, rounds] = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
   std::vector<Plane> planes;
   for (int c = 0; c < header.components; ++c) {
     Plane plane{header.width, header.height, {}};
-    plane.valid = coded.valid;
+    plane.valid = lifted.valid;
     plane.values.resize(static_cast<size_t>(header.width) * header.height);
     for (size_t i = 0; i < parts.size(); ++i) {
       const auto own = std::span(bands[i]).subspan(c * parts[i].size(), parts[i].size());

@@ -20,6 +20,7 @@ enum class VoidShape {
   kOneVoid,   ///< one sample is void
   kHalf,      ///< the right half
   kHoles,     ///< a coast, and single holes on land
+  kLines,     ///< lines of one sample along rows and columns
   kAll        ///< nothing is valid
 };
 
@@ -29,7 +30,7 @@ inline constexpr VoidShape kVoidShapes[] = {
 
 inline std::ostream& operator<<(std::ostream& out, VoidShape shape) {
   constexpr const char* kNames[] = {"Coast",   "Speckle", "Checker", "Frame", "OneValid",
-                                    "OneVoid", "Half",    "Holes",   "All"};
+                                    "OneVoid", "Half",    "Holes",   "Lines", "All"};
   return out << kNames[static_cast<size_t>(shape)];
 }
 
@@ -52,6 +53,8 @@ inline bool isVoid(VoidShape shape, uint32_t width, uint32_t height, uint32_t x,
       return 2 * x >= width;
     case VoidShape::kHoles:
       return isVoid(VoidShape::kCoast, width, height, x, y) || hash(x, y, 6) % 12 == 0;
+    case VoidShape::kLines:
+      return x % 17 == 5 || y % 13 == 8;
     case VoidShape::kAll:
       return true;
   }

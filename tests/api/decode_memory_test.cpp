@@ -7,6 +7,7 @@
 #include "bitstream/stream/header.hpp"
 #include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/few_values.hpp"
+#include "conformance/samples/void_masks.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
 
@@ -362,6 +363,10 @@ TEST(DecodeMemory, TexturesOfEveryKindStayBelowTheBound) {
   expectWithinBounds(encode(nullptr, &cut, inRegions(budget(7000), 32)), "hidden cut-out");
   const Raster lettered = drawing(256, 230, 3, true);
   expectWithinBounds(encode(nullptr, &lettered, budget(20000)), "overlay");
+  Raster holes = make({Pattern::kRidges, 190, 201, 4, TKS_U8});
+  samples::cutOut(holes, samples::validity(samples::VoidShape::kHoles, 190, 201));
+  expectWithinBounds(encode(nullptr, &holes, budget(9000)), "bridged cut-out");
+  expectWithinBounds(encode(nullptr, &holes, inRegions(budget(9000), 32)), "and regions");
 }
 
 /// What is left of the bound where there is much to allocate.

@@ -100,6 +100,14 @@ TEST(MipLevels, ReferenceDecoderAgreesOnOverlays) {
   }
 }
 
+TEST(MipLevels, ReferenceDecoderAgreesOnBridgedTextures) {
+  for (const samples::VoidShape shape : {samples::VoidShape::kLines, samples::VoidShape::kHoles}) {
+    Raster image = make({Pattern::kRidges, 61, 44, 4, TKS_U8, 4});
+    samples::cutOut(image, samples::validity(shape, 61, 44));
+    expectAgreementOnPrefixes(encode(nullptr, &image, budget(1500)));
+  }
+}
+
 TEST(MipLevels, ReferenceDecoderAgreesOnDrawnTextures) {
   for (const auto& [width, height] : kSizes) {
     SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));

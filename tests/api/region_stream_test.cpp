@@ -143,6 +143,9 @@ TEST(RegionStream, CutOutsOverlaysAndDrawings) {
       Raster cut = make({Pattern::kRidges, kWidth, kHeight, channels, TKS_U8, 5});
       samples::cutOut(cut, samples::validity(samples::VoidShape::kCoast, kWidth, kHeight));
       expectWindows(encode(nullptr, &cut, inRegions(options)));
+      Raster holes = make({Pattern::kRidges, kWidth, kHeight, channels, TKS_U8, 5});
+      samples::cutOut(holes, samples::validity(samples::VoidShape::kHoles, kWidth, kHeight));
+      expectWindows(encode(nullptr, &holes, inRegions(options)));
       Raster drawn_over = make({Pattern::kRidges, kWidth, kHeight, channels, TKS_U8, 5});
       samples::drawOver(drawn_over, samples::validity(samples::VoidShape::kCoast, kWidth, kHeight));
       expectWindows(encode(nullptr, &drawn_over, inRegions(options)));

@@ -130,6 +130,8 @@ void addTools(const StreamHeader& header, Tools& tools) {
     } else {
       addWavelet(header.texture->wavelet, tools);
       if (header.texture->overlay_bytes > 0) tools.insert("overlay");
+      if (header.texture->bridge > 0)
+        tools.insert(header.texture->hidden ? "bridged cut-out" : "bridged overlay");
       if (header.texture->tables.present) tools.insert("tables of channels");
     }
   }
@@ -149,7 +151,8 @@ TEST_F(Vectors, VisitEveryToolOfTheHeader) {
   Tools wanted{"level 2 differs", "level 3 differs", "fraction bits 0", "fraction bits 4",
                "wide sums",       "nodata",          "index",           "texels 0",
                "texels 2",        "drawn",           "overlay"};
-  wanted.insert({"cut-out", "cut-out that hides", "tables of channels", "repeated texels"});
+  wanted.insert({"cut-out", "cut-out that hides", "tables of channels", "repeated texels",
+                 "bridged cut-out", "bridged overlay"});
   for (int i = 0; i < 4; ++i) wanted.insert("filter " + std::to_string(i));
   for (int i = 1; i <= 4; ++i) wanted.insert("channels " + std::to_string(i));
   for (int i = TKS_U8; i <= TKS_F32; ++i) wanted.insert("heights " + std::to_string(i));

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "bitstream/stream/header.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "conformance/samples/few_values.hpp"
 #include "conformance/samples/header_seal.hpp"
@@ -397,6 +398,38 @@ TEST(Reference, AgreesOnOverlays) {
     }
     if (HasFatalFailure()) return;
   }
+}
+
+/// Textures with holes and lines: their wavelet mostly goes on there.
+TEST(Reference, AgreesOnBridgedTextures) {
+  using samples::VoidShape;
+  constexpr uint32_t kSizes[][2] = {{40, 33}, {1, 90}, {77, 2}, {61, 50}};
+  constexpr VoidShape kShapes[] = {VoidShape::kLines, VoidShape::kHoles, VoidShape::kSpeckle,
+                                   VoidShape::kChecker};
+  uint32_t bridged = 0;
+  for (uint32_t trial = 0; trial < 32; ++trial) {
+    const auto [width, height] = kSizes[trial % 4];
+    const std::vector<uint8_t> mask = samples::validity(kShapes[trial / 4 % 4], width, height);
+    Raster image = make({Pattern::kRidges, width, height, trial < 16 ? 4u : 2u,
+                         trial % 8 < 5 ? TKS_U8 : TKS_U16, trial});
+    if (trial % 3 != 0) samples::cutOut(image, mask);
+    if (trial % 3 != 1) samples::drawOver(image, mask);
+    tks_encode_options options = trial % 5 == 4 ? lossless() : budget(400 + width * height / 2);
+    options.regions = trial % 3 == 2 ? 16 : 1;
+    SCOPED_TRACE(trial);
+    Bytes stream = encode(nullptr, &image, options);
+    const auto parsed = readHeader(stream);
+    ASSERT_TRUE(parsed.ok());
+    bridged += parsed->header.texture->bridge > 0;
+    expectAgreementOnPrefixes(stream, 20);
+    for (uint32_t k = 0; k < 8 && stream.size() > parsed->bytes; ++k) {
+      const uint32_t h = samples::hash(trial, k, 37);
+      stream[parsed->bytes + h % (stream.size() - parsed->bytes)] = static_cast<uint8_t>(h >> 24);
+      expectAgreement(stream);
+    }
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GE(bridged, 6u);
 }
 
 TEST(Reference, AgreesOnJointStreamsWithMetadataAndIndex) {

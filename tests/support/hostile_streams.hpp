@@ -78,6 +78,8 @@ inline std::vector<HostileStream> hostileStreams(uint32_t width = 1 << 20,
     texture.texture->hidden = 1;
     texture.texture->overlay_bytes = 30;
     streams.push_back(sealed("cut-out with an overlay," + kind, texture));
+    texture.texture->bridge = 7;
+    streams.push_back(sealed("cut-out with a bridged overlay," + kind, texture));
   }
   streams.push_back(sealed("drawn", textureHeader(side, kDrawnPlanes)));
   StreamHeader drawing = heightsHeader(width, height, GeometryHeader::kDirectPlanes);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -68,6 +69,17 @@ TEST(Overlay, IsFoundTexelByTexel) {
   EXPECT_TRUE(photographOf({1, 1, 1, 8, {7}}).empty());
   EXPECT_TRUE(
       photographOf({kWidth, kHeight, 1, 8, std::vector<uint16_t>(kWidth * kHeight)}).empty());
+}
+
+TEST(Overlay, IsFoundInLinesOfOneTexel) {
+  Texels texels = photograph(3, 8);
+  std::vector<uint8_t> left(kWidth * kHeight, 1);
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+    if (i % kWidth % 31 != 7 && i / kWidth % 29 != 5) continue;
+    left[i] = 0;
+    std::fill_n(texels.samples.begin() + 3 * i, 3, uint16_t{255});
+  }
+  EXPECT_EQ(photographOf(texels), left);
 }
 
 TEST(Overlay, LosslessRestoresBoth) {

@@ -23,19 +23,35 @@ Colour colourAt(const Texels& texels, Mask seen, size_t texel) {
   return colour;
 }
 
+/// How many texels have a colour, how many of them are like the one before in the row, and how many
+/// like that or the one above.
 struct Use {
-  size_t texels = 0, alike = 0;
+  size_t texels = 0, in_row = 0, alike = 0;
+
+  /// Lines of one texel are alike along one side of the image alone, but nearly all of them. In
+  /// images of few colours half of the texels are that by chance.
+  bool isDrawn(size_t count) const {
+    const bool large = texels * kLeastShare >= count;
+    return large && (2 * in_row >= texels || 4 * alike >= 3 * texels);
+  }
 };
 
-/// How often each colour is used that occurs twice in a row. Photographs have next to none.
+/// How often each colour is used that occurs twice in a row, or in a column: lines are thin in one
+/// of them. Photographs have next to none.
 std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels, Mask seen) {
   std::unordered_map<uint64_t, Use> uses;
   const size_t count = size_t{texels.width} * texels.height;
-  Colour before = colourAt(texels, seen, 0);
-  for (size_t i = 1; i < count; ++i) {
+  std::vector<Colour> row_before(texels.width);
+  Colour before;
+  for (size_t i = 0; i < count; ++i) {
     const Colour colour = colourAt(texels, seen, i);
-    if (colour && colour == before) ++uses[*colour].alike;
-    before = colour;
+    Colour& above = row_before[i % texels.width];
+    if (colour && (colour == before || colour == above)) {
+      Use& use = uses[*colour];
+      ++use.alike;
+      use.in_row += colour == before;
+    }
+    before = above = colour;
   }
   return uses;
 }
@@ -61,8 +77,7 @@ std::vector<uint8_t> photographOf(const Texels& texels, Mask seen) {
   size_t drawn = 0, left = 0;
   for (size_t i = 0; i < count; ++i) {
     const auto use = useAt(i);
-    photograph[i] = use == uses.end() || 2 * use->second.alike < use->second.texels ||
-                    use->second.texels * kLeastShare < count;
+    photograph[i] = use == uses.end() || !use->second.isDrawn(count);
     drawn += photograph[i] == 0;
     left += photograph[i] != 0 && seen[i];
   }

@@ -12,7 +12,8 @@ namespace tetrakis::inline mask {
 
 /// Returns one byte for each texel, which is 1 if it belongs to the photograph and 0 if it belongs
 /// to the overlay; or nothing if no overlay is worth trying. Each colour of an overlay fills at
-/// least 1/2000 of the texels, and half of those are like the texel before. seen: the texels whose
+/// least 1/2000 of the texels, and half of those are like the texel before, or
+/// three quarters like that or the one above. seen: the texels whose
 /// colours matter; an overlay need not draw the others.
 std::vector<uint8_t> photographOf(const Texels& texels, Mask seen = {});
 

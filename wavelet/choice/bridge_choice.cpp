@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "wavelet/bridges.hpp"
@@ -31,6 +32,19 @@ double stepOf(const TypicalPlane& plane, const BridgeTarget& target) {
   return plane.step(8 * static_cast<double>(target.bytes));
 }
 
+/// What bridges are held against, and the plane that they go over.
+struct Unbridged {
+  TypicalPlane plain;
+  ComparedSteps steps;
+  std::vector<int32_t> filled;
+
+  Unbridged(const PlaneView<const int32_t>& plane, int bits, const BridgeTarget& target,
+            const std::vector<uint8_t>& mask, size_t valid)
+      : plain(plane, bits, target.purpose),
+        steps(costsOf(plain), stepOf(plain, target), static_cast<double>(valid)),
+        filled(bridged(plane, liftedSamples(mask, plane.extent(), target.most))) {}
+};
+
 }  // namespace
 
 BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
@@ -42,24 +56,25 @@ BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
   BridgedPlane best;
   if (valid == extent.samples() || valid == 0) return best;
   const std::vector<uint8_t> mask(plane.valid.bytes().begin(), plane.valid.bytes().end());
-  const TypicalPlane plain(plane, bits, target.purpose);
-  const ComparedSteps steps(costsOf(plain), stepOf(plain, target), static_cast<double>(valid));
-  const std::vector<int32_t> filled = bridged(plane, {});
+  std::optional<Unbridged> unbridged;  // as soon as there is anything to bridge
   double least = kClearly;
   size_t before = valid + valid / kFewestBridged;
   for (const uint8_t reach : kReaches) {
+    if (reach > target.most) break;
     std::vector<uint8_t> lifted = liftedSamples(mask, extent, reach);
     const size_t marked = markedIn(extent, lifted);
     if (marked <= before) continue;
     before = marked;
-    const TypicalPlane way({filled, extent, lifted}, bits, target.purpose, plane.valid);
+    if (!unbridged) unbridged.emplace(plane, bits, target, mask, valid);
+    const ComparedSteps& steps = unbridged->steps;
+    const TypicalPlane way({unbridged->filled, extent, lifted}, bits, target.purpose, plane.valid);
     if (steps.ratioAtTarget(costsOf(way), kBridgeBits) > kMostAtTarget) continue;
     const double ratio = steps.ratio(costsOf(way), kBridgeBits);
     if (ratio >= least) continue;
     least = ratio;
     best = {reach, std::move(lifted), {}};
   }
-  if (best.reach > 0) best.values = filled;
+  if (best.reach > 0) best.values = std::move(unbridged->filled);
   return best;
 }
 

@@ -23,6 +23,7 @@ struct BridgeTarget {
   Purpose purpose;
   uint64_t bytes = UINT64_MAX;  ///< that there will be for it
   double mean_square = 0;       ///< > 0: the error wanted
+  uint8_t most = 255;           ///< reach that may be chosen
 };
 
 /// plane: of so many bits, with the mask of valid samples.
