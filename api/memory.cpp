@@ -137,7 +137,9 @@ class HeightsBytes {
     const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
     const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +
                              std::max({state, planes.work, corrections + tableBytes()});
-    return kOnce + trackBytes(header_) + std::max(surface, flatOpeningBytes());
+    // A distance for each sample is there while bridges are found.
+    const uint64_t closing = layers_.bridge > 0 ? masks + area(header_) : 0;
+    return kOnce + trackBytes(header_) + std::max({surface, flatOpeningBytes(), closing});
   }
 
   /// Models, indices, heights, marks and mask; then a table or corrections.

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/shown_heights.hpp"
 
+#include <utility>
+
 namespace tetrakis::inline geometry {
 
 DecodedHeights shownHeights(const ShownLines& lines, DecodedHeights decoded) {
   if (lines.none()) return decoded;
   DecodedGeometry& geometry = decoded.geometry;
-  geometry.heights = lines.shown(geometry.heights);
-  geometry.valid = lines.shown(geometry.valid);
-  geometry.significant = lines.shown(geometry.significant);
-  decoded.corrections = lines.shown(decoded.corrections);
+  geometry.heights = lines.shown(std::move(geometry.heights));
+  geometry.valid = lines.shown(std::move(geometry.valid));
+  geometry.significant = lines.shown(std::move(geometry.significant));
+  decoded.corrections = lines.shown(std::move(decoded.corrections));
   const ShownLines::Lines &columns = lines.columns(), &rows = lines.rows();
   geometry.width = static_cast<uint32_t>(columns.size());
   geometry.height = static_cast<uint32_t>(rows.size());

@@ -34,7 +34,7 @@ class ShownLines {
   /// Makes values of coded lines those of the view, `each` of them for a sample; nothing stays
   /// nothing.
   template <class T>
-  std::vector<T> shown(const std::vector<T>& values, uint32_t each = 1) const {
+  std::vector<T> shown(std::vector<T> values, uint32_t each = 1) const {
     if (none_ || values.empty()) return values;
     assert(values.size() == coded_extent_.samples() * each);
     std::vector<T> out;

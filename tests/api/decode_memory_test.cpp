@@ -233,6 +233,22 @@ TEST(DecodeMemory, HeightsOfEveryKindStayBelowTheBound) {
   expectWithinBounds(withVoids(heights, inRegions(budget(9000), 64)), "voids in regions");
 }
 
+/// Of coarse levels and small windows the masks take most.
+TEST(DecodeMemory, BridgedHolesStayBelowTheBound) {
+  constexpr uint32_t kWidth = 560, kHeight = 500;
+  Raster heights = make({Pattern::kRidges, kWidth, kHeight, 1, TKS_U16});
+  for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
+    if (samples::hash(static_cast<uint32_t>(i), 0, 9) % 10 == 0)
+      std::memset(heights.data.data() + 2 * i, 0xff, 2);
+  }
+  tks_heights holes = heights.heights();
+  holes.has_nodata = 1;
+  holes.nodata = 65535;
+  const Bytes bytes = encodeHeights(holes, inRegions(budget(60000), 64));
+  EXPECT_GT(readHeader(bytes)->header.layers.bridge, 0);
+  expectWithinBounds(bytes, "bridged holes", true);
+}
+
 /// Areas and heights between them in turns, or heights of few values.
 TEST(DecodeMemory, FlatAreasAndTablesStayBelowTheBound) {
   Raster lakes = make({Pattern::kRidges, 161, 130, 1, TKS_I16, 3});

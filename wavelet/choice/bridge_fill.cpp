@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -111,33 +112,46 @@ Known knownOf(const PlaneView<const int32_t>& plane) {
   return known;
 }
 
+/// Calls for each place of a mask that is marked, in order.
+template <class Call>
+void forEachMarked(const std::vector<uint8_t>& marks, const Call& call) {
+  const uint8_t *const begin = marks.data(), *const end = begin + marks.size();
+  const auto next = [&](const uint8_t* from) {
+    return from == end
+               ? nullptr
+               : static_cast<const uint8_t*>(std::memchr(from, 1, static_cast<size_t>(end - from)));
+  };
+  for (const uint8_t* at = next(begin); at != nullptr; at = next(at + 1))
+    call(static_cast<size_t>(at - begin));
+}
+
 }  // namespace
 
 std::vector<int32_t> bridged(const PlaneView<const int32_t>& plane, Mask lifted) {
   constexpr int kSweeps = 12;
   assert(!plane.valid.all());
   std::vector<int32_t> filled(plane.values().begin(), plane.values().end());
-  std::vector<size_t> voids;
+  std::vector<uint8_t> bridges(filled.size());
   int32_t least = std::numeric_limits<int32_t>::max(), most = std::numeric_limits<int32_t>::min();
   for (size_t i = 0; i < filled.size(); ++i) {
-    if (plane.valid[i]) {
-      least = std::min(least, filled[i]);
-      most = std::max(most, filled[i]);
-    } else if (lifted[i]) {
-      voids.push_back(i);
-    }
+    bridges[i] = lifted[i] && !plane.valid[i];
+    if (!plane.valid[i]) continue;
+    least = std::min(least, filled[i]);
+    most = std::max(most, filled[i]);
   }
   if (least > most) return filled;  // nothing is valid
   Known smooth = knownOf(plane);
   pullAndPush(smooth);
   const auto lowest = static_cast<float>(least), highest = static_cast<float>(most);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (const size_t i : voids) smooth.values[i] = std::clamp(relaxed(smooth, i), lowest, highest);
+    forEachMarked(bridges, [&](size_t i) {
+      smooth.values[i] = std::clamp(relaxed(smooth, i), lowest, highest);
+    });
   }
-  for (const size_t i : voids) {
+  forEachMarked(bridges, [&](size_t i) {
     const auto value = static_cast<int32_t>(std::lround(smooth.values[i]));
     filled[i] = std::clamp(value, least, most);
-  }
+  });
   return filled;
 }
 
