@@ -20,6 +20,7 @@ EncodedTexture encodeStoredTexture(const Texels& texels) {
   header.width = texels.width;
   header.height = texels.height;
   header.channels = static_cast<uint8_t>(texels.channels);
+  header.opaque = texels.opaque;
   header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
   header.planes = kDrawnPlanes;
   header.stored = true;

@@ -61,6 +61,7 @@ TextureHeader makeHeader(const Texels& texels, const ColourTransform& colour,
   header.width = texels.width;
   header.height = texels.height;
   header.channels = static_cast<uint8_t>(texels.channels);
+  header.opaque = texels.opaque;
   header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
   header.wavelet = wavelet;
   header.centre = colour.centre;

@@ -10,9 +10,8 @@ namespace tetrakis::inline texture {
 namespace {
 
 /// Contexts: of the first component, of the other colours, of alpha.
-uint32_t modelsOf(uint32_t component, uint32_t channels) {
-  const bool alpha = channels % 2 == 0 && component + 1 == channels;
-  return kPlaneModels * (alpha ? 2 : component == 0 ? 0 : 1);
+uint32_t modelsOf(const TextureHeader& header, uint32_t component) {
+  return kPlaneModels * (header.isAlpha(component) ? 2 : component == 0 ? 0 : 1);
 }
 
 }  // namespace
@@ -24,7 +23,7 @@ TexturePlan::TexturePlan(const TextureHeader& header, Mask coded,
       regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
       weights_(header.weights) {
   for (uint32_t c = 0; c < header.components(); ++c)
-    components_.push_back({static_cast<int>(header.priority[c]), modelsOf(c, header.components())});
+    components_.push_back({static_cast<int>(header.priority[c]), modelsOf(header, c)});
 }
 
 std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const {

@@ -85,7 +85,8 @@ struct TextureHeader {
   /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
   /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
   uint64_t alpha_bytes = 0;
-  uint8_t hidden = 0;  ///< of a cut-out: colours where alpha is 0 are not coded
+  uint8_t hidden = 0;   ///< of a cut-out: colours where alpha is 0 are not coded
+  bool opaque = false;  ///< no channel is alpha: the last of 2 or 4 is a further colour
   /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
   uint64_t overlay_bytes = 0;
   /// The reach of bridges over texels that are hidden or drawn over (wavelet/bridges.hpp); 0: none.
@@ -96,15 +97,16 @@ struct TextureHeader {
   Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
   int sampleBits() const { return sample == TKS_U8 ? 8 : 16; }
   uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
+  bool hasAlpha() const { return channels % 2 == 0 && !opaque; }
+  /// Whether a component is alpha.
+  bool isAlpha(uint32_t component) const { return hasAlpha() && component + 1 == channels; }
 
   template <class V>
   void visit(V& v) {
     LineFields lines(repeats, extent());
     v.varint("texture_width", lines.whole.width, 1, kMaxTextureSide);
     v.varint("texture_height", lines.whole.height, 1, kMaxTextureSide);
-    uint8_t kind = static_cast<uint8_t>(alpha_bytes == 0 ? channels : 4 + channels / 2);
-    v.u8("channels", kind, 1, 6);
-    channels = static_cast<uint8_t>(kind <= 4 ? kind : 2 * (kind - 4));
+    const uint8_t kind = visitChannels(v);
     auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0) +
                                      (lines.repeated() ? kWithRepeats : 0) +
                                      (bridge > 0 ? kWithBridges : 0));
@@ -128,7 +130,7 @@ struct TextureHeader {
     if (ordered) priorities.visit(v);
     if (direct()) return;
     wavelet.visit(v);
-    if (kind > 4) {
+    if (kind == kCutOut) {
       v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
       v.u8("hidden", hidden, 0, 1);
     }
@@ -154,6 +156,19 @@ struct TextureHeader {
   static constexpr uint8_t kMostShears = 8;  ///< sets of shears
 
  private:
+  enum Alpha : uint8_t { kPlain = 0, kCutOut = 4, kOpaque = 6 };  ///< before half of the channels
+
+  template <class V>
+  Alpha visitChannels(V& v) {
+    const Alpha alpha = alpha_bytes > 0 ? kCutOut : opaque && channels % 2 == 0 ? kOpaque : kPlain;
+    auto kind = static_cast<uint8_t>(alpha == kPlain ? channels : alpha + channels / 2);
+    v.u8("channels", kind, 1, kOpaque + 2);
+    const Alpha read = kind <= kCutOut ? kPlain : kind <= kOpaque ? kCutOut : kOpaque;
+    channels = static_cast<uint8_t>(read == kPlain ? kind : 2 * (kind - read));
+    opaque = read == kOpaque;
+    return read;
+  }
+
   template <class V>
   void visitShears(V& v) {
     auto colour = static_cast<uint8_t>(colour_order + kOrders * (colour_shears.size() - 1));

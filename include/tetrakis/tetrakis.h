@@ -110,7 +110,8 @@ typedef struct tks_heights {
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
- * It covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
+ * With `opaque` the last of 2 or 4 is a further colour, such as near infrared, which pictures and
+ * meshes leave out. It covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
  *
  * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of
  * the colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their
@@ -129,6 +130,7 @@ typedef struct tks_image {
   tks_registration registration; /* 0: unknown */
   const char* crs;               /* UTF-8, NULL: that of the heights */
   const char* geo_keys;          /* UTF-8, likewise */
+  int opaque;                    /* non-zero: no channel is alpha */
 } tks_image;
 
 /* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1]. */

@@ -9,7 +9,7 @@ namespace tetrakis::inline pictures {
 ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
     : whole_(whole), first_(first) {
   const size_t channels = texels.channels;
-  const bool has_alpha = channels % 2 == 0;
+  const bool has_alpha = texels.hasAlpha();
   const size_t second = channels < 3 ? 0 : 1, third = channels < 3 ? 0 : 2;
   const int shift = texels.bits - 8;
   Level level{texels.width, texels.height, {}, 1, 1, 0};

@@ -9,7 +9,7 @@ namespace tetrakis::inline mask {
 
 std::vector<uint8_t> cutoutOf(const Texels& texels) {
   std::vector<uint8_t> seen;
-  if (texels.channels % 2 != 0) return seen;
+  if (!texels.hasAlpha()) return seen;
   const size_t count = size_t{texels.width} * texels.height;
   size_t opaque = 0;
   seen.resize(count);
