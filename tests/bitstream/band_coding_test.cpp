@@ -136,19 +136,19 @@ TEST(RowHints, AreSumsAndBitsOfWhatOtherBandsHold) {
   Random random(5);
   for (const BandShape& shape : kShapes) {
     const Band parent = filled(random, {(shape.rows + 1) / 2, (shape.columns + 1) / 2});
-    const Band component = filled(random, shape);
+    const Band companion = filled(random, shape);
     const Band narrow = filled(random, {shape.rows, shape.columns - 1});
     const Band low = filled(random, {shape.rows - 1, shape.columns});
     for (int missing = 0; missing < 5; ++missing) {
       const auto unless = [&](int i, const Band& band) { return i == missing ? nullptr : &band; };
       const HintBands bands{
-          unless(0, parent), unless(1, component), {unless(2, narrow), unless(3, low)}};
+          unless(0, parent), unless(1, companion), {unless(2, narrow), unless(3, low)}};
       for (uint32_t row = 0; row < shape.rows; ++row) {
         for (uint32_t column = 0; column < shape.columns; ++column) {
           const RowHints hints(bands, row, column / 32);
           uint32_t sum = magnitudeAt(bands.parent, row / 2, column / 2);
           uint32_t bits = sum | magnitudeAt(bands.parent, row / 2, column / 2 + 1);
-          for (const Band* band : {bands.component, bands.siblings[0], bands.siblings[1]}) {
+          for (const Band* band : {bands.companion, bands.siblings[0], bands.siblings[1]}) {
             sum += magnitudeAt(band, row, column);
             for (uint32_t i = 0; i < 4; ++i) bits |= magnitudeAt(band, row, column + i);
           }
@@ -172,7 +172,7 @@ TEST(Band, ValidColumnsAreThoseThatExist) {
   }
 }
 
-/// Bands of one track with parents and a second component, filled with values of a peaked
+/// Bands of one track with parents and a second colour plane, filled with values of a peaked
 /// distribution whose scale rises from fine to coarse.
 struct Material {
   std::vector<BandPlan> plan;
@@ -182,7 +182,7 @@ struct Material {
 Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
   Random random(seed);
   Material m;
-  for (int component = 0; component < 2; ++component) {
+  for (int plane = 0; plane < 2; ++plane) {
     const auto first = static_cast<int>(m.plan.size());
     for (const Orientation orientation : {Orientation::kLL, Orientation::kHL, Orientation::kLH,
                                           Orientation::kHH, Orientation::kHL}) {
@@ -190,12 +190,12 @@ Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
       BandPlan band;
       band.shape = i < 4 ? coarse : BandShape{2 * coarse.rows, 2 * coarse.columns - 1};
       band.orientation = orientation;
-      band.log_norm = i < 4 ? 20 - 8 * component : 4;
-      band.models = static_cast<uint32_t>(i / 4 + 2 * component);
+      band.log_norm = i < 4 ? 20 - 8 * plane : 4;
+      band.models = static_cast<uint32_t>(i / 4 + 2 * plane);
       if (i == 4) band.parent = first + 1;
       if (i == 1) band.siblings = {first + 2, first + 3};
       if (i == 2 || i == 3) band.siblings = {first + 1, first + 5 - i};
-      if (component > 0) band.component = i;
+      if (plane > 0) band.companion = i;
       m.plan.push_back(band);
       BandSource source;
       source.values.assign(band.shape.cells(), 0);
