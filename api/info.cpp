@@ -55,9 +55,16 @@ uint32_t sideOf(const RegionHeader& regions) {
   return regions.side_log2 == 0 ? 0 : uint32_t{1} << regions.side_log2;
 }
 
-int codingOf(const TextureHeader& texture) {
-  if (texture.direct()) return texture.stored ? 3 : 1;
-  return texture.overlay_bytes > 0 ? 2 : 0;
+/// tks_info::heights_drawn and texture_drawn.
+enum Coding : int { kByWavelet = 0, kDrawn = 1, kOverlaid = 2, kStored = 3 };
+
+Coding codingOf(const GeometryHeader& heights) {
+  return heights.drawn ? kDrawn : heights.stored() ? kStored : kByWavelet;
+}
+
+Coding codingOf(const TextureHeader& texture) {
+  if (texture.direct()) return texture.stored ? kStored : kDrawn;
+  return texture.overlay_bytes > 0 ? kOverlaid : kByWavelet;
 }
 
 int giveTransform(const Placement& placement, int level, double* out) {
@@ -120,7 +127,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.step = geometry.step;
   info.exact_steps = geometry.exact;
   info.max_error = geometry.max_error;
-  info.heights_drawn = geometry.drawn ? 1 : geometry.stored() ? 3 : 0;
+  info.heights_drawn = codingOf(geometry);
   info.has_voids = header.layers.validity_bytes > 0;
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;

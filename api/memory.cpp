@@ -38,14 +38,13 @@ uint64_t mapBytes(const auto& header) {
 }
 
 /// The state of the tracks that are decoded at a time.
-uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t components,
-                    bool masked, Component component) {
+uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t planes, bool masked,
+                    Component component) {
   const bool known = header.planes > 0 && header.planes < kDrawnPlanes &&
                      !decoder.packets.payload.nothingOf(component);
   const bool ordered = !header.priorities.none();
-  const TrackNeeds needs{
-      header.extent(), header.regions.side_log2, components,       masked, ordered,
-      known,           decoder.threads,          decoder.remembers};
+  const TrackNeeds needs{header.extent(), header.regions.side_log2, planes, masked, ordered, known,
+                         decoder.threads, decoder.remembers};
   return needs.bytes() + (ordered ? mapBytes(header) : 0);
 }
 
@@ -56,15 +55,14 @@ uint64_t trackBytes(const auto& header) {
 
 /// What the planes of a view take until its samples are there.
 struct PlanesBytes {
-  uint64_t coefficients = 0;  ///< of one component
+  uint64_t coefficients = 0;  ///< of one plane
   uint64_t work = 0;          ///< of the inverse transforms that run at a time
 
-  PlanesBytes(const tks_decoder& decoder, const auto& header, const View& view, uint32_t components,
+  PlanesBytes(const tks_decoder& decoder, const auto& header, const View& view, uint32_t planes,
               bool masked) {
     const Pyramid pyramid(header.extent());
     const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
-    const uint64_t at_a_time =
-        view.window ? std::clamp<uint64_t>(decoder.threads, 1, components) : 1;
+    const uint64_t at_a_time = view.window ? std::clamp<uint64_t>(decoder.threads, 1, planes) : 1;
     coefficients = kValue * synthesis.coefficients();
     work = at_a_time * synthesis.workBytes(decoder.threads, masked);
   }
@@ -244,13 +242,14 @@ class TextureBytes {
     const uint64_t out = shown_ * texel();
     if (header_.direct())
       return kDrawnOnce + direct(view_.window ? area(header_) : shown_) + (view_.window ? out : 0);
-    const uint32_t components = header_.components();
-    const PlanesBytes planes(decoder_, header_, view_, components, masked_);
-    const uint64_t all = components * planes.coefficients;
+    const uint32_t colour_planes = header_.colourPlanes();
+    const PlanesBytes planes(decoder_, header_, view_, colour_planes, masked_);
+    const uint64_t all = colour_planes * planes.coefficients;
     const uint64_t masks = shown_ * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));
     // A window's samples are apart from its coefficients, which are gone then.
-    const uint64_t samples = view_.window ? components * kValue * shown_ : all;
-    const uint64_t state = stateBytes(decoder_, header_, components, masked_, Component::kTexture);
+    const uint64_t samples = view_.window ? colour_planes * kValue * shown_ : all;
+    const uint64_t state =
+        stateBytes(decoder_, header_, colour_planes, masked_, Component::kTexture);
     const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnce : kOnce;
     return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
            std::max({bridged() ? area(header_) : 0, all + state, all + masks + planes.work,

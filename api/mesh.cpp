@@ -2,7 +2,6 @@
 // Meshes of the decoded surface through the C interface.
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 
 #include "api/memory.hpp"
 #include "api/message.hpp"
@@ -67,10 +66,8 @@ Result<SurfaceMesh> budgetMeshOf(tks_decoder& decoder, Lattice lattice, uint32_t
   if (!level.ok()) return level.status();
   Result<BudgetMesh> mesh = budgetMesh(lattice, std::move(level->known), max_triangles);
   if (!mesh.ok()) return mesh.status();
-  std::vector<float> heights;
-  heights.reserve(mesh->heights.size());
-  for (const double steps : mesh->heights)
-    heights.push_back(static_cast<float>(steps * level->scale.scale + level->scale.offset));
+  std::vector<float> heights =
+      heightsInUnit(mesh->mesh, {}, level->scale, [&](size_t v) { return mesh->heights[v]; });
   return SurfaceMesh{std::move(lattice), std::move(mesh->vertices), std::move(mesh->mesh),
                      std::move(heights)};
 }
@@ -104,17 +101,11 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
   Result<Chosen> chosen = chosenVertices(decoder, *lattice, **geometry, kind, max_triangles);
   if (!chosen.ok()) return chosen.status();
   LatticeMesh mesh = meshOf(*lattice, chosen->vertices);
-  std::vector<float> heights;
-  heights.reserve(mesh.vertices.size());
-  const SurfaceScale scale = surfaceScale(header, **geometry);
-  const std::vector<uint8_t>& valid = (*geometry)->valid;
-  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const uint32_t sample = mesh.vertices[i];
-    const double steps = chosen->fitted.empty() ? (*geometry)->heights[sample] : chosen->fitted[i];
-    const bool is_void = !valid.empty() && !valid[sample];
-    heights.push_back(is_void ? std::numeric_limits<float>::quiet_NaN()
-                              : static_cast<float>(steps * scale.scale + scale.offset));
-  }
+  const auto steps_of = [&](size_t v) -> double {
+    return chosen->fitted.empty() ? (*geometry)->heights[mesh.vertices[v]] : chosen->fitted[v];
+  };
+  std::vector<float> heights =
+      heightsInUnit(mesh, (*geometry)->valid, surfaceScale(header, **geometry), steps_of);
   return SurfaceMesh{std::move(*lattice), std::move(chosen->vertices), std::move(mesh),
                      std::move(heights)};
 }

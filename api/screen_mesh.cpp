@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -111,12 +110,8 @@ class ScreenMeshCall {
     const auto admits = [&](uint64_t triangles) { return checkSize(lattice, texture, triangles); };
     Result<FittedMesh> mesh = screenMesh(lattice, surface, max_triangles_, admits);
     if (!mesh.ok()) return mesh.status();
-    std::vector<float> heights;
-    heights.reserve(mesh->heights.size());
-    for (size_t v = 0; v < mesh->heights.size(); ++v)
-      heights.push_back(surface.isKnown(mesh->mesh.vertices[v])
-                            ? static_cast<float>(mesh->heights[v] * scale.scale + scale.offset)
-                            : std::numeric_limits<float>::quiet_NaN());
+    std::vector<float> heights = heightsInUnit(mesh->mesh, (*geometry)->valid, scale,
+                                               [&](size_t v) { return mesh->heights[v]; });
     leaveOutVoids(mesh->mesh, heights);
     copyMesh(mesh->mesh, heights, out);
     return {};

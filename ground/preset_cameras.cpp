@@ -36,9 +36,9 @@ std::array<Vec3, 8> cornersOf(const Bounds& bounds) {
 }
 
 /// Corners of a box as the points (u, f) = (sideways, forward) of one picture axis.
-class Extent {
+class BoxProfile {
  public:
-  Extent(const std::array<Vec3, 8>& corners, const Vec3& axis, const Vec3& forward) {
+  BoxProfile(const std::array<Vec3, 8>& corners, const Vec3& axis, const Vec3& forward) {
     for (size_t i = 0; i < corners.size(); ++i)
       points_[i] = {dot(corners[i], axis), dot(corners[i], forward)};
   }
@@ -79,20 +79,21 @@ class Extent {
   std::array<std::pair<double, double>, 8> points_;
 };
 
-/// Moves the camera, keeping its direction and its angle, to the nearest place that sees the whole
-/// box with a small margin, in the middle of the picture.
-void frame(Camera& camera, const Bounds& bounds) {
+/// The camera, with its direction and its angle, at the nearest place that sees the whole box with
+/// a small margin, in the middle of the picture.
+Camera seeingAll(Camera camera, const Bounds& bounds) {
   constexpr double kMargin = 0.97;  // share of the picture for the box
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
   const HalfAngles half = halfAngles(camera);
-  const Extent x(cornersOf(bounds), axes.right, axes.forward);
-  const Extent y(cornersOf(bounds), axes.up, axes.forward);
+  const BoxProfile x(cornersOf(bounds), axes.right, axes.forward);
+  const BoxProfile y(cornersOf(bounds), axes.up, axes.forward);
   const double forward =
       std::min(x.foremost(kMargin * half.tan_x), y.foremost(kMargin * half.tan_y));
   camera.eye = add(add(scale(axes.right, x.centred(forward)), scale(axes.up, y.centred(forward))),
                    scale(axes.forward, forward));
   const double depth = dot(centreOf(bounds), axes.forward) - forward;
   camera.target = add(camera.eye, scale(axes.forward, depth));
+  return camera;
 }
 
 Camera obliqueView(const Bounds& bounds) {
@@ -102,8 +103,7 @@ Camera obliqueView(const Bounds& bounds) {
   camera.fov_y = kOverviewAngle;
   camera.target = centreOf(bounds);
   camera.eye = add(camera.target, Vec3{0, std::sin(kElevation), std::cos(kElevation)});
-  frame(camera, bounds);
-  return camera;
+  return seeingAll(camera, bounds);
 }
 
 Camera topView(const Bounds& bounds) {
@@ -113,8 +113,7 @@ Camera topView(const Bounds& bounds) {
   camera.up = {0, 0, -1};
   camera.target = centreOf(bounds);
   camera.eye = add(camera.target, Vec3{0, 1, 0});
-  frame(camera, bounds);
-  return camera;
+  return seeingAll(camera, bounds);
 }
 
 /// Share of the ground, taken as flat at middle height, that the camera sees.

@@ -51,10 +51,7 @@ class Sight {
     highest_ = *std::max_element(ground.heights.begin(), ground.heights.end());
   }
 
-  GroundPoint at(uint32_t x, uint32_t y) const {
-    const GroundPoint seen = shown(placeOf(x, y));
-    return seen.pixels > 0 && !isHidden(x, y) ? seen : GroundPoint{};
-  }
+  GroundPoint at(uint32_t x, uint32_t y) const { return unlessHidden(x, y, shown(placeOf(x, y))); }
 
   /// After a turn about the vertical through the eye that brings the point to the middle column.
   GroundPoint faced(uint32_t x, uint32_t y, double aspect) const {
@@ -67,11 +64,14 @@ class Sight {
     const double away = std::hypot((place[0] - (*eye_)[0]) * aspect, place[1] - (*eye_)[1]);
     place[0] = (*eye_)[0] + away * across / most / aspect;
     place[1] = (*eye_)[1] + away * down / most;
-    const GroundPoint seen = shown(place);
-    return seen.pixels > 0 && !isHidden(x, y) ? seen : GroundPoint{};
+    return unlessHidden(x, y, shown(place));
   }
 
  private:
+  GroundPoint unlessHidden(uint32_t x, uint32_t y, const GroundPoint& seen) const {
+    return seen.pixels > 0 && !isHidden(x, y) ? seen : GroundPoint{};
+  }
+
   Place placeOf(uint32_t x, uint32_t y) const {
     return {double(x) * ground_.step, double(y) * ground_.step, heightAt(x, y)};
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/heap_sort.hpp"
 
@@ -105,8 +106,8 @@ Choice chooseOne(std::span<const Piece> pieces, std::span<const uint32_t> order,
 }
 
 /// Runs go on with what helps, up to so many bytes: no request is left over for the last ones.
-void growRuns(std::span<const Piece> pieces, std::span<const uint32_t> order, uint64_t bytes,
-              Choice& chosen) {
+Choice grown(Choice chosen, std::span<const Piece> pieces, std::span<const uint32_t> order,
+             uint64_t bytes) {
   uint64_t left = bytes - bytesOf(chosen);
   for (const uint32_t i : order) {
     const bool follows = i > 0 && chosen[i - 1] == pieces[i - 1].size();
@@ -114,6 +115,7 @@ void growRuns(std::span<const Piece> pieces, std::span<const uint32_t> order, ui
     chosen[i] = std::min(left, pieces[i].size());
     left -= chosen[i];
   }
+  return chosen;
 }
 
 }  // namespace
@@ -134,8 +136,7 @@ Choice choosePieces(std::span<const Piece> pieces, std::span<const uint32_t> ord
   if (limits.request_bytes == 0) return chooseFirst(pieces, order, limits.bytes);
   Choice chosen = chooseRequests(pieces, order, limits);
   if (bytesOf(chosen) == 0) chosen = chooseOne(pieces, order, limits.bytes);
-  growRuns(pieces, order, limits.bytes, chosen);
-  return chosen;
+  return grown(std::move(chosen), pieces, order, limits.bytes);
 }
 
 }  // namespace tetrakis::inline receiver

@@ -13,23 +13,26 @@ TextureBridges chooseTextureBridges(const ChannelPlanes& channels, int bits, Bri
   constexpr uint8_t kMost = 16;
   target.most = kMost;
   if (channels.coded.all()) return {};
-  const std::vector<std::vector<int32_t>>& planes = *channels.planes;
-  const std::vector<int32_t>& leading = planes[planes.size() >= 3 ? 1 : 0];
+  const std::vector<int32_t>& leading = channels.planes[channels.planes.size() >= 3 ? 1 : 0];
   const BridgedPlane chosen =
       chooseBridges({leading, channels.extent, channels.coded}, bits, target);
-  return textureBridges(channels, chosen.reach);
+  return textureBridges(channels.extent, channels.coded, chosen.reach);
 }
 
-TextureBridges textureBridges(const ChannelPlanes& channels, uint8_t reach) {
-  if (reach == 0 || channels.coded.all()) return {};
-  const auto [extent, coded, planes] = channels;
+TextureBridges textureBridges(Extent extent, Mask coded, uint8_t reach) {
+  if (reach == 0 || coded.all()) return {};
   TextureBridges bridges{
       reach, liftedSamples({coded.bytes().begin(), coded.bytes().end()}, extent, reach)};
   bridges.share = static_cast<double>(markedIn(extent, coded)) /
                   static_cast<double>(std::max<size_t>(markedIn(extent, bridges.lifted), 1));
-  for (std::vector<int32_t>& plane : *planes)
-    plane = bridged({plane, extent, coded}, bridges.lifted);
   return bridges;
+}
+
+ChannelPlanes withBridges(ChannelPlanes channels, const TextureBridges& bridges) {
+  if (bridges.reach == 0) return channels;
+  for (std::vector<int32_t>& plane : channels.planes)
+    plane = bridged({plane, channels.extent, channels.coded}, bridges.lifted);
+  return channels;
 }
 
 }  // namespace tetrakis::inline texture

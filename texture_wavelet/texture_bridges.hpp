@@ -21,18 +21,21 @@ struct TextureBridges {
   Mask lifting(Mask coded) const { return reach == 0 ? coded : Mask(lifted); }
 };
 
-/// Planes of channels that are coded, before any transform.
+/// The channels that are coded, before any transform.
 struct ChannelPlanes {
   Extent extent;
   Mask coded;  ///< texels that are neither hidden nor drawn over
-  std::vector<std::vector<int32_t>>* planes;
+  std::vector<std::vector<int32_t>> planes;
 };
 
-/// Chooses bridges by grey, or green, of so many bits, and fills all planes there. Frames
-/// stay without them: there they cost more than typical parts tell.
+/// Chooses bridges by grey, or green, of so many bits. Frames stay without them: there they cost
+/// more than typical parts tell.
 TextureBridges chooseTextureBridges(const ChannelPlanes& channels, int bits, BridgeTarget target);
 
 /// Bridges of a reach that was chosen before; 0 is none.
-TextureBridges textureBridges(const ChannelPlanes& channels, uint8_t reach);
+TextureBridges textureBridges(Extent extent, Mask coded, uint8_t reach);
+
+/// Fills the bridged texels of all channels smoothly.
+ChannelPlanes withBridges(ChannelPlanes channels, const TextureBridges& bridges);
 
 }  // namespace tetrakis::inline texture

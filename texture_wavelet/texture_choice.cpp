@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,34 +15,11 @@
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"
+#include "texture_wavelet/texture_comparison.hpp"
 
 namespace tetrakis::inline texture {
 
 namespace {
-
-/// Bytes of the header that not every way to code an image has.
-uint64_t tableBytes(const EncodedTexture& encoded) {
-  return encoded.header.tables.code.size();
-}
-
-uint64_t bytesOf(const EncodedTexture& encoded) {
-  return tableBytes(encoded) + bytesOf(encoded.tracks);
-}
-
-/// The distortion that at most so many bytes leave. What lies between two points of the account is
-/// not known to be better than the first.
-double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
-  const std::vector<RatePoint>& points = encoded.tracks.front().points;
-  bytes -= std::min(bytes, tableBytes(encoded));
-  const auto above = std::find_if(points.begin() + 1, points.end(),
-                                  [&](const RatePoint& p) { return p.bytes > bytes; });
-  return (above - 1)->distortion;
-}
-
-/// By how many dB one error is worse than another.
-double lossOf(double squares, double other) {
-  return 10 * std::log10((1 + squares) / (1 + other));
-}
 
 /// A wavelet that takes more than so many bytes has lost to a drawing of `bytes`.
 uint64_t withinReach(uint64_t bytes) {
@@ -56,50 +32,6 @@ constexpr uint64_t kFewBytes = 1024;
 TextureOptions oneTrack(TextureOptions options) {
   options.region_log2 = 0;
   return options;
-}
-
-/// By how many dB prefixes of `a` are worse than those of `b`: the mean over a half, a quarter, an
-/// eighth and a sixteenth of the bytes. What is drawn shows little until it is nearly whole, and an
-/// overlay lies ahead of all else.
-double prefixLoss(const EncodedTexture& a, const EncodedTexture& b, uint64_t bytes) {
-  constexpr int kHalvings = 4;
-  double loss = 0;
-  for (int k = 1; k <= kHalvings; ++k)
-    loss += lossOf(distortionAt(a, bytes >> k), distortionAt(b, bytes >> k)) / kHalvings;
-  return loss;
-}
-
-/// Bytes from which on the error is no larger than that; all of them if it never is, and no number
-/// of bytes if coding ended before.
-uint64_t bytesFor(const EncodedTexture& encoded, double squares) {
-  const EncodedTrack& track = encoded.tracks.front();
-  const auto reached = std::find_if(track.points.begin(), track.points.end(),
-                                    [&](const RatePoint& p) { return p.distortion <= squares; });
-  if (reached != track.points.end()) return tableBytes(encoded) + reached->bytes;
-  return track.complete ? bytesOf(encoded) : UINT64_MAX;
-}
-
-bool isWhole(const EncodedTexture& encoded, uint64_t room) {
-  return encoded.tracks.front().complete && bytesOf(encoded) <= room;
-}
-
-/// Whether a shows the image better than b where they will be cut: in fewer bytes if there is an
-/// error aimed at, or if both are whole, else by less error in as many bytes. What shorter prefixes
-/// show counts as well, least where somebody asks for an error. samples: that count.
-bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TextureOptions& options,
-                 uint64_t samples) {
-  constexpr double kWholePerDb = 0.04, kAimedPerDb = 0.01, kEndPerPrefix = 2;
-  const bool aimed = options.mean_square > 0;
-  if (aimed || (isWhole(a, options.room) && isWhole(b, options.room))) {
-    const double squares = options.mean_square * static_cast<double>(samples);
-    const uint64_t bytes_a = bytesFor(a, squares), bytes_b = bytesFor(b, squares);
-    const double loss = prefixLoss(a, b, std::min(bytes_a, bytes_b));
-    const double price = 1 - (aimed ? kAimedPerDb : kWholePerDb) * loss;
-    return static_cast<double>(bytes_a) < static_cast<double>(bytes_b) * price;
-  }
-  const uint64_t reach = std::min({options.room, bytesOf(a), bytesOf(b)});
-  const double loss = lossOf(distortionAt(a, reach), distortionAt(b, reach));
-  return kEndPerPrefix * loss + prefixLoss(a, b, reach) < 0;
 }
 
 /// Codes the image by wavelet in one track, with tables of values where these pay.
@@ -123,12 +55,13 @@ struct Attempts {
 };
 
 /// Codes what is not there yet. photograph: empty, there is no overlay.
-void attempt(const TextureSource& source, Purpose purpose, const TextureOptions& options,
-             const std::vector<uint8_t>& photograph, Attempts& attempts) {
+Attempts attempt(const TextureSource& source, Purpose purpose, const TextureOptions& options,
+                 const std::vector<uint8_t>& photograph, Attempts attempts) {
   const TextureOptions one_track = oneTrack(options);
   if (!attempts.plain) attempts.plain = encodeOnce(source, purpose, one_track, {});
   if (!attempts.overlaid && !photograph.empty())
     attempts.overlaid = encodeOnce(source, purpose, one_track, photograph);
+  return attempts;
 }
 
 bool overlayPays(const TextureSource& source, Purpose purpose, const TextureOptions& options,
@@ -138,8 +71,14 @@ bool overlayPays(const TextureSource& source, Purpose purpose, const TextureOpti
                                           countedSamples(source.texels, seen));
 }
 
-/// What a drawn texture and the wavelet make of an image, side by side.
-struct Contest {
+/// The attempt that shows the image better.
+const EncodedTexture& betterOf(const TextureSource& source, Purpose purpose,
+                               const TextureOptions& options, const Attempts& attempts) {
+  return overlayPays(source, purpose, options, attempts) ? *attempts.overlaid : *attempts.plain;
+}
+
+/// A drawn texture beside what the wavelet makes of the image.
+struct Comparison {
   bool drawn_wins;
   /// What encodePhotograph() would make itself.
   Attempts attempts;
@@ -155,16 +94,15 @@ std::vector<uint8_t> photographOf(const TextureSource& source, Purpose purpose) 
   return photographOf(source.texels, source.counted(purpose == Purpose::kLossy));
 }
 
-/// The better attempt of the wavelet, and all of them.
-const EncodedTexture& challenge(const TextureSource& source, Purpose purpose,
-                                const TextureOptions& options, Attempts& attempts) {
+/// What a drawn texture is compared with.
+Attempts attemptsBesideDrawn(const TextureSource& source, Purpose purpose,
+                             const TextureOptions& options) {
   std::vector<uint8_t> photograph = photographOf(source, purpose);
   if (!isMostlyPhotograph(photograph)) photograph.clear();
-  attempt(source, purpose, options, photograph, attempts);
-  return overlayPays(source, purpose, options, attempts) ? *attempts.overlaid : *attempts.plain;
+  return attempt(source, purpose, options, photograph, {});
 }
 
-/// Attempts that the limit of a contest ended early are no use.
+/// Attempts that the limit of a comparison ended early are no use.
 Attempts completeOnes(Attempts attempts) {
   for (std::optional<EncodedTexture>* encoded : {&attempts.plain, &attempts.overlaid})
     if (*encoded && !(*encoded)->tracks.front().complete) encoded->reset();
@@ -173,35 +111,35 @@ Attempts completeOnes(Attempts attempts) {
 
 /// A drawn texture wins if it takes too few bytes for the wavelet to restore every sample within
 /// about as many, or within twice as many if that is not asked for.
-Contest contestWhole(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
-                     const TextureOptions& options) {
+Comparison compareWhole(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
+                        const TextureOptions& options) {
   const uint64_t bytes = bytesOf(drawn);
   if (bytes <= kFewBytes) return {true, {}};
   const bool lossless = purpose == Purpose::kLossless;
   const TextureOptions until = {.limit = lossless ? withinReach(bytes) : 2 * bytes,
                                 .threads = options.threads,
                                 .tables = lossless};
-  Contest contest{true, {}};
-  const EncodedTexture& wavelet = challenge(source, Purpose::kLossless, until, contest.attempts);
+  Attempts attempts = attemptsBesideDrawn(source, Purpose::kLossless, until);
+  const EncodedTexture& wavelet = betterOf(source, Purpose::kLossless, until, attempts);
   if (!wavelet.tracks.front().complete) return {true, {}};
-  contest.drawn_wins = lossless && showsBetter(drawn, wavelet, until, source.texels.samples.size());
-  if (!lossless || options.visual) return {contest.drawn_wins, {}};
-  contest.attempts = completeOnes(std::move(contest.attempts));
-  return contest;
+  const bool drawn_wins =
+      lossless && showsBetter(drawn, wavelet, until, source.texels.samples.size());
+  if (!lossless || options.visual) return {drawn_wins, {}};
+  return {drawn_wins, completeOnes(std::move(attempts))};
 }
 
-/// The contest for a drawn texture whose end will not be sent. Alpha of a cut-out would not be
+/// The comparison for a drawn texture whose end will not be sent. Alpha of a cut-out would not be
 /// exact.
-Contest contestCut(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
-                   const TextureOptions& options) {
+Comparison compareCut(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
+                      const TextureOptions& options) {
   if (!source.cutout.empty()) return {false, {}};
   TextureOptions one_track = oneTrack(options);
   if (options.mean_square > 0) one_track.limit = withinReach(bytesOf(drawn));
-  Contest contest{false, {}};
-  const EncodedTexture& wavelet = challenge(source, purpose, one_track, contest.attempts);
-  contest.drawn_wins = showsBetter(drawn, wavelet, options, source.texels.samples.size());
-  if (one_track.limit < options.limit) contest.attempts = completeOnes(std::move(contest.attempts));
-  return contest;
+  Attempts attempts = attemptsBesideDrawn(source, purpose, one_track);
+  const EncodedTexture& wavelet = betterOf(source, purpose, one_track, attempts);
+  const bool drawn_wins = showsBetter(drawn, wavelet, options, source.texels.samples.size());
+  const bool may_end_early = one_track.limit < options.limit;
+  return {drawn_wins, may_end_early ? completeOnes(std::move(attempts)) : std::move(attempts)};
 }
 
 /// The image without an overlay, as far as a comparison looks: where an overlay is tried it mostly
@@ -227,7 +165,7 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
   const bool ends_early = !photograph.empty() && !attempts.plain && options.room < options.limit &&
                           options.mean_square == 0;
   if (ends_early) attempts.plain = encodeToCompare(source, purpose, options);
-  attempt(source, purpose, options, photograph, attempts);
+  attempts = attempt(source, purpose, options, photograph, std::move(attempts));
   const bool pays = overlayPays(source, purpose, options, attempts);
   EncodedTexture& better = pays ? *attempts.overlaid : *attempts.plain;
   if (one_track && (pays || !ends_early)) return std::move(better);
@@ -237,11 +175,11 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
 
 /// Drawn, or by wavelet: without priorities, because drawn textures have none, and what counts
 /// differently cannot be compared.
-Contest contestOf(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
-                  TextureOptions options) {
+Comparison compare(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
+                   TextureOptions options) {
   options.priorities = nullptr;
   const bool whole = bytesOf(drawn) <= options.room && options.mean_square == 0;
-  return (whole ? contestWhole : contestCut)(drawn, source, purpose, options);
+  return (whole ? compareWhole : compareCut)(drawn, source, purpose, options);
 }
 
 /// What does not look drawn has to save a fifth of the photograph's bytes, or to fit whole into the
@@ -259,16 +197,16 @@ uint64_t mostToTry(const EncodedTexture& photograph, Purpose purpose,
 EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
                               TextureOptions options) {
   if (std::optional<EncodedTexture> drawn = encodeDrawn(source.texels)) {
-    Contest contest = contestOf(*drawn, source, purpose, options);
-    if (contest.drawn_wins) return std::move(*drawn);
+    Comparison compared = compare(*drawn, source, purpose, options);
+    if (compared.drawn_wins) return std::move(*drawn);
     drawn.reset();
     options.priorities = nullptr;
-    return encodePhotograph(source, purpose, options, std::move(contest.attempts));
+    return encodePhotograph(source, purpose, options, std::move(compared.attempts));
   }
   EncodedTexture photograph = encodePhotograph(source, purpose, options, {});
   const uint64_t most = mostToTry(photograph, purpose, options);
   std::optional<EncodedTexture> drawn = encodeDrawn(source.texels, most);
-  const bool drawn_wins = drawn && contestOf(*drawn, source, purpose, options).drawn_wins;
+  const bool drawn_wins = drawn && compare(*drawn, source, purpose, options).drawn_wins;
   return drawn_wins ? std::move(*drawn) : std::move(photograph);
 }
 

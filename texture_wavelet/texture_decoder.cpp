@@ -22,7 +22,7 @@ namespace tetrakis::inline texture {
 
 namespace {
 
-/// Components, of as many samples as `texels` has places, to interleaved samples.
+/// Colour planes, of as many samples as `texels` has places, to interleaved samples.
 void finish(const TextureHeader& header, int fraction_bits, std::span<std::vector<int32_t>> planes,
             uint32_t threads, Texels& texels) {
   const size_t count = texels.extent().samples(), channels = texels.channels;
@@ -79,20 +79,20 @@ Texels decodeDirect(const TextureHeader& header, std::span<const uint8_t> codewo
   return part;
 }
 
-/// The planes of a view, one for each component, from their tracks.
-class ComponentPlanes {
+/// The colour planes of a view, from their tracks.
+class ColourPlanes {
  public:
   /// memory: of the tracks; null: there is none.
-  ComponentPlanes(const TextureHeader& header, const TextureOpening& opening, const View& view,
-                  TrackMemory* memory)
+  ColourPlanes(const TextureHeader& header, const TextureOpening& opening, const View& view,
+               TrackMemory* memory)
       : header_(header),
         opening_(opening),
         view_(view),
         plan_(header, opening.lifting(), memory ? memory->norms : std::nullopt) {
     if (memory != nullptr) memory->norms = plan_.layout().norms();
     const ViewSynthesis empty(specOf(header.wavelet), pyramid(), view);
-    synthesis_.assign(header.components(), empty);
-    for (ViewSynthesis& component : synthesis_) component.allocate();
+    synthesis_.assign(header.colourPlanes(), empty);
+    for (ViewSynthesis& plane : synthesis_) plane.allocate();
   }
 
   Precision decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
@@ -137,7 +137,7 @@ class ComponentPlanes {
   const TextureOpening& opening_;
   const View& view_;
   TexturePlan plan_;
-  std::vector<ViewSynthesis> synthesis_;  ///< one for each component
+  std::vector<ViewSynthesis> synthesis_;  ///< of each colour plane
 };
 
 }  // namespace
@@ -163,9 +163,9 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   const bool growing = memory != nullptr && memory->opening != nullptr;
   TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
-  ComponentPlanes components(header, *opening, view, tracks);
-  const Precision precision = components.decode(coefficients, {context.threads, tracks});
-  std::vector<std::vector<int32_t>> planes = components.restore(context.threads, precision.rounds);
+  ColourPlanes colours(header, *opening, view, tracks);
+  const Precision precision = colours.decode(coefficients, {context.threads, tracks});
+  std::vector<std::vector<int32_t>> planes = colours.restore(context.threads, precision.rounds);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
   finish(header, precision.fraction_bits, planes, context.threads, texels);
   finishAlpha(cut(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);

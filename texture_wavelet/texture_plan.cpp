@@ -9,9 +9,9 @@ namespace tetrakis::inline texture {
 
 namespace {
 
-/// Contexts: of the first component, of the other colours, of alpha.
-uint32_t modelsOf(const TextureHeader& header, uint32_t component) {
-  return kPlaneModels * (header.isAlpha(component) ? 2 : component == 0 ? 0 : 1);
+/// Contexts: of the first colour plane, of the other colours, of alpha.
+uint32_t modelsOf(const TextureHeader& header, uint32_t plane) {
+  return kPlaneModels * (header.isAlpha(plane) ? 2 : plane == 0 ? 0 : 1);
 }
 
 }  // namespace
@@ -22,16 +22,16 @@ TexturePlan::TexturePlan(const TextureHeader& header, Mask coded,
               priorityMapOf(header.priorities, header.extent()), norms),
       regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
       weights_(header.weights) {
-  for (uint32_t c = 0; c < header.components(); ++c)
-    components_.push_back({static_cast<int>(header.priority[c]), modelsOf(header, c)});
+  for (uint32_t c = 0; c < header.colourPlanes(); ++c)
+    planes_.push_back({static_cast<int>(header.priority[c]), modelsOf(header, c)});
 }
 
 std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const {
   std::vector<BandPlan> bands;
-  for (uint32_t c = 0; c < components_.size(); ++c) {
-    const ComponentBands& component = components_[c];
+  for (uint32_t c = 0; c < planes_.size(); ++c) {
+    const PlaneBands& own = planes_[c];
     const auto first = static_cast<int>(bands.size());
-    std::vector<BandPlan> plan = layout_.plan(parts, first, component.priority, component.models);
+    std::vector<BandPlan> plan = layout_.plan(parts, first, own.priority, own.models);
     if (c == 0) layout_.markAbsent(parts, plan);
     if (c == 0) layout_.markTiers(parts, plan);
     for (size_t i = 0; i < plan.size(); ++i) {
@@ -39,7 +39,7 @@ std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const 
       const Subband& subband = layout_.subbands()[parts[i].subband];
       band.log_norm += static_cast<int>(weights_.at(c, subband.level, subband.orientation));
       if (first > 0) {
-        band.component = static_cast<int>(bands.size() - parts.size());
+        band.companion = static_cast<int>(bands.size() - parts.size());
         band.absent = bands[i].absent;
         band.tiers = bands[i].tiers;
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says which bands an image is coded in: the subbands of every component. Each component hints at
+// Says which bands an image is coded in: the subbands of every colour plane. Each plane hints at
 // the magnitudes of the next. Encoder and decoder share this plan.
 #pragma once
 
@@ -21,25 +21,25 @@ class TexturePlan {
               const std::optional<SynthesisNorms>& norms = {});
 
   const PlaneLayout& layout() const { return layout_; }
-  /// The regions of the tracks. A track holds the same part of every component.
+  /// The regions of the tracks. A track holds the same part of every colour plane.
   const std::vector<Region>& regions() const { return regions_; }
   std::vector<BandPart> parts(size_t region) const { return layout_.parts(regions_[region]); }
-  /// Returns the bands of a track. Those of component c begin at parts.size() * c, and follow each
-  /// other in the order of the parts of the region.
+  /// Returns the bands of a track. Those of colour plane c begin at parts.size() * c, and follow
+  /// each other in the order of the parts of the region.
   std::vector<BandPlan> bands(std::span<const BandPart> parts) const;
 
  private:
-  struct ComponentBands {
+  struct PlaneBands {
     int priority;
     uint32_t models;
   };
   PlaneLayout layout_;
   std::vector<Region> regions_;
-  std::vector<ComponentBands> components_;
+  std::vector<PlaneBands> planes_;  ///< of each colour plane
   BandWeights weights_;
 };
 
-/// Returns the component transform that a header describes.
+/// Returns the colour transform that a header describes.
 ColourTransform colourOf(const TextureHeader& header);
 
 }  // namespace tetrakis::inline texture

@@ -40,11 +40,11 @@ double frequencyOf(int level, bool diagonal) {
 
 }  // namespace
 
-BandWeights visualWeights(uint32_t components) {
+BandWeights visualWeights(uint32_t planes) {
   BandWeights weights;
   weights.levels = kLevels;
-  for (uint32_t c = 0; c < components; ++c) {
-    const bool colour = (c == 1 || c == 2) && components >= 3;
+  for (uint32_t c = 0; c < planes; ++c) {
+    const bool colour = (c == 1 || c == 2) && planes >= 3;
     for (int level = 1; level <= kLevels; ++level) {
       for (const bool diagonal : {false, true}) {
         const double frequency = frequencyOf(level, diagonal);

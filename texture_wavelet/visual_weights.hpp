@@ -8,7 +8,7 @@
 
 namespace tetrakis::inline texture {
 
-/// components: 1 to 4, the last of an even number being alpha, which is weighted like the first.
-BandWeights visualWeights(uint32_t components);
+/// planes: 1 to 4, the last of an even number being alpha, which is weighted like the first.
+BandWeights visualWeights(uint32_t planes);
 
 }  // namespace tetrakis::inline texture

@@ -15,11 +15,9 @@ namespace tetrakis::inline wavelet {
 /// The reach that bridges every void.
 inline constexpr uint8_t kBridgeAll = 255;
 
-/// Returns the mask of the samples that are lifted: the morphological closing of the valid ones by
-/// squares of 2 * reach + 1 samples (J. Serra, Image Analysis and Mathematical Morphology, 1982),
-/// where what lies outside the plane counts as marked in the erosion and not in the dilation.
-/// Empty: all are. reach: 0 bridges nothing, kBridgeAll everything. The time is that of a few
-/// passes over the plane.
+/// Returns the mask of the samples that are lifted: the closing of the valid ones by squares of
+/// that reach (wavelet/morphology.hpp). Empty: all are. reach: 0 bridges nothing, kBridgeAll
+/// everything.
 std::vector<uint8_t> liftedSamples(const std::vector<uint8_t>& valid, Extent plane, uint8_t reach);
 
 }  // namespace tetrakis::inline wavelet

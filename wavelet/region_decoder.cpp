@@ -43,9 +43,9 @@ uint64_t TrackNeeds::bytes() const {
   for (const Region& region : largestRegions(plane.width, plane.height, side_log2)) {
     uint64_t sum = kOnce;
     for (const BandPart& part : partsOf(pyramid.subbands(), region)) {
-      if (known) sum += components * Band::bytesOf(part.shape(), masked);
-      if (masked) sum += components * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
-      if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all components
+      if (known) sum += planes * Band::bytesOf(part.shape(), masked);
+      if (masked) sum += planes * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
+      if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all planes
     }
     largest = std::max(largest, sum);
   }

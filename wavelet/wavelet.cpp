@@ -278,10 +278,6 @@ void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
   }
 }
 
-void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads) {
-  forwardWavelet(spec, Pyramid(plane.extent(), plane.valid), plane.values(), threads);
-}
-
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     const InverseOptions& options) {
   const int level = options.level;
@@ -303,10 +299,6 @@ void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
     runLevel(transformOf(split), blockOf(pyramid, split - 1, level, values),
              {pyramid, split, ladder});
   }
-}
-
-void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads) {
-  inverseWavelet(spec, Pyramid(plane.extent(), plane.valid), plane.values(), {.threads = threads});
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transform is a reversible integer wavelet of a plane. Heights and the components of a texture
-// share it.
+// The transform is a reversible integer wavelet of a plane. Heights and the colour planes of a
+// texture share it.
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
 // with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
@@ -58,18 +58,12 @@ struct WaveletSpec {
 /// do. These levels lift jointly. The first level that doubles its low band is the last at most.
 int carriedTo(const WaveletSpec& spec, const Pyramid& pyramid);
 
-/// Turns the samples of a plane into coefficients, in place, laid out as wavelet/pyramid.hpp says.
-/// inverseWavelet() with the same spec and the same mask undoes it exactly. Samples that do not
-/// exist are left alone.
-void forwardWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
-
-/// Transforms the plane of a pyramid, which knows what is held: held samples have their values,
-/// and the places of their coefficients may be anything afterwards.
+/// Turns the samples of the plane of a pyramid into coefficients, in place, laid out as
+/// wavelet/pyramid.hpp says. inverseWavelet() with the same spec and an equal pyramid undoes it
+/// exactly. Samples that do not exist are left alone; those that are held have their values, and
+/// the places of their coefficients may be anything afterwards.
 void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     uint32_t threads = 1);
-
-/// Turns coefficients into samples, in place. Defined for all values.
-void inverseWavelet(const WaveletSpec& spec, const PlaneView<int32_t>& plane, uint32_t threads = 1);
 
 /// How coefficients become samples.
 struct InverseOptions {
@@ -80,8 +74,9 @@ struct InverseOptions {
   uint32_t threads = 1;  ///< nothing depends on them
 };
 
-/// Turns coefficients into the low band of a level, which is a plane of its own. low: the values of
-/// that low band. Where samples are held any values will do.
+/// Turns coefficients into the low band of a level, which is a plane of its own, in place; that of
+/// level 0 are the samples. Defined for all values. low: the values of that low band. Where samples
+/// are held any values will do.
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> low,
                     const InverseOptions& options = {});
 

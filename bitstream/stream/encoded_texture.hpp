@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
-
+#include "bitstream/stream/texture_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 
 namespace tetrakis::inline stream {

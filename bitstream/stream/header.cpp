@@ -107,7 +107,7 @@ void visitBody(V& v, StreamHeader& header) {
     if (header.texture) header.texture->regions.visit(v);
   }
   if ((parts & kWeights) && header.texture)
-    header.texture->weights.visit(v, header.texture->components());
+    header.texture->weights.visit(v, header.texture->colourPlanes());
   if (parts & kGeoreference) visitGeoreference(v, header);
   if (parts & kIndex) visitIndex(v, header);
 }

@@ -22,34 +22,34 @@ inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or c
 /// (bitstream/coder/byte_planes.hpp).
 inline constexpr uint8_t kDrawnPlanes = 31, kStoredTexture = 63;
 
-/// What is added to the priority of a component at its finest levels, in 1/16 of a binary order of
-/// magnitude: how visible errors of a band are. A part of the header of its own.
+/// What is added to the priority of a colour plane at its finest levels, in 1/16 of a binary order
+/// of magnitude: how visible errors of a band are. A part of the header of its own.
 struct BandWeights {
   static constexpr uint64_t kMostLevels = 8;
   static constexpr int64_t kMaxPriority = 128;
 
-  uint8_t levels = 0;  ///< 0: none, for no component
-  /// The list of a component begins with HL and LH of level 1, HH of level 1, HL and LH of level 2.
+  uint8_t levels = 0;  ///< 0: none, for no colour plane
+  /// The list of a plane begins with HL and LH of level 1, HH of level 1, HL and LH of level 2.
   std::array<std::array<int64_t, 2 * kMostLevels>, 4> priority{};
 
-  int64_t at(uint32_t component, int level, Orientation orientation) const {
+  int64_t at(uint32_t plane, int level, Orientation orientation) const {
     if (orientation == Orientation::kLL || level > levels) return 0;
-    return priority[component]
+    return priority[plane]
                    [static_cast<size_t>(2 * (level - 1) + (orientation == Orientation::kHH))];
   }
 
   template <class V>
-  void visit(V& v, uint32_t components) {
+  void visit(V& v, uint32_t planes) {
     v.u8("weight_levels", levels, 1, kMostLevels);
-    for (uint32_t c = 0; c < components; ++c) {
+    for (uint32_t c = 0; c < planes; ++c) {
       for (size_t i = 0; i < size_t{2} * levels && v.ok(); ++i)
         v.zigzag("band_priority", priority[c][i], kMaxPriority);
     }
   }
 };
 
-/// The values that the channels of components have, where their type could hold more: the wavelet
-/// codes places in these tables (texture_wavelet/tables/channel_tables.hpp).
+/// The values that channels have, where their type could hold more: the wavelet codes places in
+/// these tables (texture_wavelet/tables/channel_tables.hpp).
 struct ChannelTablesHeader {
   static constexpr uint32_t kMostValues = 1u << 16;
 
@@ -58,8 +58,8 @@ struct ChannelTablesHeader {
   std::string code;
 
   template <class V>
-  void visit(V& v, uint32_t components) {
-    for (uint32_t c = 0; c < components; ++c) v.varint("table_values", values[c], 0, kMostValues);
+  void visit(V& v, uint32_t planes) {
+    for (uint32_t c = 0; c < planes; ++c) v.varint("table_values", values[c], 0, kMostValues);
     v.text("value_tables", code);
   }
 };
@@ -73,17 +73,17 @@ struct TextureHeader {
   uint8_t sample = 0;  ///< TKS_U8 or TKS_U16
   uint8_t planes = 0;
   uint8_t colour_order = 0;
-  /// Textures of 3 components or more have the shears of samples, then those of coefficients.
+  /// Textures of 3 colour planes or more have the shears of samples, then those of coefficients.
   std::vector<std::array<int64_t, 6>> colour_shears{{}};
-  std::array<uint16_t, 4> centre{};   ///< one per component; of a table a place
-  std::array<int64_t, 4> priority{};  ///< 16 log2 of each component's weight, for the pass order
+  std::array<uint16_t, 4> centre{};   ///< one per colour plane; of a table a place
+  std::array<int64_t, 4> priority{};  ///< 16 log2 of each plane's weight, for the pass order
   WaveletHeader wavelet;
   ChannelTablesHeader tables;
   PriorityHeader priorities;
   RegionHeader regions;  ///< a part of the header of its own
   BandWeights weights;
-  /// Cut-out: alpha is 0 or the largest value, and no component. A mask of so many bytes says
-  /// which, ahead of the coefficients. 0: alpha, if there is one, is the last component.
+  /// Cut-out: alpha is 0 or the largest value, and no colour plane. A mask of so many bytes
+  /// says which, ahead of the coefficients. 0: alpha, if there is one, is the last colour plane.
   uint64_t alpha_bytes = 0;
   uint8_t hidden = 0;   ///< of a cut-out: colours where alpha is 0 are not coded
   bool opaque = false;  ///< no channel is alpha: the last of 2 or 4 is a further colour
@@ -96,10 +96,10 @@ struct TextureHeader {
   Extent extent() const { return {width, height}; }
   Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
   int sampleBits() const { return sample == TKS_U8 ? 8 : 16; }
-  uint32_t components() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
+  uint32_t colourPlanes() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
   bool hasAlpha() const { return channels % 2 == 0 && !opaque; }
-  /// Whether a component is alpha.
-  bool isAlpha(uint32_t component) const { return hasAlpha() && component + 1 == channels; }
+  /// Whether a colour plane is alpha.
+  bool isAlpha(uint32_t plane) const { return hasAlpha() && plane + 1 == channels; }
 
   template <class V>
   void visit(V& v) {
@@ -136,12 +136,12 @@ struct TextureHeader {
     }
     if (coding >= overlaid) v.varint("overlay_bytes", overlay_bytes, 1, UINT64_MAX >> 1);
     if (bridges) v.u8("bridge", bridge, 1, 255);
-    for (size_t c = 0; c < components() && v.ok(); ++c) {
+    for (size_t c = 0; c < colourPlanes() && v.ok(); ++c) {
       v.varint("centre", centre[c], 0, 0xffff);
       v.zigzag("priority", priority[c], kMaxPriority);
     }
-    if (components() >= 3) visitShears(v);
-    if (tables.present) tables.visit(v, components());
+    if (colourPlanes() >= 3) visitShears(v);
+    if (tables.present) tables.visit(v, colourPlanes());
   }
   bool drawn() const { return direct() && !stored; }
   /// The texture was coded without a transform: drawn or stored.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other bands tell something about the magnitudes of a band's coefficients: its parent, the same
-// band of another component, and its siblings, the other details of its level (as X. Wu does in
+// band of another colour plane, and its siblings, the other details of its level (as X. Wu does in
 // "High-order context modeling and embedded conditional entropy coding of wavelet coefficients for
 // image compression", Asilomar 1997).
 #pragma once
@@ -16,7 +16,7 @@ namespace tetrakis::inline track {
 /// The bands that hint at the magnitudes of another; null where there is none.
 struct HintBands {
   const Band* parent = nullptr;
-  const Band* component = nullptr;
+  const Band* companion = nullptr;
   std::array<const Band*, 2> siblings{};
 };
 
@@ -26,17 +26,17 @@ class RowHints {
   RowHints() = default;
   RowHints(const HintBands& bands, uint32_t row, uint32_t word)
       : parent_(at(bands.parent, row / 2, 16 * word)),
-        component_(at(bands.component, row, 32 * word)),
+        companion_(at(bands.companion, row, 32 * word)),
         siblings_{at(bands.siblings[0], row, 32 * word), at(bands.siblings[1], row, 32 * word)} {}
 
   /// The sum of the hints at column i.
   uint32_t ofOne(uint32_t i) const {
-    return parent_[i / 2] + component_[i] + siblings_[0][i] + siblings_[1][i];
+    return parent_[i / 2] + companion_[i] + siblings_[0][i] + siblings_[1][i];
   }
 
   /// Twice the bits that are set in any hint at the four columns from i on.
   uint32_t ofFour(uint32_t i) const {
-    const uint32_t *c = component_ + i, *s = siblings_[0] + i, *t = siblings_[1] + i;
+    const uint32_t *c = companion_ + i, *s = siblings_[0] + i, *t = siblings_[1] + i;
     const uint64_t any = twoOf(parent_ + i / 2) | twoOf(c) | twoOf(c + 2) | twoOf(s) |
                          twoOf(s + 2) | twoOf(t) | twoOf(t + 2);
     return 2 * (static_cast<uint32_t>(any) | static_cast<uint32_t>(any >> 32));
@@ -56,7 +56,7 @@ class RowHints {
     return band->magnitude.data() + band->shape.cell(row, column);
   }
 
-  const uint32_t *parent_ = nullptr, *component_ = nullptr;
+  const uint32_t *parent_ = nullptr, *companion_ = nullptr;
   std::array<const uint32_t*, 2> siblings_{};
 };
 

@@ -24,7 +24,7 @@ struct BandPlan {
   int least_key = kNoKey;  ///< of its passes
   uint32_t models = 0;     ///< index of the BandModels that the band uses
   int parent = kNone;      ///< the band of the same orientation one level coarser
-  int component = kNone;   ///< the same band of another component
+  int companion = kNone;   ///< the same band of the colour plane before
   std::array<int, 2> siblings = {kNone, kNone};  ///< the other details of the level
   /// Bit map (BandShape::word) of the coefficients that do not exist; empty: all do.
   std::vector<uint32_t> absent = {};
@@ -61,7 +61,7 @@ struct TrackState {
     const BandPlan& band = plan[pass.band];
     const auto at = [&](int i) { return i < 0 ? nullptr : &bands[static_cast<size_t>(i)]; };
     const HintBands hints{
-        at(band.parent), at(band.component), {at(band.siblings[0]), at(band.siblings[1])}};
+        at(band.parent), at(band.companion), {at(band.siblings[0]), at(band.siblings[1])}};
     PlanePass<Io>(bands[pass.band], pass.tier, models[band.models], hints, io)
         .run(pass.kind, pass.plane);
   }

@@ -28,11 +28,10 @@ uint32_t spareLevels(const Lattice& lattice, uint64_t per_triangle, uint32_t max
   return k;
 }
 
-/// Leaves out the levels below `level`, of which nothing is known.
-void skipQuiet(KnownSurface& known, uint32_t level) {
-  if (level <= known.level) return;
-  known.surface = coarsen(known.surface.view(), level - known.level);
-  known.level = level;
+/// The surface without the levels below `level`, of which nothing is known.
+KnownSurface fromLevel(uint32_t level, KnownSurface known) {
+  if (level <= known.level) return known;
+  return {coarsen(known.surface.view(), level - known.level), level, known.quiet_level};
 }
 
 Result<std::vector<VertexId>> chosenVertices(const SurfaceView& surface, uint32_t max_triangles) {
@@ -50,13 +49,12 @@ Result<BudgetMesh> fittedVertices(const CoarseSurface& surface, bool choose_coar
   Result<std::vector<VertexId>> chosen =
       chosenVertices(choose_coarser ? coarser.view() : fine, max_triangles);
   if (!chosen.ok()) return chosen.status();
-  std::vector<VertexId>& vertices = *chosen;
   const Result<Lattice> lattice = Lattice::make(fine.width, fine.height);
   if (!lattice.ok()) return lattice.status();
-  dropNeedless(*lattice, fine, vertices);
+  std::vector<VertexId> vertices = withoutNeedless(*lattice, fine, std::move(*chosen));
   FittedMesh fitted = fitMesh(*lattice, {fine, {}}, vertices);
-  keepWithinRange({fine, {}}, fitted.heights);
-  return BudgetMesh{std::move(vertices), std::move(fitted.mesh), std::move(fitted.heights)};
+  return BudgetMesh{std::move(vertices), std::move(fitted.mesh),
+                    withinRange({fine, {}}, std::move(fitted.heights))};
 }
 
 }  // namespace
@@ -71,7 +69,7 @@ Result<BudgetMesh> budgetMesh(const Lattice& lattice, KnownSurface known, uint32
   const uint32_t quiet_level =
       std::min(known.quiet_level, spareLevels(lattice, kPerQuietTriangle, max_triangles));
   const uint32_t level = std::max(chosen_level, quiet_level);
-  if (level > 0) skipQuiet(known, level - 1);
+  if (level > 0) known = fromLevel(level - 1, std::move(known));
   Result<BudgetMesh> fitted = fittedVertices(known.surface, level > 0, max_triangles);
   if (!fitted.ok()) return fitted.status();
   for (uint32_t& sample : fitted->mesh.vertices)

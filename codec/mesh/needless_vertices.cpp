@@ -41,8 +41,8 @@ class Changes {
 
 }  // namespace
 
-void dropNeedless(const Lattice& lattice, const SurfaceView& surface,
-                  std::vector<VertexId>& vertices) {
+std::vector<VertexId> withoutNeedless(const Lattice& lattice, const SurfaceView& surface,
+                                      std::vector<VertexId> vertices) {
   assert(surface.width == lattice.width() && surface.height == lattice.height());
   const Changes changes(surface);
   std::erase_if(vertices, [&](VertexId v) {
@@ -53,6 +53,7 @@ void dropNeedless(const Lattice& lattice, const SurfaceView& surface,
     const GridPoint first{at.x - std::min(at.x, reach), at.y - std::min(at.y, reach)};
     return changes.none(lattice.clamp(first), lattice.clamp({at.x + reach, at.y + reach}));
   });
+  return vertices;
 }
 
 }  // namespace tetrakis::inline mesh

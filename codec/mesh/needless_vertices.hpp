@@ -10,9 +10,9 @@
 
 namespace tetrakis::inline mesh {
 
-/// Takes those out of a closed set around which all samples have one height, as far as they and
-/// their descendants reach. What is left is closed.
-void dropNeedless(const Lattice& lattice, const SurfaceView& surface,
-                  std::vector<VertexId>& vertices);
+/// A closed set without the vertices around which all samples have one height, as far as they and
+/// their descendants reach: a closed set again.
+std::vector<VertexId> withoutNeedless(const Lattice& lattice, const SurfaceView& surface,
+                                      std::vector<VertexId> vertices);
 
 }  // namespace tetrakis::inline mesh

@@ -24,8 +24,7 @@ Result<FittedMesh> latticeMesh(const Lattice& lattice, const WeightedSurface& su
   if (!sequence.ok()) return sequence.status();
   std::vector<VertexId> vertices = sequence->order();
   vertices.resize(sequence->longestPrefix(max_triangles));
-  dropNeedless(lattice, surface.view, vertices);
-  return fitMesh(lattice, surface, vertices);
+  return fitMesh(lattice, surface, withoutNeedless(lattice, surface.view, std::move(vertices)));
 }
 
 }  // namespace
@@ -35,9 +34,8 @@ Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& sur
                               const std::function<Status(uint64_t)>& admits) {
   Result<FittedMesh> mesh = latticeMesh(lattice, surface, max_triangles, admits);
   if (!mesh.ok()) return mesh;
-  turnEdges(surface, *mesh);
-  keepWithinRange(surface, mesh->heights);
-  return mesh;
+  FittedMesh turned = withTurnedEdges(surface, std::move(*mesh));
+  return FittedMesh{std::move(turned.mesh), withinRange(surface, std::move(turned.heights))};
 }
 
 }  // namespace tetrakis::inline mesh

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "codec/mesh/fitting/fitted_solver.hpp"
@@ -60,21 +61,21 @@ std::vector<uint32_t> twinsOf(std::span<const uint32_t> corners) {
 
 class EdgeTurner {
  public:
-  EdgeTurner(const WeightedSurface& surface, FittedMesh& mesh)
+  EdgeTurner(const WeightedSurface& surface, FittedMesh mesh)
       : surface_(surface),
-        mesh_(mesh),
-        corners_(mesh.mesh.triangles),
+        mesh_(std::move(mesh)),
+        corners_(mesh_.mesh.triangles),
         twins_(twinsOf(corners_)),
         errors_(corners_.size() / 3),
         changes_(errors_.size()),
         by_sample_(surface.view.heights.size()) {
     const uint32_t width = surface.view.width;
-    for (const uint32_t sample : mesh.mesh.vertices)
+    for (const uint32_t sample : mesh_.mesh.vertices)
       points_.push_back({sample % width, sample / width});
     for (size_t t = 0; t < errors_.size(); ++t) fixed_.push_back(touchesUnknown(t));
   }
 
-  void run() {
+  FittedMesh turned() && {
     constexpr int kRounds = 3;
     constexpr uint32_t kSweeps = 3;
     for (int round = 0; round < kRounds; ++round) {
@@ -84,6 +85,7 @@ class EdgeTurner {
       }
       fit();
     }
+    return std::move(mesh_);
   }
 
  private:
@@ -182,7 +184,7 @@ class EdgeTurner {
   }
 
   const WeightedSurface& surface_;
-  FittedMesh& mesh_;
+  FittedMesh mesh_;
   std::vector<uint32_t>& corners_;  ///< of the triangles of mesh_
   std::vector<uint32_t> twins_;     ///< of each half-edge
   std::vector<double> errors_;      ///< of each triangle, as the next two
@@ -194,9 +196,10 @@ class EdgeTurner {
 
 }  // namespace
 
-void turnEdges(const WeightedSurface& surface, FittedMesh& mesh) {
+FittedMesh withTurnedEdges(const WeightedSurface& surface, FittedMesh mesh) {
   assert(mesh.heights.size() == mesh.mesh.vertices.size());
-  if (!mesh.mesh.triangles.empty()) EdgeTurner(surface, mesh).run();
+  if (mesh.mesh.triangles.empty()) return mesh;
+  return EdgeTurner(surface, std::move(mesh)).turned();
 }
 
 }  // namespace tetrakis::inline mesh

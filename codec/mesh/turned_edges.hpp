@@ -13,9 +13,10 @@
 
 namespace tetrakis::inline mesh {
 
-/// The squared error over the known samples never grows. Triangles stay counter-clockwise, cover
-/// the same ground and have an area; those that touch an unknown sample stay as they are. The same
-/// bits with every compiler. mesh: its vertices are samples of the surface.
-void turnEdges(const WeightedSurface& surface, FittedMesh& mesh);
+/// The mesh with its edges turned and its heights fitted anew. The squared error over the known
+/// samples never grows. Triangles stay counter-clockwise, cover the same ground and have an area;
+/// those that touch an unknown sample stay as they are. The same bits with every compiler. mesh:
+/// its vertices are samples of the surface.
+FittedMesh withTurnedEdges(const WeightedSurface& surface, FittedMesh mesh);
 
 }  // namespace tetrakis::inline mesh

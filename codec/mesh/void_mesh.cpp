@@ -31,8 +31,8 @@ uint32_t spareLevels(const WeightedSurface& surface, uint32_t max_triangles) {
   return k;
 }
 
-/// Voids become pits.
-void dig(MaskedSurface& masked) {
+/// The surface with its voids as pits.
+MaskedSurface withPits(MaskedSurface masked) {
   std::vector<int32_t>& heights = masked.surface.heights;
   int32_t low = std::numeric_limits<int32_t>::max(), high = std::numeric_limits<int32_t>::min();
   for (size_t i = 0; i < heights.size(); ++i) {
@@ -46,6 +46,7 @@ void dig(MaskedSurface& masked) {
   for (size_t i = 0; i < heights.size(); ++i) {
     if (!masked.valid[i]) heights[i] = low <= high ? floor : 0;
   }
+  return masked;
 }
 
 /// Triangles of the mesh without a void corner.
@@ -84,8 +85,7 @@ struct BesideVoids {
 /// Among every 2^k-th sample: those beside them hardly show in a mesh of so few triangles, and
 /// decimation is what takes most of the time and memory.
 Result<BesideVoids> chosenBesideVoids(const WeightedSurface& surface, uint32_t max_triangles) {
-  MaskedSurface pits = maskedSurface(surface, spareLevels(surface, max_triangles));
-  dig(pits);
+  const MaskedSurface pits = withPits(maskedSurface(surface, spareLevels(surface, max_triangles)));
   SurfaceView view = pits.surface.view();
   view.weights = surface.view.weights;
   const Result<MeshSequence> sequence = decimate(view);
@@ -105,16 +105,15 @@ Result<FittedVertices> verticesBesideVoids(const Lattice& lattice, const Weighte
   assert(surface.known.empty() || surface.known.size() == lattice.sampleCount());
   Result<BesideVoids> chosen = chosenBesideVoids(surface, max_triangles);
   if (!chosen.ok()) return chosen.status();
-  FittedVertices result{std::move(chosen->vertices), {}};
   const Status admitted = admits(chosen->triangles);
   if (!admitted.ok()) return admitted;
   FittedMoments fitted(lattice, surface);
-  fitted.coarsen(result.vertices);
+  fitted.coarsen(chosen->vertices);
   fitHeights(fitted);
-  for (const uint32_t sample : meshOf(lattice, result.vertices).vertices)
-    result.heights.push_back(fitted.height(sample));
-  keepWithinRange(surface, result.heights);
-  return result;
+  std::vector<double> heights;
+  for (const uint32_t sample : meshOf(lattice, chosen->vertices).vertices)
+    heights.push_back(fitted.height(sample));
+  return FittedVertices{std::move(chosen->vertices), withinRange(surface, std::move(heights))};
 }
 
 void leaveOutVoids(LatticeMesh& mesh, std::vector<float>& heights) {

@@ -58,12 +58,12 @@ inline WaveletSpec withBits(WaveletSpec spec, int bits) {
 }
 
 inline Plane forward(const WaveletSpec& spec, Plane plane, const Size& size, Mask valid = {}) {
-  forwardWavelet(spec, {plane, size.extent(), valid});
+  forwardWavelet(spec, Pyramid(size.extent(), valid), plane);
   return plane;
 }
 
 inline Plane inverse(const WaveletSpec& spec, Plane plane, const Size& size, Mask valid = {}) {
-  inverseWavelet(spec, {plane, size.extent(), valid});
+  inverseWavelet(spec, Pyramid(size.extent(), valid), plane);
   return plane;
 }
 

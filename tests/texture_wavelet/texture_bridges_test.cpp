@@ -119,8 +119,7 @@ TEST(TextureBridges, AreChosenOverLinesForABudget) {
   const std::vector<uint8_t> half = samples::validity(VoidShape::kHalf, 200, 150);
   const BridgeTarget target{Purpose::kLossy, 2000};
   const auto chosen = [&](Mask coded) {
-    std::vector<std::vector<int32_t>> filled = planes;
-    return chooseTextureBridges({extent, coded, &filled}, 8, target);
+    return chooseTextureBridges({extent, coded, planes}, 8, target);
   };
   const TextureBridges bridges = chosen(lines);
   EXPECT_GT(bridges.reach, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texture's component transform by its properties.
+// The texture's colour transform by its properties.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,12 +36,18 @@ struct Planes {
   }
 };
 
+/// Colour planes to samples, as the decoder goes.
+void restore(const ColourTransform& transform, int fraction_bits, Planes& planes) {
+  inverseShears(transform, planes.pointers(), planes.values[0].size());
+  for (size_t c = 0; c < planes.values.size(); ++c)
+    restoreSamples(planes.values[c], transform.centre[c], fraction_bits);
+}
+
 bool survivesColour(const ColourTransform& transform, const Planes& samples,
                     int fraction_bits = 0) {
   Planes planes = samples;
-  const size_t count = samples.values[0].size();
-  forwardColour(transform, planes.pointers(), count, fraction_bits);
-  inverseColour(transform, planes.pointers(), count, fraction_bits);
+  forwardColour(transform, planes.pointers(), samples.values[0].size(), fraction_bits);
+  restore(transform, fraction_bits, planes);
   return planes.values == samples.values;
 }
 
@@ -108,15 +114,14 @@ TEST(Colour, ShearsRealiseEveryRotation) {
   Random random(9);
   for (int trial = 0; trial < 1000; ++trial) {
     const Matrix3 rotation = randomRotation(random);
-    ColourTransform transform;
-    setRotation(transform, rotation);
+    const ColourTransform transform = rotated({}, rotation);
     const Matrix3 matrix = colourMatrix(transform);
     // Shears off by half of 1/128 turn a row by a hundredth or two: cosine 0.9998.
     EXPECT_GT(alignment(matrix[0], rotation[0]), 0.9998);
     const double same = alignment(matrix[1], rotation[1]) + alignment(matrix[2], rotation[2]);
     const double swapped = alignment(matrix[1], rotation[2]) + alignment(matrix[2], rotation[1]);
     EXPECT_GT(std::max(same, swapped), 2 * 0.9998);
-    const std::array<double, 3> energies = componentEnergies(transform);
+    const std::array<double, 3> energies = planeEnergies(transform);
     for (size_t i = 0; i < 3; ++i) {
       // Rows at right angles: the inverse has their directions and the reciprocal lengths.
       EXPECT_NEAR(energies[i] * dot(matrix[i], matrix[i]), 1, 0.002);
@@ -127,8 +132,7 @@ TEST(Colour, ShearsRealiseEveryRotation) {
 TEST(Colour, RotationsOfSixteenBitsFollowTheirMatrix) {
   Random random(10);
   for (int trial = 0; trial < 200; ++trial) {
-    ColourTransform transform;
-    setRotation(transform, randomRotation(random));
+    ColourTransform transform = rotated({}, randomRotation(random));
     for (uint16_t& centre : transform.centre) centre = random() % 2 == 0 ? 0 : 65535;
     const Matrix3 matrix = colourMatrix(transform);
     Planes samples;
@@ -144,19 +148,18 @@ TEST(Colour, RotationsOfSixteenBitsFollowTheirMatrix) {
         scaled.values[c][i] *= 4;
       }
     }
-    inverseColour(transform, scaled.pointers(), 16, 2);
+    restore(transform, 2, scaled);
     for (size_t c = 0; c < 3; ++c) {
       for (size_t i = 0; i < 16; ++i) EXPECT_NEAR(scaled.values[c][i], samples.values[c][i], 3);
     }
   }
 }
 
-/// Fraction bits come off again: exactly, and components then follow their matrix more closely.
+/// Fraction bits come off again: exactly, and colour planes then follow their matrix more closely.
 TEST(Colour, FractionBitsAreReversibleAndFiner) {
   Random random(17);
   for (int trial = 0; trial < 200; ++trial) {
-    ColourTransform transform;
-    setRotation(transform, randomRotation(random));
+    ColourTransform transform = rotated({}, randomRotation(random));
     for (size_t channels = 1; channels <= 4; ++channels) {
       Planes samples;
       for (size_t c = 0; c < channels; ++c) {
@@ -191,7 +194,7 @@ TEST(Colour, EnergiesInvertTheMatrix) {
     for (int16_t& shear : transform.shears) shear /= 128;
     const Matrix3 m = colourMatrix(transform);
     // Columns of the inverse of a matrix of determinant +-1: cross products of its rows.
-    const std::array<double, 3> energies = componentEnergies(transform);
+    const std::array<double, 3> energies = planeEnergies(transform);
     for (size_t i = 0; i < 3; ++i) {
       const auto &a = m[(i + 1) % 3], &b = m[(i + 2) % 3];
       const std::array<double, 3> column = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
@@ -288,7 +291,7 @@ Planes noisyColours(uint32_t count, int own, Random& random) {
   return planes;
 }
 
-/// log2(1 + |gradient residual|), summed over all samples and components.
+/// log2(1 + |gradient residual|), summed over all samples and colour planes.
 double residualBits(const ColourTransform& transform, Planes planes, uint32_t width) {
   forwardColour(transform, planes.pointers(), planes.values[0].size(), 0);
   double bits = 0;

@@ -111,7 +111,9 @@ TEST(EngineHeights, TheFirstSampleIsTheNorthWesternOne) {
   }
 }
 
-TEST_F(ScratchFolder, EngineFilesAreLittleEndianOrPng) {
+class EngineFiles : public ScratchFolder {};
+
+TEST_F(EngineFiles, EngineFilesAreLittleEndianOrPng) {
   const EngineHeights out = heightsOf({0, 1, 2, 4}, 2, {Engine::kUnreal, 127});
   ASSERT_TRUE(writeEngineHeights(path("a.raw"), out).ok());
   ASSERT_TRUE(writeEngineHeights(path("a.png"), out).ok());

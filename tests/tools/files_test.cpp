@@ -105,7 +105,9 @@ TEST_P(HeightTypes, FormatOverridesTheName) {
   expectSameSamples(readHeights(path("staged")), heights);
 }
 
-TEST_F(ScratchFolder, NotableFloatsSurvive) {
+class HeightFiles : public ScratchFolder {};
+
+TEST_F(HeightFiles, NotableFloatsSurvive) {
   using Limits = std::numeric_limits<float>;
   const HeightFile heights =
       heightsFrom<float>({0.0F, -0.0F, Limits::denorm_min(), -Limits::denorm_min(), Limits::min(),
@@ -118,7 +120,7 @@ TEST_F(ScratchFolder, NotableFloatsSurvive) {
   }
 }
 
-TEST_F(ScratchFolder, TagsSurvive) {
+TEST_F(HeightFiles, TagsSurvive) {
   HeightFile heights = randomHeights({20, 10}, TKS_I16);
   heights.scale = 0.1;
   heights.offset = -1234.5678;
@@ -141,7 +143,7 @@ TEST_F(ScratchFolder, TagsSurvive) {
   }
 }
 
-TEST_F(ScratchFolder, NothingIsInventedWithoutTags) {
+TEST_F(HeightFiles, NothingIsInventedWithoutTags) {
   ASSERT_TRUE(writeHeights(path("a.tif"), randomHeights({4, 4}, TKS_U16)).ok());
   const auto read = readHeights(path("a.tif"));
   ASSERT_TRUE(read.ok());
@@ -153,7 +155,7 @@ TEST_F(ScratchFolder, NothingIsInventedWithoutTags) {
   EXPECT_EQ(read->unit + read->vertical_datum + read->crs, "");
 }
 
-TEST_F(ScratchFolder, FloatNodataMeetsTheSamplesBits) {
+TEST_F(HeightFiles, FloatNodataMeetsTheSamplesBits) {
   for (const float nodata : {-std::numeric_limits<float>::max(), -9999.9F, 1e-40F}) {
     HeightFile heights = heightsFrom<float>({nodata, 1, 2, 3}, 2, TKS_F32);
     heights.nodata = nodata;
@@ -170,7 +172,7 @@ TEST_F(ScratchFolder, FloatNodataMeetsTheSamplesBits) {
   EXPECT_TRUE(std::isnan(*read->nodata));
 }
 
-TEST_F(ScratchFolder, HgtIsBigEndianAndKnowsItsPlace) {
+TEST_F(HeightFiles, HgtIsBigEndianAndKnowsItsPlace) {
   const std::vector<uint8_t> bytes{0x01, 0x02, 0x80, 0x00, 0xFF, 0xFF, 0x00, 0x03};
   const HeightFile expected = heightsFrom<int16_t>({0x0102, -32768, -1, 3}, 2, TKS_I16);
   const auto read = readHeights(save("S46W122.hgt", bytes));
@@ -186,7 +188,7 @@ TEST_F(ScratchFolder, HgtIsBigEndianAndKnowsItsPlace) {
   EXPECT_EQ(elsewhere->spacing_x, 0);
 }
 
-TEST_F(ScratchFolder, RawIsLittleEndian) {
+TEST_F(HeightFiles, RawIsLittleEndian) {
   const std::string file = save("a.raw", std::vector<uint8_t>{1, 0, 2, 0, 0, 1, 0xFF, 0xFF});
   expectSameSamples(readHeights(file + ":2x2:u16"),
                     heightsFrom<uint16_t>({1, 2, 256, 65535}, 2, TKS_U16));
@@ -194,7 +196,7 @@ TEST_F(ScratchFolder, RawIsLittleEndian) {
                     heightsFrom<int8_t>({1, 0, 2, 0, 0, 1, -1, -1}, 4, TKS_I8));
 }
 
-TEST_F(ScratchFolder, HeightsThatAreNoneAreRefused) {
+TEST_F(HeightFiles, HeightsThatAreNoneAreRefused) {
   const std::string six = save("six.raw", std::vector<uint8_t>(6));
   const std::string square = save("six.hgt", std::vector<uint8_t>(6));
   const std::string text = save("text.tif", std::vector<char>{'h', 'e', 'l', 'l', 'o'});
@@ -223,7 +225,7 @@ TEST_F(ScratchFolder, HeightsThatAreNoneAreRefused) {
   }
 }
 
-TEST_F(ScratchFolder, TruncatedFilesFail) {
+TEST_F(HeightFiles, TruncatedFilesFail) {
   const HeightFile heights = randomHeights({64, 64}, TKS_U16);
   for (const char* format : {"tif", "png"}) {
     ASSERT_TRUE(writeHeights(path("a"), heights, format).ok());
@@ -237,7 +239,7 @@ TEST_F(ScratchFolder, TruncatedFilesFail) {
   }
 }
 
-TEST_F(ScratchFolder, WhatCannotBeWrittenFails) {
+TEST_F(HeightFiles, WhatCannotBeWrittenFails) {
   const HeightFile heights = randomHeights({4, 3}, TKS_I16);
   EXPECT_EQ(writeHeights(path("a.hgt"), heights).code(), TKS_USAGE);  // not square
   EXPECT_EQ(writeHeights(path("a.xyz"), heights).code(), TKS_USAGE);
@@ -252,7 +254,7 @@ TEST_F(ScratchFolder, WhatCannotBeWrittenFails) {
   }
 }
 
-TEST_F(ScratchFolder, StandardInputIsRead) {
+TEST_F(HeightFiles, StandardInputIsRead) {
   const HeightFile heights = randomHeights({9, 5}, TKS_F32);
   ASSERT_TRUE(writeHeights(path("a.tif"), heights).ok());
   ASSERT_NE(std::freopen(path("a.tif").c_str(), "rb", stdin), nullptr);

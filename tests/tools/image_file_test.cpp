@@ -31,7 +31,9 @@ void expectPixels(const Result<ImageFile>& read, const std::vector<uint8_t>& pix
   for (size_t i = 0; i < pixels.size(); ++i) EXPECT_EQ(uint8_t(read->data[i]), pixels[i]) << i;
 }
 
-TEST_F(ScratchFolder, LosslessFormatsAreExact) {
+class ImageFiles : public ScratchFolder {};
+
+TEST_F(ImageFiles, LosslessFormatsAreExact) {
   for (const tks_sample sample : {TKS_U8, TKS_U16}) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       for (const auto& [width, height] : {std::pair{1U, 1U}, {1U, 300U}, {257U, 2U}, {64U, 65U}}) {
@@ -54,7 +56,7 @@ TEST_F(ScratchFolder, LosslessFormatsAreExact) {
   }
 }
 
-TEST_F(ScratchFolder, FormatsThatOpenImageIoWritesAreExactWhereTheyAreTaken) {
+TEST_F(ImageFiles, FormatsThatOpenImageIoWritesAreExactWhereTheyAreTaken) {
   int taken = 0;
   for (const char* name : {"bmp", "ico", "iff", "jp2", "pgm", "ppm", "rla", "sgi", "tga"}) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
@@ -77,7 +79,7 @@ TEST_F(ScratchFolder, FormatsThatOpenImageIoWritesAreExactWhereTheyAreTaken) {
   EXPECT_GT(taken, 30);
 }
 
-TEST_F(ScratchFolder, LossyFormatsAreCloseAndFloatFormatsRefused) {
+TEST_F(ImageFiles, LossyFormatsAreCloseAndFloatFormatsRefused) {
   ImageFile image{64, 64, 3, TKS_U8, std::vector<std::byte>(64 * 64 * 3, std::byte{100})};
   ASSERT_TRUE(writeImage(path("a.webp"), image).ok());
   const auto read = readImage(path("a.webp"));
@@ -87,7 +89,7 @@ TEST_F(ScratchFolder, LossyFormatsAreCloseAndFloatFormatsRefused) {
     EXPECT_EQ(checkImageFormat(path(name), 3, TKS_U8).code(), TKS_USAGE) << name;
 }
 
-TEST_F(ScratchFolder, AlphaThatReadingMultipliesIsRefused) {
+TEST_F(ImageFiles, AlphaThatReadingMultipliesIsRefused) {
   ImageFile image{8, 8, 4, TKS_U8, std::vector<std::byte>(8 * 8 * 4, std::byte{100})};
   ASSERT_TRUE(writeImage(path("a.webp"), image).ok());
   const auto read = readImage(path("a.webp"));
@@ -95,7 +97,7 @@ TEST_F(ScratchFolder, AlphaThatReadingMultipliesIsRefused) {
   EXPECT_NE(read.status().message().find("PNG"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, AssociatedAlphaIsDividedOutAndTold) {
+TEST_F(ImageFiles, AssociatedAlphaIsDividedOutAndTold) {
   TinyTiff tiff(3, 1, 2, 8, {50, 128, 7, 0, 90, 255});
   tiff.shorts(TinyTiff::kExtraSamples, {2});
   std::string note;
@@ -106,7 +108,7 @@ TEST_F(ScratchFolder, AssociatedAlphaIsDividedOutAndTold) {
   EXPECT_NE(note.find("alpha"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, FurtherPagesAreTold) {
+TEST_F(ImageFiles, FurtherPagesAreTold) {
   std::vector<uint8_t> file = TinyTiff(2, 1, 1, 8, {1, 2}).bytes();
   uint32_t first = 0;
   std::memcpy(&first, &file[4], 4);
@@ -121,7 +123,7 @@ TEST_F(ScratchFolder, FurtherPagesAreTold) {
   EXPECT_NE(note.find("pages"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, OrientationInPngIsApplied) {
+TEST_F(ImageFiles, OrientationInPngIsApplied) {
   ASSERT_TRUE(writeImage(path("a.png"), randomImage(3, 2, 1, TKS_U8)).ok());
   const auto plain = readImage(path("a.png"));
   const auto stored = readBytes(path("a.png"));
@@ -143,7 +145,7 @@ TEST_F(ScratchFolder, OrientationInPngIsApplied) {
   EXPECT_NE(note.find("orientation"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, JpegIsCloseAndGrowsWithQuality) {
+TEST_F(ImageFiles, JpegIsCloseAndGrowsWithQuality) {
   for (const uint32_t channels : {1U, 3U}) {
     ImageFile image{61, 47, channels, TKS_U8, {}};
     for (uint32_t i = 0; i < 61 * 47 * channels; ++i) {
@@ -162,7 +164,7 @@ TEST_F(ScratchFolder, JpegIsCloseAndGrowsWithQuality) {
   }
 }
 
-TEST_F(ScratchFolder, JpegRefusesWhatItCannotHold) {
+TEST_F(ImageFiles, JpegRefusesWhatItCannotHold) {
   EXPECT_EQ(encodeJpeg(randomImage(4, 4, 4, TKS_U8), 90).status().code(), TKS_USAGE);
   EXPECT_EQ(encodeJpeg(randomImage(4, 4, 3, TKS_U16), 90).status().code(), TKS_USAGE);
   EXPECT_EQ(encodeJpeg(randomImage(70000, 1, 1, TKS_U8), 90).status().code(), TKS_USAGE);
@@ -170,7 +172,7 @@ TEST_F(ScratchFolder, JpegRefusesWhatItCannotHold) {
   EXPECT_FALSE(std::filesystem::exists(path("a.jpg")));
 }
 
-TEST_F(ScratchFolder, PalettesAreExpandedAndTold) {
+TEST_F(ImageFiles, PalettesAreExpandedAndTold) {
   // 2 x 1 pixels, indices 1 and 0 into (10, 20, 30), (40, 50, 60).
   const std::vector<uint8_t> png{
       0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44,
@@ -197,7 +199,7 @@ TEST_F(ScratchFolder, PalettesAreExpandedAndTold) {
   EXPECT_NE(note.find("palette"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, PalettesOfFewBitsAreExpanded) {
+TEST_F(ImageFiles, PalettesOfFewBitsAreExpanded) {
   struct Depth {
     uint16_t bits;
     std::vector<uint8_t> rows;  ///< each begins a byte
@@ -223,7 +225,7 @@ TEST_F(ScratchFolder, PalettesOfFewBitsAreExpanded) {
   }
 }
 
-TEST_F(ScratchFolder, SamplesThatNothingHasAreNamed) {
+TEST_F(ImageFiles, SamplesThatNothingHasAreNamed) {
   struct Case {
     uint16_t format, bits;
     const char* word;
@@ -242,7 +244,7 @@ TEST_F(ScratchFolder, SamplesThatNothingHasAreNamed) {
 }
 
 /// Two pixels, blue and red, with colours of 24 bits and with a palette (Windows 3 headers).
-TEST_F(ScratchFolder, OnlyBitmapsWithAPaletteAreSaidToHaveOne) {
+TEST_F(ImageFiles, OnlyBitmapsWithAPaletteAreSaidToHaveOne) {
   const auto bitmap = [](uint8_t bits, std::vector<uint8_t> behind) {
     const auto pixels = uint8_t(54 + (bits == 8 ? 8 : 0)), colours = uint8_t(bits == 8 ? 2 : 0);
     std::vector<uint8_t> file{'B', 'M',    uint8_t(54 + behind.size()),
@@ -269,7 +271,7 @@ TEST_F(ScratchFolder, OnlyBitmapsWithAPaletteAreSaidToHaveOne) {
   EXPECT_NE(note.find("palette"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, CmykIsConvertedAndTold) {
+TEST_F(ImageFiles, CmykIsConvertedAndTold) {
   TinyTiff tiff(1, 1, 4, 8, {0, 255, 255, 0});  // no cyan, full magenta and yellow: red
   tiff.shorts(TinyTiff::kPhotometric, {5});
   std::string note;
@@ -278,7 +280,7 @@ TEST_F(ScratchFolder, CmykIsConvertedAndTold) {
 }
 
 /// What users would not see otherwise: near infrared becomes alpha, nodata becomes a colour.
-TEST_F(ScratchFolder, WhatATiffMeansOtherwiseIsTold) {
+TEST_F(ImageFiles, WhatATiffMeansOtherwiseIsTold) {
   const auto noteOn = [this](const TinyTiff& tiff) {
     std::string note;
     EXPECT_TRUE(readImage(save("a.tif", tiff.bytes()), &note).ok());
@@ -299,7 +301,7 @@ TEST_F(ScratchFolder, WhatATiffMeansOtherwiseIsTold) {
   EXPECT_NE(noteOn(tiff).find("nodata"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, SixteenBitsThatHoldEightAreTold) {
+TEST_F(ImageFiles, SixteenBitsThatHoldEightAreTold) {
   for (const uint16_t odd : {uint16_t{0}, uint16_t{1}}) {
     ImageFile image = randomImage(5, 4, 1, TKS_U16);
     for (size_t i = 0; i < image.data.size(); i += 2) image.data[i + 1] = image.data[i];
@@ -311,14 +313,14 @@ TEST_F(ScratchFolder, SixteenBitsThatHoldEightAreTold) {
   }
 }
 
-TEST_F(ScratchFolder, FewBitsAreWidenedToFullRange) {
+TEST_F(ImageFiles, FewBitsAreWidenedToFullRange) {
   const TinyTiff tiff(4, 1, 1, 4, {0x0F, 0x50});
   expectPixels(readImage(save("a.tif", tiff.bytes())), {0, 255, 85, 0});
   const TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
   expectPixels(readImage(save("b.tif", bilevel.bytes())), {255, 0, 255, 0, 0, 0, 0, 0, 255});
 }
 
-TEST_F(ScratchFolder, WhiteIsZeroIsInvertedUpToEightBits) {
+TEST_F(ImageFiles, WhiteIsZeroIsInvertedUpToEightBits) {
   TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
   bilevel.shorts(TinyTiff::kPhotometric, {0});
   expectPixels(readImage(save("a.tif", bilevel.bytes())), {0, 255, 0, 255, 255, 255, 255, 255, 0});
@@ -330,7 +332,7 @@ TEST_F(ScratchFolder, WhiteIsZeroIsInvertedUpToEightBits) {
   EXPECT_EQ(readImage(save("c.tif", deep.bytes())).status().code(), TKS_USAGE);
 }
 
-TEST_F(ScratchFolder, FilesThatEndEarlyAreRefused) {
+TEST_F(ImageFiles, FilesThatEndEarlyAreRefused) {
   const TinyTiff whole(4, 4, 1, 8, std::vector<uint8_t>(16, 9));
   TinyTiff behind = whole, across = whole;
   behind.longs(TinyTiff::kStripOffsets, {1000});
@@ -358,7 +360,7 @@ TEST_F(ScratchFolder, FilesThatEndEarlyAreRefused) {
   EXPECT_NE(read.status().message().find("ends early"), std::string::npos);
 }
 
-TEST_F(ScratchFolder, OrientationIsApplied) {
+TEST_F(ImageFiles, OrientationIsApplied) {
   TinyTiff tiff(3, 2, 1, 8, {1, 2, 3, 4, 5, 6});
   const std::tuple<uint16_t, std::vector<uint8_t>> upright[] = {
       {2, {3, 2, 1, 6, 5, 4}}, {3, {6, 5, 4, 3, 2, 1}}, {4, {4, 5, 6, 1, 2, 3}},
@@ -375,7 +377,7 @@ TEST_F(ScratchFolder, OrientationIsApplied) {
   }
 }
 
-TEST_F(ScratchFolder, ImagesThatAreNoneAreRefused) {
+TEST_F(ImageFiles, ImagesThatAreNoneAreRefused) {
   HeightFile floats;
   floats.width = floats.height = 2;
   floats.sample = TKS_F32;
@@ -399,7 +401,7 @@ TEST_F(ScratchFolder, ImagesThatAreNoneAreRefused) {
   }
 }
 
-TEST_F(ScratchFolder, ImagesThatCannotBeWrittenFail) {
+TEST_F(ImageFiles, ImagesThatCannotBeWrittenFail) {
   const ImageFile image = randomImage(4, 4, 3, TKS_U8);
   EXPECT_EQ(writeImage(path("a.xyz"), image).code(), TKS_USAGE);
   EXPECT_EQ(writeImage(path("a"), image).code(), TKS_USAGE);
@@ -412,7 +414,7 @@ TEST_F(ScratchFolder, ImagesThatCannotBeWrittenFail) {
   EXPECT_EQ(writeImage(path("a.png"), wrong).code(), TKS_USAGE);
 }
 
-TEST_F(ScratchFolder, ImagesComeFromStandardInput) {
+TEST_F(ImageFiles, ImagesComeFromStandardInput) {
   const ImageFile image = randomImage(5, 6, 3, TKS_U8);
   ASSERT_TRUE(writeImage(path("a.png"), image).ok());
   ASSERT_NE(std::freopen(path("a.png").c_str(), "rb", stdin), nullptr);

@@ -260,15 +260,17 @@ TEST_P(CompressedMeshes, AreSmaller) {
   EXPECT_LT(coded, std::filesystem::file_size(path("b.glb")) / 3);
 }
 
+class MeshFileOptions : public ScratchFolder {};
+
 /// Its coder would count each of the steps between the heights.
-TEST_F(ScratchFolder, DracoTakesNoAbsurdHeights) {
+TEST_F(MeshFileOptions, DracoTakesNoAbsurdHeights) {
   const MeshOptions draco{MeshCompression::kDraco, {}};
   EXPECT_TRUE(writeMesh(path("a.glb"), hillOf(9, 1e3F), "", draco).ok());
   EXPECT_EQ(writeMesh(path("b.glb"), hillOf(9, 1e12F), "", draco).code(), TKS_LIMIT);
   EXPECT_FALSE(std::filesystem::exists(path("b.glb")));
 }
 
-TEST_F(ScratchFolder, MeshOptionsAreForGlb) {
+TEST_F(MeshFileOptions, MeshOptionsAreForGlb) {
   const MeshOptions draco{MeshCompression::kDraco, {}};
   for (const char* name : {"a.ply", "a.obj"})
     EXPECT_EQ(checkMeshOptions(name, draco).code(), TKS_USAGE);
@@ -276,7 +278,7 @@ TEST_F(ScratchFolder, MeshOptionsAreForGlb) {
   EXPECT_TRUE(checkMeshOptions("a.ply", {}).ok());
 }
 
-TEST_F(ScratchFolder, GlbTexturesTakeTheFormatAskedFor) {
+TEST_F(MeshFileOptions, GlbTexturesTakeTheFormatAskedFor) {
   for (uint32_t channels = 1; channels <= 4; ++channels) {
     for (const tks_sample sample : {TKS_U8, TKS_U16}) {
       ImageFile texture{16, 8, channels, sample, {}};
@@ -323,7 +325,7 @@ Status writeKtx2(const std::string& path, uint32_t channels) {
 constexpr const char* kKtx2Magic = "\\253KTX 20\\273\\r\\n\\032\\n";
 
 /// What the program writes goes into the GLB, and what it is given are whole blocks of colours.
-TEST_F(ScratchFolder, Ktx2TexturesAreMadeByAProgram) {
+TEST_F(MeshFileOptions, Ktx2TexturesAreMadeByAProgram) {
   const std::string seen = path("seen.png");
   for (const char* name : {"ktx", "basisu"}) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
@@ -350,7 +352,7 @@ TEST_F(ScratchFolder, Ktx2TexturesAreMadeByAProgram) {
   }
 }
 
-TEST_F(ScratchFolder, Ktx2WithoutItsProgramIsASentence) {
+TEST_F(MeshFileOptions, Ktx2WithoutItsProgramIsASentence) {
   {
     const OnlyProgram other(path("other"), "other", "");
     const Status none = writeKtx2(path("a.glb"), 3);

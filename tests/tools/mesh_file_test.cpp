@@ -131,12 +131,14 @@ TEST_P(MeshFormats, InconsistentMeshesAreRefused) {
   EXPECT_EQ(writeMesh(path("missing/mesh"), hill(2), GetParam()).code(), TKS_IO);
 }
 
-TEST_F(ScratchFolder, UnknownMeshFormatsAreRefused) {
+class MeshFiles : public ScratchFolder {};
+
+TEST_F(MeshFiles, UnknownMeshFormatsAreRefused) {
   EXPECT_EQ(writeMesh(path("a.stl"), hill(2)).code(), TKS_USAGE);
   EXPECT_EQ(writeMesh(path("a"), hill(2)).code(), TKS_USAGE);
 }
 
-TEST_F(ScratchFolder, ObjDecimalsAreExact) {
+TEST_F(MeshFiles, ObjDecimalsAreExact) {
   const MeshFile mesh = hill(40);
   ASSERT_TRUE(writeMesh(path("a.obj"), mesh).ok());
   std::ifstream file(path("a.obj"));
@@ -153,7 +155,7 @@ TEST_F(ScratchFolder, ObjDecimalsAreExact) {
   EXPECT_EQ(positions, mesh.positions);
 }
 
-TEST_F(ScratchFolder, ObjNamesItsTexture) {
+TEST_F(MeshFiles, ObjNamesItsTexture) {
   const ImageFile texture = checkers(4, TKS_U16);
   MeshFile mesh = hill(2);
   mesh.texture = &texture;
@@ -190,7 +192,7 @@ nlohmann::json documentOf(const std::string& path) {
   return nlohmann::json::parse(bytes.substr(20, length));
 }
 
-TEST_F(ScratchFolder, GlbTexturesAreJpegOrPng) {
+TEST_F(MeshFiles, GlbTexturesAreJpegOrPng) {
   for (uint32_t channels = 1; channels <= 4; ++channels) {
     for (const tks_sample sample : {TKS_U8, TKS_U16}) {
       const ImageFile texture = checkers(channels, sample);
@@ -205,7 +207,7 @@ TEST_F(ScratchFolder, GlbTexturesAreJpegOrPng) {
   }
 }
 
-TEST_F(ScratchFolder, GlbBoundsAreExact) {
+TEST_F(MeshFiles, GlbBoundsAreExact) {
   const MeshFile mesh = hill(9);
   ASSERT_TRUE(writeMesh(path("a.glb"), mesh).ok());
   const auto document = documentOf(path("a.glb"));
@@ -240,7 +242,7 @@ TEST_P(MeshFormats, NormalsPointUpAndHaveLengthOne) {
   }
 }
 
-TEST_F(ScratchFolder, GlbIndicesTake16BitsWhereTheyCan) {
+TEST_F(MeshFiles, GlbIndicesTake16BitsWhereTheyCan) {
   constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125;
   for (const size_t vertices : {9U, 65535U, 65536U}) {
     MeshFile mesh = hill(3);

@@ -27,8 +27,7 @@ PairPlane separable(double a, double b, size_t rates) {
     for (const uint64_t texture : plane.textures)
       plane.psnr.push_back(
           -10 * std::log10(a / static_cast<double>(heights) + b / static_cast<double>(texture)));
-  findPaths(plane);
-  return plane;
+  return withPaths(std::move(plane));
 }
 
 PairPlane rising(std::mt19937& random, size_t heights, size_t textures) {
@@ -41,8 +40,7 @@ PairPlane rising(std::mt19937& random, size_t heights, size_t textures) {
       const double west = h > 0 ? plane.at(h - 1, t) : 10, south = t > 0 ? plane.psnr.back() : 10;
       plane.psnr.push_back(std::max(west, south) + step(random));
     }
-  findPaths(plane);
-  return plane;
+  return withPaths(std::move(plane));
 }
 
 void expectPaths(const PairPlane& plane) {
@@ -102,9 +100,9 @@ TEST(PairPlane, MarginalAnalysisFollowsTheBestSplit) {
 
 TEST(PairPlane, ExactPairsEndTheHull) {
   std::mt19937 random(9);
-  PairPlane plane = rising(random, 4, 4);
-  plane.psnr.back() = std::numeric_limits<double>::infinity();
-  findPaths(plane);
+  PairPlane exact = rising(random, 4, 4);
+  exact.psnr.back() = std::numeric_limits<double>::infinity();
+  const PairPlane plane = withPaths(std::move(exact));
   expectPaths(plane);
   EXPECT_TRUE(std::isinf(plane.hull.back().psnr));
 }

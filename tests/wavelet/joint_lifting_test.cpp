@@ -74,10 +74,10 @@ TEST(JointLifting, ThreadsChangeNothing) {
   for (const FilterId id : kJointFilters) {
     const WaveletSpec spec = doubledAt(id, 12, 2);
     Plane one = plane, many = plane;
-    forwardWavelet(spec, {one, size.extent(), {}}, 1);
-    forwardWavelet(spec, {many, size.extent(), {}}, 5);
+    forwardWavelet(spec, Pyramid(size.extent()), one, 1);
+    forwardWavelet(spec, Pyramid(size.extent()), many, 5);
     ASSERT_EQ(one, many);
-    inverseWavelet(spec, {many, size.extent(), {}}, 3);
+    inverseWavelet(spec, Pyramid(size.extent()), many, {.threads = 3});
     ASSERT_EQ(many, plane);
   }
 }

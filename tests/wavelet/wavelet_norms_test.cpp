@@ -121,7 +121,7 @@ TEST(Norms, IntegerSynthesisFollowsTheReference) {
       Plane plane(size.count(), 0);
       plane[size_t{band.planeRow(band.height / 2)} * size.width + band.x + band.width / 2] = 1
                                                                                              << 20;
-      inverseWavelet(wide, {plane, size.extent()});
+      inverseWavelet(wide, Pyramid(size.extent()), plane);
       double energy = 0;
       for (const int32_t v : plane) energy += std::pow(v / 1048576.0, 2);
       EXPECT_NEAR(energy / measuredEnergy(spec, size, band), 1, 1e-3) << spec << " " << band.level;

@@ -125,13 +125,6 @@ void restoreSamples(std::span<int32_t> channel, uint16_t centre, int fraction_bi
   addCentre(channel.data(), channel.size(), centre);
 }
 
-void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
-                   int fraction_bits) {
-  inverseShears(transform, planes, count);
-  for (size_t p = 0; p < planes.size(); ++p)
-    restoreSamples({planes[p], count}, transform.centre[p], fraction_bits);
-}
-
 void forwardLevelColour(const ColourTransform& transform, int level,
                         std::span<int32_t* const> planes, size_t count) {
   if (const Shears* shears = shearsAt(transform, level))
@@ -157,8 +150,8 @@ Matrix3 colourMatrix(const ColourTransform& transform, int level) {
   return matrix;
 }
 
-std::array<double, 3> componentEnergies(const ColourTransform& transform, int level,
-                                        const std::array<double, 3>& weights) {
+std::array<double, 3> planeEnergies(const ColourTransform& transform, int level,
+                                    const std::array<double, 3>& weights) {
   std::array<double, 3> energies{};
   const auto& order = orderOf(transform);
   for (size_t i = 0; i < 3; ++i) {

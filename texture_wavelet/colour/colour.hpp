@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The component transform is reversible: it consists of three integer shears
+// The colour transform is reversible: it consists of three integer shears
 // (P. Hao, Q. Shi, "Matrix factorizations for reversible integer mapping", IEEE TSP 49(10), 2001).
 //
-// Channels r, g, b become the planes c0 (luma), c1, c2 in the order kChannelOrders[order]; then
+// Channels r, g, b become the colour planes c0 (luma), c1, c2 in the order kChannelOrders[order];
+// then
 //
 //   c1 += round((shears[0] c2 + shears[1] c0) / 128)
 //   c2 += round((shears[2] c1 + shears[3] c0) / 128)
@@ -11,7 +12,7 @@
 // which is exactly invertible whatever the rounding. Six numbers are as many as three directions of
 // colour space have degrees of freedom: every rotation is reached up to the lengths of its rows.
 // These come out near those of the differences and the mean that lossless coders use: each
-// component is rounded once, and grey texels have no chroma. Bytes against a rotation of unit rows
+// plane is rounded once, and grey texels have no chroma. Bytes against a rotation of unit rows
 // (four shears): lossless -8 %, lossy +0.6 %.
 #pragma once
 
@@ -42,26 +43,22 @@ struct ColourTransform {
   static constexpr size_t kMostLevelShears = 7;
 };
 
-/// Samples to components, in place. planes: 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGB, alpha)
-/// distinct planes of `count` values. Only RGB is sheared, every plane is centred.
-/// The components come with fraction_bits (0 to 8) binary places. Exactly undone by inverseColour
-/// with as many. Arithmetic wraps modulo 2^32; transforms of fitColour and RGB of at most 18 bits
-/// with the fraction stay clear of it.
+/// Channels to colour planes, in place. planes: 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGB,
+/// alpha) distinct planes of `count` values. Only RGB is sheared, every plane is centred. The
+/// colour planes come with fraction_bits (0 to 8) binary places. inverseShears() and
+/// restoreSamples() undo it exactly. Arithmetic wraps modulo 2^32; transforms of fitColour and RGB
+/// of at most 18 bits with the fraction stay clear of it.
 void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
                    int fraction_bits);
 
-/// Components to samples, in place. The components carry fraction_bits (0 to 8) binary places,
-/// which are rounded off after the shears: lossy reconstructions gain by them (wavelet.hpp).
-/// Defined for all values; the caller clamps the result to the range of its samples.
-void inverseColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
-                   int fraction_bits);
-
-/// The first half of inverseColour: components to channels, which keep their fraction and miss
-/// their centres.
+/// Colour planes to channels, in place, which keep their fraction and miss their centres. Defined
+/// for all values.
 void inverseShears(const ColourTransform& transform, std::span<int32_t* const> planes,
                    size_t count);
 
-/// The other half, of one channel.
+/// Rounds the fraction_bits (0 to 8) binary places off a channel, in place, after the shears: lossy
+/// reconstructions gain by them (wavelet.hpp). Then it adds the centre. Defined for all values; the
+/// caller clamps the result to the range of its samples.
 void restoreSamples(std::span<int32_t> channel, uint16_t centre, int fraction_bits);
 
 /// Shears the coefficients of one level, in place: three planes of `count` values. Sums are
@@ -76,14 +73,13 @@ inline constexpr size_t kColourChunk = 2048;
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-/// The linear version of the shears: component i = sum_j matrix[i][j] * (channel j - centre[j]),
+/// The linear version of the shears: plane i = sum_j matrix[i][j] * (channel j - centre[j]),
 /// for coefficients of a level (level 1: for samples too).
 Matrix3 colourMatrix(const ColourTransform& transform, int level = 1);
 
-/// Squared RGB error, summed over the three channels, for a unit squared error in each component of
-/// a level's coefficients.
-/// weights: what the squared error of each channel counts.
-std::array<double, 3> componentEnergies(const ColourTransform& transform, int level = 1,
-                                        const std::array<double, 3>& weights = {1, 1, 1});
+/// Squared RGB error, summed over the three channels, for a unit squared error in each plane of a
+/// level's coefficients. weights: what the squared error of each channel counts.
+std::array<double, 3> planeEnergies(const ColourTransform& transform, int level = 1,
+                                    const std::array<double, 3>& weights = {1, 1, 1});
 
 }  // namespace tetrakis::inline colour

@@ -78,8 +78,8 @@ Matrix3 cheapestRotation(Matrix3 rotation, const ColourDetails& details, Purpose
   return rotation;
 }
 
-/// Moves the row of the greatest energy to the front.
-void putLumaFirst(Matrix3& rotation, const ColourDetails& details) {
+/// With the row of the greatest energy at the front.
+Matrix3 lumaFirst(Matrix3 rotation, const ColourDetails& details) {
   std::array<double, 3> energies{};
   const auto& [first, second, third] = details.channels;
   for (size_t k = 0; k < details.count(); ++k) {
@@ -89,6 +89,7 @@ void putLumaFirst(Matrix3& rotation, const ColourDetails& details) {
   }
   const auto strongest = std::max_element(energies.begin(), energies.end()) - energies.begin();
   std::swap(rotation[0], rotation[static_cast<size_t>(strongest)]);
+  return rotation;
 }
 
 ColourDetails pooled(std::span<const ColourDetails> details) {
@@ -101,33 +102,27 @@ ColourDetails pooled(std::span<const ColourDetails> details) {
   return all;
 }
 
-/// One for each level. Each starts from that of the finer level, so that components keep their
-/// places.
+/// One for each level. Each starts from that of the finer level, so that colour planes keep
+/// their places.
 std::vector<Matrix3> fitRotations(std::span<const ColourDetails> details, Purpose purpose) {
   std::vector<Matrix3> rotations;
   for (const ColourDetails& scale : details) {
-    if (rotations.empty()) {
-      rotations.push_back(cheapestRotation(fixedRotation(), scale, purpose));
-      putLumaFirst(rotations.front(), scale);
-    } else {
-      rotations.push_back(cheapestRotation(rotations.back(), scale, purpose));
-    }
+    const Matrix3 cheapest =
+        cheapestRotation(rotations.empty() ? fixedRotation() : rotations.back(), scale, purpose);
+    rotations.push_back(rotations.empty() ? lumaFirst(cheapest, scale) : cheapest);
   }
   return rotations;
 }
 
 }  // namespace
 
-ColourAxes fitAxes(std::span<const int32_t* const> planes, Extent extent, Purpose purpose) {
-  ColourAxes axes;
-  axes.details = sampleDetails(planes, extent);
-  axes.overall = fixedRotation();
-  if (axes.details.empty()) return axes;
-  const ColourDetails all = pooled(axes.details);
-  axes.overall = cheapestRotation(fixedRotation(), all, purpose);
-  putLumaFirst(axes.overall, all);
-  axes.levels = fitRotations(axes.details, purpose);
-  return axes;
+ColourAxes fitAxes(std::span<const int32_t* const> channels, Extent extent, Purpose purpose) {
+  std::vector<ColourDetails> details = sampleDetails(channels, extent);
+  if (details.empty()) return {{}, fixedRotation(), {}};
+  const ColourDetails all = pooled(details);
+  const Matrix3 overall = lumaFirst(cheapestRotation(fixedRotation(), all, purpose), all);
+  std::vector<Matrix3> levels = fitRotations(details, purpose);
+  return {std::move(details), overall, std::move(levels)};
 }
 
 }  // namespace tetrakis::inline colour

@@ -19,7 +19,7 @@ struct ColourAxes {
   std::vector<Matrix3> levels;         ///< [i]: for level i + 1; as many as details
 };
 
-/// Fits axes to 3 or more planes of that extent.
-ColourAxes fitAxes(std::span<const int32_t* const> planes, Extent extent, Purpose purpose);
+/// Fits axes to 3 or more channels of that extent.
+ColourAxes fitAxes(std::span<const int32_t* const> channels, Extent extent, Purpose purpose);
 
 }  // namespace tetrakis::inline colour

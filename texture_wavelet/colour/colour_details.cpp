@@ -45,13 +45,13 @@ Image halve(size_t width, size_t height, float gain, ColourAt colour_at, ColourD
 
 }  // namespace
 
-std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, Extent extent) {
+std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> channels, Extent extent) {
   const auto [width, height] = extent;
   std::vector<ColourDetails> details;
   if (std::min(width, height) < 2) return details;
   const auto pixel = [&](size_t i) {
-    return Colour{static_cast<float>(planes[0][i]), static_cast<float>(planes[1][i]),
-                  static_cast<float>(planes[2][i])};
+    return Colour{static_cast<float>(channels[0][i]), static_cast<float>(channels[1][i]),
+                  static_cast<float>(channels[2][i])};
   };
   Image image = halve(width, height, 1, pixel, details.emplace_back());
   for (float gain = 2; std::min(image.width, image.height) >= 2; gain *= 2) {

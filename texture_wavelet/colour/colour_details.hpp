@@ -26,9 +26,9 @@ struct ColourDetails {
   }
 };
 
-/// [i]: of level i + 1, some thousands at most. planes: 3 or more of that extent. Empty
-/// where the image has less than two rows or columns.
-std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> planes, Extent extent);
+/// [i]: of level i + 1, some thousands at most. channels: 3 or more of that extent.
+/// Empty where the image has less than two rows or columns.
+std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> channels, Extent extent);
 
 /// Mean over samples and channels; 0 if there are none.
 double meanMagnitude(const ColourDetails& details);

@@ -39,7 +39,7 @@ int16_t quantised(double shear) {
 
 }  // namespace
 
-void setRotation(ColourTransform& transform, const Matrix3& rotation) {
+ColourTransform rotated(ColourTransform transform, const Matrix3& rotation) {
   // Small shears add little rounding noise. Over all rotations the smallest are at most 1.7
   // (square root of the sum of squares), which keeps 16-bit samples clear of overflow.
   double least = std::numeric_limits<double>::infinity();
@@ -54,30 +54,29 @@ void setRotation(ColourTransform& transform, const Matrix3& rotation) {
       std::transform(shears.begin(), shears.end(), transform.shears.begin(), quantised);
     }
   }
+  return transform;
 }
 
-ColourTransform centred(std::span<const int32_t* const> planes, size_t count) {
+ColourTransform centred(std::span<const int32_t* const> channels, size_t count) {
   ColourTransform transform;
-  for (size_t p = 0; p < planes.size(); ++p) {
-    const int64_t sum = std::accumulate(planes[p], planes[p] + count, int64_t{0});
-    const auto pixels = static_cast<int64_t>(count);
-    transform.centre[p] = static_cast<uint16_t>((sum + pixels / 2) / pixels);
+  for (size_t c = 0; c < channels.size(); ++c) {
+    const int64_t sum = std::accumulate(channels[c], channels[c] + count, int64_t{0});
+    const auto texels = static_cast<int64_t>(count);
+    transform.centre[c] = static_cast<uint16_t>((sum + texels / 2) / texels);
   }
   return transform;
 }
 
-ColourTransform fitColour(std::span<const int32_t* const> planes, Extent extent) {
-  ColourTransform best = centred(planes, extent.samples());
-  if (planes.size() < 3) return best;
-  const ColourAxes axes = fitAxes(planes, extent, Purpose::kLossy);
-  setRotation(best, axes.overall);
-  if (axes.details.empty()) return best;
+ColourTransform fitColour(std::span<const int32_t* const> channels, Extent extent) {
+  const ColourTransform none = centred(channels, extent.samples());
+  if (channels.size() < 3) return none;
+  const ColourAxes axes = fitAxes(channels, extent, Purpose::kLossy);
+  const ColourTransform overall = rotated(none, axes.overall);
+  if (axes.details.empty()) return overall;
   const double step = typicalStep(axes.details);
-  double least = turnLevels(best, axes, step);
-  ColourTransform other = best;
-  other.level_shears.clear();
-  setRotation(other, axes.levels.front());
-  return turnLevels(other, axes, step) < least ? other : best;
+  const TurnedLevels from_overall = turnLevels(overall, axes, step);
+  const TurnedLevels from_finest = turnLevels(rotated(none, axes.levels.front()), axes, step);
+  return from_finest.bits < from_overall.bits ? from_finest.transform : from_overall.transform;
 }
 
 }  // namespace tetrakis::inline colour

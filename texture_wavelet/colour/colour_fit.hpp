@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the component transform for an image. Encoder only.
+// Chooses the colour transform for an image. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace tetrakis::inline colour {
 
-/// Centres every plane on its mean and fits the shears of RGB to the image. planes: 1 to 4 planes
-/// of that many samples of at most 16 bits, as in forwardColour.
-ColourTransform fitColour(std::span<const int32_t* const> planes, Extent extent);
+/// Centres every channel on its mean and fits the shears of RGB to the image. channels: 1 to 4 of
+/// that many samples of at most 16 bits, as in forwardColour.
+ColourTransform fitColour(std::span<const int32_t* const> channels, Extent extent);
 
-/// Only centres every plane on its mean.
-ColourTransform centred(std::span<const int32_t* const> planes, size_t count);
+/// Only centres every channel on its mean.
+ColourTransform centred(std::span<const int32_t* const> channels, size_t count);
 
-/// Sets order and shears so that the components point along the rows of a rotation (an
-/// orthogonal matrix), row 0 first, rows 1 and 2 in either order, by the smallest shears possible.
-void setRotation(ColourTransform& transform, const Matrix3& rotation);
+/// Takes the order and the shears with which the colour planes point along the rows of a rotation
+/// (an orthogonal matrix), row 0 first, rows 1 and 2 in either order: the smallest shears possible.
+ColourTransform rotated(ColourTransform transform, const Matrix3& rotation);
 
 }  // namespace tetrakis::inline colour

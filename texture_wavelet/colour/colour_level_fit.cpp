@@ -2,19 +2,20 @@
 #include "texture_wavelet/colour/colour_level_fit.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace tetrakis::inline colour {
 
 namespace {
 
-constexpr double kMostEnergy = 4;   // of the shears of a level: components stay near their size
+constexpr double kMostEnergy = 4;   // of the shears of a level: coefficients stay near their size
 constexpr double kBitsPerSet = 50;  // in the header
 
 double bitsOf(const ColourTransform& transform, int level, const ColourDetails& details,
               double step) {
   const Matrix3 matrix = colourMatrix(transform, level);
-  const std::array<double, 3> energies = componentEnergies(transform, level);
+  const std::array<double, 3> energies = planeEnergies(transform, level);
   double bits = 0;
   for (size_t i = 0; i < 3; ++i)
     bits += bitsAlong(matrix[i], details, step / std::sqrt(energies[i]));
@@ -56,7 +57,7 @@ std::array<double, 6> shearsTowards(const std::array<double, 3>& w, const std::a
   return {s0, s1, s2, s3, c1 / e0, c2 / e0};
 }
 
-/// Turns the components of a transform into the rows of a rotation, row 0 first.
+/// Turns the colour planes of a transform into the rows of a rotation, row 0 first.
 Shears levelShears(const Matrix3& matrix, const Matrix3& rotation) {
   const Matrix3 rows = inCoordinatesOf(matrix, rotation);
   Shears best{};
@@ -84,19 +85,18 @@ double bitsOf(const ColourTransform& transform, std::span<const ColourDetails> d
 
 }  // namespace
 
-double turnLevels(ColourTransform& transform, const ColourAxes& axes, double step) {
+TurnedLevels turnLevels(const ColourTransform& transform, const ColourAxes& axes, double step) {
+  assert(transform.level_shears.empty());
   const Matrix3 matrix = colourMatrix(transform);
   ColourTransform turned = transform;
-  double least = bitsOf(transform, axes.details, step);
+  TurnedLevels best{transform, bitsOf(transform, axes.details, step)};
   const size_t levels = std::min(axes.levels.size(), 1 + ColourTransform::kMostLevelShears);
   for (size_t i = 1; i < levels; ++i) {
     turned.level_shears.push_back(levelShears(matrix, axes.levels[i]));
     const double bits = bitsOf(turned, axes.details, step);
-    if (bits >= least) continue;
-    least = bits;
-    transform = turned;
+    if (bits < best.bits) best = {turned, bits};
   }
-  return least;
+  return best;
 }
 
 }  // namespace tetrakis::inline colour

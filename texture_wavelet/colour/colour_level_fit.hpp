@@ -7,8 +7,14 @@
 
 namespace tetrakis::inline colour {
 
-/// Turns the components of as many levels as that pays for: those of level i + 1 towards the rows
-/// of axes.levels[i]. Returns the estimated bits, the header's among them.
-double turnLevels(ColourTransform& transform, const ColourAxes& axes, double step);
+/// A transform, and the bits that coefficients and header are estimated to take with it.
+struct TurnedLevels {
+  ColourTransform transform;
+  double bits;
+};
+
+/// Turns the colour planes of as many levels as that pays for: those of level i + 1 towards the
+/// rows of axes.levels[i]. transform: has no shears of levels.
+TurnedLevels turnLevels(const ColourTransform& transform, const ColourAxes& axes, double step);
 
 }  // namespace tetrakis::inline colour

@@ -12,13 +12,13 @@
 
 namespace tetrakis::inline colour {
 
-/// Turns the components of every level, in place. planes: the coefficients of 3 or more transformed
-/// planes of that pyramid. Fewer planes are left alone.
+/// Turns the colour planes of every level, in place. planes: the coefficients of 3 or more
+/// transformed planes of that pyramid. Fewer planes are left alone.
 void forwardColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
                          std::span<int32_t* const> planes);
 
-/// Turns them back, as far as views of the planes need them. planes: 3 or more components of one
-/// view of that pyramid, of which every coefficient is put. Fewer are left alone.
+/// Turns them back, as far as views of the planes need them. planes: 3 or more of one view of that
+/// pyramid, of which every coefficient is put. Fewer are left alone.
 void inverseColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
                          std::span<ViewSynthesis> planes);
 

@@ -66,17 +66,18 @@ double bitsOf(std::vector<Sample> samples, const ColourTransform& transform) {
 
 }  // namespace
 
-ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Extent extent) {
-  const ColourTransform none = centred(planes, extent.samples());
-  if (planes.size() < 3) return none;
-  const ColourAxes axes = fitAxes(planes, extent, Purpose::kLossless);
+ColourTransform chooseLosslessColour(std::span<const int32_t* const> channels, Extent extent) {
+  const ColourTransform none = centred(channels, extent.samples());
+  if (channels.size() < 3) return none;
+  const ColourAxes axes = fitAxes(channels, extent, Purpose::kLossless);
   // One order for each channel that may come first; that of the other two makes no difference.
   std::vector<ColourTransform> candidates = {none, reversible(none, 0), reversible(none, 2),
                                              reversible(none, 4)};
-  setRotation(candidates.emplace_back(none), axes.overall);
-  if (!axes.levels.empty()) setRotation(candidates.emplace_back(none), axes.levels.front());
+  candidates.push_back(rotated(none, axes.overall));
+  if (!axes.levels.empty()) candidates.push_back(rotated(none, axes.levels.front()));
   std::vector<Sample> samples;
-  for (const Window& part : typicalParts(extent)) samples.push_back(sampleOf(part, planes, extent));
+  for (const Window& part : typicalParts(extent))
+    samples.push_back(sampleOf(part, channels, extent));
   ColourTransform best;
   double least = std::numeric_limits<double>::infinity();
   for (const ColourTransform& candidate : candidates) {
@@ -87,11 +88,10 @@ ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Ext
   }
   // Prefixes are better with the colours of lossy streams.
   constexpr double kAboutAsFew = 1.01;
-  const ColourTransform lossy = fitColour(planes, extent);
+  const ColourTransform lossy = fitColour(channels, extent);
   if (bitsOf(samples, lossy) <= kAboutAsFew * least) return lossy;
   constexpr double kStep = 1;  // what is left when the last bits are coded
-  turnLevels(best, axes, kStep);
-  return best;
+  return turnLevels(best, axes, kStep).transform;
 }
 
 }  // namespace tetrakis::inline colour

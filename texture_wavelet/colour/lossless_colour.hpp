@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the component transform for an image of which every bit will be coded. Encoder only.
+// Chooses the colour transform for an image of which every bit will be coded. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 namespace tetrakis::inline colour {
 
 /// A rotation that packs the energy is best at low rates; the last bits are noise, which it spreads
-/// over all components. Takes the cheapest, by the residuals of a gradient predictor, of the
+/// over all planes. Takes the cheapest, by the residuals of a gradient predictor, of the
 /// fitted rotations (colour_axes.hpp), JPEG 2000's reversible transform about each channel, and
 /// none; but the colours of lossy streams, which are better for prefixes, where these cost about as
-/// little. planes: 1 to 4 planes of that extent, as in fitColour.
-ColourTransform chooseLosslessColour(std::span<const int32_t* const> planes, Extent extent);
+/// little. channels: 1 to 4 of that extent, as in fitColour.
+ColourTransform chooseLosslessColour(std::span<const int32_t* const> channels, Extent extent);
 
 }  // namespace tetrakis::inline colour

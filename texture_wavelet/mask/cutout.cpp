@@ -23,18 +23,20 @@ std::vector<uint8_t> cutoutOf(const Texels& texels) {
   return seen;
 }
 
-void hideColours(Mask mask, std::vector<std::vector<int32_t>>& planes) {
-  if (mask.all()) return;
+std::vector<std::vector<int32_t>> withMeanColour(Mask mask,
+                                                 std::vector<std::vector<int32_t>> channels) {
+  if (mask.all()) return channels;
   const std::span<const uint8_t> coded = mask.bytes();
   const auto count = std::max(int64_t{1}, std::accumulate(coded.begin(), coded.end(), int64_t{0}));
-  for (std::vector<int32_t>& plane : planes) {
+  for (std::vector<int32_t>& channel : channels) {
     int64_t sum = 0;
-    for (size_t i = 0; i < coded.size(); ++i) sum += coded[i] * plane[i];
+    for (size_t i = 0; i < coded.size(); ++i) sum += coded[i] * channel[i];
     const auto mean = static_cast<int32_t>((sum + count / 2) / count);
     for (size_t i = 0; i < coded.size(); ++i) {
-      if (!coded[i]) plane[i] = mean;
+      if (!coded[i]) channel[i] = mean;
     }
   }
+  return channels;
 }
 
 uint64_t countedSamples(const Texels& texels, Mask seen) {

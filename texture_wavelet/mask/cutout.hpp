@@ -15,8 +15,9 @@ namespace tetrakis::inline mask {
 std::vector<uint8_t> cutoutOf(const Texels& texels);
 
 /// Gives texels that are not coded the mean colour of those that are, or 0 if there are none.
-/// planes: the colours.
-void hideColours(Mask coded, std::vector<std::vector<int32_t>>& planes);
+/// channels: the colours.
+std::vector<std::vector<int32_t>> withMeanColour(Mask coded,
+                                                 std::vector<std::vector<int32_t>> channels);
 
 /// Returns how many samples count in errors: all alphas, and the colours of texels that are seen.
 uint64_t countedSamples(const Texels& texels, Mask seen);

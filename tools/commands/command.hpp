@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <thread>
@@ -58,39 +57,31 @@ inline CLI::Validator silent(CLI::Validator validator) {
   return validator.description("");
 }
 
-/// Any number; infinite ones and NaN are some.
-inline CLI::Validator anyNumber() {
+/// Text that is a T which `accepts` takes. fault: what is said behind the text of others.
+template <class T>
+CLI::Validator numberThat(bool (*accepts)(T), const std::string& fault) {
   return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) ? std::string()
-                                                      : "'" + text + "' is not a number";
+      [accepts, fault](const std::string& text) {
+        T value{};
+        const bool taken = CLI::detail::lexical_cast(text, value) && accepts(value);
+        return taken ? std::string() : "'" + text + "' " + fault;
       },
       "");
+}
+
+/// Any number; infinite ones and NaN are some.
+inline CLI::Validator anyNumber() {
+  return numberThat<double>([](double) { return true; }, "is not a number");
 }
 
 /// A number that is neither infinite nor NaN.
 inline CLI::Validator finite() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && std::isfinite(value)
-                   ? std::string()
-                   : "'" + text + "' is not a finite number";
-      },
-      "");
+  return numberThat<double>([](double v) { return std::isfinite(v); }, "is not a finite number");
 }
 
 /// 0, 1, 2, … below 2^32.
 inline CLI::Validator wholeNumber() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        uint32_t value = 0;
-        return CLI::detail::lexical_cast(text, value)
-                   ? std::string()
-                   : "'" + text + "' is no whole number below 2^32";
-      },
-      "");
+  return numberThat<uint32_t>([](uint32_t) { return true; }, "is no whole number below 2^32");
 }
 
 /// An option that takes a SIZE with the suffixes k, M, G.
@@ -131,15 +122,8 @@ inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
 /// --triangles N.
 inline CLI::Option* addTriangles(CLI::App& app, uint32_t& triangles, const std::string& help) {
   return app.add_option("--triangles", triangles, help)
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            uint32_t count = 0;
-            return CLI::detail::lexical_cast(text, count) && count > 0
-                       ? std::string()
-                       : "'" + text +
-                             "' is no number of triangles below 2^32; write for example 5000";
-          },
-          ""))
+      ->check(numberThat<uint32_t>([](uint32_t count) { return count > 0; },
+                                   "is no number of triangles below 2^32; write for example 5000"))
       ->type_name("N");
 }
 

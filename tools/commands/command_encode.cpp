@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -12,9 +11,8 @@
 #include <utility>
 
 #include "base/length_unit.hpp"
-#include "tools/commands/encode_arguments.hpp"
+#include "tools/commands/encode_memory.hpp"
 #include "tools/files/file_bytes.hpp"
-#include "tools/files/memory_limit.hpp"
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/given_crs.hpp"
 #include "tools/files/text.hpp"
@@ -136,16 +134,6 @@ Result<std::optional<PictureJudge>> wantedJudge(const EncodeArguments& arguments
   return std::optional<PictureJudge>(std::move(*judge));
 }
 
-/// As tks_encode_options says it; the library refuses sides that it does not take.
-Result<uint32_t> parseRegions(const std::string& text) {
-  if (text == "auto") return 0;
-  if (text == "off") return 1;
-  uint32_t side = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-  if (error == std::errc() && end == text.data() + text.size() && side > 1) return side;
-  return Status(TKS_USAGE, "--regions takes auto, off or a power of two, not '" + text + "'");
-}
-
 /// In metres, or the unit of the heights. What rounding doubles has spent of it is gone.
 Result<double> boundOf(const EncodeArguments& arguments, const HeightFile& heights) {
   const Result<double> asked = parseLength(arguments.max_error, heights.unit);
@@ -205,63 +193,6 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
                                            inputs.image ? &image : nullptr, *options);
   if (!stream) return stream.status();
   return std::move(*stream);
-}
-
-/// Cells that the bands of a transform of a plane take: their rows are padded to words of 32 and
-/// two more, and have rows of margins around them. That counts where a plane is narrow or low.
-uint64_t cellsOf(uint32_t width, uint32_t height) {
-  constexpr uint64_t kWord = 32, kMarginColumns = 2, kMarginRows = 4;
-  const auto cells = [](uint64_t rows, uint64_t columns) {
-    if (rows == 0 || columns == 0) return uint64_t{0};
-    return (rows + kMarginRows) * ((columns + kWord - 1) / kWord * kWord + kMarginColumns);
-  };
-  uint64_t all = 0;
-  for (uint64_t columns = width, rows = height; columns > 1 || rows > 1;) {
-    const uint64_t right = columns / 2, below = rows / 2;
-    columns -= right;
-    rows -= below;
-    all += cells(rows, right) + cells(below, columns) + cells(below, right);
-  }
-  return std::max(all, uint64_t{width} * height);
-}
-
-/// Regions of a plane, at most: where their side is not given, it is no less than kChosen.
-uint64_t regionsOf(const EncodeArguments& arguments, uint32_t width, uint32_t height) {
-  constexpr uint32_t kChosen = 256, kLeast = 16;
-  const Result<uint32_t> given = parseRegions(arguments.regions);
-  const uint64_t side = given.ok() && *given > 1 ? std::max(*given, kLeast) : kChosen;
-  return ((width + side - 1) / side) * ((height + side - 1) / side);
-}
-
-/// Measured: what encoding takes at most beside the samples, for each cell and each region.
-struct EncodingBytes {
-  uint64_t cell, region;
-  uint64_t of(const EncodeArguments& arguments, uint32_t width, uint32_t height) const {
-    return cell * cellsOf(width, height) + region * regionsOf(arguments, width, height);
-  }
-};
-
-/// Most is taken by floats with voids that lie in a table, which are tried exactly as well. Within
-/// a largest error several cuts of all heights are kept at a time; with a budget of triangles
-/// prefixes are seen as the best mesh of all heights shows them.
-EncodingBytes heightsTake(const EncodeArguments& arguments, bool beside_texture) {
-  constexpr uint64_t kAlone = 32, kCompared = 50, kMeshes = 62, kRegion = 36 << 10;
-  const bool compared = !arguments.max_error.empty() || (arguments.bytes > 0 && beside_texture);
-  return {arguments.triangles > 0 ? kMeshes : compared ? kCompared : kAlone, kRegion};
-}
-
-Status checkMemory(const EncodeArguments& arguments, const Reference& inputs) {
-  constexpr EncodingBytes kTexelChannel = {18, 48 << 10};
-  uint64_t bytes = 0;
-  if (const auto& heights = inputs.heights) {
-    bytes += heights->data.size() + heightsTake(arguments, inputs.image.has_value())
-                                        .of(arguments, heights->width, heights->height);
-  }
-  if (const auto& image = inputs.image) {
-    bytes += image->data.size() +
-             image->channels * kTexelChannel.of(arguments, image->width, image->height);
-  }
-  return checkMemoryFor("encoding so many samples", bytes);
 }
 
 /// A bound may be so small that nothing but every bit keeps it.
@@ -342,7 +273,7 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (!outputs.ok()) return outputs.status();
   const Result<Reference> inputs = readInputs(arguments, quiet);
   if (!inputs.ok()) return inputs.status();
-  if (Status status = checkMemory(arguments, *inputs); !status.ok()) return status;
+  if (Status status = checkEncodeMemory(arguments, *inputs); !status.ok()) return status;
   const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet);
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();

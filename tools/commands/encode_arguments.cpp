@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/commands/encode_arguments.hpp"
 
+#include <charconv>
+#include <system_error>
 #include <utility>
 
 namespace tetrakis::tools {
@@ -110,6 +112,15 @@ void addArguments(CLI::App& verb, EncodeArguments& arguments) {
   addTargets(verb, arguments);
   addTuning(verb, arguments);
   addDescription(verb, arguments);
+}
+
+Result<uint32_t> parseRegions(const std::string& text) {
+  if (text == "auto") return 0;
+  if (text == "off") return 1;
+  uint32_t side = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
+  if (error == std::errc() && end == text.data() + text.size() && side > 1) return side;
+  return Status(TKS_USAGE, "--regions takes auto, off or a power of two, not '" + text + "'");
 }
 
 Status checkArguments(const EncodeArguments& arguments) {

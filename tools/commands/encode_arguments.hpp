@@ -28,6 +28,9 @@ struct EncodeArguments {
 
 void addArguments(CLI::App& verb, EncodeArguments& arguments);
 
+/// --regions as tks_encode_options has it; the library refuses sides that it does not take.
+Result<uint32_t> parseRegions(const std::string& text);
+
 /// TKS_USAGE if they do not go together.
 Status checkArguments(const EncodeArguments& arguments);
 

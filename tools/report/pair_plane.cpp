@@ -77,7 +77,7 @@ std::vector<Split> shippedPath(const SplitStream& tracks) {
 
 }  // namespace
 
-void findPaths(PairPlane& plane) {
+PairPlane withPaths(PairPlane plane) {
   plane.hull = hullOf(plane);
   plane.greedy.clear();
   size_t h = plane.heights.size() - 1, t = plane.textures.size() - 1;
@@ -98,6 +98,7 @@ void findPaths(PairPlane& plane) {
     plane.greedy.push_back(pairAt(plane, h, t));
   }
   plane.looked = looked.size();
+  return plane;
 }
 
 namespace {
@@ -185,9 +186,8 @@ Result<PairPlane> lookAtPairs(Comparer& comparer, const SplitStream& tracks, con
   const auto draw = comparer.drawsApart(triangles) ? drawApart : drawTogether;
   if (Status status = draw(comparer, tracks, triangles, progress, plane); !status.ok())
     return status;
-  findPaths(plane);
   plane.shipped = shippedPath(tracks);
-  return plane;
+  return withPaths(std::move(plane));
 }
 
 }  // namespace tetrakis::tools

@@ -42,9 +42,10 @@ struct PlaneGrid {
   double ratio = 2.5;  ///< of the bytes of two neighbours, at most; 0: as the number needs it
 };
 
-/// The hull, and the path of the marginal analysis (thesis 6.3.2): it begins with all bytes and
-/// gives up those of either track that cost least error a byte, one step of the grid at a time.
-void findPaths(PairPlane& plane);
+/// The plane with its hull, and with the path of the marginal analysis (thesis 6.3.2): it begins
+/// with all bytes and gives up those of either track that cost least error a byte, one step of the
+/// grid at a time.
+PairPlane withPaths(PairPlane plane);
 
 /// Told the part of the pairs that are drawn, from 0 to 1.
 using PlaneProgress = std::function<void(double done)>;

@@ -209,4 +209,4 @@ void JointLifting::roundFractions(HalfRow of, int doublings) const {
   }
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

@@ -109,4 +109,4 @@ class JointLifting {
   std::vector<int32_t> sums_;  ///< the brackets of a row
 };
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

@@ -30,4 +30,4 @@ void RowLifting::synthesise(int32_t* row, uint32_t length, FilterId id, bool wid
   halves_.putTogether(row);
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

@@ -32,4 +32,4 @@ class RowLifting {
   Halves<int32_t> halves_;
 };
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

@@ -118,7 +118,7 @@ size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const Lif
   return whole;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting
 
 #elif !defined(__wasm_simd128__)  // wavelet/lifting/lifting_wasm.cpp has those
 
@@ -128,6 +128,6 @@ size_t liftStepVectors(int32_t*, const LiftingSources&, const LiftingRule&, size
   return 0;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting
 
 #endif

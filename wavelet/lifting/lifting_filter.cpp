@@ -72,4 +72,4 @@ int widestSamples(FilterId id) {
   return id == FilterId::kOrthogonal || id == FilterId::kQuiet ? 15 : 20;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

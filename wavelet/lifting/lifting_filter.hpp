@@ -44,4 +44,4 @@ uint32_t synthesisReach(FilterId id);
 /// Samples of more bits need 64-bit sums.
 int widestSamples(FilterId id);
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

@@ -64,4 +64,4 @@ void liftStepScalar(int32_t* target, const LiftingSources& sources, const Liftin
             : liftPairs<int32_t>(target, sources, rule, count);
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

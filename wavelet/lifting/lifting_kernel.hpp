@@ -44,4 +44,4 @@ void liftStepScalar(int32_t* target, const LiftingSources& sources, const Liftin
 size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                        size_t count);
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

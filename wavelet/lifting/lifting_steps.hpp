@@ -161,4 +161,4 @@ class Halves {
   ptrdiff_t lows_ = 0, highs_ = 0;
 };
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

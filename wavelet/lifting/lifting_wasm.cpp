@@ -78,6 +78,6 @@ size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const Lif
   return whole;
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting
 
 #endif

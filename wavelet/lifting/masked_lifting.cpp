@@ -117,4 +117,4 @@ void MaskedRowLifting::synthesise(int32_t* row, const uint8_t* valid, uint32_t l
   values_.putTogether(row);
 }
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

@@ -64,4 +64,4 @@ class MaskedRowLifting {
   MaskedStep step_;
 };
 
-}  // namespace tetrakis::inline wavelet
+}  // namespace tetrakis::inline lifting

@@ -8,7 +8,7 @@
 #include "bitstream/coder/decision_encoding.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/flat/flat_pass.hpp"
-#include "codec/geometry/flat/opening.hpp"
+#include "wavelet/morphology.hpp"
 
 namespace tetrakis::inline flat {
 
@@ -76,7 +76,7 @@ FlatAreas FlatFinder::areas(const FlatShape& shape, const Window& window) const 
   assert(shape.least > 0 && window.isInside(extent()));
   if (none()) return {};
   std::vector<uint8_t> flat = marked(shape.least, window);
-  if (shape.reach > 0) openMask(flat, window.extent(), shape.reach);
+  if (shape.reach > 0) flat = opened(std::move(flat), window.extent(), shape.reach);
   NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, window.extent()));
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};

@@ -12,8 +12,8 @@ namespace tetrakis::inline flat {
 
 /// Which samples of areas are wanted.
 struct FlatShape {
-  uint32_t least;      ///< samples of an area, at least
-  uint32_t reach = 0;  ///< > 0: opened by squares of that reach (codec/geometry/flat/opening.hpp)
+  uint32_t least;     ///< samples of an area, at least
+  uint8_t reach = 0;  ///< > 0: opened by squares of that reach (wavelet/morphology.hpp)
 };
 
 /// The areas of one height in a plane, of any size.

@@ -281,4 +281,4 @@ void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains
   sortByKeys(vertices, closureSlopes(lattice, vertices, own), order);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline closure

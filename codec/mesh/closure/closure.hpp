@@ -57,4 +57,4 @@ void sortByKeys(std::span<const VertexId> vertices, std::span<const double> keys
 void sortThroughCorners(const Lattice& lattice, const std::vector<double>& gains,
                         std::span<VertexId> order);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline closure

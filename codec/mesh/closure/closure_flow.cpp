@@ -153,4 +153,4 @@ std::vector<size_t> ClosureFlow::split(std::span<uint32_t> part) {
   return ends;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline closure

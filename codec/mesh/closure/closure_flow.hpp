@@ -68,4 +68,4 @@ class ClosureFlow {
   size_t relabels_ = 0;  ///< since the last label()
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline closure

@@ -110,4 +110,4 @@ std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
   return domains;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

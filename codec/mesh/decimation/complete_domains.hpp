@@ -15,4 +15,4 @@ namespace tetrakis::inline decimation {
 std::vector<DomainWorth> completeDomains(const std::vector<double>& gains,
                                          const VertexCosts& costs);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

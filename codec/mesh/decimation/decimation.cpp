@@ -68,4 +68,4 @@ Result<MeshSequence> decimate(const SurfaceView& surface) {
   return MeshSequence(std::move(*lattice), std::move(order), gains);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

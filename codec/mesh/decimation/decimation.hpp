@@ -48,4 +48,4 @@ class MeshSequence {
 /// not finite.
 Result<MeshSequence> decimate(const SurfaceView& surface);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

@@ -116,4 +116,4 @@ Worth DeferredLosses::sumOfRow(size_t x, size_t y, const std::vector<uint32_t>& 
   return sum;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

@@ -51,4 +51,4 @@ class DeferredLosses {
   std::array<Kind, 4> kinds_;
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

@@ -74,4 +74,4 @@ std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const 
   return Decimator(gains, costs, prompt_levels, steps).run();
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

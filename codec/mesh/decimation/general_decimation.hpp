@@ -19,4 +19,4 @@ std::vector<VertexId> generalDecimation(const std::vector<double>& gains, const 
                                         uint32_t prompt_levels = MergingDomains::kPromptLevels,
                                         std::vector<uint32_t>* steps = nullptr);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

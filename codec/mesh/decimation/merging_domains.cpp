@@ -93,4 +93,4 @@ void MergingDomains::deferPart(const AncestorWindow& squares, const AncestorWind
   if (taken.cells != 0) deferred_.takeBack(taken, part);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

@@ -159,4 +159,4 @@ template <class OnFall>
     onFall(a);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

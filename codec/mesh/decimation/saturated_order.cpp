@@ -37,4 +37,4 @@ std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const Ve
   return vertices;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

@@ -18,4 +18,4 @@ namespace tetrakis::inline decimation {
 std::vector<VertexId> saturatedOrder(const std::vector<double>& errors, const VertexCosts& costs,
                                      uint64_t most);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

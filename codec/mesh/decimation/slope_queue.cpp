@@ -124,4 +124,4 @@ bool SlopeQueue::isFirst(const Candidate& candidate) const {
          (heap_.empty() || candidate <= heap_.front());
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

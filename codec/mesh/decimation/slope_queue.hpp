@@ -109,4 +109,4 @@ void SlopeQueue::openNextBucket(PushAgain& pushAgain) {
   sortOpened();
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

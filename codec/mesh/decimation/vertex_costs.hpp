@@ -31,4 +31,4 @@ class VertexCosts {
   std::span<const uint32_t> given_;
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

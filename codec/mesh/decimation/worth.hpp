@@ -53,4 +53,4 @@ struct DomainWorth {
   }
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline decimation

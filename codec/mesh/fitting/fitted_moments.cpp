@@ -223,4 +223,4 @@ std::vector<double> FittedMoments::gains(std::span<const VertexId> vertices) con
   return gains;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline fitting

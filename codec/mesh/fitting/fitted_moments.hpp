@@ -63,4 +63,4 @@ class FittedMoments {
   bool full_ = true;  ///< all leaves are of full resolution, empty, and not stored
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline fitting

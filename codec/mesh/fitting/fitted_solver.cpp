@@ -126,4 +126,4 @@ void fitHeights(FittedMoments& mesh) {
   mesh.correct(fitted.samples, fitted.corrections);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline fitting

@@ -35,4 +35,4 @@ HeightCorrections fittedCorrections(const WeightedSurface& surface,
                                     std::span<const FittedLeaf> leaves,
                                     std::span<const double> heights);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline fitting

@@ -67,4 +67,4 @@ double squaredErrorOf(const WeightedSurface& surface, const HeldTriangle& triang
   return energy;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline fitting

@@ -33,4 +33,4 @@ void add(TriangleMoments& moments, const WeighedSample& sample);
 /// Whether the edge lies on the border of the grid.
 bool onBorder(const SurfaceView& grid, GridPoint from, GridPoint to);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline fitting

@@ -9,7 +9,7 @@
 
 namespace tetrakis::inline fitting {
 
-/// No height of a vertex stays beyond those of the known samples.
-void keepWithinRange(const WeightedSurface& surface, std::vector<double>& heights);
+/// Heights of vertices, none of them beyond those of the known samples.
+std::vector<double> withinRange(const WeightedSurface& surface, std::vector<double> heights);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline fitting

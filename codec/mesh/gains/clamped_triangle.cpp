@@ -73,4 +73,4 @@ double clampedError(const SurfaceView& surface, const std::array<GridPoint, 3>& 
   return (e[0] | e[1] | e[2]) < 0 ? 0 : triangle.error(sample.x, sample.y, e);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline gains

@@ -17,4 +17,4 @@ double clampedEnergy(const SurfaceView& surface, const std::array<GridPoint, 3>&
 double clampedError(const SurfaceView& surface, const std::array<GridPoint, 3>& corners,
                     GridPoint sample);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline gains

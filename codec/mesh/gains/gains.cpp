@@ -164,4 +164,4 @@ std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surfa
   return GainBuilder(lattice, surface).build();
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline gains

@@ -24,4 +24,4 @@ Status checkWeights(const SurfaceView& surface);
 /// depends on rounding. The surface must have the size of the lattice and pass checkWeights().
 std::vector<double> vertexGains(const Lattice& lattice, const SurfaceView& surface);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline gains

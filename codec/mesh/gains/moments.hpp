@@ -86,4 +86,4 @@ inline TriangleMoments mergeFinest(const CornerWeights& weight, double delta) {
   return t;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline gains

@@ -139,4 +139,4 @@ uint64_t screenWeightsBytes(uint64_t samples) {
   return kSample * samples + kPixel * kMostPixels + kRows;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline screen

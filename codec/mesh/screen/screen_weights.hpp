@@ -34,4 +34,4 @@ std::vector<float> screenWeights(const WeightedSurface& surface, std::span<const
 /// Bytes that this takes at most beside what it is given: weights, costs, and a picture.
 uint64_t screenWeightsBytes(uint64_t samples);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline screen

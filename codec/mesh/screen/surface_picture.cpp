@@ -215,4 +215,4 @@ double SurfacePicture::brightness(double x, double y) const {
   return bilinear(brightness_, width_, height_, x - 0.5, y - 0.5);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline screen

@@ -121,4 +121,4 @@ class SurfacePicture {
   size_t covered_ = 0;
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline screen

@@ -93,4 +93,4 @@ uint32_t wholeSample(uint32_t sample, uint32_t coarse_width, uint32_t whole_widt
   return y * whole_width + x;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline surface

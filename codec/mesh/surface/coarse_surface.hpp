@@ -36,4 +36,4 @@ CoarseSurface ofMipLevel(std::span<const int32_t> level, uint32_t whole_width,
 uint32_t wholeSample(uint32_t sample, uint32_t coarse_width, uint32_t whole_width,
                      uint32_t whole_height, uint32_t k);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline surface

@@ -50,4 +50,4 @@ MaskedSurface maskedSurface(const WeightedSurface& surface, uint32_t levels) {
   return masked;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline surface

@@ -26,4 +26,4 @@ struct MaskedSurface {
 /// mean of the valid ones around it. Weights do not count.
 MaskedSurface maskedSurface(const WeightedSurface& surface, uint32_t levels);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline surface

@@ -19,4 +19,4 @@ struct SurfaceView {
   }
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline surface

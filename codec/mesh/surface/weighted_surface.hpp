@@ -20,4 +20,4 @@ struct WeightedSurface {
   double weightOf(uint32_t sample) const { return isKnown(sample) ? view.weightOf(sample) : 0; }
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline surface

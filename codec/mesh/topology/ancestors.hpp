@@ -277,4 +277,4 @@ bool AncestorSums<Delta>::rise(size_t pair, Waiting& amount, bool own, Visit& vi
   return true;
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

@@ -54,4 +54,4 @@ void Lattice::addLevel(Plan plan) {
   levels_.push_back(plan);
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

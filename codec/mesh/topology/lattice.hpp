@@ -251,4 +251,4 @@ void Lattice::forEachVertex(Visit&& visit) const {
     }
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

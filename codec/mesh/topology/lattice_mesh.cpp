@@ -151,4 +151,4 @@ LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks) {
   return meshOf(lattice, codedVertices(lattice, marks));
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

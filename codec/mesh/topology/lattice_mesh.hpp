@@ -38,4 +38,4 @@ std::vector<VertexId> codedVertices(const Lattice& lattice, std::span<const uint
 /// Returns the mesh of codedVertices().
 LatticeMesh codedMesh(const Lattice& lattice, std::span<const uint8_t> marks);
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

@@ -39,4 +39,4 @@ struct Octagon {
   int64_t reach(int64_t dy) const { return std::min(x, y - (dy < 0 ? -dy : dy)); }
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

@@ -59,4 +59,4 @@ void forEachRootTriangle(const Lattice& lattice, MakeCorner&& makeCorner, Visit&
   });
 }
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

@@ -75,4 +75,4 @@ class TriangleSamples {
   uint32_t left_, right_, top_, bottom_;
 };
 
-}  // namespace tetrakis::inline mesh
+}  // namespace tetrakis::inline topology

@@ -6,7 +6,6 @@
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
-#include "codec/geometry/flat/opening.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
@@ -128,39 +127,6 @@ TEST(FlatAreas, TilesStandForAPlane) {
   EXPECT_TRUE(chooseFlatAreas({land, size.extent()}, {}, purpose).flat.codeword.empty());
   EXPECT_EQ(chooseFlatAreas({ponds, size.extent()}, {}, purpose).flat.areas.heights,
             std::vector<int32_t>(count, 4017));
-}
-
-/// A mark stays if a square covers it that holds no sample of the plane without a mark.
-bool staysOpen(const std::vector<uint8_t>& marks, const Size& size, int x, int y, int reach) {
-  const auto holds = [&](int cx, int cy) {
-    for (int j = std::max(cy - reach, 0); j <= std::min<int>(cy + reach, size.height - 1); ++j) {
-      for (int i = std::max(cx - reach, 0); i <= std::min<int>(cx + reach, size.width - 1); ++i)
-        if (!marks[size_t(j) * size.width + size_t(i)]) return false;
-    }
-    return true;
-  };
-  for (int cy = std::max(y - reach, 0); cy <= std::min<int>(y + reach, size.height - 1); ++cy) {
-    for (int cx = std::max(x - reach, 0); cx <= std::min<int>(x + reach, size.width - 1); ++cx)
-      if (holds(cx, cy)) return true;
-  }
-  return false;
-}
-
-TEST(FlatAreas, OpenedMasksAreWhatSquaresCover) {
-  for (const Size& size : kSizes) {
-    for (const VoidShape shape : kVoidShapes) {
-      const std::vector<uint8_t> marks = validity(shape, size.width, size.height);
-      for (const int reach : {1, 2, 5}) {
-        std::vector<uint8_t> opened = marks;
-        openMask(opened, size.extent(), static_cast<uint32_t>(reach));
-        for (size_t i = 0; i < marks.size(); ++i) {
-          const int x = static_cast<int>(i % size.width), y = static_cast<int>(i / size.width);
-          ASSERT_EQ(opened[i] != 0, staysOpen(marks, size, x, y, reach))
-              << size << ", " << shape << ", reach " << reach << ", " << x << ", " << y;
-        }
-      }
-    }
-  }
 }
 
 /// Half a plane of water in few bytes: the shape that is sent is simpler than the shore, most of

@@ -118,7 +118,7 @@ TEST(GeometryTrack, SignificantVerticesAreThoseOfItsCoefficients) {
     for (int i = 0; i < 6; ++i) heights[random() % heights.size()] = 40;
     const Coded coded = encode(heights, size, {{1, 1, 1}, 0, 8, 3});
     Plane plane = heights;
-    forwardWavelet(uniform(FilterId::kSixTap, true, 8), {plane, size.extent()});
+    forwardWavelet(uniform(FilterId::kSixTap, true, 8), Pyramid(size.extent()), plane);
     std::vector<uint8_t> expected(plane.size(), 0);
     for (const Subband& band : subbandsOf(size)) {
       forEachCoefficient(band, size.width, [&](size_t coefficient, size_t sample) {

@@ -90,8 +90,7 @@ TEST(TurnedEdges, KeepVerticesAndCoverTheGroundWithLessError) {
         const auto sequence = FittedSequence::makeFor(surface, triangles);
         ASSERT_TRUE(sequence.ok());
         const FittedMesh before = sequence->mesh(sequence->longestPrefix(triangles));
-        FittedMesh turned = before;
-        turnEdges(surface, turned);
+        const FittedMesh turned = withTurnedEdges(surface, before);
         EXPECT_EQ(turned.mesh.vertices, before.mesh.vertices);
         EXPECT_EQ(turned.mesh.triangles.size(), before.mesh.triangles.size());
         checks::expectConforming(turned.mesh, width, height);
@@ -106,8 +105,7 @@ TEST(TurnedEdges, LeaveAPlaneAsItIs) {
   const auto sequence = FittedSequence::makeFor(surface, 100);
   ASSERT_TRUE(sequence.ok());
   const FittedMesh before = sequence->mesh(sequence->longestPrefix(100));
-  FittedMesh turned = before;
-  turnEdges(surface, turned);
+  const FittedMesh turned = withTurnedEdges(surface, before);
   EXPECT_EQ(turned.mesh.triangles, before.mesh.triangles);
 }
 
@@ -119,10 +117,9 @@ TEST(TurnedEdges, FollowACrestThatTheLatticeDoesNot) {
   const WeightedSurface surface{terrain.view(), {}};
   const auto sequence = FittedSequence::makeFor(surface, 120);
   ASSERT_TRUE(sequence.ok());
-  FittedMesh mesh = sequence->mesh(sequence->longestPrefix(120));
-  const double before = errorOf(surface, mesh);
-  turnEdges(surface, mesh);
-  EXPECT_LT(errorOf(surface, mesh), 0.7 * before);
+  const FittedMesh before = sequence->mesh(sequence->longestPrefix(120));
+  const FittedMesh turned = withTurnedEdges(surface, before);
+  EXPECT_LT(errorOf(surface, turned), 0.7 * errorOf(surface, before));
 }
 
 TEST(TurnedEdges, TouchNoUnknownGround) {

@@ -1,178 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bands and their coding: adaptive models, bit maps, what every prefix tells about a coefficient,
-// and where it is reconstructed.
+// The coding of tracks: what every prefix tells about a coefficient, and where it is reconstructed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bitstream/track/band.hpp"
-#include "bitstream/track/hints.hpp"
 #include "bitstream/track/reconstruction.hpp"
 #include "bitstream/track/track_decoder.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "conformance/samples/terrain_samples.hpp"
+#include "tests/support/band_shapes.hpp"
 #include "tests/support/random_planes.hpp"
 
 namespace tetrakis::test {
 namespace {
 
-TEST(ZeroedArray, HoldsZerosUntilWritten) {
-  for (const size_t size : {size_t{0}, size_t{1}, size_t{1000}, size_t{1} << 20}) {
-    ZeroedArray<uint32_t> array(size);
-    ASSERT_EQ(array.size(), size);
-    ASSERT_EQ(static_cast<size_t>(array.end() - array.begin()), size);
-    EXPECT_EQ(static_cast<size_t>(std::count(array.begin(), array.end(), 0u)), size);
-    if (size == 0) continue;
-    array[size - 1] = 7;
-    const uint32_t* data = array.data();
-    const ZeroedArray<uint32_t> moved = std::move(array);
-    EXPECT_EQ(moved.data(), data);
-    EXPECT_EQ(moved[size - 1], 7u);
-  }
-  EXPECT_EQ(ZeroedArray<int8_t>().size(), 0u);
-}
-
-TEST(AdaptiveBit, StaysInRangeAndFollowsEveryDecision) {
-  Random random(1);
-  for (int initial = -1; initial < 255; ++initial) {
-    for (const uint32_t odds : {0u, 1u, 50u, 500u, 1000u}) {
-      AdaptiveBit model = initial < 0 ? AdaptiveBit() : AdaptiveBit(static_cast<uint8_t>(initial));
-      for (int i = 0; i < 800; ++i) {
-        const bool bit = random() % 1000 < odds;
-        const uint32_t before = model.zero();
-        model.update(bit);
-        const uint32_t after = model.zero();
-        ASSERT_TRUE(bit ? after <= before : after >= before);
-        ASSERT_GE(after, AdaptiveBit::kFloor);
-        ASSERT_LE(after, 65536 - AdaptiveBit::kFloor);
-      }
-      EXPECT_NEAR(model.zero() / 65536.0, 1 - odds / 1000.0, 0.11);
-    }
-  }
-}
-
-/// Krichevsky and Trofimov: k zeros and no one are worth (k + 1/2) / (k + 1).
-TEST(AdaptiveBit, StartsLikeARunningMean) {
-  AdaptiveBit model;
-  for (int k = 0; k < 200; ++k) {
-    EXPECT_NEAR(model.zero() / 65536.0, (k + 0.5) / (k + 1), 0.002) << k;
-    model.update(false);
-  }
-}
-
-TEST(AdaptiveBit, TrustsItsInitialValue) {
-  for (const int initial : {10, 128, 250}) {
-    AdaptiveBit model(static_cast<uint8_t>(initial));
-    EXPECT_NEAR(model.zero() / 65536.0, initial / 256.0, 0.001);
-    model.update(true);
-    EXPECT_NEAR(model.zero() / 65536.0, initial / 256.0, initial / 256.0 / 15);
-  }
-}
-
-const BandShape kShapes[] = {{1, 1},  {1, 31}, {3, 32}, {9, 33},  {8, 64},
-                             {17, 5}, {2, 97}, {40, 1}, {33, 70}, {16, 128}};
-
-/// A band with random significant coefficients, and an eye that sees them.
-struct Scattered {
-  Scattered(Random& random, const BandShape& shape)
-      : band(shape, Orientation::kHL), set(shape.rows, std::vector<bool>(shape.columns, false)) {
-    for (uint32_t i = 0; i < 1 + shape.rows * shape.columns / 40; ++i) {
-      const uint32_t row = static_cast<uint32_t>(random() % shape.rows),
-                     column = static_cast<uint32_t>(random() % shape.columns);
-      set[row][column] = true;
-      band.significant[shape.word(row, column / 32)] |= uint32_t{1} << column % 32;
-    }
-  }
-  bool sees(uint32_t row, uint32_t column, uint32_t distance) const {
-    for (uint32_t y = row - std::min(row, distance); y <= row + distance && y < set.size(); ++y) {
-      for (uint32_t x = column - std::min(column, distance);
-           x <= column + distance && x < set[y].size(); ++x) {
-        if (set[y][x]) return true;
-      }
-    }
-    return false;
-  }
-  Band band;
-  std::vector<std::vector<bool>> set;
-};
-
-TEST(Band, SignificantWithinIsWhatAnEyeSees) {
-  Random random(2);
-  for (const BandShape& shape : kShapes) {
-    const Scattered scattered(random, shape);
-    for (uint32_t row = 0; row < shape.rows; ++row) {
-      for (uint32_t column = 0; column < shape.columns; ++column) {
-        const size_t word = shape.word(row, column / 32);
-        const uint32_t bit = column % 32;
-        const Band::Reach reach = scattered.band.significantWithin(word);
-        ASSERT_EQ((reach.two >> bit) & 1, scattered.sees(row, column, 2)) << row << " " << column;
-        ASSERT_EQ((reach.three >> bit) & 1, scattered.sees(row, column, 3)) << row << " " << column;
-        if (scattered.set[row][column]) continue;
-        const uint32_t near = scattered.band.nearSignificant(word);
-        ASSERT_EQ((near >> bit) & 1, scattered.sees(row, column, 1)) << row << " " << column;
-      }
-    }
-  }
-}
-
-/// A band of random magnitudes, and what they are read as: 0 outside.
-Band filled(Random& random, const BandShape& shape) {
-  Band band(shape, Orientation::kHL);
-  for (uint32_t row = 0; row < shape.rows; ++row) {
-    for (uint32_t column = 0; column < shape.columns; ++column)
-      band.magnitude[shape.cell(row, column)] = static_cast<uint32_t>(random() % 1000);
-  }
-  return band;
-}
-
-uint32_t magnitudeAt(const Band* band, uint32_t row, uint32_t column) {
-  if (band == nullptr || row >= band->shape.rows || column >= band->shape.columns) return 0;
-  return band->magnitude[band->shape.cell(row, column)];
-}
-
-/// Siblings may lack a row, a column, or both, and any of the bands may be missing.
-TEST(RowHints, AreSumsAndBitsOfWhatOtherBandsHold) {
-  Random random(5);
-  for (const BandShape& shape : kShapes) {
-    const Band parent = filled(random, {(shape.rows + 1) / 2, (shape.columns + 1) / 2});
-    const Band component = filled(random, shape);
-    const Band narrow = filled(random, {shape.rows, shape.columns - 1});
-    const Band low = filled(random, {shape.rows - 1, shape.columns});
-    for (int missing = 0; missing < 5; ++missing) {
-      const auto unless = [&](int i, const Band& band) { return i == missing ? nullptr : &band; };
-      const HintBands bands{
-          unless(0, parent), unless(1, component), {unless(2, narrow), unless(3, low)}};
-      for (uint32_t row = 0; row < shape.rows; ++row) {
-        for (uint32_t column = 0; column < shape.columns; ++column) {
-          const RowHints hints(bands, row, column / 32);
-          uint32_t sum = magnitudeAt(bands.parent, row / 2, column / 2);
-          uint32_t bits = sum | magnitudeAt(bands.parent, row / 2, column / 2 + 1);
-          for (const Band* band : {bands.component, bands.siblings[0], bands.siblings[1]}) {
-            sum += magnitudeAt(band, row, column);
-            for (uint32_t i = 0; i < 4; ++i) bits |= magnitudeAt(band, row, column + i);
-          }
-          ASSERT_EQ(hints.ofOne(column % 32), sum) << row << " " << column << " " << missing;
-          if (column % 4 != 0 || column + 4 > shape.columns) continue;
-          ASSERT_EQ(hints.ofFour(column % 32), 2 * bits) << row << " " << column << " " << missing;
-        }
-      }
-    }
-  }
-}
-
-TEST(Band, ValidColumnsAreThoseThatExist) {
-  for (const BandShape& shape : kShapes) {
-    uint32_t columns = 0;
-    for (uint32_t x = 0; x < shape.words(); ++x) {
-      columns += static_cast<uint32_t>(std::popcount(shape.valid(x)));
-      ASSERT_TRUE(shape.valid(x) & 1);
-    }
-    EXPECT_EQ(columns, shape.columns);
-  }
-}
-
-/// Bands of one track with parents and a second component, filled with values of a peaked
+/// Bands of one track with parents and a second colour plane, filled with values of a peaked
 /// distribution whose scale rises from fine to coarse.
 struct Material {
   std::vector<BandPlan> plan;
@@ -182,7 +25,7 @@ struct Material {
 Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
   Random random(seed);
   Material m;
-  for (int component = 0; component < 2; ++component) {
+  for (int plane = 0; plane < 2; ++plane) {
     const auto first = static_cast<int>(m.plan.size());
     for (const Orientation orientation : {Orientation::kLL, Orientation::kHL, Orientation::kLH,
                                           Orientation::kHH, Orientation::kHL}) {
@@ -190,12 +33,12 @@ Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
       BandPlan band;
       band.shape = i < 4 ? coarse : BandShape{2 * coarse.rows, 2 * coarse.columns - 1};
       band.orientation = orientation;
-      band.log_norm = i < 4 ? 20 - 8 * component : 4;
-      band.models = static_cast<uint32_t>(i / 4 + 2 * component);
+      band.log_norm = i < 4 ? 20 - 8 * plane : 4;
+      band.models = static_cast<uint32_t>(i / 4 + 2 * plane);
       if (i == 4) band.parent = first + 1;
       if (i == 1) band.siblings = {first + 2, first + 3};
       if (i == 2 || i == 3) band.siblings = {first + 1, first + 5 - i};
-      if (component > 0) band.component = i;
+      if (plane > 0) band.companion = i;
       m.plan.push_back(band);
       BandSource source;
       source.values.assign(band.shape.cells(), 0);
@@ -410,7 +253,7 @@ void takeAway(Random& random, Material& m) {
 TEST(TrackCoding, EveryPrefixIsTrueWhereCoefficientsAreAbsent) {
   Random random(13);
   for (int trial = 0; trial < 12; ++trial) {
-    const BandShape coarse = kShapes[random() % std::size(kShapes)];
+    const BandShape coarse = kBandShapes[random() % std::size(kBandShapes)];
     Material m = material(static_cast<uint32_t>(random()), coarse, 1 + trial);
     takeAway(random, m);
     const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);

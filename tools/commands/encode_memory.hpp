@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What encoding takes of memory, known before it begins.
+#pragma once
+
+#include "tools/commands/encode_arguments.hpp"
+#include "tools/report/comparison.hpp"
+
+namespace tetrakis::tools {
+
+/// TKS_LIMIT with a sentence if encoding takes more than there may be; an estimate that is no lower
+/// than what was measured.
+Status checkEncodeMemory(const EncodeArguments& arguments, const Reference& inputs);
+
+}  // namespace tetrakis::tools

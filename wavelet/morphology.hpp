@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opening and closing of masks by squares (J. Serra, Image Analysis and Mathematical Morphology,
+// 1982). What lies outside the plane counts as marked in an erosion and as unmarked in a dilation,
+// so that an opening takes marks away and a closing adds some, at the border too.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline wavelet {
+
+/// What squares cover that lie inside the mask, an erosion and then a dilation: bays, straits and
+/// thin tongues go. marks: 0 or 1, of each sample of the plane. The squares have sides of 2 reach +
+/// 1 samples. The time is that of a few passes over the plane, whatever the reach.
+std::vector<uint8_t> opened(std::vector<uint8_t> marks, Extent plane, uint8_t reach);
+
+/// The same of what is not marked, a dilation and then an erosion: holes and gaps are filled.
+std::vector<uint8_t> closed(std::vector<uint8_t> marks, Extent plane, uint8_t reach);
+
+}  // namespace tetrakis::inline wavelet
