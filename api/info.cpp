@@ -143,6 +143,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.texture));
   info.texture_regions = sideOf(texture.regions);
   info.texture_channels = texture.channels;
+  info.texture_opaque = !texture.hasAlpha();
   info.texture_cutout = texture.alpha_bytes > 0 ? 1 + texture.hidden : 0;
   info.texture_drawn = codingOf(texture);
   info.texture_sample = static_cast<tks_sample>(texture.sample);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "texture_wavelet/colour/colour_fit.hpp"
+#include "texture_wavelet/colour/further_colour_fit.hpp"
 #include "texture_wavelet/colour/lossless_colour.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/texture_plan.hpp"
@@ -64,11 +65,14 @@ Planes sheared(const ColourTransform& colour, int fraction_bits, Planes planes) 
   return planes;
 }
 
-ColourTransform fitColours(const Planes& channels, Extent extent, Purpose purpose) {
+ColourTransform fitColours(const Planes& channels, const Texels& texels, Purpose purpose) {
   std::vector<const int32_t*> pointers;
   for (const std::vector<int32_t>& channel : channels) pointers.push_back(channel.data());
   const auto fit = purpose == Purpose::kLossy ? fitColour : chooseLosslessColour;
-  return fit(pointers, extent);
+  ColourTransform colour = fit(pointers, texels.extent());
+  if (channels.size() % 2 == 0 && texels.opaque)
+    colour.further_shears = fitFurtherColour(colour, pointers, texels.extent(), purpose);
+  return colour;
 }
 
 /// Colour planes with the filters that suit them: for the last bit all of them say which, else
@@ -116,7 +120,7 @@ ColourPlanes colourPlanesOf(const WaveletCoding& coding, Mask coded, uint64_t op
     return {sheared(colour, like->wavelet.fraction_bits, std::move(filled)), colour,
             forWindows(like->wavelet, coding.options), std::move(bridges)};
   }
-  const ColourTransform colour = fitColours(filled, extent, coding.purpose);
+  const ColourTransform colour = fitColours(filled, coding.source.texels, coding.purpose);
   auto [planes, wavelet] = fitFilters(coding, colour, bridges.lifting(coded), std::move(filled));
   return {std::move(planes), colour, forWindows(wavelet, coding.options), std::move(bridges)};
 }

@@ -40,6 +40,10 @@ std::vector<double> energiesOf(size_t planes, const ColourTransform& colour, int
         planeEnergies(colour, level, {weights[0], weights[1], weights[2]});
     std::copy(rgb.begin(), rgb.end(), energies.begin());
   }
+  if (planes % 2 == 0) {
+    const std::array<double, 3> further = furtherEnergies(colour, planes, level);
+    for (size_t c = 0; c + 1 < planes; ++c) energies[c] += weights[planes - 1] * further[c];
+  }
   return energies;
 }
 
@@ -64,6 +68,8 @@ void describeColour(const ColourTransform& colour, TextureHeader& header) {
   std::copy(colour.shears.begin(), colour.shears.end(), header.colour_shears.front().begin());
   for (const Shears& shears : colour.level_shears)
     std::copy(shears.begin(), shears.end(), header.colour_shears.emplace_back().begin());
+  std::copy(colour.further_shears.begin(), colour.further_shears.end(),
+            header.further_shears.begin());
 }
 
 /// The codewords ahead of the coefficients: the mask of a cut-out, then the overlay. Empty: there

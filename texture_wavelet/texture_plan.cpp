@@ -62,6 +62,9 @@ ColourTransform colourOf(const TextureHeader& header) {
   transform.shears = shears_at(0);
   for (size_t i = 1; i < header.colour_shears.size(); ++i)
     transform.level_shears.push_back(shears_at(i));
+  std::transform(header.further_shears.begin(), header.further_shears.end(),
+                 transform.further_shears.begin(),
+                 [](int64_t shear) { return static_cast<int16_t>(shear); });
   return transform;
 }
 

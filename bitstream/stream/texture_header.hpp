@@ -75,6 +75,7 @@ struct TextureHeader {
   uint8_t colour_order = 0;
   /// Textures of 3 colour planes or more have the shears of samples, then those of coefficients.
   std::vector<std::array<int64_t, 6>> colour_shears{{}};
+  std::array<int64_t, 3> further_shears{};  ///< of the last plane, a further colour
   std::array<uint16_t, 4> centre{};   ///< one per colour plane; of a table a place
   std::array<int64_t, 4> priority{};  ///< 16 log2 of each plane's weight, for the pass order
   WaveletHeader wavelet;
@@ -106,7 +107,7 @@ struct TextureHeader {
     LineFields lines(repeats, extent());
     v.varint("texture_width", lines.whole.width, 1, kMaxTextureSide);
     v.varint("texture_height", lines.whole.height, 1, kMaxTextureSide);
-    const uint8_t kind = visitChannels(v);
+    const Alpha alpha = visitChannels(v);
     auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0) +
                                      (lines.repeated() ? kWithRepeats : 0) +
                                      (bridge > 0 ? kWithBridges : 0));
@@ -130,7 +131,7 @@ struct TextureHeader {
     if (ordered) priorities.visit(v);
     if (direct()) return;
     wavelet.visit(v);
-    if (kind == kCutOut) {
+    if (alpha == kCutOut) {
       v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
       v.u8("hidden", hidden, 0, 1);
     }
@@ -141,6 +142,8 @@ struct TextureHeader {
       v.zigzag("priority", priority[c], kMaxPriority);
     }
     if (colourPlanes() >= 3) visitShears(v);
+    for (size_t c = 0; alpha == kOpaque && c + 1 < colourPlanes() && v.ok(); ++c)
+      v.zigzag("further_shear", further_shears[c], INT16_MAX);
     if (tables.present) tables.visit(v, colourPlanes());
   }
   bool drawn() const { return direct() && !stored; }

@@ -157,10 +157,11 @@ TextureHeader readTexture(Reader& in) {
   TextureHeader t;
   t.width = static_cast<int>(in.varint(1, 1 << 15));
   t.height = static_cast<int>(in.varint(1, 1 << 15));
-  const int kind = in.u8(1, 6);
-  const bool cutout = kind > 4;
-  t.components = cutout ? 2 * kind - 9 : kind;
-  t.channels = t.components + cutout;
+  const int kind = in.u8(1, 8);
+  const bool cutout = kind == 5 || kind == 6;
+  t.opaque = kind > 6;
+  t.channels = t.opaque ? 2 * (kind - 6) : cutout ? 2 * (kind - 4) : kind;
+  t.components = t.channels - cutout;
   const int type = in.u8(0, 30);
   const bool tables = type & 4, bridges = type & 16;
   t.sample = type % 4;
@@ -193,6 +194,7 @@ TextureHeader readTexture(Reader& in) {
       for (int& h : shears) h = in.zigzag(32767);
     }
   }
+  for (int i = 0; t.opaque && i + 1 < t.channels; ++i) t.furtherShears[i] = in.zigzag(32767);
   if (!tables) return t;
   std::vector<uint32_t> values;
   for (int i = 0; i < t.components; ++i)

@@ -85,6 +85,7 @@ struct TextureHeader {
   uint64_t alphaBytes = 0;    ///< 0: no cut-out
   uint64_t overlayBytes = 0;  ///< 0: no overlay
   bool hidden = false;
+  bool opaque = false;  ///< the last of two or four channels is no alpha
   int bridge = 0;  ///< 0: none
   WaveletHeader wavelet;
   PriorityHeader priorities;
@@ -94,6 +95,7 @@ struct TextureHeader {
   std::array<std::vector<std::array<int, 2>>, 4> bandPriority;
   int colourOrder = 0;
   std::vector<std::array<int, 6>> shears;     ///< of samples, of level 2, 3, ...
+  std::array<int, 3> furtherShears = {};      ///< of the last channel of an opaque texture
   std::vector<std::vector<uint32_t>> tables;  ///< of each component; empty: it has none
 };
 

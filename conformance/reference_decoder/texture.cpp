@@ -15,7 +15,8 @@ namespace {
 std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part>& parts) {
   std::vector<Band> all;
   for (int c = 0; c < header.components; ++c) {
-    const bool alpha = header.components % 2 == 0 && c == header.components - 1;
+    const bool alpha =
+        !header.opaque && header.components % 2 == 0 && c == header.components - 1;
     const int kind = alpha ? 2 : c == 0 ? 0 : 1;
     const size_t first = all.size();
     std::vector<Band> bands = bandsOf(header.wavelet, parts, first);
@@ -79,6 +80,12 @@ int32_t valueAt(const std::vector<uint32_t>& table, int64_t v, int f, int32_t la
 std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4> planes, int f) {
   constexpr size_t kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                     {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  if (header.opaque) {
+    int64_t sum = 64;
+    for (size_t i = 0; i < 3; ++i) sum += int64_t{header.furtherShears[i]} * planes[i];
+    int32_t& last = planes[static_cast<size_t>(header.channels) - 1];
+    last = wrap(last - (wrap(sum) >> 7));
+  }
   std::array<int32_t, 4> channels = planes;
   if (header.components >= 3) {
     unshear(header.shears[0], Sums::kOfSamples, {&planes[0], &planes[1], &planes[2]});

@@ -11,6 +11,20 @@
 namespace tetrakis::gdal {
 namespace {
 
+bool hasAlpha(GDALDataset& dataset) {
+  const int last = textureBands(dataset).back();
+  return dataset.GetRasterBand(last)->GetColorInterpretation() == GCI_AlphaBand;
+}
+
+bool isMasked(GDALDataset& dataset) {
+  return dataset.GetRasterBand(1)->GetMaskFlags() == GMF_PER_DATASET;
+}
+
+/// Texels that a mask of the dataset leaves out have alpha 0.
+bool addsAlpha(GDALDataset& dataset) {
+  return dataset.GetRasterCount() % 2 == 1 && isMasked(dataset);
+}
+
 struct DatasetCloser {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
@@ -28,19 +42,13 @@ std::string objection(GDALDataset& dataset) {
     if (each.GetColorTable() != nullptr)
       return "A texture has no colour table (gdal_translate -expand rgb).";
   }
-  const int last = textureBands(dataset).back();
-  const bool alpha = dataset.GetRasterBand(last)->GetColorInterpretation() == GCI_AlphaBand;
-  if (alpha != (bands % 2 == 0)) {
-    return "The bands of a texture are grey, grey and alpha, RGB, or RGB and alpha "
+  if (bands % 2 != 0 && hasAlpha(dataset)) {
+    return "The bands of a texture are grey or RGB, then alpha or a further colour "
            "(gdal_translate -b, -colorinterp).";
   }
+  if (bands % 2 == 0 && !hasAlpha(dataset) && isMasked(dataset))
+    return "A texture whose last band is a colour has no mask (gdal_translate -mask none).";
   return "";
-}
-
-/// Texels that a mask of the dataset leaves out have alpha 0.
-bool masked(GDALDataset& dataset) {
-  return dataset.GetRasterCount() % 2 == 1 &&
-         dataset.GetRasterBand(1)->GetMaskFlags() == GMF_PER_DATASET;
 }
 
 bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
@@ -112,8 +120,9 @@ std::unique_ptr<CopiedTexture> copyTexture(GDALDataset& dataset) {
   image.size = sizeof image;
   image.width = static_cast<uint32_t>(dataset.GetRasterXSize());
   image.height = static_cast<uint32_t>(dataset.GetRasterYSize());
-  image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + masked(dataset));
+  image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + addsAlpha(dataset));
   image.sample = dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
+  image.opaque = !addsAlpha(dataset) && !hasAlpha(dataset);
   if (!readTexels(dataset, *copy)) return nullptr;
   if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
     copy->crs = crsTexts(*system);

@@ -19,8 +19,9 @@ namespace {
 
 constexpr uint32_t kOverviewEnds = 256;  ///< no overview where both sides are at most this
 
-GDALColorInterp colourOf(uint32_t channels, uint32_t channel) {
-  if (channels % 2 == 0 && channel + 1 == channels) return GCI_AlphaBand;
+GDALColorInterp colourOf(uint32_t channels, uint32_t channel, bool has_alpha) {
+  if (channels % 2 == 0 && channel + 1 == channels)
+    return has_alpha ? GCI_AlphaBand : GCI_Undefined;
   if (channels <= 2) return GCI_GrayIndex;
   constexpr GDALColorInterp kColours[] = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand};
   return kColours[channel];
@@ -128,7 +129,7 @@ Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_valu
   const bool heights = source_->part() == TKS_PART_HEIGHTS;
   for (uint32_t channel = 0; channel < source_->channels(); ++channel) {
     BandFacts facts;
-    facts.colour = colourOf(source_->channels(), channel);
+    facts.colour = colourOf(source_->channels(), channel, source_->hasAlpha());
     if (heights) {
       if (info.has_nodata) facts.nodata = info.nodata;
       facts.scale = info.scale;
@@ -256,7 +257,8 @@ bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
                   window.width * pixel);
       return true;
     }
-    const FinerLevel finer{pixels, area, source_->sample(), source_->channels(), void_value_};
+    const FinerLevel finer{pixels, area, source_->sample(), source_->channels(),
+                            source_->hasAlpha(), void_value_};
     makeOverview(finer, across, down, window, out.data());
     return true;
   } catch (const std::bad_alloc&) {

@@ -35,7 +35,7 @@ class Averager {
         if (share == 0) continue;
         const T* const from = at(x + column, y + row);
         if (isVoid(*from)) continue;
-        const double alpha = hasAlpha() ? static_cast<double>(from[finer_.channels - 1]) : 1;
+        const double alpha = finer_.has_alpha ? static_cast<double>(from[finer_.channels - 1]) : 1;
         weight += share;
         opaque += share * alpha;
         for (uint32_t channel = 0; channel < finer_.channels; ++channel) {
@@ -49,7 +49,7 @@ class Averager {
       return;
     }
     for (uint32_t channel = 0; channel < finer_.channels; ++channel) {
-      const bool colour = !hasAlpha() || channel + 1 < finer_.channels;
+      const bool colour = !finer_.has_alpha || channel + 1 < finer_.channels;
       out[channel] =
           rounded<T>(colour && opaque > 0 ? sums[channel] / opaque : plain[channel] / weight);
     }
@@ -57,8 +57,6 @@ class Averager {
   }
 
  private:
-  bool hasAlpha() const { return finer_.channels % 2 == 0; }
-
   const T* at(uint32_t x, uint32_t y) const {
     const tks_window& window = finer_.window;
     const uint64_t pixel = uint64_t{y - window.y} * window.width + (x - window.x);

@@ -20,6 +20,7 @@ struct FinerLevel {
   tks_window window;  ///< what part
   tks_sample sample;
   uint32_t channels;
+  bool has_alpha;                ///< the last channel
   std::optional<double> nodata;  ///< these are void: no part of any mean
 };
 

@@ -226,6 +226,10 @@ uint32_t Source::channels() const {
   return part_ == TKS_PART_HEIGHTS ? 1 : info_.texture_channels;
 }
 
+bool Source::hasAlpha() const {
+  return part_ == TKS_PART_TEXTURE && info_.texture_opaque == 0;
+}
+
 tks_sample Source::sample() const {
   return part_ == TKS_PART_HEIGHTS ? info_.sample : info_.texture_sample;
 }

@@ -45,6 +45,7 @@ class Source {
   uint32_t width(uint32_t level) const;
   uint32_t height(uint32_t level) const;
   uint32_t channels() const;
+  bool hasAlpha() const;  ///< as the last channel
   tks_sample sample() const;
   size_t pixelBytes() const { return channels() * tks_sample_bytes(sample()); }
   uint32_t coarsestLevel() const;

@@ -331,6 +331,7 @@ typedef struct tks_info {
                                    other CRS is stated */
   const char* texture_geo_keys;
   tks_index index;         /* TKS_INDEX_WINDOWS: by how its packets lie */
+  int texture_opaque;      /* no channel is alpha (tks_image) */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

@@ -65,7 +65,7 @@ TEST_F(ImageFiles, FormatsThatOpenImageIoWritesAreExactWhereTheyAreTaken) {
         const std::string file = path(std::string("a.") + name);
         // Even sides: see writeOther on formats that fail with others.
         const ImageFile image = randomImage(64, 64, channels, sample);
-        const Status judged = checkImageFormat(file, channels, sample);
+        const Status judged = checkImageFormat(file, {.channels = channels, .sample = sample});
         const Status written = writeImage(file, image);
         EXPECT_EQ(judged.code(), written.code()) << written.message();
         if (!written.ok()) continue;
@@ -86,7 +86,7 @@ TEST_F(ImageFiles, LossyFormatsAreCloseAndFloatFormatsRefused) {
   ASSERT_TRUE(read.ok()) << read.status().message();
   EXPECT_NEAR(int(read->data[0]), 100, 3);
   for (const char* name : {"a.exr", "a.hdr", "a.dpx", "a.fits", "a.xyz", "a"})
-    EXPECT_EQ(checkImageFormat(path(name), 3, TKS_U8).code(), TKS_USAGE) << name;
+    EXPECT_EQ(checkImageFormat(path(name), {.channels = 3}).code(), TKS_USAGE) << name;
 }
 
 TEST_F(ImageFiles, AlphaThatReadingMultipliesIsRefused) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <type_traits>
 
 namespace tetrakis::inline colour {
@@ -43,6 +44,24 @@ void shearAll(const Shears& shears, std::span<int32_t* const> planes, size_t cou
     const Step& step = kSteps[index];
     shear<Sum, kForward>(planes[step.plane], planes[step.first], planes[step.second],
                          {shears[2 * index], shears[2 * index + 1]}, count);
+  }
+}
+
+/// The last plane follows those before it, which are 1 or 3.
+template <bool kForward>
+void shearFurther(const ColourTransform& transform, std::span<int32_t* const> planes,
+                  size_t count) {
+  const auto& shears = transform.further_shears;
+  if (planes.size() % 2 != 0 || shears == std::array<int16_t, 3>{}) return;
+  constexpr uint32_t kHalf = 1u << (kShearFractionBits - 1);
+  int32_t* const last = planes.back();
+  for (size_t i = 0; i < count; ++i) {
+    uint32_t sum = kHalf;
+    for (size_t c = 0; c + 1 < planes.size(); ++c)
+      sum += static_cast<uint32_t>(shears[c]) * static_cast<uint32_t>(planes[c][i]);
+    const auto change = static_cast<uint32_t>(static_cast<int32_t>(sum) >> kShearFractionBits);
+    const auto value = static_cast<uint32_t>(last[i]);
+    last[i] = static_cast<int32_t>(kForward ? value + change : value - change);
   }
 }
 
@@ -102,16 +121,19 @@ void forwardColour(const ColourTransform& transform, std::span<int32_t* const> p
     addCentre(planes[p], count, -uint32_t{transform.centre[p]});
     if (fraction_bits > 0) addFraction(planes[p], count, fraction_bits);
   }
-  if (planes.size() < 3) return;
-  const auto& order = orderOf(transform);
-  swapPlanes(planes[0], planes[order[0]], count);
-  swapPlanes(planes[1], planes[secondPartner(order)], count);
-  shearAll<int32_t, true>(transform.shears, planes, count);
+  if (planes.size() >= 3) {
+    const auto& order = orderOf(transform);
+    swapPlanes(planes[0], planes[order[0]], count);
+    swapPlanes(planes[1], planes[secondPartner(order)], count);
+    shearAll<int32_t, true>(transform.shears, planes, count);
+  }
+  shearFurther<true>(transform, planes, count);
 }
 
 void inverseShears(const ColourTransform& transform, std::span<int32_t* const> planes,
                    size_t count) {
   assert(planes.size() >= 1 && planes.size() <= transform.centre.size());
+  shearFurther<false>(transform, planes, count);
   if (planes.size() < 3) return;
   const auto& order = orderOf(transform);
   shearAll<int32_t, false>(transform.shears, planes, count);
@@ -160,6 +182,20 @@ std::array<double, 3> planeEnergies(const ColourTransform& transform, int level,
     if (const Shears* shears = shearsAt(transform, level)) shearExactly(*shears, false, colour);
     shearExactly(transform.shears, false, colour);
     for (size_t j = 0; j < 3; ++j) energies[i] += weights[order[j]] * colour[j] * colour[j];
+  }
+  return energies;
+}
+
+std::array<double, 3> furtherEnergies(const ColourTransform& transform, size_t planes, int level) {
+  std::array<double, 3> energies{};
+  for (size_t i = 0; i + 1 < planes; ++i) {
+    std::array<double, 3> colour{};
+    colour[i] = 1;
+    const Shears* const shears = planes > 3 ? shearsAt(transform, level) : nullptr;
+    if (shears != nullptr) shearExactly(*shears, false, colour);
+    double change = 0;
+    for (size_t j = 0; j + 1 < planes; ++j) change += transform.further_shears[j] * colour[j];
+    energies[i] = std::pow(change / (1 << kShearFractionBits), 2);
   }
   return energies;
 }

@@ -14,6 +14,9 @@
 // These come out near those of the differences and the mean that lossless coders use: each
 // plane is rounded once, and grey texels have no chroma. Bytes against a rotation of unit rows
 // (four shears): lossless -8 %, lossy +0.6 %.
+//
+// A further colour, which is the last of 2 or 4 channels, such as near infrared, follows the planes
+// before it: cn += round((k0 c0 + k1 c1 + k2 c2) / 128). Alpha follows none.
 #pragma once
 
 #include <array>
@@ -39,13 +42,14 @@ struct ColourTransform {
   /// Further shears of coefficients: [i] of level i + 2, the last one of all coarser levels and of
   /// the low band.
   std::vector<Shears> level_shears;
+  /// What the last of 2 or 4 planes follows those before it by, in the same unit.
+  std::array<int16_t, 3> further_shears{};
 
   static constexpr size_t kMostLevelShears = 7;
 };
 
-/// Channels to colour planes, in place. planes: 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGB,
-/// alpha) distinct planes of `count` values. Only RGB is sheared, every plane is centred. The
-/// colour planes come with fraction_bits (0 to 8) binary places. inverseShears() and
+/// Channels to colour planes, in place. planes: 1 (grey), 2 (grey, alpha or a further colour), 3
+/// (RGB) or 4 distinct planes of `count` values. Alpha is only centred. The colour planes come with fraction_bits (0 to 8) binary places. inverseShears() and
 /// restoreSamples() undo it exactly. Arithmetic wraps modulo 2^32; transforms of fitColour and RGB
 /// of at most 18 bits with the fraction stay clear of it.
 void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
@@ -81,5 +85,8 @@ Matrix3 colourMatrix(const ColourTransform& transform, int level = 1);
 /// level's coefficients. weights: what the squared error of each channel counts.
 std::array<double, 3> planeEnergies(const ColourTransform& transform, int level = 1,
                                     const std::array<double, 3>& weights = {1, 1, 1});
+
+/// Squared error of the last of `planes` channels for a unit squared error in each plane before it.
+std::array<double, 3> furtherEnergies(const ColourTransform& transform, size_t planes, int level);
 
 }  // namespace tetrakis::inline colour

@@ -77,6 +77,7 @@ Json textureJson(const tks_info& info) {
   return {{"width", info.texture_width},
           {"height", info.texture_height},
           {"channels", info.texture_channels},
+          {"alpha", info.texture_opaque == 0},
           {"sample", sampleName(info.texture_sample)},
           {"coding", kCodings.at(static_cast<size_t>(info.texture_drawn))},
           {"cutout", info.texture_cutout != 0},

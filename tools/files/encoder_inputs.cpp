@@ -52,6 +52,7 @@ tks_image asImage(const ImageFile& file) {
   image.channels = file.channels;
   image.sample = file.sample;
   image.data = file.data.data();
+  image.opaque = file.opaque;
   setPlace(file.place, image);
   return image;
 }

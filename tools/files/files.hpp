@@ -60,12 +60,20 @@ struct Note {
 using Notes = std::vector<Note>;
 
 /// 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA; sample is TKS_U8 or TKS_U16; interleaved, host byte order.
+/// opaque: no channel is alpha, the last of 2 or 4 is a further colour, such as near infrared.
 struct ImageFile {
   uint32_t width = 0, height = 0, channels = 0;
   tks_sample sample = TKS_U8;
-  std::vector<std::byte> data;
+  std::vector<std::byte> data{};
   Georeference place{};
+  bool opaque = false;
+
+  bool hasAlpha() const { return channels % 2 == 0 && !opaque; }
+  bool hasFurtherColour() const { return channels % 2 == 0 && opaque; }
 };
+
+/// The image as pictures show it: grey or RGB of one with a further colour.
+ImageFile withoutFurtherColour(const ImageFile& image);
 
 /// What a file holds, its georeference included, as the encoder takes it. The file outlives it.
 tks_heights asHeights(const HeightFile& file);
@@ -107,12 +115,14 @@ Status writeHeights(const std::string& path, const HeightFile& heights,
 /// Reads what OpenImageIO reads; "-" reads standard input. Integers of other depths are scaled to 8
 /// or 16 bits, palette and CMYK files are converted to RGB, an orientation tag is applied, and
 /// `note` then says so ("" otherwise). Float or signed images and more than 4 channels are refused
-/// with TKS_USAGE. Alpha is as stored; embedded colour profiles are kept out of the samples. The
+/// with TKS_USAGE. A fourth channel, or a second one, that a TIFF does not call alpha is a further
+/// colour. Alpha is as stored; embedded colour profiles are kept out of the samples. The
 /// place is that of a TIFF's tags or of a world file beside, unless the picture had to be turned.
 Result<ImageFile> readImage(const std::string& path, std::string* note = nullptr);
 
-/// TKS_USAGE if OpenImageIO writes no format of this name, or one that cannot hold such an image.
-Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample);
+/// TKS_USAGE if OpenImageIO writes no format of this name, or one that cannot hold such an image,
+/// whose data is not looked at. Only a TIFF holds a further colour.
+Status checkImageFormat(const std::string& path, const ImageFile& image);
 
 /// Writes what checkImageFormat lets pass. Exact but for .jpg (quality 95, 4:4:4), .webp, .gif and
 /// .heic. A known place goes into the tags of a TIFF, or into a world file beside.

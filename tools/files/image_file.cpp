@@ -64,7 +64,7 @@ std::string noteOn(const Raster& raster, bool widened) {
   if (widened) add("its 16 bits say no more than 8, which would take far fewer bytes");
   if (raster.shape.sample == PictureSample::kU16 && bits > 8 && bits < 16)
     add((std::to_string(bits) + " bits stretched to 16").c_str());
-  if (raster.unnamed_alpha) add("last channel taken for alpha, which the file does not call it");
+  if (raster.unnamed_alpha) add("last channel taken for a colour, because the file does not call it alpha");
   if (raster.nodata) add("nodata value not applied and not kept");
   if (raster.mask) add("mask not applied and not kept");
   if (raster.further_pages) add("further pages left out");
@@ -122,6 +122,7 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (!data.ok()) return data.status();
   ImageFile image{static_cast<uint32_t>(shape.width), static_cast<uint32_t>(shape.height),
                   static_cast<uint32_t>(shape.channels), *sample, std::move(*data)};
+  image.opaque = raster->unnamed_alpha;
   if (raster->alpha == Raster::Alpha::kMultiplied && !isOpaque(image)) {
     return Status(TKS_USAGE, raster->name +
                                  " has an alpha that reading multiplies into the colours: convert "

@@ -64,9 +64,9 @@ Result<const Format*> formatNamed(const std::string& extension) {
   return format == kFormats.end() ? nullptr : format;
 }
 
-std::string wordsFor(uint32_t channels, tks_sample sample) {
-  return std::to_string(channels) + (channels == 1 ? " channel of " : " channels of ") +
-         std::to_string(8 * tks_sample_bytes(sample)) + " bits";
+std::string wordsFor(const ImageFile& image) {
+  return std::to_string(image.channels) + (image.channels == 1 ? " channel of " : " channels of ") +
+         std::to_string(8 * tks_sample_bytes(image.sample)) + " bits";
 }
 
 Status checkShape(const ImageFile& image) {
@@ -82,7 +82,7 @@ Status checkShape(const ImageFile& image) {
 
 bool same(const ImageFile& a, const ImageFile& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels &&
-         a.sample == b.sample && a.data == b.data;
+         a.sample == b.sample && a.opaque == b.opaque && a.data == b.data;
 }
 
 Status writeOther(const std::string& path, const ImageFile& image, const Format& format) {
@@ -107,13 +107,13 @@ Status writePixels(const std::string& path, const ImageFile& image, const Format
   if (kind != "png" && kind != "jpeg" && kind != "tiff") return writeOther(path, image, format);
   const auto bytes = kind == "png"    ? encodePng(image)
                      : kind == "jpeg" ? encodeJpeg(image, kQuality)
-                                      : encodeRaster("tiff", {shapeOf(image), image.data, "zip"});
+                                      : encodeRaster("tiff", {shapeOf(image), image.data, "zip", image.opaque});
   return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
 }
 
 }  // namespace
 
-Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample sample) {
+Status checkImageFormat(const std::string& path, const ImageFile& image) {
   const std::string name = formatOf(path, "");
   const auto format = formatNamed(name);
   if (!format.ok()) return format.status();
@@ -121,18 +121,22 @@ Status checkImageFormat(const std::string& path, uint32_t channels, tks_sample s
     return {TKS_USAGE, "cannot tell a format of textures from " + quoted(path) +
                            ": end the name in .png, .tif, .jpg or another of docs/CLI.md"};
   }
-  const unsigned held = sample == TKS_U8 ? (*format)->channels8 : (*format)->channels16;
-  if (held >> channels & 1u) return {};
-  return {TKS_USAGE, "a ." + name + " file cannot hold " + wordsFor(channels, sample) +
-                         ": write a .png instead"};
+  if (image.hasFurtherColour()) {
+    if ((*format)->name == std::string_view("tiff")) return {};
+    return {TKS_USAGE, "a ." + name + " file has no channel for a colour beside " +
+                           (image.channels == 2 ? "grey" : "red, green and blue") +
+                           ": write a .tif instead"};
+  }
+  const unsigned held = image.sample == TKS_U8 ? (*format)->channels8 : (*format)->channels16;
+  if (held >> image.channels & 1u) return {};
+  return {TKS_USAGE,
+          "a ." + name + " file cannot hold " + wordsFor(image) + ": write a .png instead"};
 }
 
 Status writeImage(const std::string& path, const ImageFile& image, const std::string& format) {
   if (Status status = checkShape(image); !status.ok()) return status;
   const std::string name = formatOf(path, format);
-  if (Status status =
-          checkImageFormat(format.empty() ? path : "x." + name, image.channels, image.sample);
-      !status.ok())
+  if (Status status = checkImageFormat(format.empty() ? path : "x." + name, image); !status.ok())
     return status;
   const Format& chosen = **formatNamed(name);
   if (Status status = writePixels(path, image, chosen); !status.ok()) return status;

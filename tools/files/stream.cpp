@@ -104,6 +104,7 @@ Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>&
   file.channels = info.texture_channels;
   file.sample = info.texture_sample;
   file.data = std::move(*texels);
+  file.opaque = info.texture_opaque != 0;
   file.place.registration = info.texture_registration;
   file.place.crs = info.texture_crs;
   file.place.geo_keys = info.texture_geo_keys;

@@ -119,7 +119,7 @@ std::vector<float> normalsOf(const MeshFile& mesh, const std::vector<uint32_t>& 
 /// A texture on the GPU.
 class Texture {
  public:
-  Texture(const ImageFile& image, const GlLimits& limits) : opaque_(image.channels % 2 == 1) {
+  Texture(const ImageFile& image, const GlLimits& limits) : opaque_(!image.hasAlpha()) {
     const std::vector<TextureLevel> levels = texturePyramid(image, limits.texture);
     bind();
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);

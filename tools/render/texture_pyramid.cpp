@@ -16,7 +16,7 @@ uint8_t sampleAt(const ImageFile& image, size_t index) {
 }
 
 TextureLevel premultiplied(const ImageFile& image) {
-  const bool has_alpha = image.channels == 2 || image.channels == 4;
+  const bool has_alpha = image.hasAlpha();
   const bool is_grey = image.channels < 3;
   const size_t texels = size_t{image.width} * image.height;
   TextureLevel level{image.width, image.height, std::vector<uint8_t>(4 * texels)};

@@ -165,6 +165,7 @@ Result<GeographicBounds> GroundTexture::bounds() const {
 }
 
 void GroundTexture::use(ImageFile mip, uint32_t level) {
+  if (mip.hasFurtherColour()) mip = withoutFurtherColour(mip);
   mip_ = mip.sample == TKS_U8 ? std::move(mip) : reducedTo8Bits(mip);
   level_ = level;
 }

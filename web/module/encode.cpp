@@ -68,6 +68,7 @@ tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) 
   numbers.take(image.has_geotransform);
   numbers.take(image.geotransform);
   numbers.take(image.registration);
+  numbers.take(image.opaque);
   image.crs = texts[5];
   image.geo_keys = texts[6];
   return image;
@@ -82,7 +83,7 @@ const char* web_encode_names() {
   return "width height sample scale offset step spacingX spacingY hasNodata nodata "
          "hasGeotransform g0 g1 g2 g3 g4 g5 registration "
          "textureWidth textureHeight textureChannels textureSample "
-         "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration "
+         "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration textureOpaque "
          "bytes psnr maxError lossless triangles regions index weights";
 }
 

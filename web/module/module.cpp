@@ -28,7 +28,8 @@ const char* web_names() {
          "spacingX spacingY lossless hasVoids hasNodata nodata maxError trianglesHint regions "
          "textureRegions textureWidth textureHeight textureChannels textureCoarsestLevel "
          "textureCutout textureSample heightsRmse texturePsnr hasGeotransform g0 g1 g2 g3 g4 g5 "
-         "registration textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration";
+         "registration textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration "
+         "textureOpaque";
 }
 
 tks_status web_numbers(const tks_decoder* decoder, double* out) {
@@ -87,7 +88,8 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
                             i.texture_geotransform[3],
                             i.texture_geotransform[4],
                             i.texture_geotransform[5],
-                            double(i.texture_registration)};
+                            double(i.texture_registration),
+                            double(i.texture_opaque)};
   std::copy(std::begin(numbers), std::end(numbers), out);
   return TKS_OK;
 }
@@ -101,15 +103,16 @@ const char* web_text(const tks_decoder* decoder, int which) {
   return which >= 0 && which < 4 ? texts[which] : "";
 }
 
-/// Texels of 1 to 4 channels as RGBA of 8 bits each. Texels of 16 bits lose their lower ones.
-void web_rgba(const void* texels, uint8_t* out, size_t count, uint32_t channels,
-              tks_sample sample) {
+/// Texels of 1 to 4 channels as RGBA of 8 bits each. Texels of 16 bits lose their lower ones;
+/// opaque ones lose a further colour.
+void web_rgba(const void* texels, uint8_t* out, size_t count, uint32_t channels, tks_sample sample,
+              int opaque) {
   const auto* const bytes = static_cast<const uint8_t*>(texels);
   const auto* const words = static_cast<const uint16_t*>(texels);
   const auto value = [&](size_t i) {
     return sample == TKS_U16 ? static_cast<uint8_t>(words[i] >> 8) : bytes[i];
   };
-  const bool colour = channels > 2, alpha = channels % 2 == 0;
+  const bool colour = channels > 2, alpha = !opaque && channels % 2 == 0;
   for (size_t i = 0; i < count; ++i) {
     const size_t first = i * channels;
     out[4 * i] = value(first);

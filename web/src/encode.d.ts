@@ -37,6 +37,8 @@ export interface TextureInput {
   height: number;
   /** 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA. Default: as the length of the data tells. */
   channels?: number;
+  /** No channel is alpha: the last of 2 or 4 is a further colour, such as near infrared. */
+  opaque?: boolean;
   crs?: string;
   geotransform?: ArrayLike<number>;
   registration?: Registration;

@@ -59,6 +59,7 @@ function textureFields(texture) {
   checkSize(texture, channels, 'texture');
   return {
     textureWidth: width, textureHeight: height, textureChannels: channels, textureSample: sample,
+    textureOpaque: Number(texture.opaque ?? false),
     textureRegistration: oneOf(REGISTRATIONS, texture.registration, 'registration'),
     ...placed(texture.geotransform, 'textureHasGeotransform', 't'),
   };

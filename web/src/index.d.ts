@@ -92,6 +92,8 @@ export interface TerrainInfo {
   textureWidth: number;
   textureHeight: number;
   textureChannels: number;
+  /** No channel is alpha: the last of 2 or 4 is a further colour, such as near infrared. */
+  textureOpaque: boolean;
   /** What the prefix states of its quality, in `unit` and dB; less than 0: nothing yet. */
   heightsRmse: number;
   texturePsnr: number;

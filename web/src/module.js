@@ -173,7 +173,7 @@ class Opened {
     });
     const info = Object.fromEntries(names.map((name, i) => [name, numbers[i]]));
     for (const name of Object.keys(info)) {
-      if (/^(h|textureH)as[A-Z]|^lossless$/.test(name)) info[name] = info[name] !== 0;
+      if (/^(h|textureH)as[A-Z]|^(lossless|textureOpaque)$/.test(name)) info[name] = info[name] !== 0;
     }
     const gather = (letter) =>
       Array.from({length: 6}, (_, i) => {
@@ -215,7 +215,8 @@ class Opened {
     return instance.with(bytes, (texels) => {
       this.check(instance.calls.tks_decode_texture(this.decoder, texels, bytes));
       return instance.with(4 * count, (out) => {
-        instance.calls.web_rgba(texels, out, count, info.textureChannels, info.textureSample);
+        instance.calls.web_rgba(texels, out, count, info.textureChannels, info.textureSample,
+          Number(info.textureOpaque));
         return instance.copy(Uint8ClampedArray, out, 4 * count);
       });
     });

@@ -75,9 +75,7 @@ export class TksTerrain extends Mesh {
     this.bytes = bytes;
     this.pixelError = pixelError;
     this.frame = null;
-    if (terrain.info.textureCutout || [2, 4].includes(terrain.info.textureChannels)) {
-      this.material.alphaTest = 0.5;
-    }
+    if (terrain.info.hasTexture && !terrain.info.textureOpaque) this.material.alphaTest = 0.5;
   }
 
   /** Shows what opening brought. */

@@ -64,6 +64,9 @@ function placeOf(image) {
   };
 }
 
+/** Of the tag ExtraSamples (TIFF 6.0): alpha that is multiplied into the colours, or is not. */
+const ALPHAS = [1, 2];
+
 async function readTiff(name, buffer) {
   const image = await (await fromArrayBuffer(buffer)).getImage();
   const width = image.getWidth(), height = image.getHeight();
@@ -78,7 +81,8 @@ async function readTiff(name, buffer) {
   }
   if (isImage) {
     const kept = Math.min(channels, 4);
-    return {texture: {...place, width, height, channels: kept,
+    const opaque = !ALPHAS.includes(image.fileDirectory.ExtraSamples?.[0]);
+    return {texture: {...place, width, height, channels: kept, opaque,
       data: kept === channels ? data : firstBands(data, channels, kept)}};
   }
   // Samples may be scaled, as GDAL says it.

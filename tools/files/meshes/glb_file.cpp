@@ -2,6 +2,7 @@
 // Binary glTF 2.0 (ISO/IEC 12113): one JSON chunk that describes, one binary chunk that holds.
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "tools/files/meshes/glb_document.hpp"
 #include "tools/files/meshes/mesh_writers.hpp"
@@ -16,12 +17,14 @@ using nlohmann::json;
 Status addMaterial(Glb& glb, const ImageFile* image, MeshTexture format) {
   json material{{"name", "terrain"},
                 {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+  std::optional<ImageFile> picture;
+  if (image && image->hasFurtherColour()) image = &picture.emplace(withoutFurtherColour(*image));
   if (image) {
     if (const Status status = addTexture(glb, *image, format); !status.ok()) return status;
     glb.useExtension("KHR_materials_unlit", false);
     material["extensions"] = {{"KHR_materials_unlit", json::object()}};
     material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
-    if (image->channels % 2 == 0) material["alphaMode"] = "MASK";
+    if (image->hasAlpha()) material["alphaMode"] = "MASK";
   }
   glb.document["materials"] = listOf(material);
   return {};

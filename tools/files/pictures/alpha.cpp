@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alpha as the last of two or four channels.
+// What the last of two or four channels is: alpha, or a further colour.
 #include "tools/files/pictures/alpha.hpp"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void divide(std::span<T> pixel) {
 }  // namespace
 
 bool isOpaque(const ImageFile& image) {
-  if (image.channels % 2 != 0) return true;
+  if (!image.hasAlpha()) return true;
   const size_t sample = tks_sample_bytes(image.sample), pixel = image.channels * sample;
   for (size_t at = pixel - sample; at < image.data.size(); at += pixel) {
     for (size_t i = 0; i < sample; ++i) {
@@ -51,8 +51,18 @@ bool isOpaque(const ImageFile& image) {
 }
 
 void divideByAlpha(ImageFile& image) {
-  if (image.channels % 2 != 0) return;
+  if (!image.hasAlpha()) return;
   forEachPixel(image, [](auto pixel) { divide(pixel); });
+}
+
+ImageFile withoutFurtherColour(const ImageFile& image) {
+  if (!image.hasFurtherColour()) return image;
+  ImageFile picture{image.width, image.height, image.channels - 1, image.sample, {}, image.place};
+  const size_t sample = tks_sample_bytes(image.sample), pixel = image.channels * sample;
+  picture.data.reserve(image.data.size() / image.channels * picture.channels);
+  for (auto from = image.data.begin(); from != image.data.end(); from += pixel)
+    picture.data.insert(picture.data.end(), from, from + (pixel - sample));
+  return picture;
 }
 
 }  // namespace tetrakis::tools

@@ -83,9 +83,8 @@ OIIO::ImageSpec specOf(const PictureToWrite& picture) {
   const PictureShape& shape = picture.shape;
   OIIO::ImageSpec spec(shape.width, shape.height, shape.channels, typeOf(shape.sample));
   spec["oiio:UnassociatedAlpha"] = 1;
-  // OpenImageIO calls only the fourth channel so.
-  constexpr int kGreyAlpha = 2;
-  if (shape.channels == kGreyAlpha) spec.alpha_channel = 1;
+  // OpenImageIO takes the fourth channel for alpha, and no second one.
+  spec.alpha_channel = picture.opaque || shape.channels % 2 != 0 ? -1 : shape.channels - 1;
   if (!picture.compression.empty()) spec["compression"] = picture.compression;
   return spec;
 }

@@ -114,6 +114,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
         registration=values.choice(place["registration"], c.REGISTRATIONS, "texture_registration"),
         crs=values.crs(place["crs"], "texture_crs"),
         geo_keys=values.text(place["geo_keys"], "texture_geo_keys"),
+        opaque=not place["alpha"],
     ), data
 
 
@@ -186,6 +187,7 @@ def encode(
     texture_geotransform: Optional[Sequence[float]] = None,
     texture_registration: Optional[str] = None,
     texture_geo_keys: Optional[str] = None,
+    texture_alpha: bool = True,
     triangles: Optional[int] = None,
     weights: str = "psnr",
     regions: Optional[int] = None,
@@ -203,7 +205,8 @@ def encode(
             `unit`. NaN, samples equal to `nodata`, and masked samples of a masked array are voids.
             Integers with a mask and without `nodata` are given a nodata value that no sample has.
         texture: (rows, columns) grey, or (rows, columns, channels) of 1 to 4 channels (grey, grey
-            and alpha, RGB, RGBA), of uint8 or uint16.
+            and alpha, RGB, RGBA), of uint8 or uint16. Without `texture_alpha` the last of 2 or 4
+            channels is a further colour, such as near infrared.
         Neither may be written to while this function runs: it releases the GIL.
 
     Targets: one of them; without any, lossless
@@ -266,6 +269,7 @@ def encode(
         geotransform=texture_geotransform,
         registration=texture_registration,
         geo_keys=texture_geo_keys,
+        alpha=texture_alpha,
     )
     # The arrays' second names keep copies alive until the call is over.
     height_field, _samples = (None, None) if heights is None else _heights_struct(heights, place)

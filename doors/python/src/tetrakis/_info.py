@@ -74,6 +74,8 @@ class Info:
     texture_shape: Optional[Tuple[int, ...]]
     """(rows, columns) of a grey one, else (rows, columns, channels)."""
     texture_dtype: Optional[np.dtype[Any]]
+    texture_alpha: bool
+    """The last channel of the texture is alpha."""
     texture_coarsest_level: int
     texture_cutout: int
     texture_drawn: int
@@ -130,6 +132,7 @@ def from_struct(raw: c.StreamInfo) -> Info:
         nodata=raw.nodata if raw.has_nodata else None,
         texture_shape=_texture_shape(raw) if texture else None,
         texture_dtype=values.SAMPLES[raw.texture_sample] if texture else None,
+        texture_alpha=texture and not raw.texture_opaque,
         texture_geotransform=tuple(raw.texture_geotransform) if texture_placed else None,
         texture_registration=c.REGISTRATIONS[raw.texture_registration],
     )

@@ -78,6 +78,7 @@ class Image(ctypes.Structure):
         ("registration", c_int),
         ("crs", c_char_p),
         ("geo_keys", c_char_p),
+        ("opaque", c_int),
     ]
 
 
@@ -201,6 +202,7 @@ class StreamInfo(ctypes.Structure):
         ("texture_crs", c_char_p),
         ("texture_geo_keys", c_char_p),
         ("index", c_int),
+        ("texture_opaque", c_int),
     ]
 
 
