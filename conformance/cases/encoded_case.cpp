@@ -134,6 +134,7 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     if (vector_case.cutout) samples::cutOut(picture, mask(*vector_case.cutout));
     picture = enlarged(picture, vector_case.texel_copies);
     image = picture.image();
+    image.opaque = vector_case.opaque;
   }
   if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);
   tks_encode_options options = vector_case.options;

@@ -39,6 +39,31 @@ std::vector<VectorCase> fewTexelsCases() {
   };
 }
 
+/// The last of 2 or 4 channels is a further colour.
+VectorCase opaque(VectorCase vector_case) {
+  vector_case.opaque = true;
+  return vector_case;
+}
+
+std::vector<VectorCase> furtherColourCases() {
+  const auto image = [](Pattern pattern, uint32_t channels, tks_sample sample) {
+    return Recipe{pattern, 53, 38, channels, sample, 7};
+  };
+  return {
+      opaque(textureCase("further_rgb16_53x38", "a fourth colour that follows the others, lossless",
+                         image(Pattern::kRidges, 4, TKS_U16), lossless())),
+      opaque(textureCase("further_rgb_regions_53x38", "a fourth colour by a byte budget, regions",
+                         image(Pattern::kRidges, 4, TKS_U8), inRegions(budget(1500), 16))),
+      opaque(textureCase("further_grey_53x38", "a second colour, no alpha",
+                         image(Pattern::kRidges, 2, TKS_U8), budget(900))),
+      opaque(leveled(textureCase("further_tables_rgb_53x38", "a fourth colour in tables of values",
+                                 image(Pattern::kRidges, 4, TKS_U8), lossless()),
+                     90, TKS_U8)),
+      opaque(textureCase("further_drawn_53x38", "a drawing of four colours",
+                         image(Pattern::kSteps, 4, TKS_U8), lossless())),
+  };
+}
+
 VectorCase copied(VectorCase vector_case, uint32_t across, uint32_t down) {
   vector_case.texel_copies[0] = across;
   vector_case.texel_copies[1] = down;
@@ -140,7 +165,7 @@ std::vector<VectorCase> textureCases() {
       weighted(textureCase("weights_rgba_70x40", "bands of each component have priorities",
                            image(Pattern::kRidges, 70, 40, 4, TKS_U8), budget(1500))),
   };
-  for (auto some : {fewTexelsCases(), copiedTexelsCases()})
+  for (auto some : {fewTexelsCases(), copiedTexelsCases(), furtherColourCases()})
     for (VectorCase& each : some) cases.push_back(std::move(each));
   return cases;
 }

@@ -26,6 +26,7 @@ struct Raster {
   uint32_t width = 0, height = 0, channels = 1;
   tks_sample sample = TKS_U8;
   std::vector<std::byte> data;
+  bool opaque = false;  ///< of an image
 
   tks_heights heights() const {
     tks_heights h = {};
@@ -45,6 +46,7 @@ struct Raster {
     i.channels = channels;
     i.sample = sample;
     i.data = data.data();
+    i.opaque = opaque;
     return i;
   }
 };
