@@ -10,8 +10,8 @@
 namespace tetrakis::inline base {
 
 /// There are width * height * channels samples, interleaved, row by row. They have 8 or 16 bits and
-/// lie in [0, 2^bits). 1 channel is grey, 2 are grey and alpha, 3 are RGB, 4 are RGBA; without alpha
-/// the last of 2 or 4 is a further colour.
+/// lie in [0, 2^bits). 1 channel is grey, 2 are grey and alpha, 3 are RGB, 4 are RGBA; without
+/// alpha the last of 2 or 4 is a further colour.
 struct Texels {
   uint32_t width = 0, height = 0, channels = 0;
   int bits = 8;

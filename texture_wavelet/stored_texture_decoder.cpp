@@ -9,7 +9,11 @@ Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t>
                            int level) {
   const int bits = header.sample == TKS_U8 ? 8 : 16;
   const uint32_t channels = header.channels, step = uint32_t{1} << level;
-  Texels texels{(header.width - 1) / step + 1, (header.height - 1) / step + 1, channels, bits, {},
+  Texels texels{(header.width - 1) / step + 1,
+                (header.height - 1) / step + 1,
+                channels,
+                bits,
+                {},
                 header.opaque};
   const BytePlanes words(codeword, size_t{header.width} * header.height * channels, bits / 8);
   const auto unknown = static_cast<uint16_t>(1u << (bits - 1));

@@ -8,7 +8,8 @@
 
 namespace tetrakis::inline texture {
 
-/// planes: 1 to 4, the last of an even number being alpha, which is weighted like the first.
+/// planes: 1 to 4, the last of an even number being alpha or a further colour, which is weighted
+/// like the first.
 BandWeights visualWeights(uint32_t planes);
 
 }  // namespace tetrakis::inline texture

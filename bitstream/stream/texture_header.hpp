@@ -76,8 +76,8 @@ struct TextureHeader {
   /// Textures of 3 colour planes or more have the shears of samples, then those of coefficients.
   std::vector<std::array<int64_t, 6>> colour_shears{{}};
   std::array<int64_t, 3> further_shears{};  ///< of the last plane, a further colour
-  std::array<uint16_t, 4> centre{};   ///< one per colour plane; of a table a place
-  std::array<int64_t, 4> priority{};  ///< 16 log2 of each plane's weight, for the pass order
+  std::array<uint16_t, 4> centre{};         ///< one per colour plane; of a table a place
+  std::array<int64_t, 4> priority{};        ///< 16 log2 of each plane's weight, for the pass order
   WaveletHeader wavelet;
   ChannelTablesHeader tables;
   PriorityHeader priorities;

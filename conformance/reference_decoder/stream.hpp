@@ -86,7 +86,7 @@ struct TextureHeader {
   uint64_t overlayBytes = 0;  ///< 0: no overlay
   bool hidden = false;
   bool opaque = false;  ///< the last of two or four channels is no alpha
-  int bridge = 0;  ///< 0: none
+  int bridge = 0;       ///< 0: none
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;

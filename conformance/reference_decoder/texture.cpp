@@ -15,8 +15,7 @@ namespace {
 std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part>& parts) {
   std::vector<Band> all;
   for (int c = 0; c < header.components; ++c) {
-    const bool alpha =
-        !header.opaque && header.components % 2 == 0 && c == header.components - 1;
+    const bool alpha = !header.opaque && header.components % 2 == 0 && c == header.components - 1;
     const int kind = alpha ? 2 : c == 0 ? 0 : 1;
     const size_t first = all.size();
     std::vector<Band> bands = bandsOf(header.wavelet, parts, first);

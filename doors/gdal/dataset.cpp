@@ -257,8 +257,8 @@ bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
                   window.width * pixel);
       return true;
     }
-    const FinerLevel finer{pixels, area, source_->sample(), source_->channels(),
-                            source_->hasAlpha(), void_value_};
+    const FinerLevel finer{
+        pixels, area, source_->sample(), source_->channels(), source_->hasAlpha(), void_value_};
     makeOverview(finer, across, down, window, out.data());
     return true;
   } catch (const std::bad_alloc&) {

@@ -24,8 +24,8 @@ CodedTexture codedBy(std::shared_ptr<const TextureSource> source, EncodedTexture
 }  // namespace
 
 std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image) {
-  Texels texels{image.width, image.height, image.channels, image.sample == TKS_U8 ? 8 : 16, {},
-                image.opaque != 0};
+  Texels texels{image.width, image.height,     image.channels, image.sample == TKS_U8 ? 8 : 16,
+                {},          image.opaque != 0};
   const size_t count = size_t{image.width} * image.height * image.channels;
   withSampleType(image.sample, [&](auto type) {
     const auto* from = static_cast<const decltype(type)*>(image.data);

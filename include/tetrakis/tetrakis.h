@@ -111,7 +111,8 @@ typedef struct tks_heights {
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
  * With `opaque` the last of 2 or 4 is a further colour, such as near infrared, which pictures and
- * meshes leave out. It covers the same footprint as the height field. sample: TKS_U8 or TKS_U16. Sizes from 1 x 1.
+ * meshes leave out. A texture covers the same footprint as the height field. sample: TKS_U8 or
+ * TKS_U16. Sizes from 1 x 1.
  *
  * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of
  * the colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their

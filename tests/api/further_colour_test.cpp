@@ -116,7 +116,8 @@ TEST(FurtherColour, FollowsTheOthers) {
   Raster image = colours(Pattern::kRidges, 160, 120, 4, TKS_U8);
   Raster three{image.width, image.height, 3, TKS_U8, {}};
   for (size_t i = 0; i < image.data.size(); i += 4) {
-    const int red = std::to_integer<int>(image.data[i]), blue = std::to_integer<int>(image.data[i + 2]);
+    const int red = std::to_integer<int>(image.data[i]),
+              blue = std::to_integer<int>(image.data[i + 2]);
     const auto noise = static_cast<int>(samples::hash(static_cast<uint32_t>(i), 1, 2) % 3);
     image.data[i + 3] = static_cast<std::byte>(std::min(255, 20 + (red + blue) / 3 + noise));
     three.data.insert(three.data.end(), image.data.begin() + static_cast<ptrdiff_t>(i),

@@ -56,6 +56,33 @@ TEST_F(ImageFiles, LosslessFormatsAreExact) {
   }
 }
 
+/// Near infrared comes back as what it is, which only TIFF can say.
+TEST_F(ImageFiles, FurtherColoursAreToldFromAlpha) {
+  for (const tks_sample sample : {TKS_U8, TKS_U16}) {
+    for (const uint32_t channels : {2U, 4U}) {
+      for (const bool opaque : {false, true}) {
+        ImageFile image = randomImage(37, 20, channels, sample);
+        image.opaque = opaque;
+        ASSERT_TRUE(writeImage(path("a"), image, "tif").ok());
+        const auto read = readImage(path("a"));
+        ASSERT_TRUE(read.ok()) << read.status().message();
+        EXPECT_EQ(read->hasFurtherColour(), opaque);
+        EXPECT_TRUE(read->data == image.data);
+        const Status png = writeImage(path("a.png"), image);
+        EXPECT_EQ(png.ok(), !opaque) << png.message();
+        const ImageFile picture = withoutFurtherColour(image);
+        EXPECT_EQ(picture.channels, opaque ? channels - 1 : channels);
+        const size_t pixel = channels * tks_sample_bytes(sample);
+        const size_t shown = picture.channels * tks_sample_bytes(sample);
+        for (size_t i = 0; i < size_t{37} * 20; ++i) {
+          EXPECT_TRUE(std::equal(&picture.data[i * shown], &picture.data[i * shown] + shown,
+                                 &image.data[i * pixel]));
+        }
+      }
+    }
+  }
+}
+
 TEST_F(ImageFiles, FormatsThatOpenImageIoWritesAreExactWhereTheyAreTaken) {
   int taken = 0;
   for (const char* name : {"bmp", "ico", "iff", "jp2", "pgm", "ppm", "rla", "sgi", "tga"}) {
@@ -279,7 +306,7 @@ TEST_F(ImageFiles, CmykIsConvertedAndTold) {
   EXPECT_NE(note.find("CMYK"), std::string::npos);
 }
 
-/// What users would not see otherwise: near infrared becomes alpha, nodata becomes a colour.
+/// What users would not see otherwise: alpha that is not called so becomes a colour, nodata too.
 TEST_F(ImageFiles, WhatATiffMeansOtherwiseIsTold) {
   const auto noteOn = [this](const TinyTiff& tiff) {
     std::string note;
@@ -288,9 +315,9 @@ TEST_F(ImageFiles, WhatATiffMeansOtherwiseIsTold) {
   };
   for (const uint16_t channels : {uint16_t{2}, uint16_t{4}}) {
     TinyTiff tiff(1, 1, channels, 8, std::vector<uint8_t>(channels, 9));
-    EXPECT_NE(noteOn(tiff).find("taken for alpha"), std::string::npos);
+    EXPECT_NE(noteOn(tiff).find("taken for a colour"), std::string::npos);
     tiff.shorts(TinyTiff::kExtraSamples, {0});
-    EXPECT_NE(noteOn(tiff).find("taken for alpha"), std::string::npos);
+    EXPECT_NE(noteOn(tiff).find("taken for a colour"), std::string::npos);
     tiff.shorts(TinyTiff::kExtraSamples, {2});
     EXPECT_EQ(noteOn(tiff), "");
   }

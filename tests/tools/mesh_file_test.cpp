@@ -195,14 +195,17 @@ nlohmann::json documentOf(const std::string& path) {
 TEST_F(MeshFiles, GlbTexturesAreJpegOrPng) {
   for (uint32_t channels = 1; channels <= 4; ++channels) {
     for (const tks_sample sample : {TKS_U8, TKS_U16}) {
-      const ImageFile texture = checkers(channels, sample);
-      MeshFile mesh = hill(3);
-      mesh.texture = &texture;
-      ASSERT_TRUE(writeMesh(path("a.glb"), mesh).ok());
-      const auto document = documentOf(path("a.glb"));
-      const bool jpeg = channels % 2 == 1 && sample == TKS_U8;
-      EXPECT_EQ(document["images"][0]["mimeType"], jpeg ? "image/jpeg" : "image/png");
-      EXPECT_EQ(document["materials"][0].contains("alphaMode"), channels % 2 == 0);
+      for (const bool opaque : {false, true}) {
+        ImageFile texture = checkers(channels, sample);
+        texture.opaque = opaque;
+        MeshFile mesh = hill(3);
+        mesh.texture = &texture;
+        ASSERT_TRUE(writeMesh(path("a.glb"), mesh).ok());
+        const auto document = documentOf(path("a.glb"));
+        const bool jpeg = !texture.hasAlpha() && sample == TKS_U8;
+        EXPECT_EQ(document["images"][0]["mimeType"], jpeg ? "image/jpeg" : "image/png");
+        EXPECT_EQ(document["materials"][0].contains("alphaMode"), texture.hasAlpha());
+      }
     }
   }
 }

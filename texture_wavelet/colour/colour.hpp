@@ -49,9 +49,10 @@ struct ColourTransform {
 };
 
 /// Channels to colour planes, in place. planes: 1 (grey), 2 (grey, alpha or a further colour), 3
-/// (RGB) or 4 distinct planes of `count` values. Alpha is only centred. The colour planes come with fraction_bits (0 to 8) binary places. inverseShears() and
-/// restoreSamples() undo it exactly. Arithmetic wraps modulo 2^32; transforms of fitColour and RGB
-/// of at most 18 bits with the fraction stay clear of it.
+/// (RGB) or 4 distinct planes of `count` values. Alpha is only centred. The colour planes come with
+/// fraction_bits (0 to 8) binary places. inverseShears() and restoreSamples() undo it exactly.
+/// Arithmetic wraps modulo 2^32; transforms of fitColour and RGB of at most 18 bits with the
+/// fraction stay clear of it.
 void forwardColour(const ColourTransform& transform, std::span<int32_t* const> planes, size_t count,
                    int fraction_bits);
 

@@ -101,8 +101,7 @@ Vector3 fewestBits(const Planes& planes, const Details& details, double step) {
         // log2(1 + |c| / T) grows as the square of c times this.
         const double size = std::abs(rest) + step;
         const double weight = round == 0 ? 1 : 1 / (size * (std::abs(rest) + step / 8));
-        equations.add(known, -static_cast<double>(further.channels[0][i]),
-                      before.weight * weight);
+        equations.add(known, -static_cast<double>(further.channels[0][i]), before.weight * weight);
       }
     }
     best = equations.solved();
@@ -135,7 +134,8 @@ double bitsWith(const Vector3& shears, const Planes& planes, const Details& deta
 std::array<int16_t, 3> quantised(const Vector3& shears) {
   std::array<int16_t, 3> out{};
   std::transform(shears.begin(), shears.end(), out.begin(), [](double shear) {
-    return static_cast<int16_t>(std::lround(std::clamp(shear, -2., 2.) * (1 << kShearFractionBits)));
+    return static_cast<int16_t>(
+        std::lround(std::clamp(shear, -2., 2.) * (1 << kShearFractionBits)));
   });
   return out;
 }

@@ -109,10 +109,9 @@ class Decoding {
     if (Status status = plan(arguments_.normal_map, ".png", normals_); !status.ok()) return status;
     if (Status status = planFormats(); !status.ok()) return status;
     if (!texture_ || !info.has_texture) return Status();
-    return checkImageFormat(texture_->name(),
-                            {.channels = info.texture_channels,
-                             .sample = info.texture_sample,
-                             .opaque = info.texture_opaque != 0});
+    return checkImageFormat(texture_->name(), {.channels = info.texture_channels,
+                                               .sample = info.texture_sample,
+                                               .opaque = info.texture_opaque != 0});
   }
 
   /// What is guessed of the ground, where its proportions count.
@@ -207,7 +206,8 @@ class Decoding {
       if (!fits.ok()) return fits;
     }
     if (normals_)
-      if (Status fits = checkImageFormat(normals_->name(), {.channels = 3}); !fits.ok()) return fits;
+      if (Status fits = checkImageFormat(normals_->name(), {.channels = 3}); !fits.ok())
+        return fits;
     if (arguments_.size.empty()) {
       if (!height_ || formatOf(height_->name(), "") != "r16") return Status();
       return Status(TKS_USAGE, "an .r16 file is one of an engine: give --size unreal or unity");

@@ -64,7 +64,8 @@ std::string noteOn(const Raster& raster, bool widened) {
   if (widened) add("its 16 bits say no more than 8, which would take far fewer bytes");
   if (raster.shape.sample == PictureSample::kU16 && bits > 8 && bits < 16)
     add((std::to_string(bits) + " bits stretched to 16").c_str());
-  if (raster.unnamed_alpha) add("last channel taken for a colour, because the file does not call it alpha");
+  if (raster.unnamed_alpha)
+    add("last channel taken for a colour, because the file does not call it alpha");
   if (raster.nodata) add("nodata value not applied and not kept");
   if (raster.mask) add("mask not applied and not kept");
   if (raster.further_pages) add("further pages left out");

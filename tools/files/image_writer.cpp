@@ -105,9 +105,10 @@ Status writeOther(const std::string& path, const ImageFile& image, const Format&
 Status writePixels(const std::string& path, const ImageFile& image, const Format& format) {
   const std::string_view kind = format.name;
   if (kind != "png" && kind != "jpeg" && kind != "tiff") return writeOther(path, image, format);
-  const auto bytes = kind == "png"    ? encodePng(image)
-                     : kind == "jpeg" ? encodeJpeg(image, kQuality)
-                                      : encodeRaster("tiff", {shapeOf(image), image.data, "zip", image.opaque});
+  const auto bytes = kind == "png" ? encodePng(image)
+                     : kind == "jpeg"
+                         ? encodeJpeg(image, kQuality)
+                         : encodeRaster("tiff", {shapeOf(image), image.data, "zip", image.opaque});
   return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
 }
 

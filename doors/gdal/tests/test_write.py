@@ -157,7 +157,6 @@ def test_textures(tmp_path):
     for layers, words in (
         (np.zeros((5, 8, 9), np.uint8), "1 to 4 bands"),
         (np.zeros((8, 9), np.float32), "bands of Byte"),
-        (np.zeros((2, 8, 9), np.uint8), "grey and alpha"),
     ):
         gdal.GetDriverByName("GTiff").CreateCopy(image, memory(layers))
         refused(lambda: copy(heights, tmp_path / "b.tks", "TEXTURE=" + image), words)
@@ -191,6 +190,28 @@ def test_an_image_alone_is_a_texture(tmp_path):
     for layers in (np.zeros((5, 8, 9), np.uint8), np.zeros((3, 8, 9), np.float32)):
         refused(lambda: copy(memory(layers), tmp_path / "b.tks"), "band")
     assert not (tmp_path / "b.tks").exists()
+
+
+def test_near_infrared_is_no_alpha(tmp_path):
+    """The fourth band of an aerial image comes back as itself, and hides nothing."""
+    infrared = (*RGB, gdal.GCI_Undefined)
+    for colours in (infrared, (gdal.GCI_GrayIndex, gdal.GCI_Undefined)):
+        for dtype in ("u1", "u2"):
+            layers = np.stack([terrain(45, 60, dtype, seed) for seed in range(len(colours))])
+            back = copy(memory(layers, colours=colours), tmp_path / "a.tks")
+            np.testing.assert_array_equal(back.ReadAsArray(), layers)
+            bands = [back.GetRasterBand(i + 1) for i in range(len(colours))]
+            assert [band.GetColorInterpretation() for band in bands] == list(colours)
+            assert all(band.GetMaskFlags() == gdal.GMF_ALL_VALID for band in bands)
+            plain = gdal.Open(str(tmp_path / "a.tks"))
+            over = plain.GetRasterBand(len(colours))
+            if over.GetOverviewCount():
+                assert over.GetOverview(0).GetColorInterpretation() == gdal.GCI_Undefined
+    masked = gdal.GetDriverByName("GTiff").CreateCopy(
+        str(tmp_path / "masked.tif"), memory(layers, colours=colours)
+    )
+    masked.CreateMaskBand(gdal.GMF_PER_DATASET)
+    refused(lambda: copy(masked, tmp_path / "b.tks"), "mask")
 
 
 def test_texture_with_a_mask(tmp_path):

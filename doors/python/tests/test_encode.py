@@ -32,6 +32,16 @@ def test_texels_come_back(dtype, channels):
         assert stream.info.shape is None and stream.info.dtype is None
 
 
+@pytest.mark.parametrize("channels", [1, 2, 3, 4])
+@pytest.mark.parametrize("alpha", [True, False])
+def test_a_further_colour_is_no_alpha(channels, alpha):
+    texture = photograph(33, 20, channels, "u1")
+    stream = tetrakis.encode(texture=texture, texture_alpha=alpha)
+    with tetrakis.open(stream) as opened:
+        np.testing.assert_array_equal(opened.texture(), texture)
+        assert opened.info.texture_alpha == (alpha and channels % 2 == 0)
+
+
 @pytest.mark.parametrize("dtype", SAMPLES)
 def test_wild_bits_come_back(dtype):
     bits = np.random.default_rng(7).integers(0, 256, (9, 13, 4), np.uint8)
