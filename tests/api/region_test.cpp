@@ -61,7 +61,7 @@ void forEachRegion(const Visit& visit) {
     const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
     for (const Region& region : regionsOf(size.width, size.height, 4)) {
       const std::vector<BandPart> parts = layout.parts(region);
-      visit(layout, parts, layout.plan(parts, 0, 0, 0));
+      visit(layout, parts, layout.plan(parts));
     }
   }
 }

@@ -62,6 +62,22 @@ class CliTurned : public CliTest {
     uint32_t width_, height_;
   };
 
+  /// Unit vectors, east and south, along rows of texels and up their columns.
+  struct TangentAxes {
+    std::array<double, 2> right, up;
+
+    explicit TangentAxes(const Ground& ground) {
+      const std::array<double, 2> origin = ground.at(0, 0), next = ground.at(1, 0);
+      const std::array<double, 2> below = ground.at(0, 1);
+      right = {next[0] - origin[0], next[1] - origin[1]};
+      const double length = std::hypot(right[0], right[1]);
+      for (double& part : right) part /= length;
+      up = {right[1], -right[0]};
+      if (up[0] * (below[0] - origin[0]) + up[1] * (below[1] - origin[1]) > 0)
+        up = {-up[0], -up[1]};
+    }
+  };
+
   /// A quadratic: central differences have its exact slopes.
   static double heightAt(double east, double south) {
     return 500 + 0.3 * east - 0.2 * south + 0.001 * east * east - 0.002 * east * south;
@@ -201,21 +217,6 @@ TEST_F(CliTurned, NormalsOfMeshesAreThoseOfTheGround) {
     EXPECT_EQ(inner, size_t{kWidth - 2} * (kHeight - 2));
   }
 }
-
-/// Unit vectors, east and south, along rows of texels and up their columns.
-struct TangentAxes {
-  std::array<double, 2> right, up;
-
-  explicit TangentAxes(const Ground& ground) {
-    const std::array<double, 2> origin = ground.at(0, 0), next = ground.at(1, 0);
-    const std::array<double, 2> below = ground.at(0, 1);
-    right = {next[0] - origin[0], next[1] - origin[1]};
-    const double length = std::hypot(right[0], right[1]);
-    for (double& part : right) part /= length;
-    up = {right[1], -right[0]};
-    if (up[0] * (below[0] - origin[0]) + up[1] * (below[1] - origin[1]) > 0) up = {-up[0], -up[1]};
-  }
-};
 
 TEST_F(CliTurned, NormalMapsAreInTheTangentSpaceOfTheTexture) {
   for (const Layout& layout : kLayouts) {
