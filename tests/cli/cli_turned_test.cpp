@@ -111,6 +111,14 @@ class CliTurned : public CliTest {
     ASSERT_TRUE(tools::writeHeights(path("h.tif"), file).ok());
   }
 
+  /// s.tks: ground of heightAt() that lies so.
+  Ground encodedGround(const Layout& layout) {
+    const Ground ground(layout, kWidth, kHeight);
+    writeHeights(layout, ground, kWidth, kHeight, heightAt);
+    EXPECT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    return ground;
+  }
+
   /// Wavefront OBJ, counting from 0.
   struct ObjMesh {
     std::vector<std::array<double, 3>> positions, normals;
@@ -168,9 +176,7 @@ class CliTurned : public CliTest {
 TEST_F(CliTurned, MeshesLieAsTheGroundDoes) {
   for (const Layout& layout : kLayouts) {
     SCOPED_TRACE(layout.name);
-    const Ground ground(layout, kWidth, kHeight);
-    writeHeights(layout, ground, kWidth, kHeight, heightAt);
-    ASSERT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    const Ground ground = encodedGround(layout);
     ASSERT_EQ(cli("-q decode s.tks -f --mesh m.obj").code, 0);
     const ObjMesh mesh = readObj("m.obj");
     ASSERT_EQ(mesh.positions.size(), size_t{kWidth} * kHeight);
@@ -197,9 +203,7 @@ TEST_F(CliTurned, MeshesLieAsTheGroundDoes) {
 TEST_F(CliTurned, NormalsOfMeshesAreThoseOfTheGround) {
   for (const Layout& layout : kLayouts) {
     SCOPED_TRACE(layout.name);
-    const Ground ground(layout, kWidth, kHeight);
-    writeHeights(layout, ground, kWidth, kHeight, heightAt);
-    ASSERT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    const Ground ground = encodedGround(layout);
     ASSERT_EQ(cli("-q decode s.tks -f --mesh m.obj").code, 0);
     const ObjMesh mesh = readObj("m.obj");
     size_t inner = 0;
@@ -221,9 +225,7 @@ TEST_F(CliTurned, NormalsOfMeshesAreThoseOfTheGround) {
 TEST_F(CliTurned, NormalMapsAreInTheTangentSpaceOfTheTexture) {
   for (const Layout& layout : kLayouts) {
     SCOPED_TRACE(layout.name);
-    const Ground ground(layout, kWidth, kHeight);
-    writeHeights(layout, ground, kWidth, kHeight, heightAt);
-    ASSERT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    const Ground ground = encodedGround(layout);
     ASSERT_EQ(cli("-q decode s.tks -f --normal-map n.png").code, 0);
     const auto map = tools::readImage(path("n.png"));
     ASSERT_TRUE(map.ok());
