@@ -2,6 +2,7 @@
 #include "texture_wavelet/texture_plan.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "wavelet/wavelet_header.hpp"
 
@@ -32,8 +33,7 @@ std::vector<BandPlan> TexturePlan::bands(std::span<const BandPart> parts) const 
     const PlaneBands& own = planes_[c];
     const auto first = static_cast<int>(bands.size());
     std::vector<BandPlan> plan = layout_.plan(parts, first, own.priority, own.models);
-    if (c == 0) layout_.markAbsent(parts, plan);
-    if (c == 0) layout_.markTiers(parts, plan);
+    if (c == 0) plan = layout_.marked(parts, std::move(plan));
     for (size_t i = 0; i < plan.size(); ++i) {
       BandPlan& band = plan[i];
       const Subband& subband = layout_.subbands()[parts[i].subband];

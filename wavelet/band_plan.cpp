@@ -83,6 +83,13 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
   return bands;
 }
 
+std::vector<BandPlan> PlaneLayout::marked(std::span<const BandPart> parts,
+                                          std::vector<BandPlan> plan) const {
+  markAbsent(parts, plan);
+  markTiers(parts, plan);
+  return plan;
+}
+
 void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
   const Mask valid = pyramid_.valid();
   const HeldSamples held = pyramid_.held();

@@ -53,20 +53,21 @@ class PlaneLayout {
   /// but the finest details: at the end, where the inverse rounds, nothing else is missing; one
   /// coarse coefficient that is off by 1 changes the rounding of hundreds of samples. models: the
   /// class of contexts of the first band.
-  std::vector<BandPlan> plan(std::span<const BandPart> parts, int first, int priority,
-                             uint32_t models) const;
+  std::vector<BandPlan> plan(std::span<const BandPart> parts, int first = 0, int priority = 0,
+                             uint32_t models = 0) const;
 
-  /// Marks the coefficients of samples that do not exist, or are held, as absent. bands: those of
-  /// the parts.
-  void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
-
-  /// Sorts coefficients into tiers by priority. After markAbsent(): absent ones are of no tier.
-  void markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
+  /// Returns the plan of the parts with the coefficients of samples that do not exist, or are held,
+  /// marked as absent, and with the others in tiers by priority.
+  std::vector<BandPlan> marked(std::span<const BandPart> parts, std::vector<BandPlan> plan) const;
 
   /// Returns the coefficients of a part of a transformed plane, in the cell layout of its shape.
   std::vector<int32_t> gather(std::span<const int32_t> plane, const BandPart& part) const;
 
  private:
+  void markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
+  /// Absent coefficients are of no tier.
+  void markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const;
+
   bool whole_;
   Pyramid pyramid_;
   SynthesisNorms norms_;

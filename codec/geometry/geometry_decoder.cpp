@@ -88,11 +88,8 @@ void holdShown(const HeldSamples& flat, Extent plane, const View& view,
 /// What a track holds, and which bands of it the view needs; empty: none.
 std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart> parts,
                              const ViewSynthesis& synthesis) {
-  std::vector<BandPlan> plan = withNeeds(synthesis, parts, layout.plan(parts, 0, 0, 0));
-  if (plan.empty()) return plan;
-  layout.markAbsent(parts, plan);
-  layout.markTiers(parts, plan);
-  return plan;
+  std::vector<BandPlan> plan = withNeeds(synthesis, parts, layout.plan(parts));
+  return plan.empty() ? plan : layout.marked(parts, std::move(plan));
 }
 
 }  // namespace

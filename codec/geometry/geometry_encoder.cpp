@@ -24,9 +24,7 @@ struct Transformed {
   TrackSource sourceOf(const Region& region) const {
     const std::vector<BandPart> parts = layout.parts(region);
     TrackSource source;
-    source.plan = layout.plan(parts, 0, 0, 0);
-    layout.markAbsent(parts, source.plan);
-    layout.markTiers(parts, source.plan);
+    source.plan = layout.marked(parts, layout.plan(parts));
     for (size_t k = 0; k < parts.size(); ++k) {
       source.bands.push_back(
           {layout.gather(plane, parts[k]), layout.energy(parts[k].subband) * unit, worth});

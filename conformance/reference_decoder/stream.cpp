@@ -161,7 +161,7 @@ TextureHeader readTexture(Reader& in) {
   const bool cutout = kind == 5 || kind == 6;
   t.opaque = kind > 6;
   t.channels = t.opaque ? 2 * (kind - 6) : cutout ? 2 * (kind - 4) : kind;
-  t.components = t.channels - cutout;
+  t.colourPlanes = t.channels - cutout;
   const int type = in.u8(0, 30);
   const bool tables = type & 4, bridges = type & 16;
   t.sample = type % 4;
@@ -182,11 +182,11 @@ TextureHeader readTexture(Reader& in) {
   if (coding >= 32) t.overlayBytes = in.varint(1, INT64_MAX);
   if (bridges) t.bridge = in.u8(1, 255);
   if (bridges && !t.hidden && t.overlayBytes == 0) in.fail(Outcome::kCorrupt);
-  for (int i = 0; i < t.components; ++i) {
+  for (int i = 0; i < t.colourPlanes; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));
     t.priority[i] = in.zigzag(128);
   }
-  if (t.components >= 3) {
+  if (t.colourPlanes >= 3) {
     const int colour = in.u8(0, 47);
     t.colourOrder = colour % 6;
     t.shears.resize(colour / 6 + 1);
@@ -197,7 +197,7 @@ TextureHeader readTexture(Reader& in) {
   for (int i = 0; t.opaque && i + 1 < t.channels; ++i) t.furtherShears[i] = in.zigzag(32767);
   if (!tables) return t;
   std::vector<uint32_t> values;
-  for (int i = 0; i < t.components; ++i)
+  for (int i = 0; i < t.colourPlanes; ++i)
     values.push_back(static_cast<uint32_t>(in.varint(0, 65536)));
   const auto code = in.take(in.varint(0, UINT64_MAX));
   t.tables = decodeTables(code, values, t.sample == kU8 ? 8 : 16);
@@ -215,7 +215,7 @@ RegionHeader readRegions(Reader& in) {
 /// FORMAT 2, table Weights.
 void readWeights(Reader& in, TextureHeader& texture) {
   const int levels = in.u8(1, 8);
-  for (int c = 0; c < texture.components; ++c) {
+  for (int c = 0; c < texture.colourPlanes; ++c) {
     texture.bandPriority[c].resize(levels);
     for (auto& level : texture.bandPriority[c]) {
       for (int& priority : level) priority = in.zigzag(128);

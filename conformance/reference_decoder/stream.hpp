@@ -77,7 +77,7 @@ struct Layers {
 };
 
 struct TextureHeader {
-  int width = 0, height = 0, channels = 0, components = 0, sample = 0, planes = 0;
+  int width = 0, height = 0, channels = 0, colourPlanes = 0, sample = 0, planes = 0;
   LineMap lines;  ///< width and height are of the coded ones
   bool stored = false;
   int shownWidth() const { return lines.columns.empty() ? width : int(lines.columns.size()); }
@@ -91,12 +91,12 @@ struct TextureHeader {
   PriorityHeader priorities;
   RegionHeader regions;
   std::array<int, 4> centre = {}, priority = {};
-  /// [component][level - 1][1 for HH], as many levels as the header tells.
+  /// [colour plane][level - 1][1 for HH], as many levels as the header tells.
   std::array<std::vector<std::array<int, 2>>, 4> bandPriority;
   int colourOrder = 0;
   std::vector<std::array<int, 6>> shears;     ///< of samples, of level 2, 3, ...
   std::array<int, 3> furtherShears = {};      ///< of the last channel of an opaque texture
-  std::vector<std::vector<uint32_t>> tables;  ///< of each component; empty: it has none
+  std::vector<std::vector<uint32_t>> tables;  ///< of each channel; empty: it has none
 };
 
 /// The codewords of a component's tracks.

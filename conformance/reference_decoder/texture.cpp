@@ -11,11 +11,12 @@
 namespace tetrakis::reference {
 namespace {
 
-/// FORMAT 9: the bands of all components in one track.
+/// FORMAT 9: the bands of all colour planes in one track.
 std::vector<Band> bandsOfAll(const TextureHeader& header, const std::vector<Part>& parts) {
   std::vector<Band> all;
-  for (int c = 0; c < header.components; ++c) {
-    const bool alpha = !header.opaque && header.components % 2 == 0 && c == header.components - 1;
+  for (int c = 0; c < header.colourPlanes; ++c) {
+    const bool alpha =
+        !header.opaque && header.colourPlanes % 2 == 0 && c == header.colourPlanes - 1;
     const int kind = alpha ? 2 : c == 0 ? 0 : 1;
     const size_t first = all.size();
     std::vector<Band> bands = bandsOf(header.wavelet, parts, first);
@@ -86,7 +87,7 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
     last = wrap(last - (wrap(sum) >> 7));
   }
   std::array<int32_t, 4> channels = planes;
-  if (header.components >= 3) {
+  if (header.colourPlanes >= 3) {
     unshear(header.shears[0], Sums::kOfSamples, {&planes[0], &planes[1], &planes[2]});
     for (size_t i = 0; i < 3; ++i) {
       channels[kOrders[header.colourOrder][i]] = planes[i];
@@ -125,11 +126,11 @@ std::vector<uint8_t> decodeStored(const TextureHeader& header, std::span<const u
   return out;
 }
 
-/// The bands of all components in a track, as they stand before it is decoded.
+/// The bands of all colour planes in a track, as they stand before it is decoded.
 std::vector<Band> bandsBefore(const TextureHeader& header, const std::vector<Part>& parts,
                               const Plane& lifted, const PriorityMap& priorities, int level) {
   std::vector<Band> bands = bandsOfAll(header, parts);
-  for (int c = 0; c < header.components; ++c) {
+  for (int c = 0; c < header.colourPlanes; ++c) {
     const auto own = std::span(bands).subspan(c * parts.size(), parts.size());
     markAbsent(parts, lifted, own);
     setPriorities(parts, priorities, own);
@@ -138,70 +139,108 @@ std::vector<Band> bandsBefore(const TextureHeader& header, const std::vector<Par
   return bands;
 }
 
-}  // namespace
+/// What comes before the coefficients, and what follows from it (FORMAT 9, 9.2, "Bridges").
+struct Opening {
+  Plane seen;    ///< its validity: where alpha is not 0
+  Plane coded;   ///< its validity: where coefficients count
+  Plane lifted;  ///< its validity: what section 7 takes for valid
+  std::vector<std::optional<std::array<int, 4>>> overlay;  ///< of each texel; empty: there is none
+};
 
-std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
-                                   int level) {
-  std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
-  if (header.stored)
-    return decodeStored(header, coefficients[0],
-                        std::min(level, subbandsOf(header.width, header.height).front().level));
-  if (header.planes == kDrawnPlanes) return decodeDrawn(header, coefficients[0], level);
-  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
-  level = std::min(level, subbands.front().level);
-  Plane seen{header.width, header.height, {}};  // its validity: where alpha is not 0
+/// Takes it off the first track.
+Opening takeOpening(const TextureHeader& header, std::span<const uint8_t>& codeword) {
+  const Plane plane{header.width, header.height, {}};
+  Opening opening{plane, plane, plane, {}};
   if (header.alphaBytes > 0)
-    seen.valid =
-        decodeValidity(take(coefficients[0], header.alphaBytes), header.width, header.height);
-  Plane coded{header.width, header.height, {}};  // its validity: where coefficients count
-  if (header.hidden) coded.valid = seen.valid;
-  std::vector<std::optional<std::array<int, 4>>> overlay;
+    opening.seen.valid =
+        decodeValidity(take(codeword, header.alphaBytes), header.width, header.height);
+  std::vector<uint8_t>& coded = opening.coded.valid;
+  if (header.hidden) coded = opening.seen.valid;
   if (header.overlayBytes > 0) {
-    overlay = decodeOverlay(header, take(coefficients[0], header.overlayBytes));
-    coded.valid.resize(overlay.size(), 1);
-    for (size_t i = 0; i < overlay.size(); ++i) coded.valid[i] &= !overlay[i];
+    opening.overlay = decodeOverlay(header, take(codeword, header.overlayBytes));
+    coded.resize(opening.overlay.size(), 1);
+    for (size_t i = 0; i < coded.size(); ++i) coded[i] &= !opening.overlay[i];
   }
-  Plane lifted{header.width, header.height, {}};  // its validity: what section 7 takes for valid
-  lifted.valid = header.bridge == 0
-                     ? coded.valid
-                     : bridged(coded.valid, header.width, header.height, header.bridge);
-  const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
+  opening.lifted.valid =
+      header.bridge == 0 ? coded : bridged(coded, header.width, header.height, header.bridge);
+  return opening;
+}
+
+/// The tracks of the coefficients, decoded.
+struct Tracks {
   std::vector<std::vector<Part>> parts;
-  std::vector<std::vector<Band>> bands;
+  std::vector<std::vector<Band>> bands;  ///< of each track those of plane 0, then plane 1, …
+};
+
+Tracks decodeTracks(const TextureHeader& header,
+                    const std::vector<std::span<const uint8_t>>& coefficients, const Plane& lifted,
+                    int level) {
+  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
+  const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
+  Tracks tracks;
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
-    parts.push_back(partsOf(subbands, region));
-    bands.push_back(bandsBefore(header, parts.back(), lifted, priorities, level));
-    decodeTrack(coefficients[parts.size() - 1], header.planes, bands.back());
+    const std::span<const uint8_t> codeword = coefficients[tracks.parts.size()];
+    tracks.parts.push_back(partsOf(subbands, region));
+    tracks.bands.push_back(bandsBefore(header, tracks.parts.back(), lifted, priorities, level));
+    decodeTrack(codeword, header.planes, tracks.bands.back());
   }
-  const auto [f, rounds] = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
-  std::vector<Plane> planes;
-  for (int c = 0; c < header.components; ++c) {
-    Plane plane{header.width, header.height, {}};
-    plane.valid = lifted.valid;
-    plane.values.resize(static_cast<size_t>(header.width) * header.height);
-    for (size_t i = 0; i < parts.size(); ++i) {
-      const auto own = std::span(bands[i]).subspan(c * parts[i].size(), parts[i].size());
-      place(own, parts[i], f - header.wavelet.fractionBits, plane);
+  return tracks;
+}
+
+/// The colour planes of a level, in units of 2^-f.
+std::vector<Plane> planesOf(const TextureHeader& header, const Tracks& tracks, const Plane& lifted,
+                            Fraction fraction, int level) {
+  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
+  const auto [f, rounds] = fraction;
+  std::vector<Plane> planes(header.colourPlanes, lifted);
+  for (int c = 0; c < header.colourPlanes; ++c) {
+    planes[c].values.resize(static_cast<size_t>(header.width) * header.height);
+    for (size_t i = 0; i < tracks.parts.size(); ++i) {
+      const std::vector<Part>& parts = tracks.parts[i];
+      place(std::span(tracks.bands[i]).subspan(c * parts.size(), parts.size()), parts,
+            f - header.wavelet.fractionBits, planes[c]);
     }
-    planes.push_back(std::move(plane));
   }
   unshearLevels(header, subbands, planes);
   for (Plane& plane : planes) {
     synthesise(header.wavelet, subbands, level, rounds, plane);
     plane = levelOf(header.wavelet, subbands, level, plane);
   }
-  const int columns = planes[0].width, rows = planes[0].height;
+  return planes;
+}
+
+/// The texel at a place of the whole image, out of the values of its colour planes.
+std::array<int32_t, 4> texelAt(const TextureHeader& header, const Opening& opening, int x, int y,
+                               std::array<int32_t, 4> values, int f) {
+  std::array<int32_t, 4> texel =
+      finish(header, opening.coded.isValid(x, y) ? values : std::array<int32_t, 4>{}, f);
+  if (header.alphaBytes > 0)
+    texel[header.colourPlanes] = !opening.seen.isValid(x, y) ? 0
+                                 : header.sample == kU8      ? 255
+                                                             : 65535;
+  if (opening.overlay.empty()) return texel;
+  return opening.overlay[opening.seen.index(x, y)].value_or(texel);
+}
+
+}  // namespace
+
+std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
+                                   int level) {
+  std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
+  if (header.planes == kDrawnPlanes && !header.stored)
+    return decodeDrawn(header, coefficients[0], level);
+  level = std::min(level, subbandsOf(header.width, header.height).front().level);
+  if (header.stored) return decodeStored(header, coefficients[0], level);
+  const Opening opening = takeOpening(header, coefficients[0]);
+  const Tracks tracks = decodeTracks(header, coefficients, opening.lifted, level);
+  const auto fraction = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
+  std::vector<Plane> planes = planesOf(header, tracks, opening.lifted, fraction, level);
   std::vector<uint8_t> samples;
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) {
-      const bool there = seen.isValid(x << level, y << level);
-      std::array<int32_t, 4> texel = {};
-      for (size_t c = 0; c < planes.size() && coded.isValid(x << level, y << level); ++c)
-        texel[c] = planes[c].at(x, y);
-      texel = finish(header, texel, f);
-      if (header.alphaBytes > 0)
-        texel[planes.size()] = !there ? 0 : header.sample == kU8 ? 255 : 65535;
-      if (!overlay.empty()) texel = overlay[seen.index(x << level, y << level)].value_or(texel);
+  for (int y = 0; y < planes[0].height; ++y) {
+    for (int x = 0; x < planes[0].width; ++x) {
+      std::array<int32_t, 4> values = {};
+      for (size_t c = 0; c < planes.size(); ++c) values[c] = planes[c].at(x, y);
+      const auto texel = texelAt(header, opening, x << level, y << level, values, fraction.f);
       for (int c = 0; c < header.channels; ++c) {
         samples.push_back(static_cast<uint8_t>(texel[c]));
         if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// tks_plan and tks_reorder: which bytes help a view, and the same packets in another order.
+// tks_plan: which bytes help a view.
 #include <cmath>
 
 #include "conformance/samples/header_seal.hpp"
 #include "receiver/ground_sight.hpp"
-#include "tests/support/stream_fixture.hpp"
+#include "tests/support/indexed_terrain.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -12,40 +12,6 @@ namespace {
 using samples::make;
 using samples::Pattern;
 using samples::Raster;
-
-tks_screen_camera cameraOf(const std::array<double, 16>& clip) {
-  tks_screen_camera camera = {};
-  camera.size = sizeof camera;
-  camera.width = 320;
-  camera.height = 200;
-  std::copy(clip.begin(), clip.end(), camera.clip);
-  return camera;
-}
-
-/// A map of columns x0 … x1 and rows y0 … y1.
-tks_screen_camera mapOf(double x0, double y0, double x1, double y1) {
-  const double x = 2 / (x1 - x0), y = 2 / (y1 - y0);
-  return cameraOf(
-      {x, 0, 0, -x * (x0 + x1) / 2, 0, -y, 0, y * (y0 + y1) / 2, 0, 0, 0, 0, 0, 0, 0, 1});
-}
-
-/// From (column, row, height) down the rows, a right angle wide.
-tks_screen_camera alongRows(double column, double row, double height) {
-  return cameraOf({1, 0, 0, -column, 0, 0, 1, -height, 0, 0, 0, 0, 0, 1, 0, -row});
-}
-
-Bytes encodeRegions(const Raster* heights, const Raster* image, tks_encode_options options) {
-  options.regions = 16;
-  options.index = 1;
-  return encode(heights, image, options);
-}
-
-struct Both {
-  Raster heights = make({Pattern::kRidges, 90, 70, 1, TKS_I16});
-  Raster image = make({Pattern::kRidges, 61, 75, 3, TKS_U8});
-  Bytes bytes = encodeRegions(&heights, &image, lossless());
-  size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
-};
 
 class Ranges {
  public:
@@ -85,7 +51,7 @@ void expectMerged(std::span<const tks_range> ranges) {
 }
 
 /// From a cache of `known` bytes on, in steps of `step` bytes, while the view changes.
-void expectCoverage(const Both& terrain, size_t known, uint64_t step) {
+void expectCoverage(const IndexedTerrain& terrain, size_t known, uint64_t step) {
   const std::array<tks_screen_camera, 3> views = {mapOf(0, 0, 30, 20), alongRows(45, -20, 900),
                                                   mapOf(50, 40, 89, 69)};
   Stream stream(Prefix(terrain.bytes).first(known));
@@ -112,25 +78,11 @@ void expectCoverage(const Both& terrain, size_t known, uint64_t step) {
 }
 
 TEST(Plan, CoversEveryByteOnceAndASecondLapIsEmpty) {
-  const Both terrain;
+  const IndexedTerrain terrain;
   const size_t size = terrain.bytes.size();
   for (const size_t known : {terrain.header, terrain.header + 1, terrain.header + size / 5, size})
     for (const uint64_t step : {uint64_t{313}, uint64_t{4000}, UINT64_MAX})
       ASSERT_NO_FATAL_FAILURE(expectCoverage(terrain, known, step)) << known << " " << step;
-}
-
-/// Squared error over the samples x0 … x1 − 1, y0 … y1 − 1.
-double errorIn(const Raster& raster, const std::vector<std::byte>& decoded, const tks_window& w) {
-  double sum = 0;
-  for (uint32_t y = w.y; y < w.y + w.height; ++y) {
-    for (uint32_t i = w.x * raster.channels; i < (w.x + w.width) * raster.channels; ++i) {
-      const size_t at = size_t{y} * raster.width * raster.channels + i;
-      const double d =
-          sampleAt(decoded, raster.sample, at) - sampleAt(raster.data, raster.sample, at);
-      sum += d * d;
-    }
-  }
-  return sum;
 }
 
 TEST(Plan, WhatIsSeenComesFirst) {
@@ -165,7 +117,7 @@ TEST(Plan, WhatATurnWouldShowComesBeforeTheLastDetailOfThisView) {
 }
 
 TEST(Plan, DetailBelowAPixelAndBelowTheMeshComesLast) {
-  const Both terrain;
+  const IndexedTerrain terrain;
   Stream stream(Prefix(terrain.bytes).first(terrain.header));
   const auto helpful = [&](const tks_screen_camera& view, uint32_t triangles) {
     const Ranges plan(stream, &view, UINT64_MAX, triangles);
@@ -183,7 +135,7 @@ TEST(Plan, DetailBelowAPixelAndBelowTheMeshComesLast) {
 
 /// Of the same bytes a fraction of the requests, which bring nearly as much.
 TEST(Plan, WhereRequestsCostSomethingThereAreFew) {
-  const Both terrain;
+  const IndexedTerrain terrain;
   const tks_screen_camera view = alongRows(45, -20, 900);
   Stream stream(Prefix(terrain.bytes).first(terrain.header));
   const uint64_t budget = terrain.bytes.size() / 3;
@@ -200,7 +152,7 @@ TEST(Plan, WhereRequestsCostSomethingThereAreFew) {
 
 /// All comes in steps from any cache, by fewer requests where they cost something.
 TEST(Plan, EveryCostOfRequestsBringsTheWholeStream) {
-  const Both terrain;
+  const IndexedTerrain terrain;
   const tks_screen_camera view = mapOf(0, 0, 30, 20);
   size_t free = 0;
   for (const uint64_t cost : {uint64_t{0}, uint64_t{300}, UINT64_MAX}) {
@@ -224,7 +176,7 @@ TEST(Plan, EveryCostOfRequestsBringsTheWholeStream) {
 }
 
 TEST(Plan, CoversGroundOfAbsurdSpacing) {
-  const Both terrain;
+  const IndexedTerrain terrain;
   tks_heights heights = terrain.heights.heights();
   const tks_image image = terrain.image.image();
   tks_encode_options options = lossless();
@@ -255,7 +207,7 @@ TEST(Plan, WithoutAnIndexBytesComeInTheirOrder) {
 }
 
 TEST(Plan, BadViewsAreRefusedInASentence) {
-  const Both terrain;
+  const IndexedTerrain terrain;
   Stream stream(Prefix(terrain.bytes).first(terrain.header));
   tks_ranges ranges = {};
   tks_fetch fetch = {sizeof fetch, 1000, 0, 0};
@@ -315,119 +267,6 @@ TEST(Plan, ATurnBringsWhatLiesBehindIntoThePicture) {
   Eye map{{}, 320, 200};
   std::copy_n(mapOf(0, 0, 80, 80).clip, 16, map.clip.begin());
   for (const GroundPoint& point : sightAround(ground, map, 1)) EXPECT_EQ(point.pixels, 0);
-}
-
-Bytes reordered(Stream& stream, const tks_screen_camera& view) {
-  tks_buffer buffer = {};
-  EXPECT_EQ(tks_reorder(stream.get(), &view, 1, &buffer), TKS_OK) << tks_message(stream.get());
-  const Bytes bytes(buffer.data, buffer.data + buffer.size);
-  tks_free_buffer(&buffer);
-  return bytes;
-}
-
-TEST(Reorder, HoldsTheSamePacketsAndServesTheCamera) {
-  const Raster image = make({Pattern::kRidges, 128, 128, 3, TKS_U8});
-  const Bytes bytes = encodeRegions(nullptr, &image, lossless());
-  Stream stream(bytes);
-  const tks_window corner = {70, 75, 40, 40};
-  const Bytes order = reordered(stream, mapOf(70, 75, 110, 115));
-  ASSERT_EQ(order.size(), bytes.size());
-  Stream whole(order);
-  EXPECT_EQ(tks_verify(whole.get()), TKS_OK) << tks_message(whole.get());
-  EXPECT_EQ(squaredError(image, whole.texture()), 0);
-  const size_t third = bytes.size() / 6;
-  Stream a(Prefix(order).first(third)), b(Prefix(bytes).first(third));
-  EXPECT_LT(errorIn(image, a.texture(), corner), 0.4 * errorIn(image, b.texture(), corner));
-  for (size_t n = static_cast<size_t>(whole.info().header_bytes); n < order.size(); n += 97)
-    EXPECT_EQ(Stream(Prefix(order).first(n)).status(), TKS_OK);
-}
-
-/// The stated error is that of the packets which are there now.
-TEST(Reorder, StatesNoSmallerErrorThanThereIs) {
-  const Both terrain;
-  Stream stream(terrain.bytes);
-  const Bytes order = reordered(stream, alongRows(45, -20, 900));
-  for (size_t part = 9; part < 40; part += 5) {
-    Stream prefix(Prefix(order).first(order.size() * part / 40));
-    const double rmse = std::sqrt(squaredError(terrain.heights, prefix.heights()) / (90 * 70));
-    EXPECT_LE(rmse, 1.2 * prefix.info().heights_rmse) << part;
-  }
-  EXPECT_EQ(Stream(order).info().heights_rmse, 0);
-  EXPECT_EQ(Stream(order).info().texture_psnr, HUGE_VAL);
-}
-
-/// Ground of one height needs no packets, and so an index of none.
-TEST(Reorder, TakesStreamsWithNothingToSend) {
-  const Raster heights = make({Pattern::kFlat, 40, 31, 1, TKS_I16});
-  tks_encode_options options = lossless();
-  options.index = 1;
-  const Bytes bytes = encode(&heights, nullptr, options);
-  Stream stream(bytes);
-  ASSERT_EQ(stream.info().header_bytes, bytes.size());
-  EXPECT_EQ(reordered(stream, mapOf(0, 0, 10, 10)), bytes);
-  tks_ranges ranges = {};
-  EXPECT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, nullptr, &ranges), TKS_OK);
-  EXPECT_EQ(ranges.count, 0u);
-  tks_free_ranges(&ranges);
-}
-
-TEST(Reorder, PrefixesAndBudgetsKeepWhatTheyHave) {
-  const Both terrain;
-  const tks_screen_camera view = alongRows(45, -20, 900);
-  const Bytes cut = encodeRegions(&terrain.heights, &terrain.image, budget(4000));
-  for (const Bytes& bytes : {terrain.bytes, cut}) {
-    for (size_t n = static_cast<size_t>(Stream(bytes).info().header_bytes); n <= bytes.size();
-         n += 1 + bytes.size() / 23) {
-      Stream prefix(Prefix(bytes).first(n));
-      const Bytes order = reordered(prefix, view);
-      ASSERT_EQ(order.size(), n);
-      Stream stream(order);
-      ASSERT_EQ(stream.status(), TKS_OK) << stream.message();
-      EXPECT_TRUE(stream.heights() == prefix.heights()) << n;
-      EXPECT_TRUE(stream.texture() == prefix.texture()) << n;
-    }
-  }
-}
-
-/// Each byte of the index, damaged: what is handed over holds what the stream holds.
-TEST(Reorder, TrustsNoIndexThatLies) {
-  const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
-  const Bytes bytes = encodeRegions(&heights, nullptr, lossless());
-  const tks_screen_camera view = mapOf(0, 0, 10, 10);
-  const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
-  size_t refused = 0;
-  for (size_t at = header / 2; at < header - 4; ++at) {
-    Bytes damaged = bytes;
-    damaged[at] ^= 4;
-    sealHeader(damaged);
-    Stream stream(damaged);
-    if (stream.status() != TKS_OK) continue;
-    tks_buffer buffer = {};
-    const tks_status status = tks_reorder(stream.get(), &view, 1, &buffer);
-    if (status == TKS_OK) {
-      const Bytes order(buffer.data, buffer.data + buffer.size);
-      EXPECT_TRUE(Stream(order).heights() == stream.heights()) << at;
-    } else {
-      EXPECT_EQ(status, TKS_CORRUPT) << stream.message();
-      ++refused;
-    }
-    tks_free_buffer(&buffer);
-  }
-  EXPECT_GT(refused, 20u);
-}
-
-TEST(Reorder, IsRefusedWithoutIndexOrCameras) {
-  const Raster heights = make({Pattern::kRidges, 40, 31, 1, TKS_I16});
-  const Bytes bytes = encode(&heights, nullptr, lossless());
-  Stream stream(bytes);
-  const tks_screen_camera view = mapOf(0, 0, 10, 10);
-  tks_buffer buffer = {};
-  EXPECT_EQ(tks_reorder(stream.get(), &view, 1, &buffer), TKS_USAGE);
-  EXPECT_NE(std::string(tks_message(stream.get())).find("no front index"), std::string::npos);
-  const Both terrain;
-  Stream indexed(terrain.bytes);
-  EXPECT_EQ(tks_reorder(indexed.get(), nullptr, 0, &buffer), TKS_USAGE);
-  EXPECT_EQ(tks_reorder(indexed.get(), &view, 1, nullptr), TKS_USAGE);
 }
 
 /// With the checksum repaired.

@@ -61,7 +61,7 @@ void forEachRegion(const Visit& visit) {
     const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
     for (const Region& region : regionsOf(size.width, size.height, 4)) {
       const std::vector<BandPart> parts = layout.parts(region);
-      visit(layout, parts, layout.plan(parts, 0, 0, 0));
+      visit(layout, parts, layout.plan(parts));
     }
   }
 }
@@ -110,11 +110,11 @@ struct Coded {
   Codewords spans() const { return {codewords.begin(), codewords.end()}; }
 };
 
-Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, int fraction_bits,
-             int region_log2, Mask valid) {
+Coded encode(const PlaneView<const int32_t>& heights, const WaveletSpec& spec, int fraction_bits,
+             int region_log2) {
   Coded coded;
-  coded.header.width = size.width;
-  coded.header.height = size.height;
+  coded.header.width = heights.width;
+  coded.header.height = heights.height;
   for (size_t i = 0; i < spec.filters.size(); ++i)
     coded.header.wavelet.filters[i] = static_cast<uint8_t>(spec.filters[i]);
   coded.header.wavelet.fraction_bits = static_cast<uint8_t>(fraction_bits);
@@ -122,8 +122,8 @@ Coded encode(const Plane& heights, const Size& size, const WaveletSpec& spec, in
   coded.header.wavelet.first_doubled =
       static_cast<uint8_t>(fraction_bits > 0 ? 0 : spec.first_doubled);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  const std::vector<EncodedTrack> tracks = encodeGeometry(
-      {heights, size.extent(), valid}, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
+  const std::vector<EncodedTrack> tracks =
+      encodeGeometry(heights, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
   coded.header.planes = static_cast<uint8_t>(tracks.front().planes);
   for (const EncodedTrack& track : tracks) {
     coded.codewords.push_back(track.codeword);
@@ -170,7 +170,8 @@ TEST(Windows, HoldWhatThePlaneHoldsThere) {
       const auto shape = samples::kVoidShapes[random() % std::size(samples::kVoidShapes)];
       const auto valid =
           voids ? samples::validity(shape, size.width, size.height) : std::vector<uint8_t>();
-      Coded coded = encode(heights, size, spec, fraction_bits, log2 == 0 ? 0 : 3 + log2, valid);
+      Coded coded =
+          encode({heights, size.extent(), valid}, spec, fraction_bits, log2 == 0 ? 0 : 3 + log2);
       expectWindows(random, coded, size, valid);
       for (std::vector<uint8_t>& codeword : coded.codewords)
         codeword.resize(random() % (codeword.size() + 1));
@@ -187,7 +188,8 @@ TEST(Windows, HoldForAnyBytes) {
     for (const WaveletSpec& spec : allSpecs()) {
       for (const int log2 : {0, 4}) {
         const auto valid = samples::validity(samples::VoidShape::kSpeckle, size.width, size.height);
-        Coded coded = encode(Plane(size.count(), 0), size, spec, 0, log2, {});
+        const Plane zeros(size.count(), 0);
+        Coded coded = encode({zeros, size.extent()}, spec, 0, log2);
         coded.header.planes = 30;
         coded.header.wavelet.bits = static_cast<uint8_t>(random() % 33);
         for (std::vector<uint8_t>& codeword : coded.codewords) {

@@ -62,6 +62,22 @@ class CliTurned : public CliTest {
     uint32_t width_, height_;
   };
 
+  /// Unit vectors, east and south, along rows of texels and up their columns.
+  struct TangentAxes {
+    std::array<double, 2> right, up;
+
+    explicit TangentAxes(const Ground& ground) {
+      const std::array<double, 2> origin = ground.at(0, 0), next = ground.at(1, 0);
+      const std::array<double, 2> below = ground.at(0, 1);
+      right = {next[0] - origin[0], next[1] - origin[1]};
+      const double length = std::hypot(right[0], right[1]);
+      for (double& part : right) part /= length;
+      up = {right[1], -right[0]};
+      if (up[0] * (below[0] - origin[0]) + up[1] * (below[1] - origin[1]) > 0)
+        up = {-up[0], -up[1]};
+    }
+  };
+
   /// A quadratic: central differences have its exact slopes.
   static double heightAt(double east, double south) {
     return 500 + 0.3 * east - 0.2 * south + 0.001 * east * east - 0.002 * east * south;
@@ -93,6 +109,14 @@ class CliTurned : public CliTest {
       file.data.insert(file.data.end(), bytes.begin(), bytes.end());
     }
     ASSERT_TRUE(tools::writeHeights(path("h.tif"), file).ok());
+  }
+
+  /// s.tks: ground of heightAt() that lies so.
+  Ground encodedGround(const Layout& layout) {
+    const Ground ground(layout, kWidth, kHeight);
+    writeHeights(layout, ground, kWidth, kHeight, heightAt);
+    EXPECT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    return ground;
   }
 
   /// Wavefront OBJ, counting from 0.
@@ -152,9 +176,7 @@ class CliTurned : public CliTest {
 TEST_F(CliTurned, MeshesLieAsTheGroundDoes) {
   for (const Layout& layout : kLayouts) {
     SCOPED_TRACE(layout.name);
-    const Ground ground(layout, kWidth, kHeight);
-    writeHeights(layout, ground, kWidth, kHeight, heightAt);
-    ASSERT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    const Ground ground = encodedGround(layout);
     ASSERT_EQ(cli("-q decode s.tks -f --mesh m.obj").code, 0);
     const ObjMesh mesh = readObj("m.obj");
     ASSERT_EQ(mesh.positions.size(), size_t{kWidth} * kHeight);
@@ -181,9 +203,7 @@ TEST_F(CliTurned, MeshesLieAsTheGroundDoes) {
 TEST_F(CliTurned, NormalsOfMeshesAreThoseOfTheGround) {
   for (const Layout& layout : kLayouts) {
     SCOPED_TRACE(layout.name);
-    const Ground ground(layout, kWidth, kHeight);
-    writeHeights(layout, ground, kWidth, kHeight, heightAt);
-    ASSERT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    const Ground ground = encodedGround(layout);
     ASSERT_EQ(cli("-q decode s.tks -f --mesh m.obj").code, 0);
     const ObjMesh mesh = readObj("m.obj");
     size_t inner = 0;
@@ -202,27 +222,10 @@ TEST_F(CliTurned, NormalsOfMeshesAreThoseOfTheGround) {
   }
 }
 
-/// Unit vectors, east and south, along rows of texels and up their columns.
-struct TangentAxes {
-  std::array<double, 2> right, up;
-
-  explicit TangentAxes(const Ground& ground) {
-    const std::array<double, 2> origin = ground.at(0, 0), next = ground.at(1, 0);
-    const std::array<double, 2> below = ground.at(0, 1);
-    right = {next[0] - origin[0], next[1] - origin[1]};
-    const double length = std::hypot(right[0], right[1]);
-    for (double& part : right) part /= length;
-    up = {right[1], -right[0]};
-    if (up[0] * (below[0] - origin[0]) + up[1] * (below[1] - origin[1]) > 0) up = {-up[0], -up[1]};
-  }
-};
-
 TEST_F(CliTurned, NormalMapsAreInTheTangentSpaceOfTheTexture) {
   for (const Layout& layout : kLayouts) {
     SCOPED_TRACE(layout.name);
-    const Ground ground(layout, kWidth, kHeight);
-    writeHeights(layout, ground, kWidth, kHeight, heightAt);
-    ASSERT_EQ(cli("-q encode h.tif --lossless -f -o s.tks").code, 0);
+    const Ground ground = encodedGround(layout);
     ASSERT_EQ(cli("-q decode s.tks -f --normal-map n.png").code, 0);
     const auto map = tools::readImage(path("n.png"));
     ASSERT_TRUE(map.ok());

@@ -4,17 +4,10 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/stream_fixture.hpp"
+#include "tests/support/indexed_terrain.hpp"
 
 namespace tetrakis::test {
 namespace {
-
-Bytes encodeRegions(const samples::Raster* heights, const samples::Raster* image,
-                    tks_encode_options options) {
-  options.regions = 16;
-  if (options.index == TKS_INDEX_NONE) options.index = TKS_INDEX_PACKETS;
-  return encode(heights, image, options);
-}
 
 tks_encode_options forWindows() {
   tks_encode_options options = lossless();

@@ -81,8 +81,7 @@ std::vector<BandPart> allParts(const PlaneLayout& layout, uint32_t width, uint32
 void expectNorms(const Size& size) {
   for (const WaveletSpec& spec : allSpecs()) {
     const PlaneLayout layout(spec, size.extent());
-    const std::vector<BandPlan> plan =
-        layout.plan(allParts(layout, size.width, size.height), 0, 0, 0);
+    const std::vector<BandPlan> plan = layout.plan(allParts(layout, size.width, size.height));
     for (size_t i = 0; i < layout.subbands().size(); ++i) {
       const Subband& band = layout.subbands()[i];
       // Synthesis functions are some twenty coefficients wide; no room for the ends.

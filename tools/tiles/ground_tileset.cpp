@@ -148,15 +148,7 @@ GeographicBounds GroundTileset::groundIn(const GeographicTile& tile) const {
           std::min(whole.east, bounds_.east), std::min(whole.north, bounds_.north)};
 }
 
-Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& ground,
-                                                  const GeographicTile& tile,
-                                                  const TileErrors& errors,
-                                                  const ImageFile* texture) {
-  if (tile.level != level_) {
-    below_ = std::exchange(nodes_, {});
-    level_ = tile.level;
-    error_ = errors.shown;
-  }
+GroundTileset::Node GroundTileset::overThoseBelow(const GeographicTile& tile) {
   const double none = std::numeric_limits<double>::infinity();
   Node node{{{"refine", "REPLACE"}}, none, -none};
   json children = json::array();
@@ -170,6 +162,21 @@ Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& ground,
       below_.erase(child);
     }
   }
+  if (!children.empty()) node.tile["children"] = std::move(children);
+  return node;
+}
+
+Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& ground,
+                                                  const GeographicTile& tile,
+                                                  const TileErrors& errors,
+                                                  const ImageFile* texture) {
+  if (tile.level != level_) {
+    below_ = std::exchange(nodes_, {});
+    level_ = tile.level;
+    error_ = errors.shown;
+  }
+  Node node = overThoseBelow(tile);
+  const bool alone = !node.tile.contains("children");
   std::vector<std::byte> bytes;
   if (!ground.triangles.empty()) {
     Result<std::vector<std::byte>> glb = encodeGlb(meshFileOf(ground, tile, texture), {});
@@ -183,10 +190,9 @@ Result<std::vector<std::byte>> GroundTileset::add(const TileMesh& ground,
     node.tile["content"]["uri"] = std::to_string(tile.level) + "/" + std::to_string(tile.x) + "/" +
                                   std::to_string(tile.y) + ".glb";
   }
-  if (bytes.empty() && children.empty()) return bytes;
-  node.tile["geometricError"] = children.empty() ? 0 : errors.shown;
+  if (bytes.empty() && alone) return bytes;
+  node.tile["geometricError"] = alone ? 0 : errors.shown;
   node.tile["boundingVolume"] = volumeOf(groundIn(tile), node.lowest, node.highest);
-  if (!children.empty()) node.tile["children"] = std::move(children);
   nodes_.emplace(std::pair(tile.x, tile.y), std::move(node));
   return bytes;
 }

@@ -54,6 +54,9 @@ class GroundTileset {
   };
   using Level = std::map<std::pair<uint32_t, uint32_t>, Node>;
 
+  /// A tile of which only those below it are known, which it takes.
+  Node overThoseBelow(const GeographicTile& tile);
+
   GeographicBounds bounds_;
   uint32_t level_ = 0;
   double error_ = 0;     ///< that viewers go by on the level

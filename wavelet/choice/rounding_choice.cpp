@@ -59,8 +59,7 @@ class CodedPart {
     forwardWavelet(spec_, layout.pyramid(), values);
     bands_ = layout.parts(regionsOf(part_.extent.width, part_.extent.height, 0).front());
     TrackSource source;
-    source.plan = layout.plan(bands_, 0, 0, 0);
-    layout.markAbsent(bands_, source.plan);
+    source.plan = layout.marked(bands_, layout.plan(bands_));
     for (size_t i = 0; i < bands_.size(); ++i) {
       source.bands.push_back({layout.gather(values, bands_[i]), layout.energy(bands_[i].subband)});
       clearAbsent(source.plan[i], source.bands[i].values);
