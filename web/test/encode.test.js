@@ -54,6 +54,17 @@ test('an ImageData is a texture', async () => {
   assert.equal(info.textureChannels, 4);
 });
 
+test('a further colour is no alpha', async () => {
+  const data = Uint8Array.from({length: 4 * 30}, (_, i) => (i * 7) % 200);
+  for (const opaque of [false, true]) {
+    const terrain = await open(await encode({texture: {data, width: 6, height: 5, opaque}}));
+    assert.equal(terrain.info.textureOpaque, opaque);
+    const {texture} = await terrain.decode();
+    const expected = data.map((value, i) => (opaque && i % 4 === 3 ? 255 : value));
+    assert.deepEqual([...texture.data], [...expected]);
+  }
+});
+
 test('what makes no sense is refused by code and sentence', async () => {
   const {heights, texture} = terrainOf(16);
   const refused = (input, pattern) => assert.rejects(encode(input), (error) => {
