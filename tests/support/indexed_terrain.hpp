@@ -33,7 +33,7 @@ inline tks_screen_camera alongRows(double column, double row, double height) {
 inline Bytes encodeRegions(const samples::Raster* heights, const samples::Raster* image,
                            tks_encode_options options) {
   options.regions = 16;
-  options.index = 1;
+  if (options.index == TKS_INDEX_NONE) options.index = TKS_INDEX_PACKETS;
   return encode(heights, image, options);
 }
 
