@@ -81,12 +81,14 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
   if (!steps.valid.empty()) validity = encodeValidity({steps.valid, extentOf(samples)});
   if (target.bytes < UINT64_MAX) target.bytes -= std::min<uint64_t>(target.bytes, validity.size());
   steps = withBridgesFor(target, std::move(steps), extentOf(samples));
+  LateMask late = lateMaskOf(steps, extentOf(samples), validity.size(), target);
   GeometryLayers layers = layersOf(samples, validity.size());
   layers.bridge = steps.bridge;
   return {.samples = &samples,
           .steps = std::move(steps),
           .layers = std::move(layers),
           .validity = std::move(validity),
+          .late = std::move(late),
           .shown_by = inputs.shownBy()};
 }
 

@@ -26,6 +26,17 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
          error < heights.steps.step / (any_step ? 2 : 1);
 }
 
+/// Bytes of coefficients that may come before a late mask, so that the budget holds all of it.
+/// Where it has no room for that the mask may as well come behind it.
+uint64_t bytesBeforeMask(const EncodeInputs& inputs, const QuantisedHeights& heights) {
+  constexpr uint64_t kPart = 16;               // of the budget: what else there is
+  constexpr uint64_t kShareBesideTexture = 8;  // of what the mask leaves
+  const uint64_t budget = inputs.options.bytes - inputs.options.bytes / kPart;
+  if (heights.late.bytes() >= budget) return UINT64_MAX;
+  const uint64_t left = budget - heights.late.bytes();
+  return inputs.image == nullptr ? left : left / kShareBesideTexture;
+}
+
 /// Codes the heights within the largest error, or exactly where that takes fewer bytes.
 Heights codeWithinBound(const EncodeInputs& inputs, Quantised quantised) {
   const double error = inputs.options.max_error / std::abs(inputs.heights->scale);
@@ -64,8 +75,10 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
   HeightTarget target(quantised->restored() ? Purpose::kLossless : purposeOf(inputs));
   // What a texture leaves of a budget is not known yet; most of it is the texture's.
   constexpr uint64_t kShareBesideTexture = 4;
-  if (inputs.budgeted())
+  if (inputs.budgeted()) {
     target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
+    target.before_mask = bytesBeforeMask(inputs, *quantised);
+  }
   if (inputs.options.psnr > 0)
     return std::make_shared<const CodedHeights>(codeUntilReached(inputs, quantised, target));
   return std::make_shared<const CodedHeights>(
