@@ -13,12 +13,11 @@ namespace tetrakis::inline heights {
 namespace {
 
 /// Bytes of a stream for the target, rather fewer than more, with a mask of so many.
-double leastStream(const BridgeTarget& target, const HeightSteps& steps, uint64_t mask_bytes) {
+double leastStream(const BridgeTarget& target, size_t valid, uint64_t mask_bytes) {
   constexpr double kLossless = 1. / 4, kLossy = 1. / 16;  // bytes a sample
   const double share = target.mean_square > 0 ? kLossy : kLossless;
-  return std::min(
-      static_cast<double>(target.bytes),
-      share * static_cast<double>(steps.validCount()) + static_cast<double>(mask_bytes));
+  return std::min(static_cast<double>(target.bytes),
+                  share * static_cast<double>(valid) + static_cast<double>(mask_bytes));
 }
 
 /// Squared error that a byte of a packet removes; the first point is the one before packet 0.
@@ -29,17 +28,26 @@ double slopeOf(const OrderedTracks& order, size_t packet) {
 
 }  // namespace
 
-LateMask lateMaskOf(const HeightSteps& steps, Extent plane, uint64_t first_bytes,
+LateMask lateMaskOf(const PlaneView<const uint8_t>& valid, Mask lifted, uint64_t first_bytes,
                     const BridgeTarget& target) {
-  constexpr uint64_t kShort = 256;           // there is little to see in so few bytes
+  constexpr uint64_t kShort = 512;           // there is little to see in so few bytes
   constexpr double kMostGrowth = 1. / 1000;  // of the stream
-  if (steps.bridge == 0 || first_bytes < kShort) return {};
+  if (first_bytes < kShort) return {};
   LateMask late;
-  if (!steps.lifted.empty()) late.lifted = encodeValidity({steps.lifted, plane});
-  late.validity = encodeLateValidity({steps.valid, plane}, steps.lifted);
+  if (!lifted.all()) late.lifted = encodeValidity({lifted.bytes(), valid.extent()});
+  late.validity = encodeLateValidity(valid, lifted);
+  const auto count =
+      static_cast<size_t>(std::count(valid.values().begin(), valid.values().end(), uint8_t{1}));
   const double most =
-      static_cast<double>(first_bytes) + kMostGrowth * leastStream(target, steps, first_bytes);
+      static_cast<double>(first_bytes) + kMostGrowth * leastStream(target, count, first_bytes);
   return static_cast<double>(late.bytes()) <= most ? std::move(late) : LateMask();
+}
+
+std::optional<uint64_t> roomBesideMask(uint64_t mask_bytes, uint64_t budget) {
+  constexpr uint64_t kElse = 16;  // the part of a budget that header and heads of packets may take
+  const uint64_t room = budget - budget / kElse;
+  if (mask_bytes >= room) return {};
+  return room - mask_bytes;
 }
 
 MaskPlace placeOfMask(std::span<const EncodedTrack> coefficients, uint64_t bytes,

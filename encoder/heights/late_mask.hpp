@@ -7,11 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "bitstream/track/track_encoder.hpp"
-#include "codec/geometry/quantiser/height_steps.hpp"
 #include "wavelet/choice/bridge_choice.hpp"
 
 namespace tetrakis::inline heights {
@@ -25,10 +26,14 @@ struct LateMask {
   uint64_t bytes() const { return lifted.size() + validity.size(); }
 };
 
-/// The late mask of steps with bridges, unless it is short or takes clearly more bytes than one
-/// that comes first, of so many bytes. target: what the bridges were chosen for.
-LateMask lateMaskOf(const HeightSteps& steps, Extent plane, uint64_t first_bytes,
+/// The late mask beside lifted samples, unless it is short or takes more bytes than one that comes
+/// first, of so many bytes, by more than a thousandth of the stream. target: what the bridges are
+/// for.
+LateMask lateMaskOf(const PlaneView<const uint8_t>& valid, Mask lifted, uint64_t first_bytes,
                     const BridgeTarget& target);
+
+/// What a budget leaves beside a mask of so many bytes; nothing: it has no room for the mask.
+std::optional<uint64_t> roomBesideMask(uint64_t mask_bytes, uint64_t budget);
 
 /// What has to lie behind a late mask, so that a stream holds it.
 struct MaskRoom {

@@ -28,7 +28,8 @@ const char* web_names() {
          "spacingX spacingY lossless hasVoids hasNodata nodata maxError trianglesHint regions "
          "textureRegions textureWidth textureHeight textureChannels textureCoarsestLevel "
          "textureCutout textureSample heightsRmse texturePsnr hasGeotransform g0 g1 g2 g3 g4 g5 "
-         "registration textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration";
+         "registration textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration "
+         "voidsKnown";
 }
 
 tks_status web_numbers(const tks_decoder* decoder, double* out) {
@@ -87,7 +88,8 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
                             i.texture_geotransform[3],
                             i.texture_geotransform[4],
                             i.texture_geotransform[5],
-                            double(i.texture_registration)};
+                            double(i.texture_registration),
+                            double(i.voids_known)};
   std::copy(std::begin(numbers), std::end(numbers), out);
   return TKS_OK;
 }

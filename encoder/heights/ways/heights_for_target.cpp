@@ -2,6 +2,7 @@
 #include "encoder/heights/ways/heights_for_target.hpp"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "codec/geometry/quantiser/voids.hpp"
@@ -29,12 +30,10 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
 /// Bytes of coefficients that may come before a late mask, so that the budget holds all of it.
 /// Where it has no room for that the mask may as well come behind it.
 uint64_t bytesBeforeMask(const EncodeInputs& inputs, const QuantisedHeights& heights) {
-  constexpr uint64_t kPart = 16;               // of the budget: what else there is
-  constexpr uint64_t kShareBesideTexture = 8;  // of what the mask leaves
-  const uint64_t budget = inputs.options.bytes - inputs.options.bytes / kPart;
-  if (heights.late.bytes() >= budget) return UINT64_MAX;
-  const uint64_t left = budget - heights.late.bytes();
-  return inputs.image == nullptr ? left : left / kShareBesideTexture;
+  constexpr uint64_t kShareBesideTexture = 8;
+  const std::optional<uint64_t> room = roomBesideMask(heights.late.bytes(), inputs.options.bytes);
+  if (!room) return UINT64_MAX;
+  return inputs.image == nullptr ? *room : *room / kShareBesideTexture;
 }
 
 /// Codes the heights within the largest error, or exactly where that takes fewer bytes.

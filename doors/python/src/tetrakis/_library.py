@@ -201,6 +201,7 @@ class StreamInfo(ctypes.Structure):
         ("texture_crs", c_char_p),
         ("texture_geo_keys", c_char_p),
         ("index", c_int),
+        ("voids_known", c_int),
     ]
 
 
