@@ -31,12 +31,12 @@ struct Holed {
   }
 };
 
-/// One in `of` samples is void at random, and where `frame` says it.
+/// One in `of` samples is void at random, and two corners with a frame.
 Holed holed(uint32_t width, uint32_t height, tks_sample sample, uint32_t of, bool frame = false) {
   Holed h{make({Pattern::kRidges, width, height, 1, sample}), {}};
   for (uint32_t y = 0; y < height; ++y) {
     for (uint32_t x = 0; x < width; ++x) {
-      const bool outside = frame && isVoid(VoidShape::kCoast, width, height, x / 2, y / 2);
+      const bool outside = frame && (x + y < height / 2 || x + y > width + height / 2);
       const size_t i = h.valid.size();
       h.valid.push_back(hash(x, y, 7) % of != 0 && !outside);
       if (sample == TKS_I16) {  // to the last bit noise would not be worth bridging
@@ -83,7 +83,7 @@ struct Case {
 
 std::vector<Case> cases() {
   const Holed third = holed(95, 80, TKS_I16, 3), some = holed(110, 81, TKS_F32, 5);
-  const Holed framed = holed(130, 110, TKS_I16, 4, true);
+  const Holed framed = holed(330, 290, TKS_I16, 4, true);
   tks_encode_options psnr = budget(0);
   psnr.psnr = 45;
   return {{"a third, lossless", third, lossless()},
@@ -91,10 +91,10 @@ std::vector<Case> cases() {
           {"floats, in a budget", some, budget(2500)},
           {"floats, within a bound", some, within(30)},
           {"floats, of a PSNR", some, psnr},
-          {"beside a coast, lossless", framed, lossless()},
-          {"beside a coast, of a PSNR", framed, psnr},
-          {"beside a coast, in regions", framed, inRegions(lossless())},
-          {"beside a coast, in regions and a budget", framed, inRegions(budget(4000))}};
+          {"in a frame, lossless", framed, lossless()},
+          {"in a frame, of a PSNR", framed, psnr},
+          {"in a frame, in regions", framed, inRegions(lossless())},
+          {"in a frame, in regions and a budget", framed, inRegions(budget(25000))}};
 }
 
 /// Once the opening is there, voids are found one by one, and no valid sample is taken for one. So
@@ -186,8 +186,9 @@ TEST(LateMask, ReferenceDecoderAgrees) {
     SCOPED_TRACE(c.name);
     const Bytes bytes = encodeHeights(c.heights.heights(), c.options);
     const size_t header = readHeader(bytes)->bytes;
-    for (size_t part = 0; part <= 12; ++part) {
-      const Prefix prefix = Prefix(bytes).first(header + (bytes.size() - header) * part / 12);
+    const size_t parts = c.heights.valid.size() < 20000 ? 12 : 3;  // that takes a second
+    for (size_t part = 0; part <= parts; ++part) {
+      const Prefix prefix = Prefix(bytes).first(header + (bytes.size() - header) * part / parts);
       for (const int level : {0, 2}) {
         const reference::Decoded decoded =
             reference::decode(prefix, reference::kMaxSamples, {level, level});
@@ -213,14 +214,14 @@ TEST(LateMask, GrowingStreamsAreLikeFreshOnes) {
     Stream growing(Prefix(bytes).first(header)), put(Prefix(bytes).first(header));
     std::mt19937 random(4);
     for (size_t n = header; n < bytes.size();) {
-      const size_t more = std::min<size_t>(1 + random() % 400, bytes.size() - n);
+      const size_t more = std::min<size_t>(1 + random() % 900, bytes.size() - n);
       ASSERT_EQ(tks_append(growing.get(), bytes.data() + n, more), TKS_OK);
       n += more;
       Stream fresh(Prefix(bytes).first(n));
       ASSERT_TRUE(growing.heights() == fresh.heights()) << n;
     }
     for (size_t end = bytes.size(); end > header;) {
-      const size_t begin = std::max(header, end - std::min<size_t>(end, 300));
+      const size_t begin = std::max(header, end - std::min<size_t>(end, 700));
       ASSERT_EQ(tks_put(put.get(), begin, bytes.data() + begin, end - begin), TKS_OK);
       put.heights();
       end = begin;
@@ -230,7 +231,7 @@ TEST(LateMask, GrowingStreamsAreLikeFreshOnes) {
 }
 
 TEST(LateMask, WindowsAndMeshesOfPrefixes) {
-  const Holed h = holed(130, 110, TKS_I16, 4, true);
+  const Holed h = holed(330, 290, TKS_I16, 4, true);
   for (const uint32_t regions : {1u, 16u}) {
     const Bytes bytes = encodeHeights(h.heights(), inRegions(lossless(), regions));
     const size_t header = readHeader(bytes)->bytes;
@@ -245,7 +246,7 @@ TEST(LateMask, WindowsAndMeshesOfPrefixes) {
                                             samples.size() * sizeof(int16_t)),
                   TKS_OK);
         for (size_t i = 0; i < samples.size(); ++i) {
-          const size_t at = (window.y + i / window.width) * 130 + window.x + i % window.width;
+          const size_t at = (window.y + i / window.width) * 330 + window.x + i % window.width;
           ASSERT_EQ(samples[i], sampleAt(whole, TKS_I16, at)) << part;
         }
       }
