@@ -92,7 +92,6 @@ std::vector<Case> cases() {
           {"floats, within a bound", some, within(30)},
           {"floats, of a PSNR", some, psnr},
           {"in a frame, lossless", framed, lossless()},
-          {"in a frame, of a PSNR", framed, psnr},
           {"in a frame, in regions", framed, inRegions(lossless())},
           {"in a frame, in regions and a budget", framed, inRegions(budget(25000))}};
 }
