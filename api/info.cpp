@@ -112,6 +112,18 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.index = decoder.index;
 }
 
+/// Encoders may leave out up to four bytes at the end of a codeword, which its decoder reads ahead
+/// of what it decides.
+bool voidsAreKnown(const tks_decoder& decoder) {
+  constexpr uint64_t kReadAhead = 4;
+  const auto& tracks = decoder.packets.payload.codewords[0];
+  const auto first = tracks.find(0);
+  const uint64_t known = first == tracks.end() ? 0 : first->second.size();
+  const StreamHeader& header = decoder.parsed.header;
+  const bool complete = decoder.data.size() >= decoder.parsed.bytes + header.payload_bytes;
+  return known + (complete ? kReadAhead : 0) >= header.layers.maskEnd();
+}
+
 void fillHeights(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.max_error = -1;
@@ -129,6 +141,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.max_error = geometry.max_error;
   info.heights_drawn = codingOf(geometry);
   info.has_voids = header.layers.validity_bytes > 0;
+  info.voids_known = voidsAreKnown(decoder);
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;
 }

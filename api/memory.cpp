@@ -101,7 +101,10 @@ class HeightsBytes {
   /// What decoding takes.
   uint64_t decoding() const { return decodingLines() + copyBytes(); }
 
-  uint64_t validity() const { return kOnce + (voids_ ? area(header_) + shown_ : 0) + copyBytes(); }
+  uint64_t validity() const {
+    const uint64_t lifted = layers_.late_mask ? area(header_) : 0;
+    return kOnce + (voids_ ? area(header_) + lifted + shown_ : 0) + copyBytes();
+  }
 
  private:
   /// The same heights, of which another view of the coded lines is decoded.
@@ -129,8 +132,7 @@ class HeightsBytes {
     const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
     const uint64_t samples = view_.window ? shown_ : low();
     const uint64_t marks = view_.window ? 0 : samples;
-    const uint64_t masks =
-        voids_ ? (layers_.bridge > 0 ? 2 : 1) * area(header_) + (view_.isWhole() ? 0 : shown_) : 0;
+    const uint64_t masks = wholeMasks() + (voids_ && !view_.isWhole() ? shown_ : 0);
     const uint64_t corrections = corrected_ ? samples * (kValue + 1) + rows() : 0;
     const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
     const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +
@@ -149,6 +151,11 @@ class HeightsBytes {
     return kDrawnOnce + shown_ * kSample + masks + joinedBytes() + behind;
   }
 
+  /// Which samples of the plane are valid, and which are lifted where that is not the same.
+  uint64_t wholeMasks() const {
+    const bool bridged = layers_.bridge > 0 || layers_.late_mask;
+    return voids_ ? (bridged ? 2 : 1) * area(header_) : 0;
+  }
   /// Heights, marks, mask and corrections that are copied, beside what they are copied from.
   uint64_t copyBytes() const { return api::copyBytes(header_, copied_, 2 * (kValue + 1)); }
   /// Rows that corrections are decoded beside.
@@ -162,18 +169,18 @@ class HeightsBytes {
     const uint64_t samples = view_.window ? shown_ : low();
     return table_ ? layers_.table_values * kEntry + samples * kValue : 0;
   }
-  /// Coefficients around the table, in one piece.
-  uint64_t joinedBytes() const { return table_ ? decoder_.packets.bytes : 0; }
+  /// Coefficients around the table and a late mask, in one piece.
+  uint64_t joinedBytes() const { return table_ || layers_.late_mask ? decoder_.packets.bytes : 0; }
   /// The number of each sample, and of each area its level and what levels of the transform make of
   /// it.
   uint64_t flatBytes() const {
     constexpr uint64_t kArea = sizeof(int32_t) * (2 * kMaxLevels + 24);
     return flat_ ? area(header_) * sizeof(uint16_t) + layers_.flat_areas * kArea : 0;
   }
-  /// Validity, the mask, the numbers of areas and a label for at most every other sample.
+  /// Masks, the numbers of areas and a label for at most every other sample.
   uint64_t flatOpeningBytes() const {
     constexpr uint64_t kSample = 1 + sizeof(uint32_t) / 2 + sizeof(uint16_t);
-    return flat_ ? area(header_) * (kSample + (voids_ ? 1 : 0)) : 0;
+    return flat_ ? area(header_) * kSample + wholeMasks() : 0;
   }
   uint64_t low() const { return area(Pyramid(header_.extent()).low(view_.level).extent); }
 

@@ -20,6 +20,15 @@ class DecodingIo {
 
 }  // namespace
 
+std::vector<uint8_t> decodeLateValidity(std::span<const uint8_t> codeword, Extent plane,
+                                        Mask lifted) {
+  std::vector<uint8_t> valid(plane.samples());
+  DecodingIo decoding(codeword);
+  LateMaskIo<DecodingIo> io(decoding, lifted);
+  ValidityPass<LateMaskIo<DecodingIo>>({valid, plane}, io).run();
+  return valid;
+}
+
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent plane) {
   std::vector<uint8_t> valid(plane.samples());
   DecodingIo io(codeword);

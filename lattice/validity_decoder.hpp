@@ -15,4 +15,9 @@ namespace tetrakis::inline lattice {
 /// every sample is valid. Safe on any bytes.
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent plane);
 
+/// The same of a mask that comes late, when it is known which samples are lifted: all others are
+/// void. Lifted samples of which the codeword does not tell are taken to be valid.
+std::vector<uint8_t> decodeLateValidity(std::span<const uint8_t> codeword, Extent plane,
+                                        Mask lifted);
+
 }  // namespace tetrakis::inline lattice

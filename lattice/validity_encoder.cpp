@@ -26,15 +26,28 @@ class EncodingIo {
   RangeEncoder encoder_;
 };
 
+/// As a decoder reads it, one byte or more.
+std::vector<uint8_t> finished(EncodingIo& io) {
+  std::vector<uint8_t> codeword = io.finish();
+  if (codeword.empty()) codeword.push_back(0);
+  return codeword;
+}
+
 }  // namespace
 
 std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid) {
   std::vector<uint8_t> known(valid.extent().samples());
   EncodingIo io(valid.values());
   ValidityPass<EncodingIo>({known, valid.extent()}, io).run();
-  std::vector<uint8_t> codeword = io.finish();
-  if (codeword.empty()) codeword.push_back(0);
-  return codeword;
+  return finished(io);
+}
+
+std::vector<uint8_t> encodeLateValidity(const PlaneView<const uint8_t>& valid, Mask lifted) {
+  std::vector<uint8_t> known(valid.extent().samples());
+  EncodingIo encoding(valid.values());
+  LateMaskIo<EncodingIo> io(encoding, lifted);
+  ValidityPass<LateMaskIo<EncodingIo>>({known, valid.extent()}, io).run();
+  return finished(encoding);
 }
 
 }  // namespace tetrakis::inline lattice

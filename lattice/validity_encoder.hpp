@@ -13,4 +13,7 @@ namespace tetrakis::inline lattice {
 /// where it is void. The whole codeword gives the mask back whatever bytes follow it.
 std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid);
 
+/// The same of a mask that comes late. lifted: marks at least the valid samples.
+std::vector<uint8_t> encodeLateValidity(const PlaneView<const uint8_t>& valid, Mask lifted);
+
 }  // namespace tetrakis::inline lattice

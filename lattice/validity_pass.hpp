@@ -147,4 +147,24 @@ class ValidityPass {
   Models centres_, midpoints_;
 };
 
+/// One side of the decisions of a mask that comes late, when it is known which samples are lifted:
+/// only these take decisions, all others are void. A sample whose decision does not count is taken
+/// to be valid: coarser vertices say little of the single holes between them.
+template <class Io>
+class LateMaskIo {
+ public:
+  LateMaskIo(Io& io, Mask lifted) : io_(io), lifted_(lifted) {}
+  bool bit(AdaptiveBit& model, size_t sample) {
+    if (!lifted_[sample]) return false;
+    if (io_.stopped()) return true;
+    const bool valid = io_.bit(model, sample);
+    return valid || io_.stopped();
+  }
+  bool stopped() const { return false; }
+
+ private:
+  Io& io_;
+  Mask lifted_;
+};
+
 }  // namespace tetrakis::inline lattice

@@ -3,6 +3,7 @@
 // (docs/FORMAT.md, section 2).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -93,7 +94,8 @@ struct RelativeSteps {
 ///
 ///   validity codeword | flat areas | coefficients | corrections
 ///
-/// A table of values lies within the coefficients, or at one of their ends.
+/// A table of values lies within the coefficients, or at one of their ends. So does validity where
+/// the mask comes late; then the mask of the samples that are lifted stands in its place.
 struct GeometryLayers {
   uint64_t validity_bytes = 0;  ///< 0: every sample is valid
   uint64_t table_bytes = 0;     ///< 0: steps are multiples; else they count the values of a table
@@ -102,8 +104,11 @@ struct GeometryLayers {
   std::vector<TableKnot> table_knots = {};  ///< likewise, by rising places
   uint64_t flat_bytes = 0;                  ///< 0: there are no flat areas
   uint32_t flat_areas = 0;                  ///< with flat areas only: how many there are
-  uint8_t bridge = 0;      ///< the reach of bridges over voids (wavelet/bridges.hpp); 0: none
-  uint8_t has_nodata = 0;  ///< voids have the sample value `nodata`; else NaN (f32 only)
+  uint8_t bridge = 0;  ///< the reach of bridges over voids (wavelet/bridges.hpp); 0: none, or late
+  bool late_mask = false;       ///< validity lies among the coefficients
+  uint64_t lifted_bytes = 0;    ///< with a late mask only: which samples are lifted; 0: all
+  uint64_t validity_after = 0;  ///< likewise: bytes of coefficients before validity
+  uint8_t has_nodata = 0;       ///< voids have the sample value `nodata`; else NaN (f32 only)
   double nodata = 0;
   CorrectionKind corrections = CorrectionKind::kNone;
   uint64_t coefficient_bytes = 0;  ///< with corrections only: what follows is theirs
@@ -120,8 +125,9 @@ struct GeometryLayers {
     if (has_nodata) v.f64("nodata", nodata);
     auto kinds = static_cast<uint8_t>(
         static_cast<uint8_t>(corrections) | (table_bytes > 0 ? kWithTable : 0) |
-        (flat_bytes > 0 ? kWithFlatAreas : 0) | (bridge > 0 ? kWithBridges : 0));
-    v.u8("layer_kinds", kinds, 0, kWithBridges + kWithFlatAreas + kWithTable + 3);
+        (flat_bytes > 0 ? kWithFlatAreas : 0) | (bridge > 0 ? kWithBridges : 0) |
+        (late_mask ? kWithLateMask : 0));
+    v.u8("layer_kinds", kinds, 0, kWithLateMask + kWithFlatAreas + kWithTable + 3);
     corrections = static_cast<CorrectionKind>(kinds % kWithTable);
     if (kinds & kWithTable) {
       v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
@@ -134,8 +140,14 @@ struct GeometryLayers {
       v.varint("flat_areas", flat_areas, 1, kMostFlatAreas);
     }
     if (kinds & kWithBridges) v.u8("bridge", bridge, 1, 255);
+    late_mask = (kinds & kWithLateMask) != 0;
+    if (late_mask) {
+      v.varint("lifted_bytes", lifted_bytes, 0, UINT64_MAX >> 1);
+      v.varint("validity_after", validity_after, 0, UINT64_MAX >> 1);
+    }
     if (corrections == CorrectionKind::kNone) return;
-    v.varint("coefficient_bytes", coefficient_bytes, table_after, UINT64_MAX >> 1);
+    v.varint("coefficient_bytes", coefficient_bytes, std::max(table_after, validity_after),
+             UINT64_MAX >> 1);
     if (corrections == CorrectionKind::kSteps) {
       v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
     }
@@ -145,15 +157,25 @@ struct GeometryLayers {
     }
   }
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
-  static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8,
-                           kWithBridges = 16;  ///< bits beside the corrections
+  static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8, kWithBridges = 16,
+                           kWithLateMask = 32;  ///< bits beside the corrections
   static constexpr uint64_t kMostFlatAreas = 65535;
   static constexpr uint64_t kMostFlatSamples = uint64_t{1} << 31;  ///< of a plane with flat areas
   static constexpr uint32_t kMostValues = 1u << 20;
   static constexpr uint8_t kMostKnots = 64;
   static constexpr int64_t kMostRise = int64_t{1} << 28;
 
-  uint64_t openingBytes() const { return validity_bytes + flat_bytes; }
+  uint64_t openingBytes() const { return (late_mask ? lifted_bytes : validity_bytes) + flat_bytes; }
+  /// Bytes of the track behind which validity is known.
+  uint64_t maskEnd() const {
+    if (!late_mask) return validity_bytes;
+    const uint64_t table = table_after < validity_after ? table_bytes : 0;
+    return openingBytes() + validity_after + table + validity_bytes;
+  }
+  /// Bytes of the track that are neither coefficients nor corrections.
+  uint64_t besideCoefficients() const {
+    return validity_bytes + lifted_bytes + flat_bytes + table_bytes;
+  }
   /// Corrections restore every sample.
   bool restoresSamples() const {
     return corrections == CorrectionKind::kSamples || corrections == CorrectionKind::kRelative;

@@ -37,7 +37,7 @@ Status checkLayers(const StreamHeader& header) {
   if (steep) {
     return {TKS_CORRUPT, "Corrupt stream: a knot of its table of values lies too far off."};
   }
-  if (layers.bridge > 0 && layers.validity_bytes == 0)
+  if ((layers.bridge > 0 || layers.late_mask) && layers.validity_bytes == 0)
     return {TKS_CORRUPT, "Corrupt stream: its heights have bridges but no voids."};
   if (layers.flat_bytes > 0 &&
       header.geometry->extent().samples() > GeometryLayers::kMostFlatSamples) {
@@ -70,7 +70,7 @@ Status checkDirect(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->direct()) return {};
   const GeometryLayers& layers = header.layers;
   if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 || layers.bridge > 0 ||
-      layers.corrections == CorrectionKind::kSteps ||
+      layers.late_mask || layers.corrections == CorrectionKind::kSteps ||
       layers.corrections == CorrectionKind::kRelative) {
     return {TKS_CORRUPT,
             "Corrupt stream: drawn or stored heights have regions, flat areas, bridges or "

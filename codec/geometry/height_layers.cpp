@@ -51,9 +51,9 @@ DecodedGeometry correctedSteps(DecodedGeometry geometry, const GeometryLayers& l
 
 /// The tracks taken apart.
 struct TakenLayers {
-  std::span<const uint8_t> validity, table, flat, corrections;
-  Codewords coefficients;  ///< of the first track those before the table
-  std::span<const uint8_t> behind_table;
+  std::span<const uint8_t> lifted, validity, table, flat, corrections;
+  Codewords coefficients;  ///< of the first track those before what lies among them
+  std::vector<std::span<const uint8_t>> more;  ///< the others of it, in their order
 
   TakenLayers(const Codewords& codewords, const GeometryLayers& layers) : coefficients(codewords) {
     assert(!coefficients.empty());
@@ -63,45 +63,83 @@ struct TakenLayers {
       first = first.subspan(taken.size());
       return taken;
     };
-    validity = take(layers.validity_bytes);
+    if (layers.late_mask) {
+      lifted = take(layers.lifted_bytes);
+    } else {
+      validity = take(layers.validity_bytes);
+    }
     flat = take(layers.flat_bytes);
+    struct Among {
+      uint64_t after, bytes;
+      std::span<const uint8_t>* layer;
+    };
+    std::vector<Among> among;
+    if (layers.late_mask)
+      among.push_back({layers.validity_after, layers.validity_bytes, &validity});
+    if (layers.table_bytes > 0) among.push_back({layers.table_after, layers.table_bytes, &table});
+    std::stable_sort(among.begin(), among.end(),
+                     [](const Among& a, const Among& b) { return a.after < b.after; });
+    uint64_t before = 0;
+    for (const auto& [after, bytes, layer] : among) {
+      more.push_back(take(after - before));
+      *layer = take(bytes);
+      before = after;
+    }
     const bool corrected = layers.corrections != CorrectionKind::kNone;
-    const uint64_t all = corrected ? layers.coefficient_bytes : UINT64_MAX;
-    const bool has_table = layers.table_bytes > 0;
-    const std::span<const uint8_t> ahead = take(has_table ? layers.table_after : all);
-    table = take(layers.table_bytes);
-    if (has_table) behind_table = take(all - layers.table_after);
+    more.push_back(take((corrected ? layers.coefficient_bytes : UINT64_MAX) - before));
     corrections = first;
-    first = ahead;
+    first = more.front();
+    more.erase(more.begin());
+    std::erase_if(more, [](std::span<const uint8_t> part) { return part.empty(); });
   }
 
-  /// The coefficients of the first track as one codeword, if a table parts them; else nothing.
-  std::vector<uint8_t> aroundTable() const {
-    if (behind_table.empty()) return {};
-    std::vector<uint8_t> joined;
-    joined.reserve(coefficients.front().size() + behind_table.size());
-    for (const std::span<const uint8_t> part : {coefficients.front(), behind_table})
-      joined.insert(joined.end(), part.begin(), part.end());
-    return joined;
+  /// The coefficients of the first track as one codeword, if something parts them; else nothing.
+  std::vector<uint8_t> joined() const {
+    if (more.empty()) return {};
+    size_t bytes = coefficients.front().size();
+    for (const std::span<const uint8_t> part : more) bytes += part.size();
+    std::vector<uint8_t> whole;
+    whole.reserve(bytes);
+    whole.assign(coefficients.front().begin(), coefficients.front().end());
+    for (const std::span<const uint8_t> part : more)
+      whole.insert(whole.end(), part.begin(), part.end());
+    return whole;
+  }
+
+  /// All is there that comes before the coefficients.
+  bool opened(const GeometryLayers& layers) const {
+    const bool masked = layers.late_mask ? lifted.size() == layers.lifted_bytes
+                                         : validity.size() == layers.validity_bytes;
+    return masked && flat.size() == layers.flat_bytes;
   }
 };
 
-/// The validity mask of the whole plane.
+/// Which samples of the whole plane are lifted, of heights whose mask comes late; empty: all.
+std::vector<uint8_t> lateLifted(const TakenLayers& taken, const GeometryHeader& header,
+                                const GeometryLayers& layers) {
+  if (layers.lifted_bytes == 0) return {};
+  return decodeValidity(taken.lifted, header.extent());
+}
+
+/// The validity mask of the whole plane. lifted: lateLifted(), if the mask comes late.
 std::vector<uint8_t> validityOf(const TakenLayers& taken, const GeometryHeader& header,
-                                const GeometryLayers& layers, HeightsMemory* memory = nullptr) {
+                                const GeometryLayers& layers, Mask lifted,
+                                HeightsMemory* memory = nullptr) {
   if (layers.validity_bytes == 0) return {};
   const bool whole = memory != nullptr && taken.validity.size() == layers.validity_bytes;
   if (whole && !memory->valid.empty()) return memory->valid;
-  std::vector<uint8_t> valid = decodeValidity(taken.validity, header.extent());
+  std::vector<uint8_t> valid = layers.late_mask
+                                   ? decodeLateValidity(taken.validity, header.extent(), lifted)
+                                   : decodeValidity(taken.validity, header.extent());
   if (whole) memory->valid = valid;
   return valid;
 }
 
-/// The flat areas of the whole plane.
+/// The flat areas of the whole plane. known: which samples may be flat.
 FlatAreas flatAreasOf(const TakenLayers& taken, const GeometryHeader& header,
-                      const GeometryLayers& layers, const std::vector<uint8_t>& valid) {
+                      const GeometryLayers& layers, Mask known) {
   if (layers.flat_bytes == 0 || taken.flat.empty()) return {};
-  return decodeFlatAreas(taken.flat, header.extent(), valid, layers.flat_areas);
+  return decodeFlatAreas(taken.flat, header.extent(), known, layers.flat_areas);
 }
 
 /// The heights that decoded steps are: places in a table, if there is one, else themselves.
@@ -175,7 +213,10 @@ std::vector<uint8_t> activityHints(const DecodedGeometry& geometry) {
 
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view) {
-  const std::vector<uint8_t> valid = validityOf(TakenLayers(codewords, layers), header, layers);
+  const TakenLayers taken(codewords, layers);
+  std::vector<uint8_t> lifted;
+  if (layers.late_mask) lifted = lateLifted(taken, header, layers);
+  const std::vector<uint8_t> valid = validityOf(taken, header, layers, lifted);
   const ShownLines lines(header, view);
   return lines.shown(cut(std::span<const uint8_t>(valid), header.extent(), lines.coded()));
 }
@@ -187,24 +228,24 @@ DecodedGeometry decodeSteps(const GeometryHeader& header, const GeometryLayers& 
                             const TakenLayers& taken, const View& view,
                             const DecodeContext<HeightsMemory>& context) {
   HeightsMemory* const memory = context.memory;
-  std::vector<uint8_t> valid = validityOf(taken, header, layers, memory);
-  const std::vector<uint8_t> around_table = taken.aroundTable();
-  Codewords coefficients = taken.coefficients;
-  if (!around_table.empty()) coefficients.front() = around_table;
-  if (header.drawn) return decodeDrawnHeights(header, coefficients.front(), valid, view.level);
-  const bool flat_known = memory != nullptr && taken.flat.size() == layers.flat_bytes;
-  const bool growing = flat_known && taken.validity.size() == layers.validity_bytes;
-  std::optional<Mask> lifted;
+  const bool growing = memory != nullptr && taken.opened(layers);
   std::vector<uint8_t> lifted_in_this_call;
-  if (layers.bridge > 0) {
-    std::vector<uint8_t>& kept = growing ? memory->lifted : lifted_in_this_call;
-    if (kept.empty()) kept = liftedSamples(valid, header.extent(), layers.bridge);
-    lifted = kept;
-  }
+  std::vector<uint8_t>& lifted = growing ? memory->lifted : lifted_in_this_call;
+  if (layers.late_mask && lifted.empty()) lifted = lateLifted(taken, header, layers);
+  std::vector<uint8_t> valid = validityOf(taken, header, layers, lifted, memory);
+  const std::vector<uint8_t> joined = taken.joined();
+  Codewords coefficients = taken.coefficients;
+  if (!joined.empty()) coefficients.front() = joined;
+  if (header.drawn) return decodeDrawnHeights(header, coefficients.front(), valid, view.level);
+  if (layers.bridge > 0 && lifted.empty())
+    lifted = liftedSamples(valid, header.extent(), layers.bridge);
+  std::optional<Mask> bridged;
+  if (layers.late_mask || layers.bridge > 0) bridged = lifted;
   FlatAreas of_this_call;
-  FlatAreas& flat = flat_known ? memory->flat : of_this_call;
-  if (flat.empty()) flat = flatAreasOf(taken, header, layers, valid);
-  return decodeGeometry(header, coefficients, {std::move(valid), flat.held(), lifted}, view,
+  FlatAreas& flat = growing ? memory->flat : of_this_call;
+  if (flat.empty())
+    flat = flatAreasOf(taken, header, layers, layers.late_mask ? *bridged : Mask(valid));
+  return decodeGeometry(header, coefficients, {std::move(valid), flat.held(), bridged}, view,
                         {context.threads, growing ? &memory->tracks : nullptr});
 }
 
@@ -213,7 +254,7 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
                            const TakenLayers& taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
   if (header.stored()) {
-    const std::vector<uint8_t> valid = validityOf(taken, header, layers, context.memory);
+    const std::vector<uint8_t> valid = validityOf(taken, header, layers, {}, context.memory);
     return decodeStoredHeights(header, taken.coefficients.front(), valid, view.level);
   }
   DecodedHeights decoded =

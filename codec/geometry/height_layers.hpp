@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes heights from the layers of their tracks: validity, flat areas, coefficients or a
-// drawing with a table of values, corrections (bitstream/stream/geometry_header.hpp), or stored
+// drawing with what lies among them, corrections (bitstream/stream/geometry_header.hpp), or stored
 // samples.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace tetrakis::inline geometry {
 /// is empty before the first call.
 struct HeightsMemory {
   std::vector<uint8_t> valid;   ///< once it is whole
-  std::vector<uint8_t> lifted;  ///< likewise, if voids are bridged
+  std::vector<uint8_t> lifted;  ///< if voids are bridged, once all before the coefficients is there
   FlatAreas flat;               ///< likewise
   TrackMemory tracks;           ///< likewise: what exists of them follows from those
 

@@ -7,6 +7,7 @@
 #include "codec/lines/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
+#include "lattice/validity_encoder.hpp"
 
 namespace tetrakis::conformance {
 namespace {
@@ -138,6 +139,49 @@ std::vector<VectorCase> flatCases() {
                   streamOf(wrong, noise(900, 90)))};
 }
 
+/// A late mask of noise between noise for coefficients: beside flat areas among lifted samples;
+/// before, at and behind the place of a table.
+std::vector<VectorCase> lateMaskCases() {
+  const auto withMask = [](StreamHeader header, uint64_t after) {
+    header.layers.late_mask = true;
+    header.layers.validity_bytes = 150;
+    header.layers.validity_after = after;
+    header.layers.has_nodata = 1;
+    header.layers.nodata = 5;
+    return header;
+  };
+  StreamHeader flat = withMask(heightsHeader(45, 37, TKS_I16, 14), 400);
+  const Extent extent = flat.geometry->extent();
+  const std::vector<uint8_t> lifted = samples::validity(samples::VoidShape::kCoast, 45, 37);
+  std::vector<uint8_t> water = samples::validity(samples::VoidShape::kSpeckle, 45, 37);
+  for (size_t i = 0; i < water.size(); ++i) water[i] = water[i] != 0 && lifted[i] != 0;
+  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(water, extent));
+  FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
+  for (uint32_t i = 0; i < numbered.count; ++i) areas.heights[i] = static_cast<int32_t>(40 * i);
+  Bytes opening = encodeValidity({lifted, extent});
+  flat.layers.lifted_bytes = opening.size();
+  const Bytes flat_codeword = encodeFlatAreas(areas, extent, lifted);
+  flat.layers.flat_bytes = flat_codeword.size();
+  flat.layers.flat_areas = numbered.count;
+  append(opening, flat_codeword);
+  append(opening, noise(1500, 101, 3));
+  std::vector<VectorCase> cases = {crafted("noise_late_flat_45x37",
+                                           "noise: a late mask, flat areas among what is lifted",
+                                           streamOf(flat, opening))};
+  for (const uint64_t after : {60u, 130u, 200u}) {
+    StreamHeader header = withMask(heightsHeader(28, 23, TKS_F32, 12), after);
+    header.layers.corrections = CorrectionKind::kSamples;
+    header.layers.table_bytes = 200;
+    header.layers.table_values = 40;
+    header.layers.table_after = 130;
+    header.layers.coefficient_bytes = 300;
+    cases.push_back(crafted("noise_late_table_" + std::to_string(after) + "_28x23",
+                            "noise: a late mask, a table and corrections",
+                            streamOf(header, noise(1300, 102))));
+  }
+  return cases;
+}
+
 /// Lines that repeat others, in runs of any lengths, and noise for coefficients.
 std::vector<VectorCase> repeatedCases() {
   const auto runs = [](uint32_t lines, uint32_t seed) {
@@ -233,9 +277,9 @@ std::vector<VectorCase> nodataCases() {
 
 std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = weightCases();
-  for (const auto& cases :
-       {wideCases(), craftedTableCases(), flatCases(), repeatedCases(), correctionCases(),
-        nodataCases(), shearCases(), channelTableCases(), drawnCases(), roundedCases()})
+  for (const auto& cases : {wideCases(), craftedTableCases(), flatCases(), lateMaskCases(),
+                            repeatedCases(), correctionCases(), nodataCases(), shearCases(),
+                            channelTableCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

@@ -119,6 +119,18 @@ std::vector<VectorCase> bridgeCases() {
       withVoids(heightsCase("speckle_i16_60x44", "all voids are bridged: joint lifting",
                             {Pattern::kRidges, 60, 44, 1, TKS_I16}, lossless()),
                 VoidShape::kSpeckle, -1),
+      withVoids(heightsCase("late_u8_110x70", "a late mask to the last bit; all samples are lifted",
+                            {Pattern::kRidges, 110, 70, 1, TKS_U8}, lossless()),
+                VoidShape::kSpeckle, 3),
+      withVoids(heightsCase("late_bounded_i16_110x70", "a late mask and corrections of steps",
+                            {Pattern::kRidges, 110, 70, 1, TKS_I16}, maxError(900)),
+                VoidShape::kSpeckle, -1),
+      withVoids(heightsCase("late_budget_f32_110x70", "a late mask in a budget",
+                            {Pattern::kRidges, 110, 70, 1, TKS_F32}, budget(2500)),
+                VoidShape::kSpeckle, -1),
+      withVoids(heightsCase("late_regions_u16_200x130", "a late mask, in regions",
+                            {Pattern::kRidges, 200, 130, 1, TKS_U16}, inRegions(budget(9000), 32)),
+                VoidShape::kSpeckle, 0),
   };
 }
 

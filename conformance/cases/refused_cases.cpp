@@ -174,6 +174,21 @@ std::vector<VectorCase> refusedHeaders() {
     h.layers.table_after = 7;
     h.layers.coefficient_bytes = 6;
   });
+  refuse("late_mask", "a late mask of voids that there are not",
+         [](StreamHeader& h) { h.layers.late_mask = true; });
+  refuse("late_after", "a late mask behind more coefficients than there are", [](StreamHeader& h) {
+    h.layers = {.validity_bytes = 9, .has_nodata = 1, .nodata = 5};
+    h.layers.late_mask = true;
+    h.layers.validity_after = 7;
+    h.layers.corrections = CorrectionKind::kSamples;
+    h.layers.coefficient_bytes = 6;
+  });
+  refuse("drawn_heights_late", "drawn heights with a late mask", [&](StreamHeader& h) {
+    draw(h);
+    h.layers.validity_bytes = 3;
+    h.layers.has_nodata = 1;
+    h.layers.late_mask = true;
+  });
   refuse("table_stored", "stored heights with a table of values", [](StreamHeader& h) {
     h.geometry->planes = GeometryHeader::kDirectPlanes;
     h.layers.table_bytes = 9;

@@ -39,6 +39,40 @@ std::vector<int> activityHints(Plane& marks) {
   return hints;
 }
 
+/// FORMAT 8.1: the codewords of the first track. Drawings and stored samples count as coefficients.
+struct FirstTrack {
+  std::span<const uint8_t> lifted, validity, flat, table, corrections;
+  std::vector<uint8_t> coefficients;
+};
+
+FirstTrack takeApart(const Layers& layers, std::span<const uint8_t> codeword) {
+  FirstTrack track;
+  if (layers.lateMask) track.lifted = take(codeword, layers.liftedBytes);
+  if (!layers.lateMask) track.validity = take(codeword, layers.validityBytes);
+  track.flat = take(codeword, layers.flatBytes);
+  uint64_t taken = 0;
+  const auto coefficients = [&](uint64_t end) {
+    const auto some = take(codeword, end - taken);
+    track.coefficients.insert(track.coefficients.end(), some.begin(), some.end());
+    taken = end;
+  };
+  const bool table = layers.tableBytes > 0;
+  const bool tableFirst = table && layers.tableAfter < layers.validityAfter;
+  const auto takeTable = [&] {
+    coefficients(layers.tableAfter);
+    track.table = take(codeword, layers.tableBytes);
+  };
+  if (tableFirst) takeTable();
+  if (layers.lateMask) {
+    coefficients(layers.validityAfter);
+    track.validity = take(codeword, layers.validityBytes);
+  }
+  if (table && !tableFirst) takeTable();
+  coefficients(layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
+  track.corrections = codeword;
+  return track;
+}
+
 /// What is known of the heights before they become samples.
 struct Surface {
   std::vector<std::vector<Part>> parts;  ///< by track
@@ -70,7 +104,8 @@ Plane placesOf(const Plane& whole, int level) {
   return image;
 }
 
-Surface decodeSurface(const GeometryHeader& header, int bridge,
+/// lifted: what section 7 takes for valid samples; empty: all.
+Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& lifted,
                       const std::vector<std::span<const uint8_t>>& coefficients, Plane known,
                       int level) {
   Surface surface;
@@ -84,7 +119,7 @@ Surface decodeSurface(const GeometryHeader& header, int bridge,
   }
   surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
   const std::vector<uint8_t> valid = surface.plane.valid;
-  if (bridge > 0) surface.plane.valid = bridged(valid, header.width, header.height, bridge);
+  surface.plane.valid = lifted;
   const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
   for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
     const size_t track = surface.parts.size();
@@ -301,35 +336,31 @@ std::vector<uint8_t> decodeStored(const GeometryHeader& header, const Layers& la
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
                                    const Codewords& codewords, int level) {
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
-  std::span<const uint8_t> codeword = codewords.at(0);
-  std::vector<uint8_t> valid;
-  if (layers.validityBytes > 0) {
-    valid = decodeValidity(take(codeword, layers.validityBytes), header.width, header.height);
+  const FirstTrack track = takeApart(layers, codewords.at(0));
+  const int width = header.width, height = header.height;
+  Plane known{width, height, {}, {}};
+  std::vector<uint8_t> lifted;
+  if (layers.lateMask) {
+    if (layers.liftedBytes > 0) lifted = decodeValidity(track.lifted, width, height);
+    known.valid = decodeLateValidity(track.validity, {width, height, {}, lifted});
+  } else if (layers.validityBytes > 0) {
+    known.valid = decodeValidity(track.validity, width, height);
   }
   const bool stored = header.planes == kStoredPlanes && !header.drawn;
-  if (stored) return decodeStored(header, layers, codeword, valid, level);
-  Flat flat;
+  if (stored) return decodeStored(header, layers, track.coefficients, known.valid, level);
+  if (!layers.lateMask)
+    lifted = layers.bridge > 0 ? bridged(known.valid, width, height, layers.bridge) : known.valid;
   if (layers.flatBytes > 0) {
-    flat = decodeFlat(take(codeword, layers.flatBytes), {header.width, header.height, {}, valid},
-                      layers.flatAreas);
+    const std::vector<uint8_t>& among = layers.lateMask ? lifted : known.valid;
+    known.flat = decodeFlat(track.flat, {width, height, {}, among}, layers.flatAreas);
   }
-  const uint64_t bytes = layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX;
-  const bool hasTable = layers.tableBytes > 0;
-  const auto ahead = take(codeword, hasTable ? layers.tableAfter : bytes);
-  std::vector<uint8_t> first(ahead.begin(), ahead.end());
   std::vector<uint32_t> table;
-  if (hasTable) {
-    table = decodeTables(take(codeword, layers.tableBytes), {layers.tableValues}, 32)[0];
-    const auto behind = take(codeword, bytes - layers.tableAfter);
-    first.insert(first.end(), behind.begin(), behind.end());
-  }
+  if (layers.tableBytes > 0) table = decodeTables(track.table, {layers.tableValues}, 32)[0];
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
-  coefficients[0] = first;
-  Plane known{header.width, header.height, {}, std::move(valid)};
-  known.flat = std::move(flat);
-  Surface surface = decodeSurface(header, layers.bridge, coefficients, std::move(known), level);
+  coefficients[0] = track.coefficients;
+  Surface surface = decodeSurface(header, lifted, coefficients, std::move(known), level);
   if (table.empty() && !layers.tableKnots.empty()) standIn(layers, surface);
-  if (layers.corrections == 1 && level == 0) correctSteps(layers, codeword, surface);
+  if (layers.corrections == 1 && level == 0) correctSteps(layers, track.corrections, surface);
   std::vector<uint32_t> samples =
       table.empty() ? samplesOf(header, surface) : valuesOf(header, table, surface);
   if (layers.corrections == 2 && level == 0) {
@@ -337,10 +368,10 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
     if (!table.empty()) {
       for (uint32_t& bits : near) bits = nearValue(header, bits);
     }
-    correctSamples(header, codeword, surface.plane, near, samples);
+    correctSamples(header, track.corrections, surface.plane, near, samples);
   }
   if (layers.corrections == 3 && level == 0)
-    correctFromRelative(header, layers, codeword, surface.plane, samples);
+    correctFromRelative(header, layers, track.corrections, surface.plane, samples);
   putVoids(header, layers, surface.plane, samples);
   return bytesOf(header, samples);
 }

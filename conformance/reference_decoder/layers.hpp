@@ -16,6 +16,9 @@ namespace tetrakis::reference {
 /// 1 valid, 0 void, row by row.
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height);
 
+/// FORMAT 8.1, "Late mask". lifted: with the lifted samples as its valid ones.
+std::vector<uint8_t> decodeLateValidity(std::span<const uint8_t> codeword, const Plane& lifted);
+
 /// FORMAT 8.1, "Bridges": what section 7 takes for valid; empty: all samples. reach: 1 to 255.
 std::vector<uint8_t> bridged(const std::vector<uint8_t>& valid, int width, int height, int reach);
 

@@ -109,7 +109,7 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   layers.validityBytes = in.varint(0, INT64_MAX);
   layers.hasNodata = in.u8(0, 1);
   if (layers.hasNodata) layers.nodata = in.f64();
-  const int kinds = in.u8(0, 30);
+  const int kinds = in.u8(0, 46);
   layers.corrections = kinds % 4;
   if (kinds % 8 == 5 || kinds % 8 == 7) in.fail(Outcome::kCorrupt);
   if (kinds & 4) {
@@ -128,7 +128,16 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
     layers.bridge = in.u8(1, 255);
     if (layers.validityBytes == 0) in.fail(Outcome::kCorrupt);
   }
-  if (layers.corrections > 0) layers.coefficientBytes = in.varint(layers.tableAfter, INT64_MAX);
+  if (kinds & 32) {
+    layers.lateMask = true;
+    layers.liftedBytes = in.varint(0, INT64_MAX);
+    layers.validityAfter = in.varint(0, INT64_MAX);
+    if (layers.validityBytes == 0) in.fail(Outcome::kCorrupt);
+  }
+  if (layers.corrections > 0) {
+    const uint64_t least = std::max(layers.tableAfter, layers.validityAfter);
+    layers.coefficientBytes = in.varint(least, INT64_MAX);
+  }
   if (layers.corrections == 1) {
     layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
   }

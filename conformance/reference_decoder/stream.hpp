@@ -71,6 +71,8 @@ struct Layers {
   uint64_t flatBytes = 0;
   uint32_t flatAreas = 0;
   int bridge = 0;  ///< 0: none
+  bool lateMask = false;
+  uint64_t liftedBytes = 0, validityAfter = 0;
   uint32_t tableValues = 0;
   uint64_t tableAfter = 0;
   std::vector<TableKnot> tableKnots;

@@ -31,12 +31,15 @@ std::array<Offset, 12> neighboursOf(bool centre, int s) {
 
 class ValidityDecoder {
  public:
-  /// none: a plane whose voids are 0 without a decision.
-  ValidityDecoder(RangeDecoder& decoder, int width, int height, const Plane* none = nullptr)
+  /// none: a plane whose voids are 0 without a decision. undecided: what a sample is where its
+  /// decision does not count; nothing: as the majority.
+  ValidityDecoder(RangeDecoder& decoder, int width, int height, const Plane* none = nullptr,
+                  std::optional<int> undecided = std::nullopt)
       : decoder_(decoder),
         width_(width),
         height_(height),
         none_(none),
+        undecided_(undecided),
         valid_(static_cast<size_t>(width) * height) {}
 
   bool ended() const { return ended_; }
@@ -99,12 +102,13 @@ class ValidityDecoder {
     if (none_ != nullptr && !none_->isValid(x, y)) return 0;
     const std::optional<int> bit = ended_ ? std::nullopt : model.decode(decoder_);
     ended_ = !bit;
-    return static_cast<uint8_t>(bit.value_or(otherwise));
+    return static_cast<uint8_t>(bit.value_or(undecided_.value_or(otherwise)));
   }
 
   RangeDecoder& decoder_;
   int width_, height_;
   const Plane* none_;
+  std::optional<int> undecided_;
   std::vector<uint8_t> valid_;
   bool ended_ = false;
   Model root_;
@@ -116,6 +120,11 @@ class ValidityDecoder {
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height) {
   RangeDecoder decoder(codeword);
   return ValidityDecoder(decoder, width, height).decode();
+}
+
+std::vector<uint8_t> decodeLateValidity(std::span<const uint8_t> codeword, const Plane& lifted) {
+  RangeDecoder decoder(codeword);
+  return ValidityDecoder(decoder, lifted.width, lifted.height, &lifted, 1).decode();
 }
 
 std::optional<std::vector<uint8_t>> decodeFlatMask(RangeDecoder& decoder, const Plane& plane) {

@@ -40,21 +40,26 @@ uint64_t bytesBeforeTable(const EncodedTrack& coefficients, size_t bytes, double
   return before;
 }
 
-/// Coefficients with the table behind the first `before` bytes of them, and in their account.
-EncodedTrack withTable(const QuantisedHeights& heights, EncodedTrack coefficients,
-                       uint64_t before) {
-  const std::vector<uint8_t>& table = heights.table;
+/// What lies among coefficients.
+struct AmongThem {
+  uint64_t after;  ///< bytes of coefficients
+  std::span<const uint8_t> codeword;
+  double without;  ///< squared error, in steps, while it is missing
+};
+
+/// Coefficients with a layer among them, and in their account. What lies behind it comes before.
+EncodedTrack withLayer(EncodedTrack coefficients, const AmongThem& layer) {
+  const std::span<const uint8_t> added = layer.codeword;
   std::vector<RatePoint> points;
   for (const RatePoint& point : coefficients.points) {
-    if (point.bytes <= before) {
-      points.push_back(
-          {point.bytes, point.distortion + heights.without_table, point.dips, point.beyond});
-    }
-    if (point.bytes >= before)
-      points.push_back({point.bytes + table.size(), point.distortion, point.dips, point.beyond});
+    if (point.bytes <= layer.after)
+      points.push_back({point.bytes, point.distortion + layer.without, point.dips, point.beyond});
+    if (point.bytes >= layer.after)
+      points.push_back({point.bytes + added.size(), point.distortion, point.dips, point.beyond});
   }
   std::vector<uint8_t> codeword = std::move(coefficients.codeword);
-  codeword.insert(codeword.begin() + static_cast<ptrdiff_t>(before), table.begin(), table.end());
+  codeword.insert(codeword.begin() + static_cast<ptrdiff_t>(layer.after), added.begin(),
+                  added.end());
   return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
 }
 
@@ -66,7 +71,9 @@ std::vector<RatePoint> accountAmid(const QuantisedHeights& heights, const Height
   std::vector<RatePoint> points;
   if (opening > 0) {
     const RatePoint& first = coefficients.front();
-    const auto voids = static_cast<double>(heights.steps.steps.size() - heights.steps.validCount());
+    const HeightSteps& steps = heights.steps;
+    const size_t told = layers.layers.late_mask ? steps.liftedCount() : steps.validCount();
+    const auto voids = static_cast<double>(steps.steps.size() - told);
     const double unknown =
         first.distortion + heights.left + voids * heights.validityWorth() + squaresOf(layers.flat);
     points.push_back({0, unknown, false, first.beyond});
@@ -79,10 +86,10 @@ std::vector<RatePoint> accountAmid(const QuantisedHeights& heights, const Height
   return points;
 }
 
-/// The track of all layers: the coefficients, a table among them, amid the others.
+/// The track of all layers: the coefficients, with what lies among them, amid the others.
 EncodedTrack amidLayers(const QuantisedHeights& heights, const HeightLayers& layers,
                         const EncodedTrack& coefficients) {
-  std::vector<uint8_t> codeword = heights.validity;
+  std::vector<uint8_t> codeword = layers.layers.late_mask ? heights.late.lifted : heights.validity;
   for (const std::span<const uint8_t> layer :
        {std::span(layers.flat.codeword), std::span(coefficients.codeword), layers.corrections})
     codeword.insert(codeword.end(), layer.begin(), layer.end());
@@ -139,6 +146,11 @@ HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
       .flat = std::move(choice.flat)};
   layers.layers.flat_bytes = layers.flat.codeword.size();
   layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
+  if (heights.late.none()) return layers;
+  layers.layers.bridge = 0;
+  layers.layers.late_mask = true;
+  layers.layers.lifted_bytes = heights.late.lifted.size();
+  layers.layers.validity_bytes = heights.late.validity.size();
   return layers;
 }
 
@@ -155,15 +167,29 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
                         int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
   const QuantisedHeights& heights = *quantised;
+  GeometryLayers described = layers.layers;
+  std::vector<AmongThem> among;
+  double shown_void = 0;
+  if (described.late_mask) {
+    const std::span<const uint8_t> mask = heights.late.validity;
+    const MaskPlace place = placeOfMask(coefficients, mask.size(), layers.mask_room);
+    described.validity_after = place.after;
+    among.push_back({place.after, mask, place.worth});
+    shown_void =
+        place.worth / static_cast<double>(heights.steps.liftedCount() - heights.steps.validCount());
+  }
   EncodedTrack first = std::move(coefficients.front());
   GeometryHeader header = headerOf(heights, layers, first.planes);
   header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  GeometryLayers described = layers.layers;
   if (!layers.corrections.empty()) described.coefficient_bytes = first.codeword.size();
   if (!heights.table.empty()) {
     described.table_after = bytesBeforeTable(first, heights.table.size(), heights.without_table);
-    first = withTable(heights, std::move(first), described.table_after);
+    among.push_back({described.table_after, heights.table, heights.without_table});
   }
+  std::stable_sort(among.begin(), among.end(),
+                   [](const auto& a, const auto& b) { return a.after < b.after; });
+  for (auto layer = among.rbegin(); layer != among.rend(); ++layer)
+    first = withLayer(std::move(first), *layer);
   coefficients.front() = amidLayers(heights, layers, first);
   return {.quantised = std::move(quantised),
           .header = std::move(header),
@@ -171,6 +197,7 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
           .tracks = std::move(coefficients),
           .closing = layers.corrections.size(),
           .left = heights.left,
+          .shown_void = shown_void,
           .flat = layers.flat};
 }
 
@@ -178,11 +205,13 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
                          const HeightTarget& target, const CoefficientOptions& options) {
   const HeightSteps& steps = quantised->steps;
   FlatChoice choice =
-      chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), steps.valid,
+      chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
                       {steps.range_bits, target.purpose, target.bytes, target.mean_square,
                        options.threads, target.purpose == Purpose::kLossy});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
+  constexpr double kBeforeEnd = 4;  // of squared error: the mask comes 6 dB before the target
+  layers.mask_room = {target.before_mask, kBeforeEnd * target.mean_square * quantised->counted()};
   std::vector<EncodedTrack> coefficients =
       codeCoefficients(*quantised, layers.wavelet, layers.flat.beside(options));
   std::vector<Account> accounts = accountsOf(coefficients);
@@ -213,6 +242,7 @@ std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> 
       encodeDrawnHeights({steps.steps, extentOf(*quantised->samples), steps.valid});
   if (!track) return {};
   HeightLayers layers = layersAround(*quantised, {}, nullptr);
+  layers.layers = quantised->layers;
   layers.layers.bridge = 0;
   std::vector<EncodedTrack> tracks;
   tracks.push_back(*std::move(track));

@@ -23,11 +23,12 @@ struct CodedHeights {
   std::shared_ptr<const QuantisedHeights> quantised;
   GeometryHeader header;  ///< without max_error
   GeometryLayers layers;
-  /// The first holds the codewords of validity and flat areas, coefficients with the table among
-  /// them, corrections; others coefficients alone.
+  /// The first holds the codewords of validity and flat areas, coefficients with a table and a late
+  /// mask among them, corrections; others coefficients alone.
   std::vector<EncodedTrack> tracks;
   uint64_t closing = 0;                ///< bytes of corrections
   double left = 0;                     ///< QuantisedHeights::left, or what stored samples leave
+  double shown_void = 0;               ///< squared error, in steps, of a void shown as ground
   FlatLayer flat = {};                 ///< beside which the coefficients were coded
   std::vector<Account> accounts = {};  ///< of an attempt: of the coefficients of each track
 
@@ -40,7 +41,8 @@ struct CodedHeights {
   double counted() const { return quantised->counted(); }
   /// Behind the opening there is one codeword, of coefficients.
   bool holdsCoefficientsAlone() const {
-    return tracks.size() == 1 && !header.direct() && !corrects() && layers.table_bytes == 0;
+    return tracks.size() == 1 && !header.direct() && !corrects() && layers.table_bytes == 0 &&
+           !layers.late_mask;
   }
   CodedTracks accounted() const {
     return {Component::kGeometry, tracks, layers.openingBytes(), closing};
@@ -52,6 +54,7 @@ struct HeightLayers {
   GeometryLayers layers;
   std::span<const uint8_t> corrections;  ///< codeword
   double corrected_to = 0;               ///< the squared error that corrections leave
+  MaskRoom mask_room = {};               ///< of a late mask
   WaveletHeader wavelet;
   PriorityHeader priorities;
   FlatLayer flat = {};
@@ -73,8 +76,8 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            CoefficientOptions options);
 
 /// Validity and flat areas before the coefficients of the first track, corrections behind them, a
-/// table within them, where its bytes take off as much error as theirs. region_log2: what the
-/// coefficients were coded with.
+/// table within them, where its bytes take off as much error as theirs, and a late mask.
+/// region_log2: what the coefficients were coded with.
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
                         const HeightLayers& layers, std::vector<EncodedTrack> coefficients,
                         int region_log2);
@@ -82,9 +85,10 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
 /// What coefficients are coded for.
 struct HeightTarget {
   Purpose purpose;
-  uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
-  double mean_square = 0;       ///< > 0: the error that is wanted, in squared steps
-  bool tried = false;           ///< one of several attempts: withRounding() follows for the best
+  uint64_t bytes = UINT64_MAX;        ///< a budget for them and the opening
+  double mean_square = 0;             ///< > 0: the error that is wanted, in squared steps
+  uint64_t before_mask = UINT64_MAX;  ///< bytes of coefficients that may precede a late mask
+  bool tried = false;  ///< one of several attempts: withRounding() follows for the best
 
   HeightTarget(Purpose of) : purpose(of) {}
 };

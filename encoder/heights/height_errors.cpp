@@ -37,10 +37,12 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
   const std::vector<uint8_t>& known = decoded.geometry.valid;
   std::vector<uint8_t> counted = truth.steps.valid;
   assert(known.empty() || known.size() == counted.size());
+  const Mask lifted = truth.steps.lifted;
   double unknown = 0;
   for (size_t i = 0; i < known.size(); ++i) {
     if (known[i] == counted[i]) continue;
-    unknown += truth.validityWorth();
+    const bool shown_void = heights.layers.late_mask && known[i] != 0 && lifted[i];
+    unknown += shown_void ? heights.shown_void : truth.validityWorth();
     counted[i] = 0;
   }
   const int fraction_bits = decoded.geometry.fraction_bits;

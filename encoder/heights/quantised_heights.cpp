@@ -79,7 +79,13 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
   const tks_heights& samples = *inputs.heights;
   std::vector<uint8_t> validity;
   if (!steps.valid.empty()) validity = encodeValidity({steps.valid, extentOf(samples)});
-  if (target.bytes < UINT64_MAX) target.bytes -= std::min<uint64_t>(target.bytes, validity.size());
+  LateMask late;
+  target.preferred = [&, valid = steps.valid](const std::vector<uint8_t>& lifted) {
+    late = lateMaskOf({valid, extentOf(samples)}, lifted, validity.size(), target);
+    return !late.none();
+  };
+  if (target.bytes < UINT64_MAX && roomBesideMask(validity.size(), target.bytes))
+    target.bytes -= validity.size();
   steps = withBridgesFor(target, std::move(steps), extentOf(samples));
   GeometryLayers layers = layersOf(samples, validity.size());
   layers.bridge = steps.bridge;
@@ -87,6 +93,7 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
           .steps = std::move(steps),
           .layers = std::move(layers),
           .validity = std::move(validity),
+          .late = std::move(late),
           .shown_by = inputs.shownBy()};
 }
 

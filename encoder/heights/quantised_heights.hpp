@@ -13,6 +13,7 @@
 #include "bitstream/stream/header.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
+#include "encoder/heights/late_mask.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
 namespace tetrakis::inline heights {
@@ -29,6 +30,7 @@ struct QuantisedHeights {
   HeightSteps steps;
   GeometryLayers layers;                  ///< the bytes of coefficients are not known yet
   std::vector<uint8_t> validity = {};     ///< codeword; empty: all samples are valid
+  LateMask late = {};                     ///< in its place, where there are coefficients
   std::vector<uint8_t> table = {};        ///< codeword; empty: steps are multiples
   std::vector<uint8_t> corrections = {};  ///< codeword; restores the samples
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
@@ -40,6 +42,9 @@ struct QuantisedHeights {
 
   /// Corrections restore every sample.
   bool restored() const { return layers.restoresSamples(); }
+
+  /// The samples that flat areas may have, as decoders know them ahead of the coefficients.
+  Mask mayBeFlat() const { return late.none() ? steps.valid : steps.lifted; }
 
   /// Samples that count in the error; at least 1.
   double counted() const;

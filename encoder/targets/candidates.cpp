@@ -88,7 +88,8 @@ HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate he
   assert(!inputs.budgeted());
   const CodedHeights& coded = *heights.coded;
   const uint64_t samples = storedBytes(*inputs.heights, coded.quantised->steps.validCount());
-  const bool shorter = samples > 0 && samples + coded.layers.validity_bytes < heights.bytes();
+  const bool shorter =
+      samples > 0 && samples + coded.quantised->layers.validity_bytes < heights.bytes();
   return shorter ? candidateOf(storeHeights(coded.quantised, inputs.options.threads))
                  : std::move(heights);
 }

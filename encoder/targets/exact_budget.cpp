@@ -222,7 +222,7 @@ bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
 Selection endWithin(const EncodeInputs& inputs, Selection selection) {
   const uint64_t header = headerBytesOf(inputs, selection);
   const uint64_t room = inputs.options.bytes - std::min(inputs.options.bytes, header);
-  selection.packets = endWithin(selection.packets, Component::kGeometry, room);
+  selection.packets = endWithin(selection.packets, Component::kGeometry, kAllBytes, room);
   return selection;
 }
 

@@ -10,6 +10,7 @@
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
+#include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/candidates.hpp"
 #include "encoder/targets/exact_budget.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
@@ -31,10 +32,34 @@ Selection selectNeeded(const EncodeInputs& inputs, const Candidates& candidates)
   return selection;
 }
 
+/// Payload bytes of the heights' packets up to the one that ends a late mask.
+uint64_t bytesToMask(std::span<const Packet> packets, const GeometryLayers& layers) {
+  uint64_t bytes = 0;
+  for (const Packet& packet : packets) {
+    if (packet.component != Component::kGeometry) continue;
+    bytes += packet.length();
+    if (packet.track == 0 && packet.end >= layers.maskEnd()) break;
+  }
+  return bytes;
+}
+
+/// The packets in an order in which a late mask of the heights ends within the budget, if that has
+/// room for it: a texture may be worth more to cameras, but is none without its ground.
+Selection withMaskInBudget(const EncodeInputs& inputs, Selection selection) {
+  if (!selection.heights || !selection.texture || !selection.heights->layers.late_mask)
+    return selection;
+  const uint64_t header = headerBytesOf(inputs, selection);
+  const uint64_t room = inputs.options.bytes - std::min(inputs.options.bytes, header);
+  const uint64_t needed = bytesToMask(selection.packets, selection.heights->layers);
+  if (needed <= room)
+    selection.packets = endWithin(selection.packets, Component::kGeometry, needed, room);
+  return selection;
+}
+
 /// Selects as much as the budget has room for.
 Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
   lossy = withCurves(inputs, std::move(lossy));
-  Selection selection = orderPackets(lossy);
+  Selection selection = withMaskInBudget(inputs, orderPackets(lossy));
   std::optional<Selection> exact = exactWithinBudget(inputs, lossy, selection);
   return exact ? *std::move(exact) : selection;
 }
@@ -47,10 +72,11 @@ std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCan
   const double worst = worstMeanSquare(range.high - range.low, inputs.options.psnr);
   const auto& packets = heights.curve->packets;
   // The last bytes of a mask may change nothing, and then there are none of them.
-  const uint64_t validity = std::min(coded.layers.validity_bytes, payloadOf(packets));
+  const Codewords all = prefixAfter(coded.accounted(), packets, payloadOf(packets));
+  const uint64_t masked = std::min<uint64_t>(coded.layers.maskEnd(), all.front().size());
   return leastBytes(packets, [&](uint64_t bytes) {
-    if (bytes < validity) return false;
     const Codewords prefix = prefixAfter(coded.accounted(), packets, bytes);
+    if (prefix.front().size() < masked) return false;
     const SampleErrors errors = sampleErrorsOf(coded, prefix, inputs.options.threads);
     return errors.mean_square * inputs.heaviest() <= worst;
   });

@@ -333,6 +333,8 @@ typedef struct tks_info {
   const char* texture_geo_keys;
   tks_index index;         /* TKS_INDEX_WINDOWS: by how its packets lie */
   int texture_opaque;      /* no channel is alpha (tks_image) */
+  int voids_known;         /* 0: bytes of the mask of voids are missing, so that some voids may be
+                              shown as ground, filled in from around */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
@@ -347,7 +349,7 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 
 /* Writes width * height samples of info.sample; bytes must be their exact size. Voids: info.nodata,
- * or NaN. */
+ * or NaN; see voids_known of tks_info. */
 tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes);
 
 /* Writes width * height heights in info.unit, one float each. Where a prefix says more than whole
@@ -356,7 +358,8 @@ tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes);
 tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count);
 
 /* Writes width * height bytes: 1 where a sample is valid, 0 where it is void. A prefix that ends
- * inside the mask gives it at a coarser resolution. */
+ * inside the mask gives it at a coarser resolution; or, where the mask comes late because it is one
+ * of many holes, it gives those of them that it knows of (voids_known of tks_info). */
 tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count);
 
 /* Writes texture_width * texture_height * texture_channels samples of info.texture_sample. */

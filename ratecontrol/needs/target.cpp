@@ -87,14 +87,19 @@ std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t b
   return {packets.begin(), packets.begin() + static_cast<ptrdiff_t>(kept)};
 }
 
-std::vector<Packet> endWithin(std::span<const Packet> packets, Component component,
+std::vector<Packet> endWithin(std::span<const Packet> packets, Component component, uint64_t needed,
                               uint64_t budget) {
-  uint64_t whole = 0;  // bytes of the component
-  for (const Packet& packet : packets)
-    if (packet.component == component) whole += sizeOf(packet);
+  uint64_t whole = 0, held = 0;  // bytes of the needed packets, and of their payload
+  size_t count = 0;              // of packets up to the last needed one
+  for (size_t i = 0; i < packets.size() && held < needed; ++i) {
+    if (packets[i].component != component) continue;
+    whole += sizeOf(packets[i]);
+    held += packets[i].length();
+    count = i + 1;
+  }
   std::vector<Packet> order, behind;
   uint64_t room = budget - std::min(budget, whole);  // for the other component
-  for (const Packet& packet : packets) {
+  for (const Packet& packet : packets.first(count)) {
     const bool others = packet.component != component;
     if (others && behind.empty() && sizeOf(packet) <= room) {
       room -= sizeOf(packet);
@@ -104,6 +109,7 @@ std::vector<Packet> endWithin(std::span<const Packet> packets, Component compone
     }
   }
   order.insert(order.end(), behind.begin(), behind.end());
+  order.insert(order.end(), packets.begin() + static_cast<ptrdiff_t>(count), packets.end());
   return order;
 }
 

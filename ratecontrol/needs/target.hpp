@@ -36,9 +36,10 @@ std::vector<Packet> keepNeeded(
 /// Keeps the packets that begin within a budget of bytes, their heads counted.
 std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
 
-/// Orders packets so that those of a component end within a budget of bytes, if it has room for
-/// them: what of the other component would push the last of them out comes behind it.
-std::vector<Packet> endWithin(std::span<const Packet> packets, Component component,
+/// Orders packets so that those that hold the first payload bytes of a component, or all, end
+/// within a budget of bytes, if it has room for them: what of the other component would push the
+/// last of them out comes behind it.
+std::vector<Packet> endWithin(std::span<const Packet> packets, Component component, uint64_t needed,
                               uint64_t budget);
 
 /// Bytes of the codewords that all packets hold.

@@ -245,7 +245,7 @@ TEST(DecodeMemory, BridgedHolesStayBelowTheBound) {
   holes.has_nodata = 1;
   holes.nodata = 65535;
   const Bytes bytes = encodeHeights(holes, inRegions(budget(60000), 64));
-  EXPECT_GT(readHeader(bytes)->header.layers.bridge, 0);
+  EXPECT_TRUE(readHeader(bytes)->header.layers.late_mask);
   expectWithinBounds(bytes, "bridged holes", true);
 }
 

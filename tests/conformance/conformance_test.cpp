@@ -118,6 +118,8 @@ void addTools(const StreamHeader& header, Tools& tools) {
     tools.insert((header.layers.validity_bytes > 0 ? "voids, corrections " : "corrections ") +
                  kind);
     if (header.layers.has_nodata) tools.insert("nodata");
+    if (header.layers.bridge > 0) tools.insert("bridged voids");
+    if (header.layers.late_mask) tools.insert("late mask");
   }
   if (header.texture) {
     tools.insert("channels " + std::to_string(header.texture->channels));
@@ -152,7 +154,7 @@ TEST_F(Vectors, VisitEveryToolOfTheHeader) {
                "wide sums",       "nodata",          "index",           "texels 0",
                "texels 2",        "drawn",           "overlay"};
   wanted.insert({"cut-out", "cut-out that hides", "tables of channels", "repeated texels",
-                 "bridged cut-out", "bridged overlay"});
+                 "bridged cut-out", "bridged overlay", "bridged voids", "late mask"});
   for (int i = 0; i < 4; ++i) wanted.insert("filter " + std::to_string(i));
   for (int i = 1; i <= 4; ++i) wanted.insert("channels " + std::to_string(i));
   for (int i = TKS_U8; i <= TKS_F32; ++i) wanted.insert("heights " + std::to_string(i));

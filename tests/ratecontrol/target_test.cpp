@@ -108,7 +108,7 @@ TEST(EndWithin, PutsOneComponentBeforeWhatPushesItOut) {
     const uint64_t budget = 1 + random() % (bytesOfPackets(packets) + 100);
     const Component component = round % 2 ? Component::kGeometry : Component::kTexture;
     const auto of_component = [&](const Packet& packet) { return packet.component == component; };
-    const std::vector<Packet> ordered = endWithin(packets, component, budget);
+    const std::vector<Packet> ordered = endWithin(packets, component, kAllBytes, budget);
     ASSERT_EQ(ordered.size(), packets.size());
     std::vector<Packet> mine, others;
     std::partition_copy(packets.begin(), packets.end(), std::back_inserter(mine),

@@ -73,6 +73,13 @@ inline std::vector<HostileStream> hostileStreams(uint32_t width = 1 << 20,
     heights.layers.corrections = CorrectionKind::kSamples;
     heights.layers.coefficient_bytes = 7;
     streams.push_back(sealed("heights with voids and corrections," + kind, heights));
+    heights.layers.bridge = 7;
+    streams.push_back(sealed("heights with bridges and corrections," + kind, heights));
+    heights.layers.bridge = 0;
+    heights.layers.late_mask = true;
+    heights.layers.lifted_bytes = 20;
+    heights.layers.validity_after = 5;
+    streams.push_back(sealed("heights with a late mask and corrections," + kind, heights));
     texture.texture->regions = {};
     texture.texture->alpha_bytes = 9;
     texture.texture->hidden = 1;

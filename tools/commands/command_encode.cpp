@@ -203,6 +203,13 @@ std::string boundNote(const EncodeArguments& arguments, const tks_info& info) {
                    " leaves no room for errors: the stream restores every bit";
 }
 
+/// A mask of many holes may take more bytes than all heights are to have.
+std::string maskNote(const tks_info& info) {
+  return info.has_voids == 0 || info.voids_known != 0
+             ? ""
+             : "the mask of voids does not fit: some voids are shown as ground";
+}
+
 /// One line about what was written.
 std::string summary(const std::string& name, const tks_info& info) {
   const uint64_t heads =
@@ -235,6 +242,7 @@ Status tellSummary(const EncodeArguments& arguments, std::span<const uint8_t> st
   const Result<Decoder> decoder = openDecoder(stream);
   if (!decoder) return decoder.status();
   tellNote(boundNote(arguments, decoder->info()), quiet);
+  tellNote(maskNote(decoder->info()), quiet);
   std::fprintf(stderr, "%s\n", summary(arguments.output, decoder->info()).c_str());
   return Status();
 }

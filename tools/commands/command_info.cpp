@@ -66,6 +66,7 @@ Json heightsJson(const tks_info& info) {
           {"exact_steps", info.exact_steps != 0},
           {"coding", kCodings.at(static_cast<size_t>(info.heights_drawn))},
           {"voids", info.has_voids != 0},
+          {"voids_known", info.voids_known != 0},
           {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
           {"regions", info.regions > 0 ? Json(info.regions) : Json()},
           {"max_error", stated(info.max_error)},

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "wavelet/bridges.hpp"
@@ -19,6 +20,8 @@ namespace {
 constexpr std::array<uint8_t, 7> kReaches = {1, 2, 4, 8, 16, 64, kBridgeAll};
 /// Estimates of bits are no better than that.
 constexpr double kClearly = 0.98;
+/// What preferred bridges may lose against the best, at most.
+constexpr double kNearly = 1.01;
 /// How many times the bytes the target may take for what prefixes gain.
 constexpr double kMostAtTarget = 1;
 
@@ -45,6 +48,23 @@ struct Unbridged {
         filled(bridged(plane, liftedSamples(mask, plane.extent(), target.most))) {}
 };
 
+/// A reach that does not lose, and its share of the bits without bridges.
+struct Tried {
+  uint8_t reach;
+  double ratio;
+};
+
+/// The first that is preferred of those that nearly come up to the best; else the best, if it
+/// clearly pays. tried: the best first.
+template <class Lift>
+uint8_t chosenOf(std::span<const Tried> tried, const BridgeTarget& target, const Lift& lift) {
+  if (tried.empty()) return 0;
+  const double best = tried.front().ratio;
+  for (const auto& [reach, ratio] : tried)
+    if (target.preferred && ratio <= kNearly * best && target.preferred(lift(reach))) return reach;
+  return best < kClearly ? tried.front().reach : 0;
+}
+
 }  // namespace
 
 BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
@@ -53,15 +73,15 @@ BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
   constexpr size_t kFewestBridged = 1024;  // one in so many valid samples
   const Extent extent = plane.extent();
   const size_t valid = markedIn(extent, plane.valid);
-  BridgedPlane best;
-  if (valid == extent.samples() || valid == 0) return best;
+  if (valid == extent.samples() || valid == 0) return {};
   const std::vector<uint8_t> mask(plane.valid.bytes().begin(), plane.valid.bytes().end());
+  const auto lift = [&](uint8_t reach) { return liftedSamples(mask, extent, reach); };
   std::optional<Unbridged> unbridged;  // as soon as there is anything to bridge
-  double least = kClearly;
+  std::vector<Tried> tried;
   size_t before = valid + valid / kFewestBridged;
   for (const uint8_t reach : kReaches) {
     if (reach > target.most) break;
-    std::vector<uint8_t> lifted = liftedSamples(mask, extent, reach);
+    const std::vector<uint8_t> lifted = lift(reach);
     const size_t marked = markedIn(extent, lifted);
     if (marked <= before) continue;
     before = marked;
@@ -70,12 +90,13 @@ BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
     const TypicalPlane way({unbridged->filled, extent, lifted}, bits, target.purpose, plane.valid);
     if (steps.ratioAtTarget(costsOf(way), kBridgeBits) > kMostAtTarget) continue;
     const double ratio = steps.ratio(costsOf(way), kBridgeBits);
-    if (ratio >= least) continue;
-    least = ratio;
-    best = {reach, std::move(lifted), {}};
+    if (ratio < 1) tried.push_back({reach, ratio});
   }
-  if (best.reach > 0) best.values = std::move(unbridged->filled);
-  return best;
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const Tried& a, const Tried& b) { return a.ratio < b.ratio; });
+  const uint8_t reach = chosenOf(tried, target, lift);
+  if (reach == 0) return {};
+  return {reach, lift(reach), std::move(unbridged->filled)};
 }
 
 }  // namespace tetrakis::inline choice

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/plane.hpp"
@@ -24,6 +25,9 @@ struct BridgeTarget {
   uint64_t bytes = UINT64_MAX;  ///< that there will be for it
   double mean_square = 0;       ///< > 0: the error wanted
   uint8_t most = 255;           ///< reach that may be chosen
+  /// Whether bridges with such lifted samples are better for other reasons; they may lose 1 % of
+  /// the bits against the best. Null: none are.
+  std::function<bool(const std::vector<uint8_t>& lifted)> preferred = {};
 };
 
 /// plane: of so many bits, with the mask of valid samples.

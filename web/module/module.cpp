@@ -29,7 +29,7 @@ const char* web_names() {
          "textureRegions textureWidth textureHeight textureChannels textureCoarsestLevel "
          "textureCutout textureSample heightsRmse texturePsnr hasGeotransform g0 g1 g2 g3 g4 g5 "
          "registration textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration "
-         "textureOpaque";
+         "textureOpaque voidsKnown";
 }
 
 tks_status web_numbers(const tks_decoder* decoder, double* out) {
@@ -89,7 +89,8 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
                             i.texture_geotransform[4],
                             i.texture_geotransform[5],
                             double(i.texture_registration),
-                            double(i.texture_opaque)};
+                            double(i.texture_opaque),
+                            double(i.voids_known)};
   std::copy(std::begin(numbers), std::end(numbers), out);
   return TKS_OK;
 }

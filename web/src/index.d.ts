@@ -106,6 +106,8 @@ export interface TerrainInfo {
   regions: number;
   textureRegions: number;
   hasVoids: boolean;
+  /** False: bytes of the mask of voids are missing, and some voids may be shown as ground. */
+  voidsKnown: boolean;
   hasGeotransform: boolean;
   /** As GDAL's; of the texture where textureHasGeotransform. */
   geotransform: number[];

@@ -173,7 +173,8 @@ class Opened {
     });
     const info = Object.fromEntries(names.map((name, i) => [name, numbers[i]]));
     for (const name of Object.keys(info)) {
-      if (/^(h|textureH)as[A-Z]|^(lossless|textureOpaque)$/.test(name)) info[name] = info[name] !== 0;
+      if (/^(h|textureH)as[A-Z]|^(lossless|textureOpaque|voidsKnown)$/.test(name))
+        info[name] = info[name] !== 0;
     }
     const gather = (letter) =>
       Array.from({length: 6}, (_, i) => {

@@ -10,18 +10,27 @@
 
 namespace tetrakis::inline quantiser {
 
+namespace {
+
+size_t marked(const std::vector<uint8_t>& mask, size_t samples) {
+  if (mask.empty()) return samples;
+  return static_cast<size_t>(std::count(mask.begin(), mask.end(), uint8_t{1}));
+}
+
+}  // namespace
+
 size_t HeightSteps::validCount() const {
-  return valid.empty() ? steps.size()
-                       : static_cast<size_t>(std::count(valid.begin(), valid.end(), uint8_t{1}));
+  return marked(valid, steps.size());
+}
+
+size_t HeightSteps::liftedCount() const {
+  return marked(bridge == 0 ? valid : lifted, steps.size());
 }
 
 double HeightSteps::liftedShare() const {
   if (bridge == 0) return 1;
-  const auto marked = [&](const std::vector<uint8_t>& mask) {
-    return static_cast<double>(mask.empty() ? steps.size()
-                                            : std::count(mask.begin(), mask.end(), 1));
-  };
-  return marked(valid) / std::max(marked(lifted), 1.0);
+  return static_cast<double>(validCount()) /
+         static_cast<double>(std::max<size_t>(liftedCount(), 1));
 }
 
 std::vector<int32_t> decodedSteps(const HeightSteps& steps, const GeometryHeader& header) {

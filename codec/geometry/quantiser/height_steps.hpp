@@ -30,6 +30,7 @@ struct HeightSteps {
   int range_bits = 0;  ///< the steps span less than 2^range_bits
 
   size_t validCount() const;
+  size_t liftedCount() const;
   /// Of the squared error of the samples that are lifted, those that are valid have about so much.
   double liftedShare() const;
   /// The steps as the transform takes them.

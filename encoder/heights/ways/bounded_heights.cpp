@@ -54,6 +54,7 @@ CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
                            .steps = withBridges(std::move(steps), extentOf(samples), bridge),
                            .layers = quantised.layers,
                            .validity = quantised.validity,
+                           .late = quantised.late,
                            .shown_by = quantised.shown_by};
   if (!rounded.steps.exact) rounded.left = rounded.squaresOf(rounded.steps);
   HeightTarget target(Purpose::kLossless);

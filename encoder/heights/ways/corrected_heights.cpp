@@ -97,7 +97,8 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
 CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target) {
   const HeightSteps& steps = heights.quantised->steps;
   const PlaneView<const int32_t> plane = steps.lifting(extentOf(*heights.quantised->samples));
-  return codeBeside(chooseFlatAreas(plane, steps.valid, cutPurpose(heights)), heights, target);
+  return codeBeside(chooseFlatAreas(plane, heights.quantised->mayBeFlat(), cutPurpose(heights)),
+                    heights, target);
 }
 
 CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {

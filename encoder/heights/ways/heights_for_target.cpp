@@ -2,6 +2,7 @@
 #include "encoder/heights/ways/heights_for_target.hpp"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "codec/geometry/quantiser/voids.hpp"
@@ -24,6 +25,15 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
   const bool any_step = heights.samples->sample == TKS_F32;
   return heights.steps.exact && !heights.restored() &&
          error < heights.steps.step / (any_step ? 2 : 1);
+}
+
+/// Bytes of coefficients that may come before a late mask, so that the budget holds all of it.
+/// Where it has no room for that the mask may as well come behind it.
+uint64_t bytesBeforeMask(const EncodeInputs& inputs, const QuantisedHeights& heights) {
+  constexpr uint64_t kShareBesideTexture = 8;
+  const std::optional<uint64_t> room = roomBesideMask(heights.late.bytes(), inputs.options.bytes);
+  if (!room) return UINT64_MAX;
+  return inputs.image == nullptr ? *room : *room / kShareBesideTexture;
 }
 
 /// Codes the heights within the largest error, or exactly where that takes fewer bytes.
@@ -64,8 +74,10 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
   HeightTarget target(quantised->restored() ? Purpose::kLossless : purposeOf(inputs));
   // What a texture leaves of a budget is not known yet; most of it is the texture's.
   constexpr uint64_t kShareBesideTexture = 4;
-  if (inputs.budgeted())
+  if (inputs.budgeted()) {
     target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
+    target.before_mask = bytesBeforeMask(inputs, *quantised);
+  }
   if (inputs.options.psnr > 0)
     return std::make_shared<const CodedHeights>(codeUntilReached(inputs, quantised, target));
   return std::make_shared<const CodedHeights>(

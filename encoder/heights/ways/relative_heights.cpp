@@ -37,7 +37,7 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
   if (whole.tracks.size() == 1) {  // its packets are longer than its passes
     const EncodedTrack& track = whole.tracks.front();
     const auto end = std::find_if(track.points.begin(), track.points.end(), is_near);
-    if (end == track.points.end() || end->bytes < whole.layers.openingBytes()) return {};
+    if (end == track.points.end() || end->bytes < whole.layers.maskEnd()) return {};
     cut.tracks.front() = firstOf(track, end->bytes);
     return cut;
   }
@@ -45,7 +45,7 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
   const auto end = std::find_if(order.points.begin(), order.points.end(), is_near);
   if (end == order.points.end()) return {};
   const Codewords kept = prefixAfter(whole.accounted(), order.packets, end->bytes);
-  if (kept.front().size() < whole.layers.openingBytes()) return {};
+  if (kept.front().size() < whole.layers.maskEnd()) return {};
   for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
   return cut;
 }
@@ -99,13 +99,14 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
   GeometryLayers layers = cut.layers;
   layers.corrections = CorrectionKind::kRelative;
   layers.relative = corrections.relative;
-  layers.coefficient_bytes = cut.tracks.front().codeword.size() - layers.openingBytes();
+  layers.coefficient_bytes = cut.tracks.front().codeword.size() - layers.besideCoefficients();
   return {.quantised = cut.quantised,
           .header = cut.header,
           .layers = std::move(layers),
           .tracks = tracksWithCorrections(std::move(cut.tracks), corrections.codeword),
           .closing = corrections.codeword.size(),
           .left = QuantisedHeights::kInexact,
+          .shown_void = cut.shown_void,
           .flat = std::move(cut.flat)};
 }
 

@@ -48,13 +48,14 @@ CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy)
   const EncodedTrack& track = lossy.tracks.front();
   GeometryLayers layers = lossy.layers;
   layers.corrections = CorrectionKind::kSamples;
-  layers.coefficient_bytes = track.codeword.size() - layers.openingBytes();
+  layers.coefficient_bytes = track.codeword.size() - layers.besideCoefficients();
   return {.quantised = quantised,
           .header = lossy.header,
           .layers = std::move(layers),
           .tracks = {withCorrections(track, *quantised)},
           .closing = quantised->corrections.size(),
           .left = quantised->left,
+          .shown_void = lossy.shown_void,
           .flat = lossy.flat};
 }
 

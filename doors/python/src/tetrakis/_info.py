@@ -60,6 +60,8 @@ class Info:
     geo_keys: Optional[str]
     has_voids: bool
     """Some samples may be void."""
+    voids_known: bool
+    """False: bytes of their mask are missing; some voids may be shown as ground."""
     nodata: Optional[float]
     """The value of voids; None: they are NaN."""
     max_error: Optional[float]
@@ -92,7 +94,7 @@ _PLAIN = (
     "format_version header_bytes stream_bytes available_bytes packets geometry_bytes texture_bytes "
     "coarsest_level heights_drawn scale offset step base texture_coarsest_level texture_cutout texture_drawn"
 ).split()
-_BOOLEAN = "lossless exact_steps has_voids".split()
+_BOOLEAN = "lossless exact_steps has_voids voids_known".split()
 _TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys".split()
 _FROM_ZERO = "max_error heights_rmse texture_psnr".split()
 _ABOVE_ZERO = "triangles regions texture_regions".split()

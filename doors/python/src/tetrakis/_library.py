@@ -203,6 +203,7 @@ class StreamInfo(ctypes.Structure):
         ("texture_geo_keys", c_char_p),
         ("index", c_int),
         ("texture_opaque", c_int),
+        ("voids_known", c_int),
     ]
 
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mask of many single holes takes as many bytes as the heights beside it. Where these are bridged
+// the coefficients follow from which samples are lifted, which often are all; so the mask comes
+// late, behind some of the coefficients, and until then voids are shown as the ground that bridges
+// fill them with. Of every prefix half or more are coefficients, and the mask is whole after twice
+// its bytes: neither comes later than twice as late as it could.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/plane.hpp"
+#include "bitstream/track/track_encoder.hpp"
+#include "wavelet/choice/bridge_choice.hpp"
+
+namespace tetrakis::inline heights {
+
+/// The codewords of a late mask.
+struct LateMask {
+  std::vector<uint8_t> lifted;    ///< which samples are lifted; empty: all
+  std::vector<uint8_t> validity;  ///< which of these are valid; empty: the mask comes first
+
+  bool none() const { return validity.empty(); }
+  uint64_t bytes() const { return lifted.size() + validity.size(); }
+};
+
+/// The late mask beside lifted samples, unless it is short or takes more bytes than one that comes
+/// first, of so many bytes, by more than a thousandth of the stream. target: what the bridges are
+/// for.
+LateMask lateMaskOf(const PlaneView<const uint8_t>& valid, Mask lifted, uint64_t first_bytes,
+                    const BridgeTarget& target);
+
+/// What a budget leaves beside a mask of so many bytes; nothing: it has no room for the mask.
+std::optional<uint64_t> roomBesideMask(uint64_t mask_bytes, uint64_t budget);
+
+/// What has to lie behind a late mask, so that a stream holds it.
+struct MaskRoom {
+  uint64_t bytes = UINT64_MAX;  ///< that coefficients before it may take at most
+  double squares = 0;           ///< squared error that they may come down to
+};
+
+struct MaskPlace {
+  uint64_t after = 0;  ///< bytes of the first track's coefficients
+  double worth = 0;    ///< squared error while it is missing: as much a byte as coefficients there
+};
+
+/// Where a mask of so many bytes lies best. coefficients: of all tracks.
+MaskPlace placeOfMask(std::span<const EncodedTrack> coefficients, uint64_t bytes,
+                      const MaskRoom& room);
+
+}  // namespace tetrakis::inline heights
