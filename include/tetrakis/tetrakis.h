@@ -196,8 +196,8 @@ typedef struct tks_encode_options {
                                 sees none of it or breaks the rules above: TKS_USAGE, with its
                                 name */
   uint32_t camera_count;
-  tks_picture_error picture_error; /* a renderer that judges about 70 pairs of heights and textures
-                                      in the place of the encoder's own model of the cameras; NULL:
+  tks_picture_error picture_error; /* a renderer that judges about 80 pairs of heights and textures
+                                      and so corrects the encoder's own model of the cameras; NULL:
                                       none */
   void* picture_user;
 } tks_encode_options;
