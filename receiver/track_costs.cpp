@@ -24,22 +24,44 @@ double texelsPixels(const StreamHeader& header, double pixels) {
          static_cast<double>(header.texture->shown().samples());
 }
 
-/// What a height error of 1 costs at a point beside a texel's error of 1. It moves the texture by
-/// its parallax, and the texture's slope is the smaller the larger a texel appears.
+/// What height errors cost at a point. They move the texture by their parallax, and the texture's
+/// slope is the smaller the larger a texel appears. A picture's error grows with the square of that
+/// shift while details are wider, and hardly more when they are not: over the errors that prefixes
+/// have, with the shift itself (docs/EXPERIMENTS.md).
 double heightsCost(const StreamHeader& header, const GroundPoint& point) {
-  return point.pixels * point.parallax / std::max(1.0, texelsPixels(header, point.pixels));
+  const double slope = std::max(1.0, texelsPixels(header, point.pixels));
+  return point.pixels * std::sqrt(point.parallax / slope);
 }
 
-/// The mean point of the encoder's viewer of whom nothing is known: all of the ground, from 35
-/// degrees above the horizon, in half of a picture of 768 x 512.
-GroundPoint usualPoint(const StreamHeader& header) {
-  constexpr double kPixels = 768 * 512 / 2.0, kSine = 0.574, kCosine = 0.819;
-  const double pixels = kPixels / static_cast<double>(gridOf(header).samples());
+/// A picture that the encoder reckons with where it knows no cameras, of flat ground.
+struct UsualView {
+  double seen;    ///< share of the ground
+  double filled;  ///< share of the picture
+  double sine;    ///< of the angle between the lines of sight and the horizon
+};
+
+/// From afar, from near and from above (unknownViewer() in ground/camera.hpp).
+constexpr std::array<UsualView, 3> kUsualViews = {{{1, 0.5, 0.574}, {0.1, 0.8, 0.2}, {1, 0.67, 1}}};
+
+/// The mean point of the ground that the view shows.
+GroundPoint meanPoint(const StreamHeader& header, const UsualView& view) {
+  constexpr double kPixels = 768 * 512;
+  const double samples = view.seen * static_cast<double>(gridOf(header).samples());
+  const double pixels = view.filled * kPixels / samples;
   const Metadata& m = header.metadata;
   const GroundFrame frame = knownFrame({.spacing_x = m.spacing_x, .spacing_y = m.spacing_y});
   const double metres = metresPerUnit(m.unit).value_or(1);
   const double area = frame.spacing_x * frame.spacing_y;
-  return {pixels, pixels / kSine * kCosine * kCosine / area * metres * metres};
+  const double leaning = (1 - view.sine * view.sine) / view.sine;
+  return {pixels, pixels * leaning / area * metres * metres};
+}
+
+/// The mean of a cost over all ground and the usual views; cost: of a point.
+template <class Cost>
+double usualCost(const StreamHeader& header, Cost&& cost) {
+  double sum = 0;
+  for (const UsualView& view : kUsualViews) sum += view.seen * cost(meanPoint(header, view));
+  return sum / static_cast<double>(kUsualViews.size());
 }
 
 /// By log10(), which decoders need as well: the tables of std::log2() are one part in 80 of a
@@ -80,7 +102,9 @@ class SightedStream {
   SightedStream(const StreamHeader& header, const Sighting& sighting)
       : header_(header),
         sighting_(sighting),
-        usual_(usualPoint(header)),
+        usual_of_heights_(usualCost(
+            header, [&](const GroundPoint& point) { return heightsCost(header, point); })),
+        usual_pixels_(usualCost(header, [](const GroundPoint& point) { return point.pixels; })),
         unseen_(levelBelowMesh(header, sighting.triangles)) {}
 
   double costOfHeights(const Region& region) const {
@@ -90,7 +114,7 @@ class SightedStream {
                       return heightsCost(header_, point) *
                              shownShare(region, point.pixels, unseen_);
                     }) /
-           heightsCost(header_, usual_);
+           usual_of_heights_;
   }
 
   double costOfTexture(const Region& region) const {
@@ -100,7 +124,7 @@ class SightedStream {
                       return point.pixels *
                              shownShare(region, texelsPixels(header_, point.pixels), 0);
                     }) /
-           usual_.pixels;
+           usual_pixels_;
   }
 
  private:
@@ -133,7 +157,7 @@ class SightedStream {
 
   const StreamHeader& header_;
   const Sighting& sighting_;
-  GroundPoint usual_;
+  double usual_of_heights_, usual_pixels_;  ///< what errors cost the encoder's viewers
   int unseen_;
 };
 

@@ -10,6 +10,7 @@
 #include "encoder/views/modelled_pairs.hpp"
 #include "encoder/views/nodes.hpp"
 #include "encoder/views/rendered_pairs.hpp"
+#include "ratecontrol/allocation/corrected_errors.hpp"
 
 namespace tetrakis::inline views {
 
@@ -45,6 +46,14 @@ std::vector<double> squaresAt(const std::vector<RatePoint>& nodes) {
   return squares;
 }
 
+/// The prefixes that a renderer draws.
+std::vector<RatePoint> drawnOf(const std::vector<RatePoint>& nodes) {
+  std::vector<RatePoint> drawn;
+  for (const size_t place : measuredPlaces(nodes.size()))
+    if (place < nodes.size()) drawn.push_back(nodes[place]);
+  return drawn;
+}
+
 /// Errors as if those of both components were seen as large as they are at first, and added.
 PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
   const auto first = [](const ComponentCurve& curve) {
@@ -58,24 +67,22 @@ PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) 
 
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture) {
-  const bool rendered = inputs.options.picture_error != nullptr;
   const bool meshes_for_cameras =
       inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.quantised);
-  // Pictures that are drawn take long, and meshes for cameras: fewer of them.
-  const double ratio = rendered || meshes_for_cameras ? 4 : 2;
+  const double ratio = meshes_for_cameras ? 4 : 2;  // these meshes take long
   const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
   const Nodes nodes = {nodesOf(heights, ratio, budget), nodesOf(texture, ratio, budget)};
   PairNodes squares = {squaresAt(nodes.heights), squaresAt(nodes.textures)};
   const bool exact = squares.heights.front() <= 0 || squares.textures.front() <= 0;
   if (exact) return unseen(heights.curve, texture.curve);
-  std::vector<double> errors;
-  if (rendered) {
-    DecodedNodes decoded(inputs, heights, texture);
-    errors = renderedErrors(inputs, decoded, nodes);
-  }
-  if (errors.empty()) {
-    DecodedNodes decoded(inputs, heights, texture);
-    errors = modelledErrors(inputs, decoded, nodes);
+  DecodedNodes decoded(inputs, heights, texture);
+  std::vector<double> errors = modelledErrors(inputs, decoded, nodes);
+  if (!errors.empty() && inputs.options.picture_error != nullptr) {
+    DecodedNodes shown(inputs, heights, texture);
+    const std::vector<double> drawn =
+        renderedErrors(inputs, shown, {drawnOf(nodes.heights), drawnOf(nodes.textures)});
+    if (!drawn.empty())
+      errors = correctedErrors({nodes.heights.size(), nodes.textures.size(), errors}, drawn);
   }
   if (errors.empty() || !(errors.front() > 0)) return unseen(heights.curve, texture.curve);
   return {std::move(squares), std::move(errors)};

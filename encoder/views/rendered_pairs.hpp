@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rendered engine: a renderer of the caller's (tks_picture_error) looks at all pairs of
-// prefixes.
+// The rendered engine: a renderer of the caller's (tks_picture_error) looks at pairs of prefixes.
 #pragma once
 
 #include <vector>

@@ -199,8 +199,8 @@ typedef struct tks_encode_options {
                                 sees none of it or breaks the rules above: TKS_USAGE, with its
                                 name */
   uint32_t camera_count;
-  tks_picture_error picture_error; /* a renderer that judges about 70 pairs of heights and textures
-                                      in the place of the encoder's own model of the cameras; NULL:
+  tks_picture_error picture_error; /* a renderer that judges about 80 pairs of heights and textures
+                                      and so corrects the encoder's own model of the cameras; NULL:
                                       none */
   void* picture_user;
 } tks_encode_options;
@@ -508,13 +508,12 @@ typedef struct tks_fetch {
  * all other ground a little. This view is served where no gain is left.
  *
  * A packet is worth what the index states, times what errors of its region cost in this picture: a
- * texel by the pixels that show it, a height by the pixels and by the square of how far it moves
- * them, which falls with the parallax and rises as the viewer comes near. Detail finer than a
- * pixel, what lies outside the picture or behind coarse ground, and heights finer than a mesh of
- * `triangles` (0: any number) shows, are worth nothing to this view: their gain is 0. The masks
- * that begin a component come first. Ranges do not overlap; neighbours are one, unless the gain of
- * only one of them is 0. All plans until nothing is missing cover every byte of the stream
- * once.
+ * texel by the pixels that show it, a height by the pixels and by how far it moves them, which
+ * falls with the parallax and rises as the viewer comes near. Detail finer than a pixel, what lies
+ * outside the picture or behind coarse ground, and heights finer than a mesh of `triangles` (0: any
+ * number) shows, are worth nothing to this view: their gain is 0. The masks that begin a component
+ * come first. Ranges do not overlap; neighbours are one, unless the gain of only one of them is 0.
+ * All plans until nothing is missing cover every byte of the stream once.
  *
  * With request_bytes the ranges are fewer: the plan is the one whose worth is greatest beside what
  * its bytes and its requests cost. Ranges then go on over bytes that help little or are there

@@ -22,6 +22,11 @@ class CliReceiver : public CliTest {
     EXPECT_EQ(run.code, 0) << run.err;
     return nlohmann::json::parse(run.out, nullptr, false);
   }
+
+  /// Of `compare --json`.
+  static double screenPsnr(const Outcome& compared) {
+    return nlohmann::json::parse(compared.out)["screen_psnr"].get<double>();
+  }
 };
 
 TEST_F(CliReceiver, PlansFollowFromTwoOfThree) {
@@ -64,6 +69,18 @@ TEST_F(CliReceiver, PlansThatMakeNoSenseAreRefused) {
   EXPECT_NE(cli("plan a.tks --channel 80/s --seconds 1").err.find("header"), std::string::npos);
 }
 
+/// Seen from above errors of heights move little: the texture is worth more of the first bytes.
+TEST_F(CliReceiver, ReorderSharesBytesForItsCameraWithoutRegions) {
+  ASSERT_EQ(cli("encode height.tif --texture texture.png --bytes 40k --index -q -o one.tks").code,
+            0);
+  ASSERT_EQ(cli("reorder one.tks --view top -o top.tks").code, 0);
+  const std::string judged =
+      " --bytes 16k --height height.tif --texture texture.png --view top --json -q";
+  const Outcome a = cli("compare one.tks" + judged), b = cli("compare top.tks" + judged);
+  if (a.code == 5) GTEST_SKIP() << a.err;
+  EXPECT_GT(screenPsnr(b), screenPsnr(a) + 0.2);
+}
+
 TEST_F(CliReceiver, ReorderedStreamsHoldTheSameAndServeTheirCamera) {
   ASSERT_EQ(cli("reorder a.tks --view low -o b.tks").code, 0);
   ASSERT_EQ(cli("verify b.tks").code, 0);
@@ -74,10 +91,7 @@ TEST_F(CliReceiver, ReorderedStreamsHoldTheSameAndServeTheirCamera) {
       " --bytes 16k --height height.tif --texture texture.png --view low --json -q";
   const Outcome a = cli("compare a.tks" + judged), b = cli("compare b.tks" + judged);
   if (a.code == 5) GTEST_SKIP() << a.err;
-  const auto psnr = [](const Outcome& run) {
-    return nlohmann::json::parse(run.out)["screen_psnr"].get<double>();
-  };
-  EXPECT_GT(psnr(b), psnr(a) + 1);
+  EXPECT_GT(screenPsnr(b), screenPsnr(a) + 1);
 }
 
 TEST_F(CliReceiver, ReorderRefusesWhatItCannotDo) {
@@ -88,6 +102,22 @@ TEST_F(CliReceiver, ReorderRefusesWhatItCannotDo) {
   EXPECT_NE(plain.err.find("index"), std::string::npos);
   ASSERT_EQ(cli("encode --texture texture.png --bytes 9k --index -q -o t.tks").code, 0);
   EXPECT_EQ(cli("reorder t.tks --view low -o b.tks").code, 1);
+}
+
+TEST_F(CliReceiver, ReorderLooksThroughCamerasThatCountAndSeeGround) {
+  const std::string near = R"({"eye": [-900,900,0], "target": [-1200,0,0]})";
+  const std::string far =
+      R"({"name": "far", "eye": [0,9000,9000], "target": [0,0,0], "weight": 0})";
+  const std::string away = R"({"name": "away", "eye": [0,900,0], "target": [0,9000,1]})";
+  write("near.json", R"({"cameras": [)" + near + "]}");
+  write("both.json", R"({"cameras": [)" + near + ", " + far + "]}");
+  write("away.json", R"({"cameras": [)" + near + ", " + away + "]}");
+  ASSERT_EQ(cli("reorder a.tks --cameras near.json -o near.tks").code, 0);
+  ASSERT_EQ(cli("reorder a.tks --cameras both.json -o both.tks").code, 0);
+  EXPECT_EQ(content("near.tks"), content("both.tks"));
+  const Outcome blind = cli("reorder a.tks --cameras away.json -o blind.tks");
+  EXPECT_EQ(blind.code, 1);
+  EXPECT_NE(blind.err.find("'away' sees no ground"), std::string::npos) << blind.err;
 }
 
 }  // namespace

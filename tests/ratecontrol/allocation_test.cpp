@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ratecontrol/allocation/allocation.hpp"
+#include "ratecontrol/allocation/corrected_errors.hpp"
 #include "ratecontrol/allocation/pair_errors.hpp"
 #include "ratecontrol/curves/hull.hpp"
 #include "tests/support/rate_curves.hpp"
@@ -185,6 +186,30 @@ TEST(JoinNeighbours, TracksOfRegionsStayApart) {
   EXPECT_EQ(joined[1].track, 0u);
   EXPECT_EQ(joined[2].track, 1u);
   EXPECT_EQ(joined[2].end, 18u);
+}
+
+/// A model off by a factor whose logarithm is linear is mended wherever nothing was measured.
+TEST(CorrectedErrors, FollowFactorsThatChangeSlowly) {
+  for (const auto& [heights, textures] :
+       {std::pair<size_t, size_t>{1, 1}, {1, 6}, {7, 2}, {8, 9}}) {
+    ErrorGrid model{heights, textures, {}};
+    std::vector<double> truth, measured;
+    for (size_t row = 0; row <= heights; ++row) {
+      for (size_t column = 0; column <= textures; ++column) {
+        const auto y = static_cast<double>(row), x = static_cast<double>(column);
+        const bool original = row == heights && column == textures;
+        model.errors.push_back(original ? 0 : 100 / (1 + y) + 50 / (1 + x));
+        truth.push_back(model.errors.back() * std::exp(0.3 * y - 0.2 * x + 0.1));
+      }
+    }
+    for (const size_t row : measuredPlaces(heights))
+      for (const size_t column : measuredPlaces(textures))
+        measured.push_back(truth[row * (textures + 1) + column]);
+    const std::vector<double> corrected = correctedErrors(model, measured);
+    ASSERT_EQ(corrected.size(), truth.size());
+    for (size_t i = 0; i < truth.size(); ++i)
+      EXPECT_NEAR(corrected[i], truth[i], 1e-9 * truth[i]) << i << " of " << heights;
+  }
 }
 
 }  // namespace

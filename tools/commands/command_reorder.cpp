@@ -28,12 +28,9 @@ Status reorder(const ReorderArguments& arguments) {
   if (!stream.ok()) return stream.status();
   Decoder& decoder = stream->decoder;
   decoder.setThreads(hardwareThreads());
-  const Result<std::vector<Camera>> cameras = camerasOver(decoder, arguments.cameras);
+  const auto cameras = meshCameras(decoder, arguments.cameras);
   if (!cameras.ok()) return cameras.status();
-  std::vector<tks_screen_camera> those;
-  for (const Camera& camera : *cameras)
-    those.push_back(meshCamera(camera, frameOf(decoder.info())));
-  const Result<Buffer> reordered = decoder.reordered(those);
+  const Result<Buffer> reordered = decoder.reordered(*cameras);
   if (!reordered) return reordered.status();
   const auto bytes = std::as_bytes(reordered->bytes());
   if (Status status = output->stage(bytes); !status.ok()) return status;

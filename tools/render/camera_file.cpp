@@ -99,7 +99,10 @@ Result<Camera> readCamera(const Json& object, size_t index) {
   if (length(direction) == 0) reader.complain("target", "must differ from \"eye\"");
   if (!(length(cross(direction, normalized(camera.up))) > 1e-9))
     reader.complain("up", "must not be parallel to the line of sight");
-  if (!reader.problem().empty()) return Status(TKS_USAGE, who + ": " + reader.problem());
+  if (!reader.problem().empty()) {
+    const std::string named = camera.name == who ? who : who + " ('" + camera.name + "')";
+    return Status(TKS_USAGE, named + ": " + reader.problem());
+  }
   return camera;
 }
 
@@ -141,8 +144,9 @@ Result<std::vector<Camera>> readCameras(const std::string& path) {
   if (!json.ok()) return json.status();
   const bool listed =
       json->is_object() && json->contains("cameras") && json->at("cameras").is_array();
-  if (!listed || json->at("cameras").empty())
-    return Status(TKS_USAGE, "'" + path + "' must be an object with a list \"cameras\"");
+  if (!listed) return Status(TKS_USAGE, "'" + path + "' must be an object with a list \"cameras\"");
+  if (json->at("cameras").empty())
+    return Status(TKS_USAGE, "'" + path + "' lists no camera: \"cameras\" is empty");
   std::vector<Camera> cameras;
   for (const Json& object : json->at("cameras")) {
     Result<Camera> camera = readCamera(object, cameras.size());

@@ -87,18 +87,25 @@ tks_screen_camera meshCamera(const Camera& camera, const PlacedFrame& frame) {
   return result;
 }
 
+Result<std::vector<tks_screen_camera>> meshCameras(Decoder& decoder, const CameraChoice& choice) {
+  const Result<std::vector<Camera>> chosen = camerasOver(decoder, choice);
+  if (!chosen.ok()) return chosen.status();
+  const bool placed = choice.view != "any";  // by somebody, so that it should see something
+  if (const Status seen = placed ? checkSight(decoder, *chosen) : Status(); !seen.ok()) return seen;
+  std::vector<tks_screen_camera> cameras;
+  for (const Camera& camera : *chosen)
+    if (camera.weight > 0) cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
+  if (cameras.empty()) return Status(TKS_USAGE, "no camera has a weight above 0");
+  return cameras;
+}
+
 Result<Mesh> meshForCameras(Decoder& decoder, uint32_t triangles, const CameraChoice& choice,
                             const ImageFile* texture) {
   std::vector<tks_screen_camera> cameras;
   if (!choice.isDefault()) {
-    const Result<std::vector<Camera>> chosen = camerasOver(decoder, choice);
+    Result<std::vector<tks_screen_camera>> chosen = meshCameras(decoder, choice);
     if (!chosen.ok()) return chosen.status();
-    const bool placed = choice.view != "any";  // by somebody, so that it should see something
-    if (const Status seen = placed ? checkSight(decoder, *chosen) : Status(); !seen.ok())
-      return seen;
-    for (const Camera& camera : *chosen)
-      if (camera.weight > 0) cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
-    if (cameras.empty()) return Status(TKS_USAGE, "no camera has a weight above 0");
+    cameras = *std::move(chosen);
   }
   const tks_image image = texture != nullptr ? asImage(*texture) : tks_image();
   return decoder.screenMesh(cameras, triangles, texture != nullptr ? &image : nullptr);

@@ -20,8 +20,12 @@ Result<std::vector<Camera>> camerasOver(Decoder& decoder, const CameraChoice& ch
 /// it. TKS_USAGE for several cameras, or if no ground is in view.
 Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice);
 
-/// The camera for tks_decode_screen_mesh, over the heights of this frame.
+/// The camera for tks_decode_screen_mesh and tks_reorder, over the heights of this frame.
 tks_screen_camera meshCamera(const Camera& camera, const PlacedFrame& frame);
+
+/// Those of the chosen cameras that have a weight. TKS_USAGE with the name of a camera that has no
+/// ground in view, or if none has a weight.
+Result<std::vector<tks_screen_camera>> meshCameras(Decoder& decoder, const CameraChoice& choice);
 
 /// The mesh of at most `triangles` > 0 triangles that is best for the chosen cameras; nothing
 /// chosen: for a map. texture: what covers the ground, or null. TKS_USAGE with the name of a camera

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors of all pairs of prefixes by a model, corrected by some pairs that were measured: what a
+// model says of a picture is off by a factor that changes slowly from pair to pair, so that it
+// suffices to measure every other prefix of either component.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace tetrakis::inline allocation {
+
+/// Places of the prefixes to measure among so many, at least one: every other one and the last; and
+/// at the end that of the original, which is behind them.
+std::vector<size_t> measuredPlaces(size_t prefixes);
+
+/// Errors of the pictures of all pairs, in the order that PairErrors takes.
+struct ErrorGrid {
+  size_t heights = 0, textures = 0;  ///< prefixes of either, without the original
+  std::vector<double> errors;
+};
+
+/// measured: of the pairs at measuredPlaces() of either component. Between them the logarithm of
+/// the factor between measured and modelled errors is linear; at them the result is what was
+/// measured, unless the model sees no error there.
+std::vector<double> correctedErrors(const ErrorGrid& modelled, const std::vector<double>& measured);
+
+}  // namespace tetrakis::inline allocation
