@@ -152,8 +152,19 @@ std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
   return exact;
 }
 
-/// Everything to the last bit, if that fits the budget and takes nothing from prefixes. few:
-/// heights of few values, which are taken as they are.
+/// The way to the last bit, if there is one that takes less than the room; else the lossy component
+/// as it stands, if all of it does: it may be exact as well, in more bytes.
+template <class Coded>
+std::optional<Candidate<Coded>> within(uint64_t room, std::optional<Candidate<Coded>> exact,
+                                       const Candidate<Coded>& lossy) {
+  if (exact && exact->bytes() < room) return exact;
+  const bool whole = std::ranges::all_of(lossy.coded->tracks, &EncodedTrack::complete);
+  if (!whole || lossy.bytes() >= room) return {};
+  return lossy;
+}
+
+/// Everything to the last bit, if that fits the budget and takes nothing from prefixes: of each
+/// component, whatever the other one does. few: heights of few values, which are taken as they are.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy,
                                           const std::optional<HeightsCandidate>& few,
                                           double relative_step) {
@@ -162,15 +173,16 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
   Candidates exact = lossy;
   uint64_t room = inputs.options.bytes;
   if (texture.coded) {
-    std::optional<TextureCandidate> whole = exactTexture(inputs, texture, room);
-    if (!whole || whole->bytes() >= room) return {};
+    std::optional<TextureCandidate> whole =
+        within(room, exactTexture(inputs, texture, room), texture);
+    if (!whole) return {};
     exact.texture = *std::move(whole);
     room -= exact.texture.bytes();
   }
   if (heights.coded) {
     std::optional<HeightsCandidate> whole =
-        few ? few : exactHeights(inputs, heights, relative_step, room);
-    if (!whole || whole->bytes() >= room) return {};
+        within(room, few ? few : exactHeights(inputs, heights, relative_step, room), heights);
+    if (!whole) return {};
     exact.heights = *std::move(whole);
     if (few) exact.errors = nullptr;
   }

@@ -55,6 +55,21 @@ TEST(StreamRate, AmpleBudgetIsLossless) {
   }
 }
 
+/// Each component takes its own way to the last bit, whatever the other one does.
+TEST(StreamRate, AmpleBudgetsOfBothTakeWhatEachTakes) {
+  constexpr size_t kHeads = 1000;  // packets are shorter where two components take turns
+  const Raster heights = make({Pattern::kRidges, 161, 140, 1, TKS_I16});
+  for (const Raster& image : {make({Pattern::kRidges, 192, 160, 3, TKS_U8, 7}),
+                              make({Pattern::kRidges, 192, 160, 3, TKS_U16, 7}),
+                              make({Pattern::kRidges, 96, 80, 1, TKS_U8, 7})}) {
+    const auto ample = budget(1 << 20);
+    const Bytes both = encode(&heights, &image, ample);
+    EXPECT_TRUE(Stream(both).info().lossless);
+    EXPECT_LE(both.size(), encode(&heights, nullptr, ample).size() +
+                               encode(nullptr, &image, ample).size() + kHeads);
+  }
+}
+
 /// Who can afford the last bit gets it behind prefixes that are as good as without it.
 TEST(StreamRate, AmpleBudgetsKeepPrefixes) {
   const Raster heights = terrain(), image = photograph();
