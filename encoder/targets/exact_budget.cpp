@@ -221,13 +221,14 @@ std::vector<double> errorsWithin(const EncodeInputs& inputs, Selection selection
   return errorsOfPrefixes(inputs, selection, lengths);
 }
 
-/// Better with all bytes, by more decibels than prefixes lose in all, up to what can be seen.
+/// As good with all bytes, and better by as many decibels as prefixes lose in all, up to what can
+/// be seen.
 bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
   constexpr double kUnseen = 65025e-6;  // 60 dB
   double logarithms = 0;
   for (size_t i = 0; i < lossy.size(); ++i)
     logarithms += std::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));
-  return tried.back() < lossy.back() && logarithms < 0;
+  return tried.back() <= lossy.back() && logarithms <= 0;
 }
 
 /// The packets in an order in which the heights end within the budget.
@@ -238,7 +239,16 @@ Selection endWithin(const EncodeInputs& inputs, Selection selection) {
   return selection;
 }
 
-/// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones.
+/// What the picture lacks at the end, and the bytes that come so far: the least is best.
+using Ending = std::pair<double, uint64_t>;
+
+Ending endingOf(const EncodeInputs& inputs, const Selection& selection,
+                const std::vector<double>& errors) {
+  return {errors.back(), std::min(inputs.options.bytes, bytesOfPackets(selection.packets))};
+}
+
+/// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones,
+/// or as good in fewer bytes: where all has room, but the hidden colours of a cut-out are not kept.
 /// few: as above; of these only the end counts. ways: of many values.
 std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const Candidates& lossy,
                                                std::optional<HeightsCandidate> few,
@@ -246,9 +256,10 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
   const size_t of_many = ways.size();
   if (few) ways.push_back(*std::move(few));
   if (ways.empty()) return {};
-  const std::vector<double> of_lossy = errorsWithin(inputs, orderPackets(lossy));
+  const Selection inexact = orderPackets(lossy);
+  const std::vector<double> of_lossy = errorsWithin(inputs, inexact);
   if (of_lossy.empty()) return {};
-  double least = of_lossy.back();
+  Ending least = endingOf(inputs, inexact, of_lossy);
   std::optional<Selection> best;
   for (size_t i = 0; i < ways.size(); ++i) {
     Candidates exact = lossy;
@@ -259,8 +270,9 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
     }
     Selection selection = endWithin(inputs, orderPackets(exact));
     const std::vector<double> errors = errorsWithin(inputs, selection);
-    if (errors.back() >= least || (i < of_many && !pays(errors, of_lossy))) continue;
-    least = errors.back();
+    const Ending ending = endingOf(inputs, selection, errors);
+    if (ending >= least || (i < of_many && !pays(errors, of_lossy))) continue;
+    least = ending;
     best = std::move(selection);
   }
   return best;
