@@ -152,8 +152,19 @@ std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
   return exact;
 }
 
-/// Everything to the last bit, if that fits the budget and takes nothing from prefixes. few:
-/// heights of few values, which are taken as they are.
+/// The way to the last bit, if there is one that takes less than the room; else the lossy component
+/// as it stands, if all of it does: it may be exact as well, in more bytes.
+template <class Coded>
+std::optional<Candidate<Coded>> within(uint64_t room, std::optional<Candidate<Coded>> exact,
+                                       const Candidate<Coded>& lossy) {
+  if (exact && exact->bytes() < room) return exact;
+  const bool whole = std::ranges::all_of(lossy.coded->tracks, &EncodedTrack::complete);
+  if (!whole || lossy.bytes() >= room) return {};
+  return lossy;
+}
+
+/// Everything to the last bit, if that fits the budget and takes nothing from prefixes: of each
+/// component, whatever the other one does. few: heights of few values, which are taken as they are.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy,
                                           const std::optional<HeightsCandidate>& few,
                                           double relative_step) {
@@ -162,15 +173,16 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
   Candidates exact = lossy;
   uint64_t room = inputs.options.bytes;
   if (texture.coded) {
-    std::optional<TextureCandidate> whole = exactTexture(inputs, texture, room);
-    if (!whole || whole->bytes() >= room) return {};
+    std::optional<TextureCandidate> whole =
+        within(room, exactTexture(inputs, texture, room), texture);
+    if (!whole) return {};
     exact.texture = *std::move(whole);
     room -= exact.texture.bytes();
   }
   if (heights.coded) {
     std::optional<HeightsCandidate> whole =
-        few ? few : exactHeights(inputs, heights, relative_step, room);
-    if (!whole || whole->bytes() >= room) return {};
+        within(room, few ? few : exactHeights(inputs, heights, relative_step, room), heights);
+    if (!whole) return {};
     exact.heights = *std::move(whole);
     if (few) exact.errors = nullptr;
   }
@@ -209,13 +221,14 @@ std::vector<double> errorsWithin(const EncodeInputs& inputs, Selection selection
   return errorsOfPrefixes(inputs, selection, lengths);
 }
 
-/// Better with all bytes, by more decibels than prefixes lose in all, up to what can be seen.
+/// As good with all bytes, and better by as many decibels as prefixes lose in all, up to what can
+/// be seen.
 bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
   constexpr double kUnseen = 65025e-6;  // 60 dB
   double logarithms = 0;
   for (size_t i = 0; i < lossy.size(); ++i)
     logarithms += std::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));
-  return tried.back() < lossy.back() && logarithms < 0;
+  return tried.back() <= lossy.back() && logarithms <= 0;
 }
 
 /// The packets in an order in which the heights end within the budget.
@@ -226,7 +239,16 @@ Selection endWithin(const EncodeInputs& inputs, Selection selection) {
   return selection;
 }
 
-/// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones.
+/// What the picture lacks at the end, and the bytes that come so far: the least is best.
+using Ending = std::pair<double, uint64_t>;
+
+Ending endingOf(const EncodeInputs& inputs, const Selection& selection,
+                const std::vector<double>& errors) {
+  return {errors.back(), std::min(inputs.options.bytes, bytesOfPackets(selection.packets))};
+}
+
+/// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones,
+/// or as good in fewer bytes: where all has room, but the hidden colours of a cut-out are not kept.
 /// few: as above; of these only the end counts. ways: of many values.
 std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const Candidates& lossy,
                                                std::optional<HeightsCandidate> few,
@@ -234,9 +256,10 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
   const size_t of_many = ways.size();
   if (few) ways.push_back(*std::move(few));
   if (ways.empty()) return {};
-  const std::vector<double> of_lossy = errorsWithin(inputs, orderPackets(lossy));
+  const Selection inexact = orderPackets(lossy);
+  const std::vector<double> of_lossy = errorsWithin(inputs, inexact);
   if (of_lossy.empty()) return {};
-  double least = of_lossy.back();
+  Ending least = endingOf(inputs, inexact, of_lossy);
   std::optional<Selection> best;
   for (size_t i = 0; i < ways.size(); ++i) {
     Candidates exact = lossy;
@@ -247,8 +270,9 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
     }
     Selection selection = endWithin(inputs, orderPackets(exact));
     const std::vector<double> errors = errorsWithin(inputs, selection);
-    if (errors.back() >= least || (i < of_many && !pays(errors, of_lossy))) continue;
-    least = errors.back();
+    const Ending ending = endingOf(inputs, selection, errors);
+    if (ending >= least || (i < of_many && !pays(errors, of_lossy))) continue;
+    least = ending;
     best = std::move(selection);
   }
   return best;

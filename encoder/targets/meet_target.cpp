@@ -7,12 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/quantiser/voids.hpp"
-#include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
+#include "encoder/targets/beside_bound.hpp"
 #include "encoder/targets/candidates.hpp"
+#include "encoder/targets/component_curves.hpp"
 #include "encoder/targets/exact_budget.hpp"
+#include "encoder/targets/heights_need.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/needs/target.hpp"
 
@@ -62,24 +63,6 @@ Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
   Selection selection = withMaskInBudget(inputs, orderPackets(lossy));
   std::optional<Selection> exact = exactWithinBudget(inputs, lossy, selection);
   return exact ? *std::move(exact) : selection;
-}
-
-/// The first bytes of the heights' packets that reach the PSNR. Where voids are belongs to what is
-/// asked for.
-std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCandidate& heights) {
-  const CodedHeights& coded = *heights.coded;
-  const SampleRange range = rangeOf(*inputs.heights, coded.quantised->steps.valid);
-  const double worst = worstMeanSquare(range.high - range.low, inputs.options.psnr);
-  const auto& packets = heights.curve->packets;
-  // The last bytes of a mask may change nothing, and then there are none of them.
-  const Codewords all = prefixAfter(coded.accounted(), packets, payloadOf(packets));
-  const uint64_t masked = std::min<uint64_t>(coded.layers.maskEnd(), all.front().size());
-  return leastBytes(packets, [&](uint64_t bytes) {
-    const Codewords prefix = prefixAfter(coded.accounted(), packets, bytes);
-    if (prefix.front().size() < masked) return false;
-    const SampleErrors errors = sampleErrorsOf(coded, prefix, inputs.options.threads);
-    return errors.mean_square * inputs.heaviest() <= worst;
-  });
 }
 
 /// The first bytes of the texture's packets that reach the PSNR; all of them where none do.
@@ -143,14 +126,13 @@ Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
 }
 
 /// Heights whole, because they were made for the target. Unless all is to be lossless, the texture
-/// gets what the order puts before the last of the heights' coefficients.
+/// gets what suits them, or every bit where that takes no more bytes.
 Selection meetWholeHeights(const EncodeInputs& inputs, Candidates candidates) {
   auto& [heights, texture, errors] = candidates;
   if (inputs.options.max_error > 0 && texture.coded) {
-    candidates = withCurves(inputs, std::move(candidates));
-    const uint64_t coefficients = bytesOf(heights.coded->tracks) - heights.coded->closing;
-    const Selection all = orderPackets(candidates);
-    texture.need = sentWith(all.packets, Component::kGeometry, coefficients)[1];
+    if (!texture.curve) texture.curve = curveOfTexture(inputs, *texture.coded);
+    texture.need = textureBesideBound(inputs, candidates);
+    texture = preferExact(inputs, std::move(texture));
   }
   if (heights.coded) heights = storedIfShorter(inputs, std::move(heights));
   if (texture.coded) texture = storedIfShorter(std::move(texture));

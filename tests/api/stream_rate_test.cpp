@@ -55,6 +55,35 @@ TEST(StreamRate, AmpleBudgetIsLossless) {
   }
 }
 
+/// Each component takes its own way to the last bit, whatever the other one does.
+TEST(StreamRate, AmpleBudgetsOfBothTakeWhatEachTakes) {
+  constexpr size_t kHeads = 1000;  // packets are shorter where two components take turns
+  const Raster heights = make({Pattern::kRidges, 161, 140, 1, TKS_I16});
+  for (const Raster& image : {make({Pattern::kRidges, 192, 160, 3, TKS_U8, 7}),
+                              make({Pattern::kRidges, 192, 160, 3, TKS_U16, 7}),
+                              make({Pattern::kRidges, 96, 80, 1, TKS_U8, 7})}) {
+    const auto ample = budget(1 << 20);
+    const Bytes both = encode(&heights, &image, ample);
+    EXPECT_TRUE(Stream(both).info().lossless);
+    EXPECT_LE(both.size(), encode(&heights, nullptr, ample).size() +
+                               encode(nullptr, &image, ample).size() + kHeads);
+  }
+}
+
+/// Hidden colours of a cut-out are not kept, so that such a stream is never lossless as a whole.
+TEST(StreamRate, AmpleBudgetsEndHeightsExactBesideCutouts) {
+  const Raster heights = make({Pattern::kRidges, 161, 140, 1, TKS_I16});
+  Raster cutout = make({Pattern::kRidges, 192, 160, 4, TKS_U8, 7});
+  for (size_t i = 3; i < cutout.data.size(); i += 4)
+    cutout.data[i] = cutout.data[i] > std::byte{99} ? std::byte{255} : std::byte{0};
+  const auto ample = budget(1 << 20);
+  const Bytes both = encode(&heights, &cutout, ample);
+  Stream stream(both);
+  EXPECT_TRUE(stream.heights() == heights.data);
+  const size_t alone = encode(nullptr, &cutout, ample).size();
+  EXPECT_LE(both.size(), alone + encode(&heights, nullptr, lossless()).size() * 5 / 4);
+}
+
 /// Who can afford the last bit gets it behind prefixes that are as good as without it.
 TEST(StreamRate, AmpleBudgetsKeepPrefixes) {
   const Raster heights = terrain(), image = photograph();

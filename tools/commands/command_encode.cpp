@@ -195,12 +195,13 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   return std::move(*stream);
 }
 
-/// A bound may be so small that nothing but every bit keeps it.
+/// A bound may be so small that nothing but every bit keeps it, or every bit takes fewer bytes than
+/// anything else that keeps it.
 std::string boundNote(const EncodeArguments& arguments, const tks_info& info) {
   return arguments.max_error.empty() || info.lossless == 0
              ? ""
              : "--max-error " + arguments.max_error +
-                   " leaves no room for errors: the stream restores every bit";
+                   ": nothing takes fewer bytes than every bit, which the stream restores";
 }
 
 /// A mask of many holes may take more bytes than all heights are to have.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much of a texture suits heights within a largest error.
+#pragma once
+
+#include <cstdint>
+
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/targets/candidates.hpp"
+
+namespace tetrakis::inline targets {
+
+/// The first bytes of the texture's packets that are worth as much as the bytes that bring heights
+/// within the largest error; all of them where heights of one value take none. candidates: heights
+/// within that error, and a texture with a curve.
+uint64_t textureBesideBound(const EncodeInputs& inputs, const Candidates& candidates);
+
+}  // namespace tetrakis::inline targets

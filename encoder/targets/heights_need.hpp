@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many bytes of heights a PSNR takes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/targets/candidates.hpp"
+
+namespace tetrakis::inline targets {
+
+/// The first bytes of the heights' packets that reach the PSNR; nothing where none do. Where voids
+/// are belongs to what is asked for. heights: with a curve.
+std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCandidate& heights);
+
+}  // namespace tetrakis::inline targets
