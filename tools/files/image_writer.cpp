@@ -82,7 +82,7 @@ Status checkShape(const ImageFile& image) {
 
 bool same(const ImageFile& a, const ImageFile& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels &&
-         a.sample == b.sample && a.opaque == b.opaque && a.data == b.data;
+         a.sample == b.sample && a.hasAlpha() == b.hasAlpha() && a.data == b.data;
 }
 
 Status writeOther(const std::string& path, const ImageFile& image, const Format& format) {
