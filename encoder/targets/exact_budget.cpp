@@ -158,7 +158,8 @@ template <class Coded>
 std::optional<Candidate<Coded>> within(uint64_t room, std::optional<Candidate<Coded>> exact,
                                        const Candidate<Coded>& lossy) {
   if (exact && exact->bytes() < room) return exact;
-  const bool whole = std::ranges::all_of(lossy.coded->tracks, &EncodedTrack::complete);
+  const bool whole = std::all_of(lossy.coded->tracks.begin(), lossy.coded->tracks.end(),
+                                 [](const EncodedTrack& track) { return track.complete; });
   if (!whole || lossy.bytes() >= room) return {};
   return lossy;
 }
