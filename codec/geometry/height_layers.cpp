@@ -77,8 +77,7 @@ struct TakenLayers {
     if (layers.late_mask)
       among.push_back({layers.validity_after, layers.validity_bytes, &validity});
     if (layers.table_bytes > 0) among.push_back({layers.table_after, layers.table_bytes, &table});
-    std::stable_sort(among.begin(), among.end(),
-                     [](const Among& a, const Among& b) { return a.after < b.after; });
+    if (among.size() > 1 && among[1].after < among[0].after) std::swap(among[0], among[1]);
     uint64_t before = 0;
     for (const auto& [after, bytes, layer] : among) {
       more.push_back(take(after - before));
