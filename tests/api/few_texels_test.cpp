@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "bitstream/stream/header.hpp"
-#include "conformance/reference_decoder.hpp"
 #include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/header_seal.hpp"
 #include "conformance/samples/void_masks.hpp"
-#include "tests/support/reference_status.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/texture_agreement.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -28,20 +27,6 @@ Raster ridges(uint32_t width, uint32_t height, uint32_t channels) {
 
 bool hasTables(const Bytes& stream) {
   return readHeader(stream)->header.texture->tables.present;
-}
-
-/// The library gives what the decoder gives that was written from the text alone.
-void expectAgreement(Prefix prefix, int level = 0) {
-  const tks_limits limits = smallLimits();
-  const auto decoded = reference::decode(prefix, limits.max_texels, {level, level});
-  Stream stream(prefix, &limits);
-  ASSERT_EQ(stream.status(), statusOf(decoded.outcome)) << stream.message();
-  if (stream.status() != TKS_OK) return;
-  ASSERT_EQ(tks_set_levels(stream.get(), 0, static_cast<uint32_t>(level)), TKS_OK);
-  std::vector<std::byte> texels(decoded.texture->size());
-  ASSERT_EQ(tks_decode_texture(stream.get(), texels.data(), texels.size()), TKS_OK);
-  EXPECT_TRUE(std::equal(texels.begin(), texels.end(), decoded.texture->begin(),
-                         [](std::byte a, uint8_t b) { return std::to_integer<uint8_t>(a) == b; }));
 }
 
 TEST(FewTexels, TakeLittleMoreThanTheirPlaces) {
@@ -73,7 +58,7 @@ TEST(FewTexels, ComeBackInAnyShape) {
           if (masked && channels % 2 == 0) samples::cutOut(image, mask);
           const Bytes stream = encode(nullptr, &image, lossless());
           ASSERT_TRUE(Stream(stream).texture() == image.data);
-          expectAgreement(stream);
+          expectTextureAgreement(stream);
         }
       }
     }
@@ -88,10 +73,10 @@ TEST(FewTexels, EveryPrefixAndLevelAgreesWithTheText) {
       ASSERT_TRUE(hasTables(stream));
       for (size_t bytes = 0; bytes <= stream.size(); bytes += 37) {
         SCOPED_TRACE(bytes);
-        expectAgreement(Prefix(stream).first(bytes));
+        expectTextureAgreement(Prefix(stream).first(bytes));
         if (HasFatalFailure()) return;
       }
-      for (int level = 0; level < 4; ++level) expectAgreement(stream, level);
+      for (int level = 0; level < 4; ++level) expectTextureAgreement(stream, level);
     }
   }
 }
@@ -107,7 +92,7 @@ TEST(FewTexels, DamagedHeadersAgreeWithTheText) {
       Bytes damaged = good;
       damaged[at] ^= static_cast<uint8_t>(change);
       sealHeader(damaged);
-      expectAgreement(damaged);
+      expectTextureAgreement(damaged);
       if (HasFatalFailure()) return;
     }
   }

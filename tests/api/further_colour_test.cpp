@@ -8,11 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "conformance/reference_decoder.hpp"
 #include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/void_masks.hpp"
-#include "tests/support/reference_status.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/texture_agreement.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -35,20 +34,6 @@ Raster colours(Pattern pattern, uint32_t width, uint32_t height, uint32_t channe
   return image;
 }
 
-/// The library gives what the decoder gives that was written from the text alone.
-void expectAgreement(Prefix prefix, int level) {
-  const tks_limits limits = smallLimits();
-  const auto decoded = reference::decode(prefix, limits.max_texels, {level, level});
-  Stream stream(prefix, &limits);
-  ASSERT_EQ(stream.status(), statusOf(decoded.outcome)) << stream.message();
-  if (stream.status() != TKS_OK) return;
-  ASSERT_EQ(tks_set_levels(stream.get(), 0, static_cast<uint32_t>(level)), TKS_OK);
-  std::vector<std::byte> texels(decoded.texture->size());
-  ASSERT_EQ(tks_decode_texture(stream.get(), texels.data(), texels.size()), TKS_OK);
-  EXPECT_TRUE(std::equal(texels.begin(), texels.end(), decoded.texture->begin(),
-                         [](std::byte a, uint8_t b) { return std::to_integer<uint8_t>(a) == b; }));
-}
-
 TEST(FurtherColour, ComesBackInAnyShape) {
   for (const uint32_t channels : {1u, 2u, 3u, 4u}) {
     for (const tks_sample sample : {TKS_U8, TKS_U16}) {
@@ -61,7 +46,7 @@ TEST(FurtherColour, ComesBackInAnyShape) {
           const Bytes stream = encode(nullptr, &image, lossless());
           EXPECT_TRUE(Stream(stream).texture() == image.data);
           EXPECT_EQ(Stream(stream).info().texture_opaque, 1);
-          expectAgreement(stream, 0);
+          expectTextureAgreement(stream);
         }
       }
     }
@@ -104,8 +89,8 @@ TEST(FurtherColour, PrefixesAreWhatTheTextSays) {
       for (const tks_encode_options& options : {lossless(), budget(700), in_regions}) {
         const Bytes stream = encode(nullptr, &image, options);
         for (size_t cut = 0; cut <= stream.size(); cut += 1 + stream.size() / 37)
-          expectAgreement(Prefix(stream).first(cut), 0);
-        for (const int level : {1, 3}) expectAgreement(stream, level);
+          expectTextureAgreement(Prefix(stream).first(cut), 0);
+        for (const int level : {1, 3}) expectTextureAgreement(stream, level);
       }
     }
   }
