@@ -16,6 +16,7 @@
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/texture_header.hpp"
 #include "encoder/encode_stream.hpp"
+#include "encoder/outliers.hpp"
 
 namespace tetrakis::inline api {
 
@@ -111,6 +112,11 @@ struct Arguments {
   tks_encode_options options;
 };
 
+Status takeHeights(const tks_heights& given, tks_heights& out) {
+  const Status status = takeSized("heights", given, offsetof(tks_heights, step), out);
+  return status.ok() ? checkHeights(out) : status;
+}
+
 Status takeArguments(const tks_heights* heights, const tks_image* image,
                      const tks_encode_options* options, Arguments& out) {
   if (options == nullptr) return misuse("The encoding options are missing.");
@@ -119,10 +125,7 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   constexpr size_t kTargets = offsetof(tks_encode_options, threads);
   Status status = takeSized("encoding options", *options, kTargets, out.options);
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
-  if (status.ok() && heights != nullptr) {
-    status = takeSized("heights", *heights, offsetof(tks_heights, step), out.heights);
-    if (status.ok()) status = checkHeights(out.heights);
-  }
+  if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
   if (status.ok() && image != nullptr) {
     status = takeSized("texture", *image, offsetof(tks_image, geotransform), out.image);
     if (status.ok()) status = checkImage(out.image);
@@ -161,6 +164,17 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
   const tetrakis::Status status =
       tetrakis::guarded([&] { return tetrakis::encodeAndProve(heights, image, options, out); });
   return tetrakis::report(status, message, message_size);
+}
+
+tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out) {
+  if (heights == nullptr || out == nullptr || out->size < sizeof *out ||
+      out->size > tetrakis::kMostStructBytes)
+    return TKS_USAGE;
+  tks_heights known;
+  const tetrakis::Status status =
+      tetrakis::guarded([&] { return tetrakis::takeHeights(*heights, known); });
+  if (status.ok()) tetrakis::giveSized(tetrakis::findOutliers(known), *out);
+  return status.code();
 }
 
 void tks_free_buffer(tks_buffer* buffer) {

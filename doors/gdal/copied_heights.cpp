@@ -251,6 +251,19 @@ bool applyMask(const std::string& name, GDALRasterBand& band, CopiedHeights& cop
   return applied;
 }
 
+/// A copy that need not be strict declares what files write where they have no height, as
+/// gdal_translate -a_nodata would.
+void takeFill(const std::string& name, CopiedHeights& copy) {
+  tks_outliers found{sizeof found, 0, 0, 0};
+  if (tks_find_outliers(&copy.heights, &found) != TKS_OK || found.is_fill == 0) return;
+  copy.heights.has_nodata = 1;
+  copy.heights.nodata = found.value;
+  CPLError(CE_Warning, CPLE_AppDefined,
+           "%s: %llu samples are %.9g, far from all others: declared as nodata (not by a strict "
+           "copy).",
+           name.c_str(), static_cast<unsigned long long>(found.count), found.value);
+}
+
 /// Metres per degree east and north at a latitude on WGS 84, as tools/files/place/earth.hpp.
 void groundSpacing(const OGRSpatialReference* system, tks_heights& heights) {
   if (system == nullptr || !heights.has_geotransform || system->IsLocal()) return;
@@ -345,6 +358,7 @@ std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset&
   if (!applyMask(name, band, *copy)) return nullptr;
   takeFacts(name, dataset, *copy);
   heights.data = copy->samples.data();
+  if (!strict) takeFill(name, *copy);
   return copy;
 }
 

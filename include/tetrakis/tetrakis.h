@@ -219,6 +219,22 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size);
 
+/* Samples that lie farther from all others than these do from each other, so that they can only
+ * stand for heights that are missing. Single samples are such only at the ends of an integer type;
+ * those of 8 bits, the value 0, and whatever lies beside a single other value, never are. */
+typedef struct tks_outliers {
+  size_t size;    /* sizeof(tks_outliers) */
+  uint64_t count; /* 0: there are none, or heights->has_nodata */
+  double value;   /* the outermost of them, as a sample */
+  int is_fill;    /* all have that value, and files write it where they have no height: -9999 and
+                     other rows of nines, -32768, -32767, -2147483648, floats beyond 1e30. Whoever
+                     declares it as nodata saves bytes, and most of the error of small streams */
+} tks_outliers;
+
+/* Looks for outliers among heights that no nodata value is declared for. tks_encode does not: what
+ * is not declared is a height to it. TKS_USAGE: heights that tks_encode refuses as well. */
+tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out);
+
 /* What a decoder may take. It refuses more with TKS_LIMIT, before it allocates anything. A field of
  * 0 means its default. */
 typedef struct tks_limits {

@@ -209,8 +209,7 @@ Status settleVoids(const std::string& path, Reading& reading, Notes& notes) {
   if (!beside.ok()) return beside.status();
   const Status masked = applyMask(heights, beside->empty() ? reading.mask : *beside, notes);
   if (!masked.ok()) return {masked.code(), quoted(path) + ": " + masked.message()};
-  if (const auto note = takeHugeAsVoid(heights)) notes.push_back(*note);
-  if (const auto note = noteOnOutliers(heights)) notes.push_back(*note);
+  if (const auto note = takeOutliers(heights)) notes.push_back(*note);
   return {};
 }
 

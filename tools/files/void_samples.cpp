@@ -56,85 +56,6 @@ std::string textOf(double value, tks_sample sample) {
   return sample == TKS_F32 ? shortest(static_cast<float>(value)) : shortest(value);
 }
 
-struct Outliers {
-  uint64_t count = 0, others = 0;
-  double value = 0;   ///< the outermost
-  double range = 0;   ///< of the others
-  bool equal = true;  ///< all outliers have that value
-};
-
-/// Finite floats that no height in any unit can be.
-Outliers hugeFloats(std::span<const float> samples) {
-  constexpr float kHuge = 1e30F;
-  Outliers found;
-  for (const float sample : samples) {
-    if (!std::isfinite(sample)) continue;
-    if (std::abs(sample) <= kHuge) {
-      ++found.others;
-      continue;
-    }
-    found.equal = found.equal && (found.count == 0 || double{sample} == found.value);
-    ++found.count;
-    if (std::abs(sample) > std::abs(found.value)) found.value = sample;
-  }
-  return found;
-}
-
-/// The samples of value `end`, which has no others on one side, where the gap to those on the other
-/// is wider than their range.
-template <class T>
-Outliers isolatedEnd(std::span<const T> samples, T end) {
-  using Limits = std::numeric_limits<T>;
-  Outliers found{0, 0, static_cast<double>(end)};
-  T low = Limits::max(), high = Limits::lowest();
-  for (const T sample : samples) {
-    if (sample == end) {
-      ++found.count;
-      continue;
-    }
-    if (!std::isfinite(static_cast<double>(sample))) continue;
-    ++found.others;
-    low = std::min(low, sample);
-    high = std::max(high, sample);
-  }
-  found.range = double(high) - double(low);
-  const double gap = std::max(double(low) - double(end), double(end) - double(high));
-  return found.others > 0 && gap > found.range ? found : Outliers{};
-}
-
-/// The least or the greatest value, where it repeats, as -9999 does, and the others vary: two
-/// values make no terrain with voids. 0 is a height of its own.
-template <class T>
-Outliers isolatedExtreme(std::span<const T> samples) {
-  T least = std::numeric_limits<T>::max(), greatest = std::numeric_limits<T>::lowest();
-  for (const T sample : samples) {
-    if (!std::isfinite(static_cast<double>(sample))) continue;
-    least = std::min(least, sample);
-    greatest = std::max(greatest, sample);
-  }
-  for (const T extreme : {least, greatest}) {
-    const Outliers found = isolatedEnd(samples, extreme);
-    if (found.count > 1 && found.range > 0 && extreme != 0) return found;
-  }
-  return {};
-}
-
-template <class T>
-Outliers outliersOf(std::span<const T> samples) {
-  if constexpr (std::is_floating_point_v<T>) {
-    const Outliers huge = hugeFloats(samples);
-    return huge.count > 0 ? huge : isolatedExtreme(samples);
-  } else if constexpr (sizeof(T) == 1) {
-    return {};  // classes and masks hold the ends of so small a type
-  } else {
-    const Outliers low = isolatedEnd(samples, std::numeric_limits<T>::min());
-    // 0 is a height of its own.
-    if (std::is_signed_v<T> && low.count > 0) return low;
-    const Outliers high = isolatedEnd(samples, std::numeric_limits<T>::max());
-    return high.count > 0 ? high : isolatedExtreme(samples);
-  }
-}
-
 }  // namespace
 
 float toFloat(double value) {
@@ -223,27 +144,19 @@ std::optional<Note> noteOnNodata(const HeightFile& heights) {
               ""};
 }
 
-std::optional<Note> takeHugeAsVoid(HeightFile& heights) {
-  if (heights.nodata || heights.sample != TKS_F32) return std::nullopt;
-  const Outliers found = visitSamples(std::as_const(heights), [](auto samples) {
-    using T = std::remove_cvref_t<decltype(samples[0])>;
-    if constexpr (std::is_same_v<T, float>) return hugeFloats(samples);
-    return Outliers{};
-  });
-  if (found.count == 0 || found.others == 0 || !found.equal) return std::nullopt;
-  heights.nodata = found.value;
-  return Note{counted(found.count, "sample is ", "samples are ") +
-                  textOf(found.value, heights.sample) + ", which no height is: taken as void",
-              "--nodata"};
-}
-
-std::optional<Note> noteOnOutliers(const HeightFile& heights) {
-  if (heights.nodata) return std::nullopt;
-  const Outliers found = visitSamples(heights, [](auto samples) { return outliersOf(samples); });
-  if (found.count == 0 || found.others == 0) return std::nullopt;
+std::optional<Note> takeOutliers(HeightFile& heights) {
+  tks_outliers found{sizeof found, 0, 0, 0};
+  const tks_heights described = asHeights(heights);
+  if (tks_find_outliers(&described, &found) != TKS_OK || found.count == 0) return std::nullopt;
   const std::string value = textOf(found.value, heights.sample);
-  return Note{counted(found.count, "sample lies", "samples lie") + " far from all others, at " +
-                  value + ": if void, give --nodata " + value,
+  if (found.is_fill == 0) {
+    return Note{counted(found.count, "sample lies", "samples lie") + " far from all others, at " +
+                    value + ": if void, give --nodata " + value,
+                "--nodata"};
+  }
+  heights.nodata = found.value;
+  return Note{counted(found.count, "sample is ", "samples are ") + value +
+                  ", far from all others: taken as void (--nodata nan keeps heights)",
               "--nodata"};
 }
 

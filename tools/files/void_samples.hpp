@@ -33,12 +33,8 @@ Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& n
 /// A note if the nodata value is none that the samples can have, so that no sample meets it.
 std::optional<Note> noteOnNodata(const HeightFile& heights);
 
-/// Without a nodata value, floats beyond 1e30 that all have one value give it: the largest floats
-/// stand for holes in many files that do not say so, and no height in any unit is as large. A note
-/// says how many there are.
-std::optional<Note> takeHugeAsVoid(HeightFile& heights);
-
-/// A note if a few samples are so far from all others that they can only be undeclared voids.
-std::optional<Note> noteOnOutliers(const HeightFile& heights);
+/// Without a nodata value, a number that files write where they have no height gives it
+/// (tks_find_outliers), with a note. Other outliers only have a note.
+std::optional<Note> takeOutliers(HeightFile& heights);
 
 }  // namespace tetrakis::tools

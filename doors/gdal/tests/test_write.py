@@ -441,6 +441,32 @@ def test_doubles_with_nodata_beyond_floats(tmp_path, hole):
             assert off <= (1 if options else 0)
 
 
+@pytest.mark.parametrize("dtype", ["i2", "f4", "f8"])
+def test_fill_that_nobody_declared(tmp_path, capfd, dtype):
+    """A copy that need not be strict declares it, and so does not spend a small budget on it."""
+    heights = terrain(64, 80).astype(dtype)
+    hole = np.zeros(heights.shape, bool)
+    hole[::7, ::5] = True
+    heights[hole] = -9999
+    driver = gdal.GetDriverByName("TKS")
+    off = []
+    for strict in (False, True):
+        name = str(tmp_path / f"{strict}.tks")
+        driver.CreateCopy(name, memory(heights), strict, ["BYTES=600"])
+        assert ("160 samples are -9999" in capfd.readouterr().err) == (not strict)
+        dataset = gdal.Open(name)
+        band = dataset.GetRasterBand(1)
+        assert band.GetNoDataValue() == (None if strict else -9999)
+        off.append(np.abs(band.ReadAsArray() - heights)[~hole].mean())
+    assert off[0] < off[1] / 10
+    name = str(tmp_path / "exact.tks")
+    driver.CreateCopy(name, memory(heights), False)
+    dataset = gdal.Open(name)
+    band = dataset.GetRasterBand(1)
+    np.testing.assert_array_equal(band.ReadAsArray(), heights)
+    np.testing.assert_array_equal(band.GetMaskBand().ReadAsArray() == 0, hole)
+
+
 def test_sizes_as_the_command_line_has_them(tmp_path):
     name = tmp_path / "a.tks"
     copy(terrain(), name, "BYTES=4k")

@@ -105,6 +105,22 @@ def test_masked_arrays_come_back(dtype):
     np.testing.assert_array_equal(decoded.compressed(), heights.compressed())
 
 
+@pytest.mark.parametrize("dtype", ["i2", "i4", "f4"])
+def test_auto_declares_what_files_write_where_they_have_no_height(dtype):
+    heights = (terrain(dtype="f4") % 1000).astype(dtype)
+    hole = np.zeros(heights.shape, bool)
+    hole[::5, ::3] = True
+    heights[hole] = -9999
+    for nodata, declared in (("auto", -9999), (None, None), (7, 7)):
+        with tetrakis.open(tetrakis.encode(heights, nodata=nodata)) as stream:
+            assert stream.info.nodata == declared
+            np.testing.assert_array_equal(stream.heights(), heights)
+    with tetrakis.open(tetrakis.encode(np.abs(heights) % 1000, nodata="auto")) as stream:
+        assert stream.info.nodata is None
+    with pytest.raises(tetrakis.TksUsageError, match="auto"):
+        tetrakis.encode(heights, nodata="none")
+
+
 def test_masked_integers_get_a_nodata_that_is_free():
     values = np.arange(256, dtype="u1").reshape(16, 16)
     full = np.ma.MaskedArray(np.vstack([values, values]), mask=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, List, Literal, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -55,6 +55,11 @@ def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArra
 def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
     """The struct, and the samples that it points to: they must live as long."""
     nodata = place["nodata"]
+    searched = isinstance(nodata, str)
+    if searched:
+        if nodata != "auto":
+            raise TksUsageError(f'nodata takes a number or "auto", not {nodata!r}.')
+        nodata = None
     if isinstance(array, np.ma.MaskedArray):
         array, nodata = _filled(array, nodata)
     data = values.samples(np.asarray(array), "Heights")
@@ -65,7 +70,7 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         raise TksUsageError(f"spacing takes one number or two, (x, y), not {spacing!r}.")
     spacing_x, spacing_y = spacing if np.ndim(spacing) else (spacing, spacing)
     transform, has_transform = values.geotransform(place["geotransform"], "geotransform")
-    return c.Heights(
+    struct = c.Heights(
         size=ctypes.sizeof(c.Heights),
         width=values.unsigned(data.shape[1], "The width"),
         height=values.unsigned(data.shape[0], "The height"),
@@ -86,7 +91,18 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         registration=values.choice(place["registration"], c.REGISTRATIONS, "registration"),
         description=values.text(place["description"], "description"),
         geo_keys=values.text(place["geo_keys"], "geo_keys"),
-    ), data
+    )
+    if searched:
+        _declare_fill(struct)
+    return struct, data
+
+
+def _declare_fill(heights: c.Heights) -> None:
+    """Declares what files write where they have no height."""
+    found = c.Outliers(size=ctypes.sizeof(c.Outliers))
+    code = c.lib.tks_find_outliers(ctypes.byref(heights), ctypes.byref(found))
+    if code == 0 and found.is_fill:
+        heights.has_nodata, heights.nodata = 1, found.value
 
 
 def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
@@ -171,7 +187,7 @@ def encode(
     psnr: Optional[float] = None,
     max_error: Optional[float] = None,
     lossless: Optional[bool] = None,
-    nodata: Optional[float] = None,
+    nodata: Union[float, Literal["auto"], None] = None,
     unit: Optional[str] = None,
     spacing: Union[float, Tuple[float, float], None] = None,
     scale: float = 1.0,
@@ -204,6 +220,9 @@ def encode(
             float32; any strides and byte order. A sample v is the height ``v * scale + offset`` in
             `unit`. NaN, samples equal to `nodata`, and masked samples of a masked array are voids.
             Integers with a mask and without `nodata` are given a nodata value that no sample has.
+            nodata="auto" takes as such what files write where they have no height, if all other
+            samples lie closer together than to it: -9999 and other rows of nines, -32768, -32767,
+            -2147483648 and floats beyond 1e30.
         texture: (rows, columns) grey, or (rows, columns, channels) of 1 to 4 channels (grey, grey
             and alpha, RGB, RGBA), of uint8 or uint16. Without `texture_alpha` the last of 2 or 4
             channels is a further colour, such as near infrared.

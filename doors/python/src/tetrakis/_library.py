@@ -126,6 +126,17 @@ class Buffer(ctypes.Structure):
     _fields_ = [("data", c_void_p), ("size", c_size_t)]
 
 
+class Outliers(ctypes.Structure):
+    """tks_outliers."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("count", c_uint64),
+        ("value", c_double),
+        ("is_fill", c_int),
+    ]
+
+
 class Limits(ctypes.Structure):
     """tks_limits."""
 
@@ -271,6 +282,7 @@ STRUCTS = {
     "tks_camera": Camera,
     "tks_encode_options": EncodeOptions,
     "tks_buffer": Buffer,
+    "tks_outliers": Outliers,
     "tks_limits": Limits,
     "tks_range": Range,
     "tks_info": StreamInfo,
@@ -296,6 +308,7 @@ PROTOTYPES = {
             c_size_t,
         ],
     ),
+    "tks_find_outliers": (c_int, [POINTER(Heights), POINTER(Outliers)]),
     "tks_open": (
         c_int,
         [c_char_p, c_size_t, POINTER(Limits), POINTER(c_void_p), c_char_p, c_size_t],
