@@ -57,6 +57,19 @@ tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* da
   return h;
 }
 
+/// has_nodata of heights whose nodata value is to be found.
+constexpr int kFound = 2;
+
+/// Declares what files write where they have no height, if the caller asks for that.
+void findNodata(tks_heights& heights) {
+  if (heights.has_nodata != kFound) return;
+  heights.has_nodata = 0;
+  tks_outliers found{sizeof found, 0, 0, 0};
+  if (tks_find_outliers(&heights, &found) != TKS_OK || found.is_fill == 0) return;
+  heights.has_nodata = 1;
+  heights.nodata = found.value;
+}
+
 tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) {
   tks_image image{};
   image.size = sizeof image;
@@ -96,7 +109,7 @@ const char* web_encode_texts() {
 tks_status web_encode(const double* numbers, const char* const* texts, const void* const* data,
                       tks_buffer* out, char* message, size_t message_size) {
   Numbers left(numbers);
-  const tks_heights heights = heightsOf(left, texts, data[0]);
+  tks_heights heights = heightsOf(left, texts, data[0]);
   const tks_image image = imageOf(left, texts, data[1]);
   tks_encode_options o{};
   o.size = sizeof o;
@@ -109,6 +122,7 @@ tks_status web_encode(const double* numbers, const char* const* texts, const voi
   left.take(o.index);
   left.take(o.weights);
   o.progress = tellProgress;
+  findNodata(heights);
   return tks_encode(data[0] != nullptr ? &heights : nullptr, data[1] != nullptr ? &image : nullptr,
                     &o, out, message, message_size);
 }

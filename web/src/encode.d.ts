@@ -12,7 +12,8 @@ export interface HeightsInput {
   data: Samples;
   width: number;
   height: number;
-  nodata?: number | null;
+  /** "auto": -9999 and the like, where all other samples lie closer together than to it. */
+  nodata?: number | 'auto' | null;
   unit?: string;
   /** Metres between samples, or those between columns and between rows. */
   spacing?: number | [number, number];

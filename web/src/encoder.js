@@ -38,6 +38,12 @@ function placed(geotransform, flag, letter) {
   return {[flag]: 1, ...Object.fromEntries([...geotransform].map((v, i) => [letter + i, v]))};
 }
 
+/** Undeclared, declared, or to be found by the encoder. */
+function nodataFields(nodata) {
+  if (nodata === 'auto') return {hasNodata: 2, nodata: 0};
+  return {hasNodata: nodata === undefined || nodata === null ? 0 : 1, nodata: nodata ?? 0};
+}
+
 function heightsFields(heights) {
   const {data, width, height, nodata, spacing = 0} = heights;
   const sample = sampleOf(data, 'heights');
@@ -46,7 +52,7 @@ function heightsFields(heights) {
   const {scale = 1, offset = 0, step = 0} = heights;
   return {
     width, height, sample, scale, offset, step, spacingX, spacingY,
-    hasNodata: nodata === undefined || nodata === null ? 0 : 1, nodata: nodata ?? 0,
+    ...nodataFields(nodata),
     registration: oneOf(REGISTRATIONS, heights.registration, 'registration'),
     ...placed(heights.geotransform, 'hasGeotransform', 'g'),
   };

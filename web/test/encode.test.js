@@ -33,6 +33,17 @@ test('lossless comes back bit for bit, with its place', async () => {
   assert.deepEqual([info.crs, info.unit, info.spacingX, info.nodata], ['EPSG:32611', 'm', 30, -32768]);
 });
 
+test('undeclared nodata is found where that is asked for', async () => {
+  const {heights} = terrainOf(48);
+  for (let i = 0; i < heights.data.length; i += 7) heights.data[i] = -9999;
+  for (const [nodata, declared] of [['auto', -9999], [undefined, null], [5, 5]]) {
+    const stream = await encode({heights: {...heights, nodata}});
+    const {info} = await open(stream);
+    assert.equal(info.hasNodata ? info.nodata : null, declared);
+    assert.deepEqual((await samplesOf(stream)).heights, heights.data);
+  }
+});
+
 test('targets are kept: bytes, largest error, dB', async () => {
   const {heights, texture} = terrainOf(64);
   let last = 0;

@@ -89,7 +89,8 @@ async function readTiff(name, buffer) {
   const {SCALE = 1, OFFSET = 0, UNITTYPE} = {...(await image.getGDALMetadata(0))};
   const [unit = UNIT_NAMES[UNITTYPE] ?? UNITTYPE] = UNITS[keys.VerticalUnitsGeoKey] ?? [];
   return {heights: {
-    ...place, width, height, unit, scale: Number(SCALE), offset: Number(OFFSET), nodata: image.getGDALNoData(),
+    ...place, width, height, unit, scale: Number(SCALE), offset: Number(OFFSET),
+    nodata: image.getGDALNoData() ?? 'auto',
     data: data instanceof Float64Array ? Float32Array.from(data) : data,
     spacing: spacingOf(place.geotransform, keys, height),
     verticalDatum: crsOf(keys.VerticalCSTypeGeoKey),
