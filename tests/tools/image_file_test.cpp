@@ -328,6 +328,60 @@ TEST_F(ImageFiles, WhatATiffMeansOtherwiseIsTold) {
   EXPECT_NE(noteOn(tiff).find("nodata"), std::string::npos);
 }
 
+/// 1 x 2 pixels, of which the second is left out.
+TinyTiff maskPage() {
+  TinyTiff mask(2, 1, 1, 8, {255, 0});
+  mask.longs(TinyTiff::kSubfileType, {4});
+  mask.shorts(TinyTiff::kPhotometric, {4});
+  return mask;
+}
+
+TEST_F(ImageFiles, MasksBecomeAlpha) {
+  const std::vector<uint8_t> colours = {1, 2, 3, 4, 5, 6, 7, 8};
+  for (const uint16_t channels : {uint16_t{1}, uint16_t{3}}) {
+    TinyTiff tiff(2, 1, channels, 8,
+                  std::vector<uint8_t>(colours.begin(), colours.begin() + 2 * channels));
+    tiff.addPage(maskPage());
+    std::string note;
+    const auto image = readImage(save("a.tif", tiff.bytes()), &note);
+    ASSERT_TRUE(image.ok()) << image.status().message();
+    EXPECT_TRUE(image->hasAlpha());
+    EXPECT_NE(note.find("mask kept as alpha"), std::string::npos) << note;
+    if (channels == 1) expectPixels(image, {1, 255, 2, 0});
+    if (channels == 3) expectPixels(image, {1, 2, 3, 255, 4, 5, 6, 0});
+    tiff.shorts(TinyTiff::kOrientation, {2});  // mirrored, and the mask with it
+    if (channels == 1) expectPixels(readImage(save("a.tif", tiff.bytes())), {2, 0, 1, 255});
+  }
+  const std::vector<uint8_t> wide = {1, 2, 3, 4};  // two samples of 16 bits, little endian
+  TinyTiff tiff(2, 1, 1, 16, wide);
+  tiff.addPage(maskPage());
+  expectPixels(readImage(save("a.tif", tiff.bytes())), {1, 2, 255, 255, 3, 4, 0, 0});
+}
+
+TEST_F(ImageFiles, MasksBesideTheFileBecomeAlpha) {
+  ASSERT_TRUE(writeImage(path("a.png"), randomImage(2, 1, 3, TKS_U8)).ok());
+  TinyTiff mask = maskPage();
+  mask.remove(TinyTiff::kSubfileType);
+  mask.shorts(TinyTiff::kPhotometric, {1});
+  save("a.png.msk", mask.bytes());
+  const auto image = readImage(path("a.png"));
+  ASSERT_TRUE(image.ok()) << image.status().message();
+  ASSERT_EQ(image->channels, 4U);
+  EXPECT_EQ(uint8_t(image->data[3]), 255);
+  EXPECT_EQ(uint8_t(image->data[7]), 0);
+  save("a.png.msk", TinyTiff(1, 1, 1, 8, {0}).bytes());
+  EXPECT_EQ(readImage(path("a.png")).status().code(), TKS_USAGE) << "of another size";
+}
+
+TEST_F(ImageFiles, MasksBesideAnAlphaAreTold) {
+  TinyTiff tiff(2, 1, 2, 8, {1, 255, 2, 128});
+  tiff.shorts(TinyTiff::kExtraSamples, {2});
+  tiff.addPage(maskPage());
+  std::string note;
+  expectPixels(readImage(save("a.tif", tiff.bytes()), &note), {1, 255, 2, 128});
+  EXPECT_NE(note.find("mask not applied"), std::string::npos) << note;
+}
+
 TEST_F(ImageFiles, SixteenBitsThatHoldEightAreTold) {
   for (const uint16_t odd : {uint16_t{0}, uint16_t{1}}) {
     ImageFile image = randomImage(5, 4, 1, TKS_U16);

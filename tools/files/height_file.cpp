@@ -10,7 +10,7 @@
 
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"
-#include "tools/files/height_mask.hpp"
+#include "tools/files/gdal_mask.hpp"
 #include "tools/files/pictures/png.hpp"
 #include "tools/files/pictures/raster.hpp"
 #include "tools/files/pictures/tiff.hpp"

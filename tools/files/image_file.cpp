@@ -5,6 +5,7 @@
 
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"
+#include "tools/files/gdal_mask.hpp"
 #include "tools/files/pictures/alpha.hpp"
 #include "tools/files/pictures/raster.hpp"
 #include "tools/files/pictures/tiff.hpp"
@@ -49,7 +50,10 @@ bool isWidened(const ImageFile& image) {
   return true;
 }
 
-std::string noteOn(const Raster& raster, bool widened) {
+/// What has become of the mask.
+enum class Masked { kNo, kAsAlpha, kBesideAlpha };
+
+std::string noteOn(const Raster& raster, bool widened, Masked masked) {
   std::string note;
   const auto add = [&note](const char* text) {
     note += (note.empty() ? "" : ", ") + std::string(text);
@@ -67,9 +71,29 @@ std::string noteOn(const Raster& raster, bool widened) {
   if (raster.unnamed_alpha)
     add("last channel taken for a colour, because the file does not call it alpha");
   if (raster.nodata) add("nodata value not applied and not kept");
-  if (raster.mask) add("mask not applied and not kept");
+  if (masked == Masked::kAsAlpha) add("mask kept as alpha");
+  if (masked == Masked::kBesideAlpha) add("mask not applied and not kept beside its last channel");
   if (raster.further_pages) add("further pages left out");
   return note.empty() ? note : raster.name + ": " + note;
+}
+
+/// A mask beside the file goes before the one in it, as GDAL has it. Empty: there is none.
+Result<std::vector<uint8_t>> maskOf(const Raster& raster, const std::string& path) {
+  const auto width = static_cast<uint32_t>(raster.shape.width);
+  const auto height = static_cast<uint32_t>(raster.shape.height);
+  auto beside = readMaskBeside(path, width, height);
+  if (!beside.ok() || !beside->empty() || !raster.mask) return beside;
+  return readMaskPage(raster.file.path(), width, height);
+}
+
+/// Pixels that a mask leaves out get alpha 0; an image of two or four channels has no room for it.
+Result<Masked> applyMask(const Raster& raster, const std::string& path, ImageFile& image) {
+  const auto mask = maskOf(raster, path);
+  if (!mask.ok()) return mask.status();
+  if (std::find(mask->begin(), mask->end(), 0) == mask->end()) return Masked::kNo;
+  if (image.channels % 2 == 0) return Masked::kBesideAlpha;
+  image = withAlpha(image, *mask);
+  return Masked::kAsAlpha;
 }
 
 /// Applies the orientation tag (TIFF 6.0: where the stored row 0 and column 0 stand in the
@@ -130,7 +154,10 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
                                  "it to PNG");
   }
   if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
-  if (note) *note = noteOn(*raster, isWidened(image));
+  const bool widened = isWidened(image);
+  const auto masked = applyMask(*raster, path, image);
+  if (!masked.ok()) return masked.status();
+  if (note) *note = noteOn(*raster, widened, *masked);
   if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
   Notes notes;
   auto place = placeOf(*raster, path, notes);

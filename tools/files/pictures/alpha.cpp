@@ -50,6 +50,20 @@ bool isOpaque(const ImageFile& image) {
   return true;
 }
 
+ImageFile withAlpha(const ImageFile& colours, const std::vector<uint8_t>& mask) {
+  ImageFile image{colours.width, colours.height, colours.channels + 1, colours.sample, {},
+                  colours.place};
+  const size_t sample = tks_sample_bytes(image.sample), pixel = colours.channels * sample;
+  image.data.reserve(mask.size() * (pixel + sample));
+  auto from = colours.data.begin();
+  for (const uint8_t shown : mask) {
+    image.data.insert(image.data.end(), from, from + pixel);
+    image.data.insert(image.data.end(), sample, shown != 0 ? std::byte{255} : std::byte{0});
+    from += pixel;
+  }
+  return image;
+}
+
 void divideByAlpha(ImageFile& image) {
   if (!image.hasAlpha()) return;
   forEachPixel(image, [](auto pixel) { divide(pixel); });

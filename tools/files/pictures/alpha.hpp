@@ -2,12 +2,19 @@
 // Alpha as the last of two or four channels.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 
 /// No alpha, or nothing but its largest value.
 bool isOpaque(const ImageFile& image);
+
+/// One or three colours, and behind them an alpha: 0 where the mask, a byte for each pixel, is 0,
+/// and elsewhere its largest value.
+ImageFile withAlpha(const ImageFile& colours, const std::vector<uint8_t>& mask);
 
 /// Turns colours that were multiplied by alpha into plain ones, rounded; those under alpha 0 stay.
 void divideByAlpha(ImageFile& image);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masks of heights (GDAL RFC 15; TIFF 6.0, NewSubfileType and transparency masks).
-#include "tools/files/height_mask.hpp"
+// Masks (GDAL RFC 15; TIFF 6.0, NewSubfileType and transparency masks).
+#include "tools/files/gdal_mask.hpp"
 
 #include <algorithm>
 #include <filesystem>
