@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 
 #include "base/samples.hpp"
 
@@ -30,80 +29,83 @@ bool isFill(double value) {
 }
 
 struct Outliers {
-  uint64_t count = 0, others = 0;
+  uint64_t count = 0;
   double value = 0;   ///< the outermost
-  double range = 0;   ///< of the others
   bool equal = true;  ///< all outliers have that value
 };
 
-/// Finite floats that no height in any unit can be.
+/// Finite floats that no height in any unit can be, unless there are no others.
 Outliers hugeFloats(std::span<const float> samples) {
   Outliers found;
+  uint64_t others = 0;
   for (const float sample : samples) {
-    if (!std::isfinite(sample)) continue;
-    if (std::abs(double{sample}) <= kHuge) {
-      ++found.others;
+    const auto value = static_cast<double>(sample);
+    if (!std::isfinite(value)) continue;
+    if (std::abs(value) <= kHuge) {
+      ++others;
       continue;
     }
-    found.equal = found.equal && (found.count == 0 || double{sample} == found.value);
+    found.equal = found.equal && (found.count == 0 || value == found.value);
     ++found.count;
-    if (std::abs(double{sample}) > std::abs(found.value)) found.value = double{sample};
+    if (std::abs(value) > std::abs(found.value)) found.value = value;
   }
-  return found;
+  return others > 0 ? found : Outliers{};
 }
 
-/// The samples of value `end`, which has no others on one side, where the gap to those on the other
-/// is wider than their range.
-template <class T>
-Outliers isolatedEnd(std::span<const T> samples, T end) {
-  using Limits = std::numeric_limits<T>;
-  Outliers found{0, 0, static_cast<double>(end)};
-  T low = Limits::max(), high = Limits::lowest();
-  for (const T sample : samples) {
-    if (sample == end) {
-      ++found.count;
-      continue;
+/// Finite samples beside those of one value.
+struct Others {
+  uint64_t left_out = 0;  ///< samples of that value
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+};
+
+/// value: NaN leaves out none.
+Others othersThan(double value, const tks_heights& heights) {
+  return withSampleType(heights.sample, [&]<class T>(T) {
+    Others others;
+    const size_t count = size_t{heights.width} * heights.height;
+    for (const T sample : std::span(static_cast<const T*>(heights.data), count)) {
+      const auto other = static_cast<double>(sample);
+      if (other == value) {
+        ++others.left_out;
+      } else if (std::isfinite(other)) {
+        others.low = std::min(others.low, other);
+        others.high = std::max(others.high, other);
+      }
     }
-    if (!std::isfinite(static_cast<double>(sample))) continue;
-    ++found.others;
-    low = std::min(low, sample);
-    high = std::max(high, sample);
-  }
-  found.range = double(high) - double(low);
-  const double gap = std::max(double(low) - double(end), double(end) - double(high));
-  return found.others > 0 && gap > found.range ? found : Outliers{};
+    return others;
+  });
 }
 
-/// The least or the greatest value, where it repeats, as -9999 does, and the others vary: two
-/// values make no terrain with voids. 0 is a height of its own.
-template <class T>
-Outliers isolatedExtreme(std::span<const T> samples) {
-  T least = std::numeric_limits<T>::max(), greatest = std::numeric_limits<T>::lowest();
-  for (const T sample : samples) {
-    if (!std::isfinite(static_cast<double>(sample))) continue;
-    least = std::min(least, sample);
-    greatest = std::max(greatest, sample);
-  }
-  for (const T extreme : {least, greatest}) {
-    const Outliers found = isolatedEnd(samples, extreme);
-    if (found.count > 1 && found.range > 0 && extreme != 0) return found;
-  }
-  return {};
+/// Whether a single sample of this value is no height: the ends of an integer type.
+bool isEndOfType(double value, tks_sample sample) {
+  return withSampleType(sample, [value]<class T>(T) {
+    using Limits = std::numeric_limits<T>;
+    return Limits::is_integer && (value == double(Limits::min()) || value == double(Limits::max()));
+  });
 }
 
-template <class T>
-Outliers outliersOf(std::span<const T> samples) {
-  if constexpr (std::is_floating_point_v<T>) {
-    const Outliers huge = hugeFloats(samples);
-    return huge.count > 0 ? huge : isolatedExtreme(samples);
-  } else if constexpr (sizeof(T) == 1) {
-    return {};  // classes and masks hold the ends of so small a type
-  } else {
-    const Outliers low = isolatedEnd(samples, std::numeric_limits<T>::min());
-    if (std::is_signed_v<T> && low.count > 0) return low;  // else 0, a height of its own
-    const Outliers high = isolatedEnd(samples, std::numeric_limits<T>::max());
-    return high.count > 0 ? high : isolatedExtreme(samples);
+/// The samples of value `end`, the least or the greatest of all, if the gap to the others is wider
+/// than the range of these.
+Outliers isolated(double end, const tks_heights& heights) {
+  const Others others = othersThan(end, heights);
+  const double range = others.high - others.low;
+  const double gap = std::max(others.low - end, end - others.high);
+  const bool enough = others.left_out > 1 || isEndOfType(end, heights.sample);
+  // Two values make no terrain with voids, and 0 is a height of its own.
+  const bool found = range > 0 && gap > range && enough && end != 0;
+  return found ? Outliers{others.left_out, end} : Outliers{};
+}
+
+Outliers outliersOf(const tks_heights& heights) {
+  if (tks_sample_bytes(heights.sample) == 1) return {};  // classes and masks hold the ends
+  if (heights.sample == TKS_F32) {
+    const size_t count = size_t{heights.width} * heights.height;
+    const Outliers huge = hugeFloats({static_cast<const float*>(heights.data), count});
+    if (huge.count > 0) return huge;
   }
+  const Others all = othersThan(std::numeric_limits<double>::quiet_NaN(), heights);
+  const Outliers low = isolated(all.low, heights);
+  return low.count > 0 ? low : isolated(all.high, heights);
 }
 
 }  // namespace
@@ -111,11 +113,8 @@ Outliers outliersOf(std::span<const T> samples) {
 tks_outliers findOutliers(const tks_heights& heights) {
   tks_outliers out{sizeof out, 0, 0, 0};
   if (heights.has_nodata != 0) return out;
-  const Outliers found = withSampleType(heights.sample, [&heights]<class T>(T) {
-    const size_t count = size_t{heights.width} * heights.height;
-    return outliersOf(std::span(static_cast<const T*>(heights.data), count));
-  });
-  if (found.count == 0 || found.others == 0) return out;
+  const Outliers found = outliersOf(heights);
+  if (found.count == 0) return out;
   out.count = found.count;
   out.value = found.value;
   out.is_fill = found.equal && isFill(found.value);

@@ -11,6 +11,9 @@ export interface TerrainOptions {
   bytes?: number;
   /** Heights are refined until their error is seen as so many pixels. Default 1. */
   pixelError?: number;
+  /** Milliseconds in which the surface moves from one frame to the next, where update() is called
+   * for each picture. Default 300; 0: it jumps. */
+  glideTime?: number;
   /** Default: a MeshLambertMaterial, which needs lights. */
   material?: Material;
 }
@@ -28,10 +31,14 @@ export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMa
   triangles: number;
   bytes: number;
   pixelError: number;
+  glideTime: number;
   /** Shows what opening brought: the first frame. */
   begin(): Promise<void>;
-  /** Draws a frame of `terrain`; parts that it lacks stay as they are. Event: `frame`. */
-  show(frame: Frame): void;
+  /** Draws a frame of `terrain`; parts that it lacks stay as they are. Event: `frame`. `glide`: the
+   * surface moves there from where it is, as long as glide() is called for each picture. */
+  show(frame: Frame, options?: {glide?: boolean}): void;
+  /** Moves the surface on its way to the frame; update() does so as well. False: it is there. */
+  glide(): boolean;
   /** To be called for each picture: fetches and decodes more where this camera sees the difference.
    * `viewportHeight` in pixels. Events: `frame`, and `error`, after which nothing more is fetched. Of
    * a stream with an index it fetches what helps this view most. */

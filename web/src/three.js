@@ -8,6 +8,7 @@ import {
 
 import {startDecoder} from './decoders.js';
 import {drapeOf} from './drape.js';
+import {surfaceUnder} from './glide.js';
 import {groundScale, open} from './index.js';
 import {FIRST_FRAME, GROWTH} from './pace.js';
 
@@ -58,6 +59,21 @@ const LEAST_STEP = 2 ** 14, MOST_STEP = 2 ** 18;
 /** What error of a texture is seen where a texel fills a pixel. */
 const GOOD_PSNR = 40;
 
+/** Milliseconds between calls of update() by which a page is taken to draw all the time. */
+const STEADY = 100;
+
+/** Triangles of a mesh that has time to glide: to begin takes some 20 ms for as many. */
+const MOST_GLIDING = 1e5;
+
+/** The mesh of a geometry as it is drawn while it is `left` of the way from its end. */
+function meshOf({attributes, index, morphAttributes}, left) {
+  const drawn = (name) => {
+    const end = attributes[name].array, start = morphAttributes[name]?.[0].array;
+    return left > 0 && start ? end.map((v, i) => v + left * (start[i] - v)) : end;
+  };
+  return {positions: drawn('position'), normals: drawn('normal'), triangles: index.array};
+}
+
 export class TksTerrain extends Mesh {
   #reading = null;
   #stop = new AbortController();
@@ -66,14 +82,19 @@ export class TksTerrain extends Mesh {
   #wanted = 0;
   #texels = Infinity;
   #served = '';  // the view for which all is here
+  #glidesSince = -Infinity;
+  #updated = [-Infinity, -Infinity];  // when update() was called last, and before that
 
   /** `terrain`: of open(). It is disposed with this object. */
-  constructor(terrain, {triangles = 20000, bytes = Infinity, pixelError = 1, material} = {}) {
+  constructor(terrain, {
+    triangles = 20000, bytes = Infinity, pixelError = 1, glideTime = 300, material,
+  } = {}) {
     super(new BufferGeometry(), material ?? new MeshLambertMaterial());
     this.terrain = terrain;
     this.triangles = triangles;
     this.bytes = bytes;
     this.pixelError = pixelError;
+    this.glideTime = glideTime;
     this.frame = null;
     if (terrain.info.hasTexture && !terrain.info.textureOpaque) this.material.alphaTest = 0.5;
   }
@@ -86,15 +107,40 @@ export class TksTerrain extends Mesh {
   }
 
   /** Draws a frame of `terrain`. Parts that it lacks stay as they are. */
-  show(frame) {
+  show(frame, {glide = false} = {}) {
     if (frame.mesh || !this.frame) {
+      const geometry = geometryOf(frame);
+      if (glide && this.glideTime > 0 && this.frame?.mesh) this.#glideTo(geometry);
       this.geometry.dispose();
-      this.geometry = geometryOf(frame);
+      this.geometry = geometry;
+      this.updateMorphTargets();
+      this.glide();
     }
     if (frame.texture) this.setMap(textureOf(frame.texture));
     this.frame = {...this.frame, ...frame};
     this.dispatchEvent({type: 'frame', frame});
   }
+  #glideTo(geometry) {
+    if (Math.max(this.geometry.index.count, geometry.index.count) > 3 * MOST_GLIDING) return;
+    const from = meshOf(this.geometry, this.#left()), to = meshOf(geometry, 0);
+    const {positions, normals} = surfaceUnder(from, to);
+    geometry.morphAttributes = {
+      position: [new BufferAttribute(positions, 3)], normal: [new BufferAttribute(normals, 3)],
+    };
+    this.#glidesSince = performance.now();
+  }
+  /** What is left of the way between two frames: from 1 to 0, slow at both ends. */
+  #left() {
+    if (!this.geometry.morphAttributes.position) return 0;
+    return 1 - MathUtils.smoothstep(performance.now() - this.#glidesSince, 0, this.glideTime);
+  }
+  /** Moves the surface on its way to the frame; false: it is there. update() does so as well. */
+  glide() {
+    const left = this.#left();
+    if (this.morphTargetInfluences?.length) this.morphTargetInfluences[0] = left;
+    return left > 0;
+  }
+
   setMap(texture) {
     this.material.map?.dispose();
     if (!this.material.map) this.material.needsUpdate = true;
@@ -166,6 +212,8 @@ export class TksTerrain extends Mesh {
    * decoding runs at a time. Failures go to the event `error`.
    */
   update(camera, viewportHeight) {
+    this.#updated = [performance.now(), this.#updated[0]];
+    this.glide();
     if (this.#reading || this.#stop.signal.aborted) return;
     const {info, truncated} = this.terrain, limit = Math.min(this.bytes, info.streamBytes);
     const view = this.frame && info.hasIndex ? this.viewOf(camera, viewportHeight) : null;
@@ -192,7 +240,7 @@ export class TksTerrain extends Mesh {
       if (have !== this.#wanted || texels !== this.#texels || !this.frame) {
         const frame = await this.terrain.decode({bytes: have, texels, triangles, normals: true, signal});
         if (signal.aborted) return false;
-        this.show(frame);
+        this.show(frame, {glide: this.#isDrawnSteadily()});
       }
       this.#wanted = have === bytes || view ? have : bytes;
       this.#texels = texels;
@@ -203,6 +251,12 @@ export class TksTerrain extends Mesh {
       this.dispatchEvent({type: 'error', error});
       return false;
     }
+  }
+
+  /** Whether a surface that glides is drawn until it is there. */
+  #isDrawnSteadily() {
+    const [last, before] = this.#updated;
+    return performance.now() - last < STEADY && last - before < STEADY;
   }
 
   dispose() {

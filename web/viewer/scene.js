@@ -95,9 +95,11 @@ export class Picture {
       this.#last = now;
       const moving = this.fly.update(seconds, 0.25 * this.#radius);
       if (!this.fly.enabled) this.orbit.update();
+      const gliding = this.#object?.glide();
       this.#fitDepth();
       this.renderer.render(this.#scene, this.camera);
       if (moving) this.#moved();
+      else if (gliding) this.draw();
     });
   }
   /** The depth buffer is spent on what lies between the camera and the far end of the terrain. */

@@ -10,6 +10,7 @@ import {Picture} from './scene.js';
 import {tint} from './tint.js';
 
 const $ = (id) => document.getElementById(id);
+const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 /** What is fetched without being asked for. */
 const FREE_BYTES = 8 << 20;
 const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
@@ -99,7 +100,7 @@ function emptiness({info, mesh, texture, complete}) {
 
 function show(frame) {
   const first = object.frame === null;
-  object.show(frame);
+  object.show(frame, {glide: !STILL.matches});
   if (frame.surface && $('textured').checked) object.setMap(textureOf(tint(frame.surface)));
   if (first) {
     exaggerate();
