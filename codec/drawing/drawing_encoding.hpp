@@ -91,7 +91,7 @@ class DrawingEncoding : public DrawingDecisions {
   }
 
  private:
-  static constexpr size_t kLargeDrawing = size_t{1} << 20;
+  static constexpr size_t kLargeDrawing = size_t{1} << 18;
   static constexpr uint64_t kLeastStep = 32;
   /// Within the first so many bytes a vertex stands for so many samples that a wrong one makes the
   /// prefix worse.

@@ -8,8 +8,8 @@
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_estimate.hpp"
 #include "codec/drawing/drawing_pass.hpp"
+#include "texture_wavelet/drawn/drawn_error.hpp"
 #include "texture_wavelet/drawn/drawn_fill.hpp"
-#include "texture_wavelet/mask/cutout.hpp"
 
 namespace tetrakis::inline drawn {
 
@@ -84,12 +84,8 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels, uint64_t most) {
   std::vector<DrawnIndex> indices(image->numbers.size(), kNoIndex);
   DrawnColours colours(texels);
   const std::vector<Level> levels = levelsOf(texels.width, texels.height);
-  ColourEncoding io(*image, 0, [&] {
-    Texels decoded{texels.width, texels.height, texels.channels, texels.bits, {}};
-    decoded.samples.resize(texels.samples.size());
-    fillDrawn(levels, indices, colours, decoded);
-    return countedSquares(texels, decoded, {});
-  });
+  DrawnError error(texels, levels);
+  ColourEncoding io(*image, 0, [&] { return error.squares(indices); });
   draw(texels, indices, colours, io);
   EncodedTexture encoded;
   encoded.header.width = texels.width;

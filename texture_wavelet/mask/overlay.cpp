@@ -36,48 +36,79 @@ struct Use {
   }
 };
 
+using Uses = std::unordered_map<uint64_t, Use>;
+
 /// How often each colour is used that occurs twice in a row, or in a column: lines are thin in one
 /// of them. Photographs have next to none.
-std::unordered_map<uint64_t, Use> repeatedColours(const Texels& texels, Mask seen) {
-  std::unordered_map<uint64_t, Use> uses;
-  const size_t count = size_t{texels.width} * texels.height;
+Uses repeatedColours(const Texels& texels, Mask seen) {
+  Uses uses;
   std::vector<Colour> row_before(texels.width);
   Colour before;
-  for (size_t i = 0; i < count; ++i) {
-    const Colour colour = colourAt(texels, seen, i);
-    Colour& above = row_before[i % texels.width];
-    if (colour && (colour == before || colour == above)) {
-      Use& use = uses[*colour];
-      ++use.alike;
-      use.in_row += colour == before;
+  Use* use = nullptr;  // of `before`, once it is known
+  for (size_t y = 0, i = 0; y < texels.height; ++y) {
+    for (uint32_t x = 0; x < texels.width; ++x, ++i) {
+      const Colour colour = colourAt(texels, seen, i);
+      Colour& above = row_before[x];
+      const bool in_row = colour == before;
+      if (!in_row) use = nullptr;
+      if (colour && (in_row || colour == above)) {
+        if (use == nullptr) use = &uses[*colour];
+        ++use->alike;
+        use->in_row += in_row;
+      }
+      before = above = colour;
     }
-    before = above = colour;
   }
   return uses;
 }
+
+/// Looks up the uses of texels. Colours come in runs.
+class UsesOfTexels {
+ public:
+  UsesOfTexels(Uses& uses, const Texels& texels, Mask seen)
+      : uses_(uses), texels_(texels), seen_(seen), use_(find(0)) {}
+
+  /// Null: the colour does not matter, or has none.
+  Use* at(size_t texel) {
+    const Colour colour = colourAt(texels_, seen_, texel);
+    if (!colour) return nullptr;
+    if (*colour != last_) {
+      last_ = *colour;
+      use_ = find(last_);
+    }
+    return use_;
+  }
+
+ private:
+  Use* find(uint64_t colour) const {
+    const auto found = uses_.find(colour);
+    return found == uses_.end() ? nullptr : &found->second;
+  }
+
+  Uses& uses_;
+  const Texels& texels_;
+  Mask seen_;
+  uint64_t last_ = 0;
+  Use* use_;  ///< of last_
+};
 
 }  // namespace
 
 std::vector<uint8_t> photographOf(const Texels& texels, Mask seen) {
   const size_t count = size_t{texels.width} * texels.height;
-  std::unordered_map<uint64_t, Use> uses = repeatedColours(texels, seen);
+  Uses uses = repeatedColours(texels, seen);
   size_t alike = 0;
   std::erase_if(uses, [&](const auto& use) { return 2 * use.second.alike * kLeastShare < count; });
   for (const auto& [colour, use] : uses) alike += use.alike;
   if (alike * kLeastAlike < count) return {};
-  const auto useAt = [&](size_t texel) {
-    const Colour colour = colourAt(texels, seen, texel);
-    return colour ? uses.find(*colour) : uses.end();
-  };
-  for (size_t i = 0; i < count; ++i) {
-    const auto use = useAt(i);
-    if (use != uses.end()) ++use->second.texels;
-  }
+  UsesOfTexels use_of(uses, texels, seen);
+  for (size_t i = 0; i < count; ++i)
+    if (Use* const use = use_of.at(i)) ++use->texels;
   std::vector<uint8_t> photograph(count);
   size_t drawn = 0, left = 0;
   for (size_t i = 0; i < count; ++i) {
-    const auto use = useAt(i);
-    photograph[i] = use == uses.end() || !use->second.isDrawn(count);
+    const Use* const use = use_of.at(i);
+    photograph[i] = use == nullptr || !use->isDrawn(count);
     drawn += photograph[i] == 0;
     left += photograph[i] != 0 && seen[i];
   }
