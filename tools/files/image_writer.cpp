@@ -49,6 +49,7 @@ constexpr std::array kFormats{
 /// for those that are written without it.
 Result<std::string> nameOf(const std::string& extension) {
   if (extension == "png") return std::string("png");
+  if (extension == "tif" || extension == "tiff") return std::string("tiff");
   if (extension == "jpg" || extension == "jpeg") return std::string("jpeg");
   const auto formats = pictureFormats();
   if (!formats.ok()) return formats.status();
@@ -104,11 +105,9 @@ Status writeOther(const std::string& path, const ImageFile& image, const Format&
 
 Status writePixels(const std::string& path, const ImageFile& image, const Format& format) {
   const std::string_view kind = format.name;
-  if (kind != "png" && kind != "jpeg" && kind != "tiff") return writeOther(path, image, format);
-  const auto bytes = kind == "png" ? encodePng(image)
-                     : kind == "jpeg"
-                         ? encodeJpeg(image, kQuality)
-                         : encodeRaster("tiff", {shapeOf(image), image.data, "zip", image.opaque});
+  if (kind == "tiff") return writeGeoTiff(path, image);
+  if (kind != "png" && kind != "jpeg") return writeOther(path, image, format);
+  const auto bytes = kind == "png" ? encodePng(image) : encodeJpeg(image, kQuality);
   return bytes.ok() ? writeBytes(path, *bytes) : bytes.status();
 }
 
@@ -141,7 +140,7 @@ Status writeImage(const std::string& path, const ImageFile& image, const std::st
     return status;
   const Format& chosen = **formatNamed(name);
   if (Status status = writePixels(path, image, chosen); !status.ok()) return status;
-  if (chosen.name == std::string_view("tiff")) return addGeoreference(path, image.place);
+  if (chosen.name == std::string_view("tiff")) return {};  // it says so itself
   return image.place.geotransform ? writeWorldFile(path, *image.place.geotransform) : Status();
 }
 

@@ -84,7 +84,7 @@ OIIO::ImageSpec specOf(const PictureToWrite& picture) {
   OIIO::ImageSpec spec(shape.width, shape.height, shape.channels, typeOf(shape.sample));
   spec["oiio:UnassociatedAlpha"] = 1;
   // OpenImageIO takes the fourth channel for alpha, and no second one.
-  spec.alpha_channel = picture.opaque || shape.channels % 2 != 0 ? -1 : shape.channels - 1;
+  spec.alpha_channel = shape.channels % 2 != 0 ? -1 : shape.channels - 1;
   if (!picture.compression.empty()) spec["compression"] = picture.compression;
   return spec;
 }

@@ -46,7 +46,6 @@ struct PictureToWrite {
   PictureShape shape;
   std::span<const std::byte> samples;
   std::string compression{};  ///< in OpenImageIO's words; "": the format's own choice
-  bool opaque = false;        ///< no channel is alpha
 };
 
 /// All formats. Errors are OpenImageIO's reasons; memory that runs out is thrown.

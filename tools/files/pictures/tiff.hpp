@@ -110,7 +110,7 @@ Result<Georeference> readGeoreference(const std::string& path, Notes& notes);
 /// grid in metres, in no CRS.
 Status writeGeoTiff(const std::string& path, const HeightFile& heights);
 
-/// Adds the tags of the place to a TIFF.
-Status addGeoreference(const std::string& path, const Georeference& place);
+/// The same of an image of any kind.
+Status writeGeoTiff(const std::string& path, const ImageFile& image);
 
 }  // namespace tetrakis::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as deflated TIFF with GeoTIFF and GDAL tags.
+// Heights and images as deflated TIFF with GeoTIFF and GDAL tags.
 // Sources: OGC GeoTIFF 1.1 (19-008r4), section 7.1; GDAL GTiff driver.
 #include <algorithm>
 #include <pugixml.hpp>
@@ -21,6 +21,7 @@ GeoTransform localGrid(const HeightFile& heights) {
 }
 
 bool setPlace(TIFF* tiff, const Georeference& place, const GeoKeys& keys) {
+  if (!place.geotransform && keys.empty()) return true;
   const bool point = keys.code(kGtRasterTypeGeoKey) == TKS_REGISTRATION_POINT;
   if (place.geotransform && !writeTransform(tiff, *place.geotransform, point)) return false;
   return writeGeoKeys(tiff, keys);
@@ -48,67 +49,90 @@ bool setGdalTags(TIFF* tiff, const HeightFile& heights, const GeoKeys& keys) {
   return !heights.nodata || setTag(tiff, kGdalNodataTag, shortest(*heights.nodata));
 }
 
-bool setLayout(TIFF* tiff, const HeightFile& heights, uint32_t rows_per_strip) {
-  const bool is_float = heights.sample == TKS_F32;
-  const bool is_signed =
-      heights.sample == TKS_I8 || heights.sample == TKS_I16 || heights.sample == TKS_I32;
+/// Samples as they lie in a file: row by row, interleaved.
+struct Pixels {
+  uint32_t width, height, channels;
+  tks_sample sample;
+  std::span<const std::byte> data;
+
+  size_t rowBytes() const { return size_t{width} * channels * tks_sample_bytes(sample); }
+  uint32_t rowsPerStrip() const {
+    constexpr size_t kStripBytes = 1 << 18;
+    return static_cast<uint32_t>(std::clamp<size_t>(kStripBytes / rowBytes(), 1, height));
+  }
+};
+
+bool setLayout(TIFF* tiff, const Pixels& pixels) {
+  const tks_sample sample = pixels.sample;
+  const bool is_float = sample == TKS_F32;
+  const bool is_signed = sample == TKS_I8 || sample == TKS_I16 || sample == TKS_I32;
   const int format =
       is_float ? SAMPLEFORMAT_IEEEFP : (is_signed ? SAMPLEFORMAT_INT : SAMPLEFORMAT_UINT);
-  const int bits = static_cast<int>(8 * tks_sample_bytes(heights.sample));
-  return TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, heights.width) &&
-         TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, heights.height) &&
+  const int bits = static_cast<int>(8 * tks_sample_bytes(sample));
+  const int photometric = pixels.channels < 3 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB;
+  return TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, pixels.width) &&
+         TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, pixels.height) &&
          TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits) &&
          TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, format) &&
-         TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1) &&
+         TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, pixels.channels) &&
          TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) &&
-         TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) &&
-         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, rows_per_strip) &&
+         TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, photometric) &&
+         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, pixels.rowsPerStrip()) &&
          TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE) &&
          TIFFSetField(tiff, TIFFTAG_ZIPQUALITY, 3) &&
          TIFFSetField(tiff, TIFFTAG_PREDICTOR,
                       is_float ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
 }
 
-bool writeStrips(TIFF* tiff, const HeightFile& heights, uint32_t rows_per_strip) {
-  const size_t row_bytes = size_t{heights.width} * tks_sample_bytes(heights.sample);
-  for (uint32_t y = 0, strip = 0; y < heights.height; y += rows_per_strip, ++strip) {
-    const size_t bytes = row_bytes * std::min(rows_per_strip, heights.height - y);
+/// What the last of two or four channels is.
+bool setExtraSample(TIFF* tiff, const ImageFile& image) {
+  if (image.channels % 2 != 0) return true;
+  const uint16_t kind = image.hasAlpha() ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED;
+  return TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &kind) == 1;
+}
+
+bool writeStrips(TIFF* tiff, const Pixels& pixels) {
+  const size_t row_bytes = pixels.rowBytes();
+  const uint32_t rows_per_strip = pixels.rowsPerStrip();
+  for (uint32_t y = 0, strip = 0; y < pixels.height; y += rows_per_strip, ++strip) {
+    const size_t bytes = row_bytes * std::min(rows_per_strip, pixels.height - y);
     // libtiff's parameter lacks a const: whole strips are copied before the predictor.
-    void* rows = const_cast<std::byte*>(heights.data.data() + y * row_bytes);
+    void* rows = const_cast<std::byte*>(pixels.data.data() + y * row_bytes);
     if (TIFFWriteEncodedStrip(tiff, strip, rows, static_cast<tmsize_t>(bytes)) < 0) return false;
   }
   return true;
 }
 
+/// describe(tiff): sets the other tags.
+template <class Describe>
+Status writeTiff(const std::string& path, const Pixels& pixels, const Describe& describe) {
+  constexpr size_t kClassicTiffBytes = 0xF0000000;
+  const auto file = TiffFile::open(path, pixels.data.size() < kClassicTiffBytes ? "w" : "w8");
+  if (!file.ok()) return file.status();
+  TIFF* const tiff = file->get();
+  announceGeoTags(tiff);
+  const bool written =
+      setLayout(tiff, pixels) && describe(tiff) && writeStrips(tiff, pixels) && TIFFFlush(tiff);
+  return written ? Status() : file->failure();
+}
+
 }  // namespace
 
 Status writeGeoTiff(const std::string& path, const HeightFile& heights) {
-  constexpr size_t kClassicTiffBytes = 0xF0000000, kStripBytes = 1 << 18;
-  const auto file = TiffFile::open(path, heights.data.size() < kClassicTiffBytes ? "w" : "w8");
-  if (!file.ok()) return file.status();
-  const size_t row_bytes = size_t{heights.width} * tks_sample_bytes(heights.sample);
-  const auto rows =
-      static_cast<uint32_t>(std::clamp<size_t>(kStripBytes / row_bytes, 1, heights.height));
-  TIFF* const tiff = file->get();
-  announceGeoTags(tiff);
   Georeference place = heights;
   if (!place.geotransform && heights.spacing_x > 0 && heights.spacing_y > 0)
     place.geotransform = localGrid(heights);
   const GeoKeys keys = keysOf(heights);
-  const bool written = setLayout(tiff, heights, rows) && setPlace(tiff, place, keys) &&
-                       setGdalTags(tiff, heights, keys) && writeStrips(tiff, heights, rows) &&
-                       TIFFFlush(tiff);
-  return written ? Status() : file->failure();
+  return writeTiff(
+      path, {heights.width, heights.height, 1, heights.sample, heights.data},
+      [&](TIFF* tiff) { return setPlace(tiff, place, keys) && setGdalTags(tiff, heights, keys); });
 }
 
-Status addGeoreference(const std::string& path, const Georeference& place) {
-  const GeoKeys keys = keysOf(place);
-  if (!place.geotransform && keys.empty()) return {};
-  const auto file = TiffFile::open(path, "r+");
-  if (!file.ok()) return file.status();
-  announceGeoTags(file->get());
-  const bool written = setPlace(file->get(), place, keys) && TIFFRewriteDirectory(file->get()) == 1;
-  return written ? Status() : file->failure();
+Status writeGeoTiff(const std::string& path, const ImageFile& image) {
+  return writeTiff(
+      path, {image.width, image.height, image.channels, image.sample, image.data}, [&](TIFF* tiff) {
+        return setExtraSample(tiff, image) && setPlace(tiff, image.place, keysOf(image.place));
+      });
 }
 
 }  // namespace tetrakis::tools
