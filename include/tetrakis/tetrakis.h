@@ -15,8 +15,9 @@
  * compiled before keep working. Set `size` to sizeof the struct: fields that a shorter struct lacks
  * count as 0, which is every default. A struct that is too short for its first fields (through
  * tks_encode_options.triangles, tks_heights.offset, tks_image.data, tks_limits.size,
- * tks_info.level) gives TKS_USAGE. Of a struct that is longer than this library knows, it sets the
- * unknown fields of tks_info to 0; in other structs these must be 0, else TKS_UNSUPPORTED.
+ * tks_info.level; all of tks_outliers) gives TKS_USAGE. Of a struct that is longer than this
+ * library knows, it sets the unknown fields of tks_info and tks_outliers to 0; in other structs
+ * these must be 0, else TKS_UNSUPPORTED.
  *
  * docs/GLOSSARY.md says what the words mean. C99 or any C++.
  */
