@@ -4,7 +4,7 @@
 import {execFileSync} from 'node:child_process';
 import {readFile} from 'node:fs/promises';
 
-import {Decoder} from '../../web/src/module.js';
+import {Decoder} from '../../web/src/stream_decoder.js';
 
 const [native, file] = process.argv.slice(2);
 const ROUNDS = 5, RUNS = 5, TRIANGLES = 20000;

@@ -3,7 +3,7 @@
 // decoder that goes on and by one that begins anew at each frame. Least of five runs.
 import {readFile} from 'node:fs/promises';
 
-import {Decoder} from '../../web/src/module.js';
+import {Decoder} from '../../web/src/stream_decoder.js';
 
 const REQUEST = {mesh: false, surface: true, texture: true, texels: 4096, samples: 4096};
 const module = await WebAssembly.compile(

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The WebAssembly modules, compiled once for all terrains of a page.
 import {TksError} from './error.js';
-import {hasVectors} from './module.js';
 
 const compiled = new Map();
+
+/** A function with a vector in it: engines without SIMD refuse it. */
+const VECTOR_FUNCTION = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15,
+  253, 98, 11,
+]);
+const hasVectors = () => WebAssembly.validate(VECTOR_FUNCTION);
 
 /** While it comes, where the server says that it is a module. */
 export async function compileAt(url) {

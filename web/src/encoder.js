@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls the encoder's WebAssembly module. Nothing here waits: it runs in a worker as well.
 import {TksError} from './error.js';
-import {Instance, MESSAGE_BYTES, SAMPLES} from './module.js';
+import {Instance, MESSAGE_BYTES, SAMPLES} from './instance.js';
 
 const REGISTRATIONS = ['unknown', 'area', 'point'];
 const WEIGHTS = ['psnr', 'visual'];

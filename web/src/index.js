@@ -3,7 +3,7 @@
 import {abortable} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
-import {groundScale} from './module.js';
+import {groundScale} from './frame.js';
 import {FIRST_BYTES, FIRST_FRAME, Flow, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The calls of one decoder, one after another, on whichever thread. Between them and between the
 // parts of a frame messages come through, and a call whose signal has aborted goes no further.
-import {Decoder} from './module.js';
+import {Decoder} from './stream_decoder.js';
 
 const messages = () => new Promise((resolve) => setTimeout(resolve));
 

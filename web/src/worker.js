@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes away from the page's thread. The page hands over the compiled module with the first
 // message, so that this file loads nothing.
-import {buffersOf} from './module.js';
+import {buffersOf} from './frame.js';
 import {Operations} from './operations.js';
 
 let operations;

@@ -7,7 +7,7 @@ import {readFile} from 'node:fs/promises';
 import {existsSync} from 'node:fs';
 import {test} from 'node:test';
 
-import {Decoder} from '../src/module.js';
+import {Decoder} from '../src/stream_decoder.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url);
 const dist = new URL('../dist/', import.meta.url);

@@ -342,7 +342,7 @@ test('disposing ends requests on the network', async () => {
 });
 
 test('aborted frames: the one that is being made ends at its next part, others do not begin', async (t) => {
-  const {Decoder} = await import('../src/module.js');
+  const {Decoder} = await import('../src/stream_decoder.js');
   const terrain = await open(bytes), stop = new AbortController();
   const {parts} = Decoder.prototype;
   let made = 0;
@@ -363,7 +363,7 @@ test('aborted frames: the one that is being made ends at its next part, others d
 });
 
 test('addresses above 2 GiB', async () => {
-  const {Decoder} = await import('../src/module.js');
+  const {Decoder} = await import('../src/stream_decoder.js');
   const module =
     await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
   const request = {bytes: bytes.length, mesh: true, normals: true, surface: true, texture: true,
@@ -404,7 +404,7 @@ test('addresses above 2 GiB', async () => {
 
 test('a limit of memory is kept; an instance that aborted is replaced', async () => {
   await rejects(open(bytes, {memory: 1000}).then((terrain) => terrain.decode()), 'limit', /./);
-  const {Decoder} = await import('../src/module.js');
+  const {Decoder} = await import('../src/stream_decoder.js');
   const decoder = new Decoder(
     await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url))), 2 ** 30);
   decoder.append(bytes);
@@ -418,7 +418,7 @@ test('a limit of memory is kept; an instance that aborted is replaced', async ()
 });
 
 test('a decoder that goes on gives what one that begins anew gives, forth and back', async () => {
-  const {Decoder} = await import('../src/module.js');
+  const {Decoder} = await import('../src/stream_decoder.js');
   const module =
     await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
   const growing = new Decoder(module, 2 ** 30);
@@ -449,7 +449,7 @@ test('a module is compiled whatever the server calls it', async () => {
 });
 
 test('memory returns: a hundred frames take no more than one', async () => {
-  const {Decoder} = await import('../src/module.js');
+  const {Decoder} = await import('../src/stream_decoder.js');
   const decoder = new Decoder(
     await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url))), 2 ** 30);
   decoder.append(bytes);

@@ -10,7 +10,7 @@ import {test} from 'node:test';
 
 import {encode} from '../src/encode.js';
 import {TksError, open} from '../src/index.js';
-import {Decoder} from '../src/module.js';
+import {Decoder} from '../src/stream_decoder.js';
 import {terrainOf, tiffOf} from './terrain.js';
 
 const CLI = process.env.TETRAKIS_CLI ?? new URL('../../build/tetrakis', import.meta.url).pathname;

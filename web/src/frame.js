@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
+
+/** Mip level at which neither side has more than `most` samples. */
+function levelFor(width, height, most, coarsest) {
+  let level = 0;
+  while (level < coarsest && Math.max(width, height) / 2 ** level > most) ++level;
+  return level;
+}
+
+/**
+ * Unit normals of a mesh's vertices by central differences of a surface: x along the rows, y up,
+ * z down the rows. Cells beside voids count as flat.
+ */
+function normalsOf(mesh, width, level, surface, scale) {
+  const normals = new Float32Array(3 * mesh.gridIndex.length);
+  const side = 2 ** level, {data, width: w, height: h} = surface;
+  const slope = (a, b, distance) => (distance > 0 && a === a && b === b ? (b - a) / distance : 0);
+  mesh.gridIndex.forEach((index, i) => {
+    const x = Math.min(Math.round((index % width) / side), w - 1);
+    const y = Math.min(Math.round(Math.floor(index / width) / side), h - 1);
+    const left = Math.max(x - 1, 0), right = Math.min(x + 1, w - 1);
+    const above = Math.max(y - 1, 0), below = Math.min(y + 1, h - 1);
+    const across = data[y * w + x];
+    const dx = slope(data[y * w + left] ?? across, data[y * w + right], (right - left) * side);
+    const dz = slope(data[above * w + x] ?? across, data[below * w + x], (below - above) * side);
+    const nx = (-dx * scale.height) / scale.x, nz = (-dz * scale.height) / scale.y;
+    const length = Math.hypot(nx, 1, nz);
+    normals.set([nx / length, 1 / length, nz / length], 3 * i);
+  });
+  return normals;
+}
+
+const METRES = {ft: 0.3048, foot: 0.3048, feet: 0.3048, 'us-ft': 1200 / 3937};
+
+/** Metres of one unit of height, of one column and of one row; where nothing is stated, 1. */
+export function groundScale(info) {
+  return {
+    height: METRES[info.unit.toLowerCase()] ?? 1,
+    x: info.spacingX > 0 ? info.spacingX : 1,
+    y: info.spacingY > 0 ? info.spacingY : info.spacingX > 0 ? info.spacingX : 1,
+  };
+}
+
+/** Enough for shading, in the time of a first picture. */
+const NORMAL_SAMPLES = 1024;
+
+/** Makes the parts of a frame that `request` asks for, one at each step; returns them all. */
+export function* partsOf(opened, info, request) {
+  const parts = {};
+  const textureLevel =
+    request.textureLevel ??
+    levelFor(info.textureWidth, info.textureHeight, request.texels, info.textureCoarsestLevel);
+  const surfaceLevel =
+    request.surfaceLevel ?? levelFor(info.width, info.height, request.samples, info.coarsestLevel);
+  if (request.mesh && info.hasHeights) {
+    parts.mesh = opened.mesh(request.triangles, request.cut);
+    yield;
+  }
+  const shown = (level) => {
+    opened.setLevels(Math.min(level, info.coarsestLevel), info.hasTexture ? textureLevel : 0);
+    return opened.info();
+  };
+  const surfaceAt = (level) => {
+    const at = shown(level);
+    return {level, width: at.width, height: at.height, spacingX: at.spacingX,
+      spacingY: at.spacingY, geotransform: at.geotransform, data: opened.surface(at)};
+  };
+  if (request.surface && info.hasHeights) {
+    parts.surface = surfaceAt(surfaceLevel);
+    yield;
+  }
+  if (request.normals && parts.mesh) {
+    const level = levelFor(info.width, info.height, NORMAL_SAMPLES, info.coarsestLevel);
+    const surface = parts.surface?.level === level ? parts.surface : surfaceAt(level);
+    parts.mesh.normals = normalsOf(parts.mesh, info.width, level, surface, groundScale(info));
+    yield;
+  }
+  if (request.texture && info.hasTexture) {
+    const at = shown(0);
+    parts.texture = {level: textureLevel, width: at.textureWidth, height: at.textureHeight,
+      geotransform: at.textureGeotransform, data: opened.rgba(at)};
+  }
+  return parts;
+}
+
+/** The buffers of a frame, to be handed over between threads instead of copied. */
+export function buffersOf(frame) {
+  const arrays = [frame.texture?.data, frame.surface?.data, ...Object.values(frame.mesh ?? {})];
+  return arrays.filter(Boolean).map((array) => array.buffer);
+}

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream that the decoder's module has open: what it holds, and the calls that decode parts of it.
+import {TksError} from './error.js';
+import {MESSAGE_BYTES, SAMPLES} from './instance.js';
+
+/** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
+const MOST_BEFORE_BODY = 17;
+const BUDGET_MESH = 1;
+
+/**
+ * A stream that is open, as far as its bytes have come. It decodes on from where it was when more
+ * of them do. Close it.
+ */
+export class Opened {
+  #header;  // a copy, which the decoder reads until it gets more bytes
+  /** first: gives so many of the first bytes, as far as they are here. */
+  constructor(instance, first, memory) {
+    this.instance = instance;
+    const {calls} = instance;
+    const needed = Opened.#headerBytes(instance, first(MOST_BEFORE_BODY));
+    const header = first(needed);
+    this.size = header.length;
+    this.#header = instance.allocate(this.size);
+    instance.view(Uint8Array, this.#header, this.size).set(header);
+    instance.with(4 + MESSAGE_BYTES, (out) => {
+      const status = calls.web_open(this.#header, this.size, memory, out, out + 4, MESSAGE_BYTES);
+      if (status !== 0) {
+        calls.free(this.#header);
+        throw Object.assign(TksError.ofStatus(status, instance.text(out + 4)), {needed});
+      }
+      [this.decoder] = instance.view(Uint32Array, out, 1);
+    });
+    this.hasIndex = calls.web_has_index(this.decoder) !== 0;
+  }
+  /** Of what is no header so many bytes that decoders refuse them. */
+  static #headerBytes(instance, first) {
+    return instance.with(8 + first.length, (out) => {
+      instance.view(Uint8Array, out + 8, first.length).set(first);
+      instance.calls.tks_header_bytes(out + 8, first.length, out);
+      return instance.view(Uint32Array, out, 1)[0] || first.length;  // below 2^21
+    });
+  }
+  /** More bytes, from this place of the stream on. */
+  put(place, bytes) {
+    const {instance} = this;
+    instance.with(bytes.length, (address) => {
+      instance.view(Uint8Array, address, bytes.length).set(bytes);
+      this.check(instance.calls.web_put(this.decoder, place, address, bytes.length));
+    });
+    this.size += bytes.length;
+  }
+  /** Ranges {begin, end, gain} of a call that writes their count and their address. */
+  #ranges(call) {
+    const {instance} = this;
+    return instance.with(8, (out) => {
+      this.check(call(out));
+      const [count, address] = instance.copy(Uint32Array, out, 2);
+      const numbers = instance.copy(Float64Array, address, 3 * count);
+      instance.calls.free(address);
+      return Array.from({length: count}, (_, i) => {
+        const [begin, end, gain] = numbers.subarray(3 * i);
+        return {begin, end, gain};
+      });
+    });
+  }
+  /** What to fetch next for a view {clip, width, height}. */
+  plan({view, bytes, triangles, requestBytes}) {
+    const {instance} = this;
+    return instance.with(21 * 8, (limits) => {
+      instance.view(Float64Array, limits, 21)
+        .set([bytes, triangles, requestBytes, view.width, view.height, ...view.clip]);
+      return this.#ranges((out) =>
+        instance.calls.web_plan(this.decoder, limits, limits + 3 * 8, out));
+    });
+  }
+  /** What a window {x, y, width, height} of a part of tks_part takes. */
+  needed(part, {x, y, width, height}) {
+    const {instance} = this;
+    return instance.with(16, (window) => {
+      instance.view(Uint32Array, window, 4).set([x, y, width, height]);
+      return this.#ranges((out) => instance.calls.web_needed(this.decoder, part, window, out));
+    });
+  }
+  close() {
+    this.instance.calls.tks_close(this.decoder);
+    this.instance.calls.free(this.#header);
+  }
+  check(status) {
+    if (status === 0) return;
+    throw TksError.ofStatus(status, this.instance.text(this.instance.calls.tks_message(this.decoder)));
+  }
+  setLevels(heights, texture) {
+    this.check(this.instance.calls.tks_set_levels(this.decoder, heights, texture));
+  }
+
+  info() {
+    const {instance, decoder} = this;
+    const names = instance.text(instance.calls.web_names()).split(' ');
+    const numbers = instance.with(8 * names.length, (out) => {
+      this.check(instance.calls.web_numbers(decoder, out));
+      return instance.copy(Float64Array, out, names.length);
+    });
+    const info = Object.fromEntries(names.map((name, i) => [name, numbers[i]]));
+    for (const name of Object.keys(info)) {
+      if (/^(h|textureH)as[A-Z]|^(lossless|textureOpaque|voidsKnown)$/.test(name))
+        info[name] = info[name] !== 0;
+    }
+    const gather = (letter) =>
+      Array.from({length: 6}, (_, i) => {
+        const value = info[letter + i];
+        delete info[letter + i];
+        return value;
+      });
+    info.hasIndex = this.hasIndex;
+    info.geotransform = gather('g');
+    info.textureGeotransform = gather('t');
+    const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs'];
+    texts.forEach((name, i) => (info[name] = instance.text(instance.calls.web_text(decoder, i))));
+    return info;
+  }
+
+  /** What a call writes into memory of `length` elements. */
+  decoded(name, Type, length, size) {
+    const bytes = length * Type.BYTES_PER_ELEMENT;
+    return this.instance.with(bytes, (out) => {
+      this.check(this.instance.calls[name](this.decoder, out, size ?? length));
+      return this.instance.copy(Type, out, length);
+    });
+  }
+  heights(info) {
+    const Type = SAMPLES[info.sample], length = info.width * info.height;
+    return this.decoded('tks_decode_heights', Type, length, length * Type.BYTES_PER_ELEMENT);
+  }
+  surface(info) {
+    return this.decoded('tks_decode_surface', Float32Array, info.width * info.height);
+  }
+  texels(info) {
+    const Type = SAMPLES[info.textureSample];
+    const length = info.textureWidth * info.textureHeight * info.textureChannels;
+    return this.decoded('tks_decode_texture', Type, length, length * Type.BYTES_PER_ELEMENT);
+  }
+  rgba(info) {
+    const {instance} = this, count = info.textureWidth * info.textureHeight;
+    const bytes = count * info.textureChannels * SAMPLES[info.textureSample].BYTES_PER_ELEMENT;
+    return instance.with(bytes, (texels) => {
+      this.check(instance.calls.tks_decode_texture(this.decoder, texels, bytes));
+      return instance.with(4 * count, (out) => {
+        instance.calls.web_rgba(texels, out, count, info.textureChannels, info.textureSample,
+          Number(info.textureOpaque));
+        return instance.copy(Uint8ClampedArray, out, 4 * count);
+      });
+    });
+  }
+
+  /** tks_mesh at `out`: two counts, three addresses. */
+  #meshAt(out) {
+    const {instance} = this;
+    const [vertices, faces, grid, heights, triangles] = instance.copy(Uint32Array, out, 5);
+    const mesh = {
+      gridIndex: instance.copy(Uint32Array, grid, vertices),
+      heights: instance.copy(Float32Array, heights, vertices),
+      triangles: instance.copy(Uint32Array, triangles, 3 * faces),
+    };
+    instance.calls.tks_free_mesh(out);
+    return mesh;
+  }
+  mesh(triangles, view) {
+    const {instance, decoder} = this, {calls} = instance;
+    if (!calls.tks_decode_mesh) throw new TksError('usage', 'This module makes no meshes.');
+    if (!view) {
+      return instance.with(20, (out) => {
+        this.check(calls.tks_decode_mesh(decoder, BUDGET_MESH, triangles, out));
+        return this.#meshAt(out);
+      });
+    }
+    return instance.with(20 + 4 + 128, (out) => {
+      this.check(calls.tks_decode_mesh_tree(decoder, BUDGET_MESH, triangles, out + 20));
+      const [tree] = instance.view(Uint32Array, out + 20, 1);
+      instance.view(Float64Array, out + 24, 16).set(view);
+      const status = calls.tks_view_mesh(tree, out + 24, out);
+      calls.tks_free_mesh_tree(tree);
+      if (status !== 0) throw TksError.ofStatus(status, 'The view is not a matrix of 16 numbers.');
+      return this.#meshAt(out);
+    });
+  }
+}

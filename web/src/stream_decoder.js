@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// The decoder of one stream, whose bytes come bit by bit. Nothing here waits: it runs in a worker as
+// well.
+import {TksError} from './error.js';
+import {partsOf} from './frame.js';
+import {Instance} from './instance.js';
+import {Opened} from './opened.js';
+
+/** What steps return at their end. */
+function lastOf(steps) {
+  for (;;) {
+    const {done, value} = steps.next();
+    if (done) return value;
+  }
+}
+
+/**
+ * Decodes one stream from the first so many bytes that came. They live here, so that fewer than
+ * before can be decoded anew, and an instance that aborted be replaced.
+ */
+export class Decoder {
+  #instance = null;
+  #opened = null;
+  #chunks = [];  // in the order in which they came
+  #length = 0;
+
+  constructor(module, memory) {
+    this.module = module;
+    this.memory = memory;
+  }
+
+  /** Bytes that are not here yet, from a place of the stream on. All of its header comes first. */
+  put({place, chunk}) {
+    this.#chunks.push({place, bytes: chunk, before: this.#length});
+    this.#length += chunk.length;
+  }
+  /** The same, of bytes that come in the order of the stream. */
+  append(bytes) {
+    this.put({place: this.#length, chunk: bytes});
+  }
+
+  #first(size) {
+    const first = new Uint8Array(size);
+    let length = 0;
+    for (const {bytes} of this.#chunks) {
+      if (length === size) break;
+      const part = bytes.subarray(0, size - length);
+      first.set(part, length);
+      length += part.length;
+    }
+    return first.subarray(0, length);
+  }
+  /** Those behind the ones that were open cost what they tell. */
+  #openedTo(size) {
+    if (this.#opened && this.#opened.size > size) this.#close();
+    this.#instance ??= new Instance(this.module);
+    this.#opened ??= new Opened(
+      this.#instance, (bytes) => this.#first(Math.min(bytes, size)), this.memory);
+    for (const {place, bytes, before} of this.#chunks) {
+      const from = Math.max(this.#opened.size - before, 0);
+      const part = bytes.subarray(from, Math.max(from, size - before));
+      if (part.length > 0) this.#opened.put(place + from, part);
+    }
+    this.#opened.setLevels(0, 0);
+    return this.#opened;
+  }
+  #close() {
+    const opened = this.#opened;
+    this.#opened = null;
+    opened?.close();
+  }
+
+  /** Takes the steps of `use`, a generator, with the first `bytes` bytes that came, opened. */
+  *#steps(bytes, use) {
+    try {
+      try {
+        return yield* use(this.#openedTo(Math.min(bytes, this.#length)));
+      } catch (error) {
+        if (error instanceof TksError) this.#close();  // it may take no more bytes
+        throw error;
+      }
+    } catch (error) {
+      if (error instanceof TksError) throw error;
+      this.#opened = this.#instance = null;
+      throw new TksError('memory', 'The decoder ran out of memory. Ask for fewer texels, samples ' +
+        'or triangles.', {cause: error});
+    }
+  }
+  /** What `use` gives, called with the first `bytes` bytes that came, opened. */
+  opened(bytes, use) {
+    return lastOf(this.#steps(bytes, function* (opened) {
+      return use(opened);
+    }));
+  }
+
+  /** Makes a frame, a part of it at each step. Until it returns it no other call may be made, or it
+   * has to be given up. */
+  parts(request) {
+    return this.#steps(request.bytes, function* (opened) {
+      yield;
+      const info = opened.info();
+      return {
+        bytes: opened.size,
+        complete: opened.size >= info.streamBytes,
+        info,
+        ...(yield* partsOf(opened, info, request)),
+      };
+    });
+  }
+  decode(request) {
+    return lastOf(this.parts(request));
+  }
+
+  plan(request) {
+    return this.opened(Infinity, (opened) => opened.plan(request));
+  }
+  needed({part, window}) {
+    return this.opened(Infinity, (opened) => opened.needed(part, window));
+  }
+
+  /** The very samples, as the conformance vectors state them. */
+  samples(bytes, level) {
+    return this.opened(bytes, (opened) => {
+      const whole = opened.info();
+      opened.setLevels(Math.min(level, whole.coarsestLevel),
+        Math.min(level, whole.textureCoarsestLevel));
+      const info = opened.info();
+      return {
+        heights: info.hasHeights ? opened.heights(info) : null,
+        texture: info.hasTexture ? opened.texels(info) : null,
+      };
+    });
+  }
+}
