@@ -153,6 +153,8 @@ TEST_F(CameraFiles, SaysWhichFieldIsWrong) {
       {eye + target + R"(, "height": 10.5)", "height"},
       {eye + target + R"(, "name": 7)", "name"},
       {eye + target + R"(, "weight": -1)", "weight"},
+      {eye + target + R"(, "weigth": 1)", "\"weigth\" is no field"},
+      {eye + target + R"(, "fov": 60, "up": [0, 1, 0])", "\"fov\" is no field"},
   };
   for (const auto& [fields, culprit] : cases) {
     const Result<std::vector<Camera>> cameras = read(R"({"cameras": [{)" + fields + "}]}");

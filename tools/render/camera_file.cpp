@@ -64,13 +64,21 @@ class FieldReader {
     out = value->get<std::string>();
   }
 
-  void complain(const char* key, const char* what) {
-    if (problem_.empty()) problem_ = std::string("\"") + key + "\" " + what;
+  /// A misspelt field would be left at its default: to be called when all were read.
+  void noOthers() {
+    for (const auto& [key, value] : object_.items())
+      if (std::find(known_.begin(), known_.end(), key) == known_.end())
+        return complain(key, "is no field of a camera");
+  }
+
+  void complain(const std::string& key, const char* what) {
+    if (problem_.empty()) problem_ = "\"" + key + "\" " + what;
   }
   const std::string& problem() const { return problem_; }
 
  private:
   const Json* find(const char* key, bool required) {
+    known_.push_back(key);
     const auto at = object_.find(key);
     if (at != object_.end()) return &*at;
     if (required) complain(key, "is missing");
@@ -78,6 +86,7 @@ class FieldReader {
   }
 
   const Json& object_;
+  std::vector<std::string> known_;
   std::string problem_;
 };
 
@@ -95,6 +104,7 @@ Result<Camera> readCamera(const Json& object, size_t index) {
   reader.side("width", camera.width);
   reader.side("height", camera.height);
   reader.weight("weight", camera.weight);
+  reader.noOthers();
   const Vec3 direction = normalized(subtract(camera.target, camera.eye));
   if (length(direction) == 0) reader.complain("target", "must differ from \"eye\"");
   if (!(length(cross(direction, normalized(camera.up))) > 1e-9))
