@@ -105,17 +105,18 @@ std::vector<Cluster> clustersOf(const Jumps& jumps, double rounding) {
   return clusters;
 }
 
-/// The first cluster and the largest others, which have half of the jumps: single jumps, which lie
-/// anywhere, are not among them unless there are few others.
-std::vector<Cluster> largest(std::vector<Cluster> clusters) {
+/// The first cluster and the largest others, which have such a share of the jumps: single jumps,
+/// which lie anywhere, are not among them unless there are few others.
+std::vector<Cluster> largest(std::vector<Cluster> clusters, double share) {
   std::vector<size_t> counts;
   size_t all = 0;
   for (const Cluster& cluster : clusters) counts.push_back(cluster.count);
   counts.front() = 0;
   for (const size_t count : counts) all += count;
   std::sort(counts.begin(), counts.end(), std::greater<>());
+  const double enough = share * static_cast<double>(all);
   size_t held = 0, least = 0;
-  for (size_t i = 0; 2 * held < all; ++i) held += least = counts[i];
+  for (size_t i = 0; static_cast<double>(held) < enough; ++i) held += least = counts[i];
   clusters.erase(std::remove_if(clusters.begin() + 1, clusters.end(),
                                 [&](const Cluster& cluster) { return cluster.count < least; }),
                  clusters.end());
@@ -153,36 +154,45 @@ std::vector<Distance> distancesOf(const std::vector<Cluster>& clusters, double l
   return distances;
 }
 
-/// The smallest distance that many jumps lie apart, where most of them lie any distance apart or
-/// half as many do: clusters that lie a step apart also lie two or three steps from the next ones.
-/// 0: there is none.
-double frequentDistance(const Jumps& jumps) {
-  constexpr double kLeast = 4;  // roundings
-  const double rounding = usualRounding(jumps);
-  const std::vector<Distance> distances =
-      distancesOf(largest(clustersOf(jumps, rounding)), kLeast * rounding);
-  // Each with those that are equal up to roundings.
-  std::vector<size_t> counts(distances.size()), ends(distances.size());
-  size_t count = 0, end = 0;
-  for (size_t i = 0; i < distances.size(); ++i) {
-    while (end < distances.size() && distances[end].size <= distances[i].size + rounding)
-      count += distances[end++].count;
-    counts[i] = count;
-    ends[i] = end;
-    count -= distances[i].count;
+/// Distances of clusters, each with how many jumps lie so far apart, up to roundings.
+class FrequentDistances {
+ public:
+  /// share: of the jumps that are in clusters that are looked at.
+  FrequentDistances(const Jumps& jumps, double share) : rounding_(usualRounding(jumps)) {
+    constexpr double kLeast = 4;  // roundings
+    distances_ = distancesOf(largest(clustersOf(jumps, rounding_), share), kLeast * rounding_);
+    size_t count = 0, end = 0;
+    for (const Distance& distance : distances_) {
+      while (end < distances_.size() && distances_[end].size <= distance.size + rounding_)
+        count += distances_[end++].count;
+      counts_.push_back(count);
+      ends_.push_back(end);
+      count -= distance.count;
+    }
   }
-  if (counts.empty()) return 0;
-  const size_t most = *std::max_element(counts.begin(), counts.end());
-  const auto many =
-      std::find_if(counts.begin(), counts.end(), [&](size_t some) { return 2 * some >= most; });
-  const auto window =
-      counts.begin() + static_cast<ptrdiff_t>(ends[static_cast<size_t>(many - counts.begin())]);
-  const auto best = static_cast<size_t>(std::max_element(many, window) - counts.begin());
-  double sum = 0;
-  for (size_t i = best; i < ends[best]; ++i)
-    sum += distances[i].size * static_cast<double>(distances[i].count);
-  return sum / static_cast<double>(counts[best]);
-}
+
+  /// The smallest one that many jumps lie apart: as many as most of them do, or this part of them.
+  /// 0: there is none.
+  double smallest(double part) const {
+    if (counts_.empty()) return 0;
+    const size_t most = *std::max_element(counts_.begin(), counts_.end());
+    const auto many = std::find_if(counts_.begin(), counts_.end(), [&](size_t some) {
+      return static_cast<double>(some) >= part * static_cast<double>(most);
+    });
+    const auto window = counts_.begin() +
+                        static_cast<ptrdiff_t>(ends_[static_cast<size_t>(many - counts_.begin())]);
+    const auto best = static_cast<size_t>(std::max_element(many, window) - counts_.begin());
+    double sum = 0;
+    for (size_t i = best; i < ends_[best]; ++i)
+      sum += distances_[i].size * static_cast<double>(distances_[i].count);
+    return sum / static_cast<double>(counts_[best]);
+  }
+
+ private:
+  double rounding_;
+  std::vector<Distance> distances_;
+  std::vector<size_t> counts_, ends_;
+};
 
 /// The step whose multiples the jumps are, by least squares over ever larger ones: the smaller ones
 /// tell which multiples these are.
@@ -217,12 +227,16 @@ double shortestDecimal(const Jumps& jumps, double step) {
   return step;
 }
 
-/// Half of the jumps at least shall be multiples, and nearly all of those on rough ground: of the
-/// samples on smooth ground, which lie on multiples of any step, a sixteenth may be followed by a
-/// jump.
+/// A third of the jumps at least shall be multiples, beside those that are by chance, and nearly
+/// all of those on rough ground: of the samples on smooth ground, which lie on multiples of any
+/// step, a sixteenth may be followed by a jump. On flat ground out of LERC most jumps lie between
+/// squares.
 bool explains(const Jumps& jumps, double step) {
+  double chance = 0;
+  for (const Jump& jump : jumps.beyond) chance += std::min(1.0, 2 * jump.rounding / step);
   const size_t missed = jumps.misses(step), all = jumps.beyond.size();
-  return 2 * missed <= all && missed <= all / 10 + jumps.none / 16;
+  const auto by_merit = static_cast<double>(all - missed) - chance;
+  return 3 * by_merit >= static_cast<double>(all) && missed <= all / 10 + jumps.none / 16;
 }
 
 /// Any step does on ground that is smooth between its jumps, as triangles are. One much smaller
@@ -233,17 +247,31 @@ double stepOfSmoothGround(const Jumps& jumps) {
   return smooth ? jumps.beyond[jumps.beyond.size() / 2].size / kPart : 0;
 }
 
+/// The step that explains the jumps; 0: there is none. Clusters that lie a step apart also lie two
+/// or three steps from the next ones, so that half as many are mostly enough. But whole feet of
+/// whole metres lie three and four steps apart, and seldom one.
+double frequentStep(const Jumps& jumps) {
+  for (const double share : {1. / 3, 2. / 3}) {
+    const FrequentDistances distances(jumps, share);
+    for (const double part : {1. / 2, 1. / 16}) {
+      const double distance = distances.smallest(part);
+      if (distance <= 0) break;
+      const double step = shortestDecimal(jumps, fitted(jumps, distance));
+      if (explains(jumps, step)) return step;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 double findRelativeStep(const tks_heights& heights, Mask valid) {
   constexpr size_t kFewest = 64;
-  if (heights.sample != TKS_F32) return 0;
+  const uint64_t samples = uint64_t{heights.width} * heights.height;
+  if (heights.sample != TKS_F32 || samples < kFewest) return 0;
   const Jumps jumps = JumpFinder(heights, valid).find();
   if (jumps.beyond.size() < kFewest) return 0;
-  if (const double distance = frequentDistance(jumps); distance > 0) {
-    const double step = shortestDecimal(jumps, fitted(jumps, distance));
-    if (explains(jumps, step)) return step;
-  }
+  if (const double step = frequentStep(jumps); step > 0) return step;
   return stepOfSmoothGround(jumps);
 }
 
