@@ -6,8 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -26,12 +24,15 @@ constexpr bool kSanitized = __has_feature(address_sanitizer);
 constexpr bool kSanitized = false;
 #endif
 
-/// Bytes by which a child that does the work peaks above one that does nothing.
+/// Bytes by which a child that does the work peaks above one that does nothing. Large blocks go
+/// back to the system when they are freed: what the allocator would keep for each thread differs
+/// from run to run on a busy machine.
 template <class Work>
 double peakOf(Work work) {
   const auto child_peak = [](const auto& task) {
     const pid_t child = fork();
     if (child == 0) {
+      mallopt(M_MMAP_THRESHOLD, 1 << 16);
       task();
       _exit(0);
     }
@@ -65,13 +66,6 @@ TEST(EncodeMemory, IsBoundedByTheSamples) {
   }
 }
 
-/// The least of three children: on a busy machine a thread may be stopped while it holds a region,
-/// and blocks that the allocator keeps for it count.
-template <class Work>
-double leastPeakOf(Work work) {
-  return std::min({peakOf(work), peakOf(work), peakOf(work)});
-}
-
 TEST(EncodeMemory, OfRegionsIsThatOfOneForEachThread) {
   if (kSanitized) GTEST_SKIP();
   constexpr uint32_t kImageSide = 1200, kSide = 2100;  // of more than 2^22 samples
@@ -79,10 +73,10 @@ TEST(EncodeMemory, OfRegionsIsThatOfOneForEachThread) {
   tks_encode_options options = lossless();
   options.regions = 128;
   options.threads = 2;
-  EXPECT_LE(leastPeakOf([&] { encode(nullptr, &image, options); }),
+  EXPECT_LE(peakOf([&] { encode(nullptr, &image, options); }),
             13.0 * 3 * kImageSide * kImageSide + kOnceForAll);
   const Raster heights = make({Pattern::kRidges, kSide, kSide, 1, TKS_U16});
-  EXPECT_LE(leastPeakOf([&] { encode(&heights, nullptr, options); }),
+  EXPECT_LE(peakOf([&] { encode(&heights, nullptr, options); }),
             15.0 * kSide * kSide + kOnceForAll);
 }
 

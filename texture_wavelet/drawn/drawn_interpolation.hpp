@@ -40,9 +40,9 @@ class Interpolation {
     forEachTexel([&, taps](uint32_t x, uint32_t y, size_t texel, uint16_t* to) {
       if (known(texel)) return;
       if (x >= step && y >= step && x + step < width && y + step < height) {
-        for (size_t c = 0; c < kChannels; ++c)
-          to[c] = static_cast<uint16_t>(
-              (to[taps[0] + c] + to[taps[1] + c] + to[taps[2] + c] + to[taps[3] + c] + 2) / 4);
+        const uint16_t *a = to + taps[0], *b = to + taps[1], *c = to + taps[2], *d = to + taps[3];
+        for (size_t i = 0; i < kChannels; ++i)
+          to[i] = static_cast<uint16_t>((a[i] + b[i] + c[i] + d[i] + 2) / 4);
       } else {
         fillAtBorder(x, y, stencil, to);
       }
