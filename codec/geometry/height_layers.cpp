@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "codec/geometry/corrections/corrections_decoder.hpp"
+#include "codec/geometry/corrections/exact_corrections_decoder.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/relative/relative_decoder.hpp"
@@ -27,25 +28,33 @@ std::span<const uint8_t> firstOf(std::span<const uint8_t> bytes, uint64_t count)
   return bytes.first(static_cast<size_t>(std::min<uint64_t>(count, bytes.size())));
 }
 
-/// Corrections in single steps make samples exact: what a fraction is then beside its sample is an
-/// error of the cut, which surfaces and meshes need not show.
-DecodedGeometry correctedSteps(DecodedGeometry geometry, const GeometryLayers& layers,
+/// The heights with corrections in units of so many steps.
+DecodedGeometry correctedSteps(DecodedGeometry geometry, uint32_t correction_step,
                                std::span<const uint8_t> codeword) {
   const std::vector<uint8_t> hints = activityHints(geometry);
-  const int fraction_bits = geometry.fraction_bits;
-  const uint32_t unit = layers.correction_step << fraction_bits;
-  geometry.quiet_levels = 0;
+  const uint32_t unit = correction_step << geometry.fraction_bits;
   const auto add = [&](size_t first, std::span<const int32_t> row) {
     for (size_t x = 0; x < row.size(); ++x) {
       int32_t& height = geometry.heights[first + x];
       height = static_cast<int32_t>(static_cast<uint32_t>(height) +
                                     static_cast<uint32_t>(row[x]) * unit);
-      if (layers.correction_step > 1) continue;
-      const auto whole = static_cast<uint32_t>(wholeStep(height, fraction_bits));
-      height = static_cast<int32_t>(whole << fraction_bits);
     }
   };
   decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
+  return geometry;
+}
+
+/// The heights with corrections to whole steps: what a fraction is beside its sample is an error of
+/// the cut, which surfaces and meshes need not show.
+DecodedGeometry exactSteps(DecodedGeometry geometry, std::span<const uint8_t> codeword) {
+  const auto put = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      const uint32_t whole = static_cast<uint32_t>(row[x]) << geometry.fraction_bits;
+      geometry.heights[first + x] = static_cast<int32_t>(whole);
+    }
+  };
+  decodeExactSteps(codeword, {geometry.heights, geometry.extent(), geometry.valid},
+                   geometry.fraction_bits, put);
   return geometry;
 }
 
@@ -260,7 +269,11 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
       heightsOf(decodeSteps(header, layers, taken, view, context), taken, header, layers);
   if (taken.corrections.empty() || view.level > 0) return decoded;
   if (layers.corrections == CorrectionKind::kSteps) {
-    decoded.geometry = correctedSteps(std::move(decoded.geometry), layers, taken.corrections);
+    decoded.geometry.quiet_levels = 0;
+    decoded.geometry =
+        layers.correction_step > 1
+            ? correctedSteps(std::move(decoded.geometry), layers.correction_step, taken.corrections)
+            : exactSteps(std::move(decoded.geometry), taken.corrections);
     return decoded;
   }
   if (layers.corrections == CorrectionKind::kRelative)

@@ -215,7 +215,11 @@ std::vector<VectorCase> correctionCases() {
   steps.layers.correction_step = uint32_t{1} << 26;
   Bytes codeword = noise(200, 10);
   append(codeword, noise(1500, 11, 9));
+  StreamHeader exact = steps;
+  exact.layers.correction_step = 1;
   return {
+      crafted("noise_exact_i32_33x21", "noise: exact corrections of all classes",
+              streamOf(exact, codeword)),
       crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
               streamOf(steps, codeword)),
       sampleCorrections("noise_corrections_u32_30x20",

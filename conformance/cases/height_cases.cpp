@@ -93,6 +93,9 @@ std::vector<VectorCase> layerCases() {
           heightsCase("coast_bounded_64x50", "validity, coefficients and corrections of steps",
                       {Pattern::kRidges, 64, 50, 1, TKS_I16}, maxError(1500)),
           VoidShape::kCoast, -32768),
+      withVoids(heightsCase("coast_exact_64x50", "exact corrections behind a cut, beside voids",
+                            {Pattern::kRidges, 64, 50, 1, TKS_I16}, budget(9000)),
+                VoidShape::kCoast, -32768),
   };
 }
 

@@ -18,9 +18,7 @@ namespace {
 
 /// FORMAT 8.1: hints of corrections of samples.
 int openBits(const GeometryHeader& header, uint32_t bits) {
-  const int spacing =
-      header.sample == kF32 ? std::max(static_cast<int>(bits >> 23 & 255), 1) - 150 : 0;
-  return std::clamp(std::ilogb(header.step) - spacing, 0, 31);
+  return std::clamp(std::ilogb(header.step) - spacingOf(header, bits), 0, 31);
 }
 
 /// FORMAT 8.1: hints of corrections of steps.
@@ -166,6 +164,10 @@ Plane significanceOf(const Surface& surface) {
 }
 
 void correctSteps(const Layers& layers, std::span<const uint8_t> codeword, Surface& surface) {
+  if (layers.correctionStep == 1) {
+    makeExact(codeword, surface.plane, surface.f);
+    return;
+  }
   Plane marks = significanceOf(surface);
   const std::vector<uint32_t> corrections =
       decodeCorrections(codeword, surface.plane, activityHints(marks));

@@ -34,6 +34,9 @@ Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t 
 std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const Plane& plane,
                                         const std::vector<int>& hints);
 
+/// FORMAT 8.1, "Exact": plane: heights in units of 2^-f steps.
+void makeExact(std::span<const uint8_t> codeword, Plane& plane, int f);
+
 /// Tables of so many words each, one behind the other; none from the first on of which a decision
 /// does not count. bits: of the first word.
 std::vector<std::vector<uint32_t>> decodeTables(std::span<const uint8_t> codeword,

@@ -43,6 +43,11 @@ inline uint32_t orderOf(const GeometryHeader& header, uint32_t bits) {
   return header.sample == kF32 && bits >> 31 ? bits ^ 0x7FFFFFFF : bits;
 }
 
+/// FORMAT 8.1, "Of samples": e of the bits of a sample.
+inline int spacingOf(const GeometryHeader& header, uint32_t bits) {
+  return header.sample == kF32 ? std::max(static_cast<int>(bits >> 23 & 255), 1) - 150 : 0;
+}
+
 /// "Modulo 2^bits of the type": a word of 8 or 16 bits, with its sign.
 inline uint32_t narrow(const GeometryHeader& header, uint32_t bits) {
   switch (header.sample) {

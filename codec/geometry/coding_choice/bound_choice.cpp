@@ -2,6 +2,7 @@
 #include "codec/geometry/coding_choice/bound_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <deque>
@@ -94,11 +95,29 @@ BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
   return best;
 }
 
-/// Entropy of a normal error that is rounded, where few exceed 1.
+/// Entropy of whole steps at distances of a normal error from what is known of them.
+double entropyOfSteps(double known, double mean_square) {
+  constexpr int kFarthest = 16;
+  std::array<double, 2 * kFarthest + 1> weights;
+  double sum = 0, bits = 0;
+  for (int step = -kFarthest; step <= kFarthest; ++step) {
+    const double error = step - known;
+    sum += weights[static_cast<size_t>(step + kFarthest)] =
+        std::exp(-error * error / (2 * mean_square));
+  }
+  for (const double weight : weights)
+    if (weight > 0) bits -= weight / sum * std::log2(weight / sum);
+  return bits;
+}
+
+/// The mean over all places between two steps.
 double correctionBits(double mean_square) {
-  const double off = std::erfc(0.5 / std::sqrt(2 * mean_square));
-  if (off <= 0 || off >= 1) return off;
-  return off - off * std::log2(off) - (1 - off) * std::log2(1 - off);
+  constexpr int kPlaces = 8;
+  if (mean_square <= 0) return 0;
+  double bits = 0;
+  for (int place = 0; place < kPlaces; ++place)
+    bits += entropyOfSteps((place + 0.5) / (2 * kPlaces), mean_square);
+  return bits / kPlaces;
 }
 
 }  // namespace
@@ -122,10 +141,9 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
 }
 
 bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes) {
-  constexpr double kLeastBits = 0.5, kMostBits = 1.8, kTries = 1.05;
+  constexpr double kLeastBits = 0.5, kTries = 1.015;
   const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
-  const double bits = 8 * static_cast<double>(bytes) / samples;
-  if (bits < kLeastBits || bits > kMostBits) return false;
+  if (8 * static_cast<double>(bytes) < kLeastBits * samples) return false;
   double least = std::numeric_limits<double>::infinity();
   for (const double step : {1.0, 1.4, 2.0}) {
     const PlaneCost cost = typicalCost(heights, range_bits, step);

@@ -2,11 +2,13 @@
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <span>
 #include <utility>
 
 #include "codec/geometry/corrections/corrections_encoder.hpp"
+#include "codec/geometry/corrections/exact_corrections_encoder.hpp"
 #include "codec/geometry/height_layers.hpp"
 
 namespace tetrakis::inline coding_choice {
@@ -47,22 +49,36 @@ uint64_t CorrectedCut::total(uint64_t bytes) {
   return total;
 }
 
-Corrected CorrectedCut::correct(uint64_t bytes) {
-  DecodedGeometry decoded = this->decoded(bytes);
+/// Corrections in units of 2 * largest + 1 steps.
+std::vector<uint8_t> CorrectedCut::withinBound(const DecodedGeometry& decoded,
+                                               std::span<const int32_t> errors) const {
+  std::vector<int32_t> corrections;
+  for (const int32_t error : errors) corrections.push_back(nearestMultiple(error, largest_));
   const std::vector<uint8_t> hints = activityHints(decoded);
-  std::vector<int32_t> corrections = wholeSteps(std::move(decoded));
+  return encodeCorrections(corrections, {hints, header_.extent(), steps_.valid});
+}
+
+Corrected CorrectedCut::correct(uint64_t bytes) {
+  const DecodedGeometry decoded = this->decoded(bytes);
+  const int64_t unit = 2 * int64_t{largest_} + 1;
+  std::vector<int32_t> errors = wholeSteps(decoded);
   Corrected result;
   bool any = false;
-  for (size_t i = 0; i < corrections.size(); ++i) {
-    const int64_t error = int64_t{steps_.steps[i]} - corrections[i];
-    corrections[i] = nearestMultiple(error, largest_);
-    any |= corrections[i] != 0;
-    const auto rest = static_cast<double>(error - int64_t{corrections[i]} * (2 * largest_ + 1));
-    result.before += static_cast<double>(error) * static_cast<double>(error);
+  for (size_t i = 0; i < errors.size(); ++i) {
+    errors[i] = steps_.steps[i] - errors[i];
+    const int32_t correction = nearestMultiple(errors[i], largest_);
+    any |= correction != 0;
+    const auto error = static_cast<double>(errors[i]);
+    const auto rest = static_cast<double>(errors[i] - correction * unit);
+    result.before += error * error;
     result.after += rest * rest;
   }
   if (!any) return result;
-  result.codeword = encodeCorrections(corrections, {hints, header_.extent(), steps_.valid});
+  result.codeword =
+      largest_ > 0
+          ? withinBound(decoded, errors)
+          : encodeExactSteps(steps_.steps, {decoded.heights, header_.extent(), steps_.valid},
+                             decoded.fraction_bits);
   return result;
 }
 
@@ -74,9 +90,18 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
   return coefficients_.codeword.size();
 }
 
-/// The bytes have one minimum, near the usual cut: descent from there with ever smaller strides.
-/// Every turn but the last of each stride has fewer bytes than the one before. The shorter
-/// neighbour is tried first, because the usual cut goes on from it.
+/// Behind a cut the error falls row by row, so that prefixes of exact heights lose by early cuts.
+/// One at half of the bytes counts as so many more.
+double CorrectedCut::cost(uint64_t bytes) {
+  constexpr double kHalving = 0.05;
+  const auto all = static_cast<double>(total(bytes));
+  if (largest_ > 0) return all;
+  return all * (1 + kHalving * std::log2(all / static_cast<double>(std::max<uint64_t>(bytes, 1))));
+}
+
+/// The cost has one minimum, near the usual cut: descent from there with ever smaller strides.
+/// Every turn but the last of each stride costs less than the one before. The shorter neighbour is
+/// tried first, because the usual cut goes on from it.
 uint64_t CorrectedCut::best(uint64_t rival) {
   constexpr double kWidest = 1.3;
   constexpr double kClearly = 1.03;  // smaller strides save less
@@ -86,17 +111,18 @@ uint64_t CorrectedCut::best(uint64_t rival) {
   };
   uint64_t best = bytesFor(usualCut(largest_));
   total(scaled(best, 1 / kWidest));
-  uint64_t least = total(best);
+  double least = cost(best);
   for (const double stride : {kWidest, 1.1, 1.04}) {
-    const bool lost = static_cast<double>(least) > kClearly * static_cast<double>(rival);
+    const auto bytes = static_cast<double>(total(best));
+    const bool lost = bytes > kClearly * static_cast<double>(rival);
     if (lost && stride < kWidest) break;
     for (const double factor : {1 / stride, stride}) {
       for (;;) {
         const uint64_t cut = scaled(best, factor);
-        const uint64_t bytes = total(cut);
-        if (bytes >= least) break;
+        const double next = cost(cut);
+        if (next >= least) break;
         best = cut;
-        least = bytes;
+        least = next;
       }
     }
   }

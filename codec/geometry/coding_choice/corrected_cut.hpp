@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "bitstream/stream/geometry_header.hpp"
@@ -45,11 +46,15 @@ class CorrectedCut {
   /// Bytes of the coefficients, cut there, and of their corrections.
   uint64_t total(uint64_t bytes);
 
-  /// The cut of fewest bytes in all; where these are clearly more than the rival's, about it.
+  /// The cut of fewest bytes in all, or somewhat later of exact heights; where these are clearly
+  /// more than the rival's, about it.
   uint64_t best(uint64_t rival);
 
  private:
   DecodedGeometry decoded(uint64_t bytes);
+  std::vector<uint8_t> withinBound(const DecodedGeometry& decoded,
+                                   std::span<const int32_t> errors) const;
+  double cost(uint64_t bytes);
   void forgetFarthest();
 
   const HeightSteps& steps_;

@@ -29,6 +29,31 @@ inline uint32_t magnitudeOf(int32_t correction) {
   return correction < 0 ? 0u - bits : bits;
 }
 
+/// The same, or its negative modulo 2^32.
+inline int32_t toSide(int32_t number, bool other) {
+  return other ? static_cast<int32_t>(0u - static_cast<uint32_t>(number)) : number;
+}
+
+/// Binary digits of magnitudes below the highest one: the first by the class, others at even odds.
+class CorrectionDigits {
+ public:
+  /// The magnitude of so many bits. Io, known: of CorrectionCoder.
+  template <class Io>
+  uint32_t code(Io& io, int32_t known, int bits) {
+    uint32_t result = uint32_t{1} << (bits - 1);
+    for (int position = bits - 2; position >= 0; --position) {
+      const bool bit = position == bits - 2
+                           ? io.high(high_[static_cast<size_t>(bits) - 1], known, position)
+                           : io.low(known, position);
+      result |= uint32_t{bit} << position;
+    }
+    return result;
+  }
+
+ private:
+  std::array<AdaptiveBit, 32> high_;
+};
+
 /// Io is the encoder's or the decoder's side of a decision; only the encoder knows the correction:
 ///   bool more(AdaptiveBit&, int32_t known, int depth)       the class of it exceeds depth
 ///   bool negative(AdaptiveBit&, int32_t known, bool flip)   negative, xor flip
@@ -106,19 +131,8 @@ class CorrectionCoder {
     while (bits < kMostBits && io_.more(more[static_cast<size_t>(bits)], known, bits)) ++bits;
     const bool negative = io_.negative(sign_[pattern], known, signs < 0);
     if (io_.stopped()) return 0;
-    const uint32_t size = magnitude(known, bits);
+    const uint32_t size = digits_.code(io_, known, bits);
     return static_cast<int32_t>(negative ? 0u - size : size);
-  }
-
-  uint32_t magnitude(int32_t known, int bits) {
-    uint32_t result = uint32_t{1} << (bits - 1);
-    for (int position = bits - 2; position >= 0; --position) {
-      const bool bit = position == bits - 2
-                           ? io_.high(high_[static_cast<size_t>(bits) - 1], known, position)
-                           : io_.low(known, position);
-      result |= uint32_t{bit} << position;
-    }
-    return result;
   }
 
   Io& io_;
@@ -126,7 +140,7 @@ class CorrectionCoder {
   std::vector<Signs> any_;           ///< whether there is a correction, in quiet places
   std::vector<Unary> more_;
   Signs sign_;
-  Unary high_;  ///< the bit below the highest, by the class
+  CorrectionDigits digits_;
 };
 
 }  // namespace tetrakis::inline corrections

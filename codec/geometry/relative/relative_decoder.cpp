@@ -33,12 +33,12 @@ void restoreRows(DecodedHeights& decoded, const GeometryHeader& header,
       const auto near = static_cast<double>(restore<T>(header.base, header.step, q));
       const RelativePrediction prediction = known.predict(x, near);
       const int32_t beside = multiples.code(x, prediction.multiple_hint, 0);
-      const int32_t rest = rests.code(x, prediction.rest_hint, 0);
       if (reader.stopped()) return;
-      const int32_t number = prediction.number(beside);
-      const T multiple = restore<T>(prediction.origin, relative.step, number);
-      const T sample = fromOrder<T>(orderOf(multiple) + static_cast<uint32_t>(rest));
-      known.put(x, prediction, number, rest, static_cast<double>(sample));
+      const RoundedMultiple<T> rounded(prediction, prediction.number(beside), relative.step);
+      const int32_t rest = rests.code(x, rounded.rest_hint, 0);
+      if (reader.stopped()) return;
+      const T sample = rounded.sample(rest);
+      known.put(x, rounded.multiple, rest, static_cast<double>(sample));
       const ValueInSteps value = inSteps(sample, header, geometry.fraction_bits);
       geometry.heights[i] = value.height;
       decoded.corrections[i] = value.correction;

@@ -9,7 +9,6 @@
 #include "codec/geometry/corrections/correction_writer.hpp"
 #include "codec/geometry/relative/relative_prediction.hpp"
 #include "codec/geometry/steps/restore.hpp"
-#include "codec/geometry/steps/sample_order.hpp"
 
 namespace tetrakis::inline relative {
 
@@ -45,12 +44,11 @@ void writeRows(const T* samples, const PlaneView<const int32_t>& steps,
       const RelativePrediction prediction = known.predict(x, near);
       const auto sample = static_cast<double>(samples[i]);
       const int32_t beside = multiplesBeside(prediction, sample, relative.step);
-      const int32_t number = prediction.number(beside);
-      const T multiple = restore<T>(prediction.origin, relative.step, number);
-      const auto rest = static_cast<int32_t>(orderOf(samples[i]) - orderOf(multiple));
+      const RoundedMultiple<T> rounded(prediction, prediction.number(beside), relative.step);
+      const int32_t rest = rounded.restOf(samples[i]);
       multiples.code(x, prediction.multiple_hint, beside);
-      rests.code(x, prediction.rest_hint, rest);
-      known.put(x, prediction, number, rest, sample);
+      rests.code(x, rounded.rest_hint, rest);
+      known.put(x, rounded.multiple, rest, sample);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -82,6 +83,19 @@ GeometryHeader headerOf(tks_sample type) {
   return header;
 }
 
+samples::Raster floatsOf(uint32_t width, uint32_t height,
+                         const std::function<double(uint32_t x, uint32_t y)>& sample) {
+  samples::Raster raster{width, height, 1, TKS_F32, {}};
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const auto value = static_cast<float>(sample(x, y));
+      const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+      raster.data.insert(raster.data.end(), bytes, bytes + sizeof value);
+    }
+  }
+  return raster;
+}
+
 /// Whatever the samples, the heights and the step are.
 TEST(Relative, RestoresAnySamples) {
   uint32_t seed = 0;
@@ -132,6 +146,24 @@ TEST(Relative, PrefixesRestoreTheFirstSamples) {
   EXPECT_GT(known, kSamples - 10);
 }
 
+/// Whole metres above a smooth surface, which many roundings of floats tell better than one.
+TEST(Relative, RoundingsAboveAGeoidAreForetold) {
+  constexpr uint32_t kSide = 200;
+  GeometryHeader header = headerOf(TKS_F32);
+  header.width = header.height = kSide;
+  header.base = 40;
+  header.step = 1;
+  DecodedHeights near;
+  near.geometry.width = near.geometry.height = kSide;
+  const samples::Raster raster = floatsOf(kSide, kSide, [&](uint32_t x, uint32_t y) {
+    const auto metres = static_cast<int32_t>(samples::hash(x / 5, y / 5, 89) % 4);
+    near.geometry.heights.push_back(metres);
+    return 40.0123 + 0.0013 * x + 0.0007 * y + 1e-7 * x * y + metres;
+  });
+  const std::vector<uint8_t> codeword = codewordOf(raster, near, header, {1, 1});
+  EXPECT_LT(static_cast<double>(8 * codeword.size()), 0.55 * kSide * kSide) << "of one: 0.8 bits";
+}
+
 TEST(Relative, AnyBytesDecode) {
   for (uint32_t seed = 0; seed < 60; ++seed) {
     const auto type = static_cast<tks_sample>(seed % 7);
@@ -167,6 +199,25 @@ TEST(RelativeStep, IsFound) {
       EXPECT_EQ(findRelativeStep(heightsOf(raster), {}), samples::stepOf(kind)) << width;
     }
   }
+}
+
+/// Where few samples are followed by a jump, and most jumps lie between squares out of LERC.
+TEST(RelativeStep, IsFoundOnFlatGround) {
+  const samples::Raster raster = floatsOf(300, 200, [](uint32_t x, uint32_t y) {
+    const double hill = 0.9 * std::sin(0.02 * x) + 1.1 * std::cos(0.03 * y);
+    return samples::offsetAt(samples::OffsetKind::kSquares, x, y, 300) + 2 * std::round(hill / 2);
+  });
+  EXPECT_EQ(findRelativeStep(heightsOf(raster), {}), 2);
+}
+
+/// Jumps of whole metres are three, four, seven and ten feet, and seldom one or two.
+TEST(RelativeStep, IsFoundWhereSingleStepsAreRare) {
+  const samples::Raster raster = floatsOf(200, 200, [](uint32_t x, uint32_t y) {
+    const double metres = std::round(60 * std::sin(0.05 * x) * std::cos(0.04 * y)) + 1200 +
+                          samples::hash(x, y, 88) % 8;
+    return 0.3048 * std::round(metres / 0.3048) + 30.1 + 0.0013 * x;
+  });
+  EXPECT_EQ(findRelativeStep(heightsOf(raster), {}), 0.3048);
 }
 
 /// Voids hide some samples, and one in thirty was measured by somebody else.
