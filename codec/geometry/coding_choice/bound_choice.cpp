@@ -141,15 +141,13 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
 }
 
 bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes) {
-  constexpr double kLeastBits = 0.5, kTries = 1.015;
+  constexpr double kLeastBits = 0.5, kMostBits = 3, kTries = 1.015;
   const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
-  if (8 * static_cast<double>(bytes) < kLeastBits * samples) return false;
-  double least = std::numeric_limits<double>::infinity();
-  for (const double step : {1.0, 1.4, 2.0}) {
-    const PlaneCost cost = typicalCost(heights, range_bits, step);
-    least = std::min(least, cost.bits + samples * correctionBits(cost.squares / samples));
-  }
-  return least < kTries * typicalCost(heights, range_bits, 0).bits;
+  const double bits = 8 * static_cast<double>(bytes) / samples;
+  if (bits < kLeastBits || bits > kMostBits) return false;
+  const PlaneCost cut = typicalCost(heights, range_bits, 1);
+  return cut.bits + samples * correctionBits(cut.squares / samples) <
+         kTries * typicalCost(heights, range_bits, 0).bits;
 }
 
 }  // namespace tetrakis::inline coding_choice
