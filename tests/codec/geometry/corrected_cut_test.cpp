@@ -38,7 +38,7 @@ class CorrectedCuts : public testing::Test {
   CorrectedCut cuts(int32_t largest) const { return {steps_, flat_, header_, track_, largest}; }
 
   HeightSteps steps_;
-  const FlatAreas flat_;
+  const FlatAreas flat_{};
   GeometryHeader header_;
   EncodedTrack track_;
 };
