@@ -333,10 +333,12 @@ Place placeOf(GDALDataset& dataset) {
 std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
                                            bool strict, const ProgressPart& progress) {
   if (dataset.GetRasterCount() != 1) {
+    const std::string why = whyNoTexture(dataset);
     reportFailure(TKS_USAGE, name,
                   "Heights have one band, and the source has " +
                       std::to_string(dataset.GetRasterCount()) +
-                      "; choose one (gdal_translate -b 1), and give an image as TEXTURE=.");
+                      "; choose one (gdal_translate -b 1), and give an image as TEXTURE=." +
+                      (why.empty() ? why : " " + why));
     return nullptr;
   }
   GDALRasterBand& band = *dataset.GetRasterBand(1);

@@ -60,6 +60,8 @@ std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset&
 /// The numbers of the bands in a texture's order: red, green, blue, what is none of these, alpha.
 std::vector<int> textureBands(GDALDataset& dataset);
 
+/// A sentence that says why it is no texture; "" if it may be one.
+std::string whyNoTexture(GDALDataset& dataset);
 /// Whether it becomes a texture without heights: colours, or anything with alpha.
 bool isPicture(GDALDataset& dataset);
 

@@ -29,28 +29,6 @@ struct DatasetCloser {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 
-/// Why it is no texture; "" if it is one.
-std::string objection(GDALDataset& dataset) {
-  const int bands = dataset.GetRasterCount();
-  if (bands < 1 || bands > 4)
-    return "A texture has 1 to 4 bands, and this has " + std::to_string(bands) + ".";
-  const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
-  for (int band = 1; band <= bands; ++band) {
-    GDALRasterBand& each = *dataset.GetRasterBand(band);
-    if (each.GetRasterDataType() != type || (type != GDT_Byte && type != GDT_UInt16))
-      return "A texture has bands of Byte, or all of UInt16 (gdal_translate -ot).";
-    if (each.GetColorTable() != nullptr)
-      return "A texture has no colour table (gdal_translate -expand rgb).";
-  }
-  if (bands % 2 != 0 && hasAlpha(dataset)) {
-    return "The bands of a texture are grey or RGB, then alpha or a further colour "
-           "(gdal_translate -b, -colorinterp).";
-  }
-  if (bands % 2 == 0 && !hasAlpha(dataset) && isMasked(dataset))
-    return "A texture whose last band is a colour has no mask (gdal_translate -mask none).";
-  return "";
-}
-
 bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
   const tks_image& image = copy.image;
   const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
@@ -78,6 +56,27 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
 
 }  // namespace
 
+std::string whyNoTexture(GDALDataset& dataset) {
+  const int bands = dataset.GetRasterCount();
+  if (bands < 1 || bands > 4)
+    return "A texture has 1 to 4 bands, and this has " + std::to_string(bands) + ".";
+  const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+  for (int band = 1; band <= bands; ++band) {
+    GDALRasterBand& each = *dataset.GetRasterBand(band);
+    if (each.GetRasterDataType() != type || (type != GDT_Byte && type != GDT_UInt16))
+      return "A texture has bands of Byte, or all of UInt16 (gdal_translate -ot).";
+    if (each.GetColorTable() != nullptr)
+      return "A texture has no colour table (gdal_translate -expand rgb).";
+  }
+  if (bands % 2 != 0 && hasAlpha(dataset)) {
+    return "The bands of a texture are grey or RGB, then alpha or a further colour "
+           "(gdal_translate -b, -colorinterp).";
+  }
+  if (bands % 2 == 0 && !hasAlpha(dataset) && isMasked(dataset))
+    return "A texture whose last band is a colour has no mask (gdal_translate -mask none).";
+  return "";
+}
+
 std::vector<int> textureBands(GDALDataset& dataset) {
   const auto rank = [&](int band) {
     switch (dataset.GetRasterBand(band)->GetColorInterpretation()) {
@@ -100,14 +99,14 @@ std::vector<int> textureBands(GDALDataset& dataset) {
 }
 
 bool isPicture(GDALDataset& dataset) {
-  return dataset.GetRasterCount() > 1 && objection(dataset).empty();
+  return dataset.GetRasterCount() > 1 && whyNoTexture(dataset).empty();
 }
 
 std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file) {
   const std::unique_ptr<GDALDataset, DatasetCloser> dataset(
       GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
   if (!dataset) return nullptr;
-  if (const std::string why = objection(*dataset); !why.empty()) {
+  if (const std::string why = whyNoTexture(*dataset); !why.empty()) {
     reportFailure(TKS_USAGE, name, "TEXTURE=" + file + ": " + why);
     return nullptr;
   }

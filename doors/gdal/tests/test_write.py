@@ -212,6 +212,7 @@ def test_near_infrared_is_no_alpha(tmp_path):
     masked.CreateMaskBand(gdal.GMF_PER_DATASET)
     del masked
     refused(lambda: copy(terrain(20, 25), tmp_path / "b.tks", "TEXTURE=" + name), "no mask")
+    refused(lambda: copy(gdal.Open(name), tmp_path / "c.tks"), "one band", "no mask")
 
 
 def test_texture_with_a_mask(tmp_path):
