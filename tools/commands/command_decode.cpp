@@ -2,16 +2,17 @@
 // tetrakis decode: heights, texture and mesh out of a stream or a prefix of one.
 #include <algorithm>
 #include <array>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/length_unit.hpp"
 #include "tools/commands/decode_arguments.hpp"
+#include "tools/commands/decode_memory.hpp"
+#include "tools/commands/decode_windows.hpp"
+#include "tools/commands/decoded_texture.hpp"
 #include "tools/commands/engine_output.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/plain_heights.hpp"
@@ -24,25 +25,6 @@
 
 namespace tetrakis::tools {
 namespace {
-
-tks_window windowOf(const DecodeArguments& arguments) {
-  const std::vector<uint32_t>& w = arguments.window;
-  return {w[0], w[1], w[2], w[3]};
-}
-
-/// The texels over a window of samples: the image covers the ground from the first sample to the
-/// last. Rounded outwards.
-tks_window texelsOver(const tks_window& samples, const tks_info& info) {
-  const auto side = [](uint64_t first, uint64_t count, uint64_t all, uint64_t texels) {
-    const uint64_t begin = std::min(first * texels / (all - 1), texels - 1);
-    const uint64_t end = ((first + count - 1) * texels + all - 2) / (all - 1);
-    return std::pair(static_cast<uint32_t>(begin),
-                     static_cast<uint32_t>(std::clamp(end, begin + 1, texels) - begin));
-  };
-  const auto [x, width] = side(samples.x, samples.width, info.width, info.texture_width);
-  const auto [y, height] = side(samples.y, samples.height, info.height, info.texture_height);
-  return {x, y, width, height};
-}
 
 /// An .hgt holds no place but in its name.
 std::string hgtNote(const std::string& name, const HeightFile& heights) {
@@ -64,40 +46,18 @@ std::string rawNote(const std::string& name, const HeightFile& heights) {
 class Decoding {
  public:
   Decoding(const DecodeArguments& arguments, OpenStream& stream, bool quiet)
-      : arguments_(arguments), stream_(stream), decoder_(stream.decoder), quiet_(quiet) {}
+      : arguments_(arguments),
+        stream_(stream),
+        decoder_(stream.decoder),
+        quiet_(quiet),
+        memory_(arguments, stream),
+        image_(arguments, stream) {}
 
   /// That each of the outputs can be had, before there is any work.
-  Status checkMemory() {
-    const tks_info& info = decoder_.info();
-    Status status;
-    if (!arguments_.height.empty() && info.has_heights)
-      status = check(TKS_PART_HEIGHTS, window(), heightCopies());
-    if (status.ok() && wantsTexture() && info.has_texture)
-      status = check(TKS_PART_TEXTURE, textureWindow(), textureCopies());
-    if (status.ok() && !arguments_.mesh.empty() && info.has_heights)
-      status = check(meshPart(), std::nullopt, meshCopies());
-    return status;
-  }
+  Status checkMemory() { return memory_.check(); }
 
   /// Begins the texture beside the heights where there are threads and memory for both.
-  void start() {
-    const bool wants_heights = !arguments_.height.empty() || !arguments_.mesh.empty();
-    const tks_info& info = decoder_.info();
-    if (arguments_.threads < 2 || !wantsTexture() || !wants_heights || !info.has_texture) return;
-    if (!fitsBesideHeights()) return;
-    const auto decode = [this]() -> Result<ImageFile> {
-      Result<Decoder> decoder = openDecoder(octets(stream_.bytes));
-      if (!decoder) return decoder.status();
-      decoder->setThreads(arguments_.threads);
-      if (const Status set = decoder->setLevels(0, arguments_.level); !set.ok()) return set;
-      return decodeImage(*decoder, textureWindow(), textureCopies());
-    };
-    try {
-      beside_ = std::async(std::launch::async, decode);
-    } catch (const std::system_error&) {
-      beside_ = std::async(std::launch::deferred, decode);  // the system has no thread to give
-    }
-  }
+  void start() { beside_bytes_ = image_.begin(memory_); }
 
   /// What stands in the way of writing, before there is anything to write.
   Status plan() {
@@ -129,7 +89,7 @@ class Decoding {
   Status writeHeightField() {
     if (engine_) return writeForEngine();
     const Result<HeightFile> heights =
-        decodeHeights(decoder_, window(), heightCopies() + beside_bytes_);
+        decodeHeights(decoder_, heightWindow(arguments_), memory_.heights() + beside_bytes_);
     if (!heights.ok()) return heights.status();
     tellNote(hgtNote(height_->name(), *heights), quiet_);
     tellNote(rawNote(arguments_.height, *heights), quiet_);
@@ -143,7 +103,7 @@ class Decoding {
   }
 
   Status writeTexture() {
-    const Result<ImageFile>& image = decodedImage();
+    const Result<ImageFile>& image = image_.get(memory_);
     if (!image.ok()) return image.status();
     const QuarterTurn turn(textureAxes());
     if (engine_ && !turn.none()) {  // as the heights
@@ -159,7 +119,7 @@ class Decoding {
       return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
     const ImageFile* texture = nullptr;
     if (info.has_texture) {
-      const Result<ImageFile>& image = decodedImage();
+      const Result<ImageFile>& image = image_.get(memory_);
       if (!image.ok()) return image.status();
       texture = &*image;
     }
@@ -244,79 +204,8 @@ class Decoding {
                       info.texture_height, *info.texture_crs ? info.texture_crs : info.crs);
   }
 
-  bool wantsTexture() const { return !arguments_.texture.empty() || !arguments_.mesh.empty(); }
-
-  tks_part meshPart() const {
-    return arguments_.coded_mesh ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
-  }
-
-  /// Bytes beside what decoding itself takes: the stream, what comes out, and what writing makes of
-  /// that, at most.
-  uint64_t heightCopies() const {
-    return stream_.bytes.size() + 2 * heightsBytes(decoder_.info(), window());
-  }
-  uint64_t textureCopies() const {
-    const uint64_t in_mesh = arguments_.mesh.empty() ? 0 : 1, turned = engine_ ? 1 : 0;
-    return stream_.bytes.size() +
-           (3 + in_mesh + turned) * imageBytes(decoder_.info(), textureWindow());
-  }
-  uint64_t meshCopies() const {
-    constexpr uint64_t kTriangle = 64;  // in space with half a vertex, and in the file's order
-    constexpr uint64_t kSample = 16;    // of the surface that a camera is placed over
-    const tks_info& info = decoder_.info();
-    const uint64_t samples = uint64_t{info.width} * info.height;
-    const bool all = arguments_.coded_mesh || arguments_.triangles == 0;
-    const uint64_t triangles =
-        all ? 2 * samples : std::min<uint64_t>(arguments_.triangles, 2 * samples);
-    return stream_.bytes.size() + kTriangle * triangles +
-           (arguments_.camera.isDefault() ? 0 : kSample * samples) +
-           (info.has_texture ? 3 * imageBytes(info) : 0);
-  }
-
-  Status check(tks_part part, const std::optional<tks_window>& window, uint64_t copies) {
-    const Result<uint64_t> fits =
-        decoder_.checkMemory(part, window ? &*window : nullptr, arguments_.triangles, copies);
-    return fits.status();
-  }
-
-  /// Then beside_bytes_ is what the texture takes meanwhile.
-  bool fitsBesideHeights() {
-    const std::optional<tks_window> texels = textureWindow();
-    const Result<uint64_t> texture =
-        decoder_.checkMemory(TKS_PART_TEXTURE, texels ? &*texels : nullptr);
-    if (!texture) return false;
-    // Its decoder takes the packets apart once more.
-    const uint64_t bytes = *texture + textureCopies() + 4 * stream_.bytes.size();
-    const bool fits =
-        (arguments_.height.empty() ||
-         check(TKS_PART_HEIGHTS, window(), heightCopies() + bytes).ok()) &&
-        (arguments_.mesh.empty() || check(meshPart(), std::nullopt, meshCopies() + bytes).ok());
-    if (fits) beside_bytes_ = bytes;
-    return fits;
-  }
-
-  /// Decoded once, where there are threads beside the heights.
-  const Result<ImageFile>& decodedImage() {
-    if (!image_)
-      image_ =
-          beside_.valid() ? beside_.get() : decodeImage(decoder_, textureWindow(), textureCopies());
-    return *image_;
-  }
-
-  std::optional<tks_window> window() const {
-    if (arguments_.window.empty()) return std::nullopt;
-    return windowOf(arguments_);
-  }
-
-  std::optional<tks_window> textureWindow() const {
-    const tks_info& info = decoder_.info();
-    if (!window() || !info.has_heights || !info.has_texture) return window();
-    return texelsOver(*window(), info);
-  }
-
   Result<Mesh> chosenMesh(const ImageFile* texture) {
-    if (Status status = check(meshPart(), std::nullopt, meshCopies() + beside_bytes_); !status.ok())
-      return status;
+    if (Status status = memory_.checkMesh(beside_bytes_); !status.ok()) return status;
     const bool coded = arguments_.coded_mesh;
     const bool for_cameras = arguments_.triangles > 0 && !arguments_.camera.isDefault();
     if (for_cameras || arguments_.turn_edges)
@@ -334,24 +223,10 @@ class Decoding {
   std::optional<Output> height_, texture_, mesh_, normals_;
   std::optional<EngineSize> engine_;  ///< of --size
   Json engine_json_;
-  std::optional<Result<ImageFile>> image_;
-  std::future<Result<ImageFile>> beside_;
-  uint64_t beside_bytes_ = 0;
+  DecodeMemory memory_;
+  DecodedTexture image_;
+  uint64_t beside_bytes_ = 0;  ///< that the texture takes meanwhile
 };
-
-/// In samples of the heights, if there are any.
-Status checkWindow(const DecodeArguments& arguments, const tks_info& info) {
-  if (arguments.window.empty()) return Status();
-  const tks_window w = windowOf(arguments);
-  const uint64_t width = info.has_heights ? info.width : info.texture_width;
-  const uint64_t height = info.has_heights ? info.height : info.texture_height;
-  if (w.width > 0 && w.height > 0 && uint64_t{w.x} + w.width <= width &&
-      uint64_t{w.y} + w.height <= height) {
-    return Status();
-  }
-  return Status(TKS_USAGE, "--window must lie inside the " + std::to_string(width) + " x " +
-                               std::to_string(height) + " samples");
-}
 
 Status decode(const DecodeArguments& arguments, bool quiet) {
   if (Status status = checkArguments(arguments); !status.ok()) return status;
