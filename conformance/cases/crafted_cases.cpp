@@ -31,29 +31,30 @@ std::vector<VectorCase> wideCases() {
                   streamOf(deep, noise(900, 4, 2)))};
 }
 
-/// Of samples: all classes, and hints at both ends.
-VectorCase sampleCorrections(const std::string& name, const std::string& purpose, tks_sample sample,
-                             double step, uint32_t seed, int planes = 12) {
+/// Corrections that bring decoded heights, in such steps, to the very samples.
+StreamHeader sampleCorrections(tks_sample sample, double step, int planes = 12) {
   StreamHeader header = heightsHeader(30, 20, sample, planes);
   header.geometry->step = step;
   header.layers.corrections = CorrectionKind::kSamples;
-  header.layers.coefficient_bytes = 200;
-  Bytes codeword = noise(200, seed);
-  append(codeword, noise(2000, seed + 1, 9));
-  return crafted(name, purpose, streamOf(header, codeword));
+  return header;
 }
 
 /// From relative steps: multiples and rests of all sizes, samples that are no numbers.
-VectorCase relativeCorrections(const std::string& name, const std::string& purpose,
-                               tks_sample sample, RelativeSteps relative, uint32_t seed) {
+StreamHeader relativeCorrections(tks_sample sample, RelativeSteps relative) {
   StreamHeader header = heightsHeader(30, 20, sample, 12);
   header.geometry->step = 3;
   header.layers.corrections = CorrectionKind::kRelative;
   header.layers.relative = relative;
+  return header;
+}
+
+/// Behind coefficients of noise.
+VectorCase correctionsOfNoise(const std::string& name, const std::string& purpose,
+                              StreamHeader header, uint32_t seed) {
   header.layers.coefficient_bytes = 200;
   Bytes codeword = noise(200, seed);
   append(codeword, noise(2000, seed + 1, 9));
-  return crafted(name, purpose, streamOf(header, codeword));
+  return crafted(name, "noise: " + purpose, streamOf(header, codeword));
 }
 
 /// What there is of a table of noise.
@@ -217,27 +218,28 @@ std::vector<VectorCase> correctionCases() {
   append(codeword, noise(1500, 11, 9));
   StreamHeader exact = steps;
   exact.layers.correction_step = 1;
-  return {
-      crafted("noise_exact_i32_33x21", "noise: exact corrections of all classes",
-              streamOf(exact, codeword)),
-      crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
-              streamOf(steps, codeword)),
-      sampleCorrections("noise_corrections_u32_30x20",
-                        "noise: corrections of samples of all classes", TKS_U32, 1, 12),
-      sampleCorrections("noise_corrections_f32_30x20", "noise: hints of floats of all sizes",
-                        TKS_F32, 1e-30, 14),
-      sampleCorrections("noise_hints_u8_30x20", "noise: the largest hint", TKS_U8, 1e100, 16),
-      sampleCorrections("noise_subnormal_30x20", "noise: hints of floats without an exponent",
-                        TKS_F32, 0x1p-137, 24, 13),
-      sampleCorrections("noise_hints_f32_30x20", "noise: the smallest hints", TKS_F32, 1, 18, 28),
-      relativeCorrections("noise_relative_f32_30x20", "noise: relative steps of floats", TKS_F32,
-                          {0.7, 1}, 91),
-      relativeCorrections("noise_relative_u8_30x20", "noise: relative steps of bytes", TKS_U8,
-                          {2.5, 3}, 92),
-      relativeCorrections("noise_relative_i32_30x20", "noise: relative steps beyond the type",
-                          TKS_I32, {0x1p1000, 4}, 93),
-      relativeCorrections("noise_relative_tiny_30x20", "noise: the smallest relative steps",
-                          TKS_F32, {0x1p-1074, 2}, 94)};
+  return {crafted("noise_exact_i32_33x21", "noise: exact corrections of all classes",
+                  streamOf(exact, codeword)),
+          crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
+                  streamOf(steps, codeword)),
+          correctionsOfNoise("noise_corrections_u32_30x20", "corrections of samples of all classes",
+                             sampleCorrections(TKS_U32, 1), 12),
+          correctionsOfNoise("noise_corrections_f32_30x20", "hints of floats of all sizes",
+                             sampleCorrections(TKS_F32, 1e-30), 14),
+          correctionsOfNoise("noise_hints_u8_30x20", "the largest hint",
+                             sampleCorrections(TKS_U8, 1e100), 16),
+          correctionsOfNoise("noise_subnormal_30x20", "hints of floats without an exponent",
+                             sampleCorrections(TKS_F32, 0x1p-137, 13), 24),
+          correctionsOfNoise("noise_hints_f32_30x20", "the smallest hints",
+                             sampleCorrections(TKS_F32, 1, 28), 18),
+          correctionsOfNoise("noise_relative_f32_30x20", "relative steps of floats",
+                             relativeCorrections(TKS_F32, {0.7, 1}), 91),
+          correctionsOfNoise("noise_relative_u8_30x20", "relative steps of bytes",
+                             relativeCorrections(TKS_U8, {2.5, 3}), 92),
+          correctionsOfNoise("noise_relative_i32_30x20", "relative steps beyond the type",
+                             relativeCorrections(TKS_I32, {0x1p1000, 4}), 93),
+          correctionsOfNoise("noise_relative_tiny_30x20", "the smallest relative steps",
+                             relativeCorrections(TKS_F32, {0x1p-1074, 2}), 94)};
 }
 
 /// base + q · step for few q, of which some are the declared nodata value.
