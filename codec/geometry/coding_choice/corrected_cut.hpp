@@ -53,7 +53,7 @@ class CorrectedCut {
  private:
   DecodedGeometry decoded(uint64_t bytes);
   std::vector<uint8_t> withinBound(const DecodedGeometry& decoded,
-                                   std::span<const int32_t> errors) const;
+                                   std::span<const int32_t> corrections) const;
   double cost(uint64_t bytes);
   void forgetFarthest();
 

@@ -5,10 +5,12 @@
 //
 //   foretold = sum of weights * errors of W, N, NW, NE, WW and NN
 //
-// The weights learn from each sample (normalised least mean squares): they follow a filter that
-// oscillates as well as a plane that a cut has smoothed away. The correction is counted from the
-// step nearest to the height with its foretold error, to the side where that lies beside the step.
-// The contexts are how near it is to the middle of two steps, and the size of the errors nearby.
+// The weights learn from each sample by normalised least mean squares (B. Widrow, M. Hoff 1960;
+// J. Nagumo, A. Noda 1967): they follow a filter that oscillates as well as a plane that a cut has
+// smoothed away. The height and its foretold error add up to a sum. The correction counts steps
+// from the one nearest to this sum, and is positive on the side of that step where the sum lies.
+// The contexts are how near the sum is to the middle of two steps, and the size of the errors
+// nearby.
 //
 // All of it is in integers: errors in units of the heights, weights in units of 2^-16.
 #pragma once
