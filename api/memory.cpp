@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "codec/geometry/values/value_table.hpp"
 #include "codec/lines/shown_lines.hpp"
@@ -131,11 +132,10 @@ class HeightsBytes {
     if (header_.drawn) return drawing();
     const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
     const uint64_t samples = view_.window ? shown_ : low();
-    const uint64_t marks = view_.window ? 0 : samples;
     const uint64_t masks = wholeMasks() + (voids_ && !view_.isWhole() ? shown_ : 0);
-    const uint64_t corrections = corrected_ ? samples * (kValue + 1) + rows() : 0;
+    const uint64_t corrections = corrected_ ? samples * (kValue + 1) + rows() + parts() : 0;
     const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
-    const uint64_t surface = planes.coefficients + marks + masks + flatBytes() + joinedBytes() +
+    const uint64_t surface = planes.coefficients + samples + masks + flatBytes() + joinedBytes() +
                              std::max({state, planes.work, corrections + tableBytes()});
     // A distance for each sample is there while bridges are found.
     const uint64_t closing = layers_.bridge > 0 ? masks + area(header_) : 0;
@@ -162,6 +162,18 @@ class HeightsBytes {
   uint64_t rows() const {
     const bool relative = layers_.corrections == CorrectionKind::kRelative;
     return (relative ? kRelativeRow : kRow) * header_.width;
+  }
+  /// Parts of the plane with their heights, corrections, marks, masks and hints, and the models of
+  /// their corrections, so many as are corrected at a time.
+  uint64_t parts() const {
+    constexpr uint64_t kSample = 2 * kValue + 3, kModels = 160 << 10;
+    const uint64_t count = correctionTracks(header_, layers_);
+    if (count == 0) return 0;
+    const uint64_t at_a_time = std::clamp<uint64_t>(decoder_.threads, 1, count);
+    const Region largest =
+        largestRegions(header_.width, header_.height, header_.regions.side_log2).front();
+    const uint64_t samples = uint64_t{largest.x1} * largest.y1;
+    return at_a_time * (samples * kSample + kModels) + count * sizeof(Window);
   }
   /// The table, its values as heights, and a correction for each sample.
   uint64_t tableBytes() const {

@@ -6,6 +6,7 @@
 
 #include "api/memory.hpp"
 #include "api/ranges.hpp"
+#include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "codec/lines/shown_lines.hpp"
@@ -16,7 +17,7 @@ namespace tetrakis::inline api {
 
 namespace {
 
-/// For each track, by its number, whether the view needs it.
+/// For each track of coefficients, by its number, whether the view needs it.
 std::vector<bool> neededTracks(const auto& header, const View& view) {
   const Pyramid pyramid(header.extent());
   const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
@@ -32,20 +33,30 @@ std::vector<bool> neededTracks(const auto& header, const View& view) {
   return needed;
 }
 
+/// The same for all tracks. view: of the lines that are shown.
 std::vector<bool> neededTracks(const StreamHeader& header, Component component, const View& view) {
   if (component == Component::kTexture)
     return neededTracks(*header.texture, codedView(*header.texture, view));
-  const View lines = codedView(*header.geometry, view);
-  return neededTracks(*header.geometry, decodedView(*header.geometry, header.layers, lines));
+  const GeometryHeader& geometry = *header.geometry;
+  const View lines = codedView(geometry, view);
+  std::vector<bool> needed = neededTracks(geometry, decodedView(geometry, header.layers, lines));
+  if (correctionTracks(geometry, header.layers) == 0) return needed;
+  const Window all{0, 0, geometry.width, geometry.height};
+  for (const Window& part : correctionParts(geometry.extent(), geometry.regions.side_log2))
+    needed.push_back(view.level == 0 && part.meets(lines.window.value_or(all)));
+  return needed;
 }
 
-/// How many bytes of a component's tracks that a view does not need are missing.
+/// How many bytes of coefficients that a view does not need are missing.
 uint64_t missingElsewhere(const tks_decoder& decoder, Component component, const View& view) {
-  const std::vector<bool> needed = neededTracks(decoder.parsed.header, component, view);
+  const StreamHeader& header = decoder.parsed.header;
+  std::vector<bool> needed = neededTracks(header, component, view);
+  if (component == Component::kGeometry)
+    needed.resize(needed.size() - correctionTracks(*header.geometry, header.layers));
   const auto elsewhere = [&](uint32_t track) { return track < needed.size() && !needed[track]; };
   uint64_t bytes = 0;
-  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
-  for (const IndexedPacket& packet : IndexedPackets(decoder.parsed.header, decoder.parsed.bytes)) {
+  const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
+  for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
     const PacketHead& head = packet.entry.packet;
     if (head.component() == component && elsewhere(head.track))
       bytes += std::min(packet.end, end) - std::min(packet.payload, end);

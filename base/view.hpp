@@ -23,6 +23,11 @@ struct Window {
     return width > 0 && height > 0 && width <= plane.width && height <= plane.height &&
            x <= plane.width - width && y <= plane.height - height;
   }
+  /// Whether the two have a sample in common.
+  bool meets(const Window& other) const {
+    return x < other.x + other.width && other.x < x + width && y < other.y + other.height &&
+           other.y < y + height;
+  }
 };
 
 /// The default view shows the whole plane. A view with a window has level 0.
@@ -71,5 +76,24 @@ std::vector<T> cut(std::span<const T> values, Extent plane, const View& view) {
   }
   return shown;
 }
+
+/// The values of a window: copied, unless it shows the whole plane, which outlives this.
+template <class T>
+class CutOut {
+ public:
+  CutOut(std::span<const T> values, Extent plane, const Window& window) : values_(values) {
+    if (values.empty() || window.extent() == plane) return;
+    copy_ = cut(values, plane, {0, window});
+    values_ = copy_;
+  }
+  CutOut(const CutOut&) = delete;
+  CutOut& operator=(const CutOut&) = delete;
+
+  std::span<const T> values() const { return values_; }
+
+ private:
+  std::vector<T> copy_;
+  std::span<const T> values_;
+};
 
 }  // namespace tetrakis::inline base

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
 #include "bitstream/stream/pieces.hpp"
 #include "receiver/track_costs.hpp"
@@ -38,6 +39,13 @@ class WorthInOrder {
   std::map<std::pair<Component, uint32_t>, PacketWorth> last_;
 };
 
+/// Whether a packet holds corrections in tracks of their own. They come last: beside coefficients
+/// that lack something they would correct nothing.
+bool isCorrection(const StreamHeader& header, const PacketHead& head) {
+  if (head.component() != Component::kGeometry || !header.geometry) return false;
+  return head.track >= coefficientTracks(*header.geometry);
+}
+
 }  // namespace
 
 bool helpsMore(const PacketWorth& a, const PacketWorth& b) {
@@ -63,6 +71,7 @@ Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint
       if (i == 0) worth.now = here;
       worth.all += here;
     }
+    if (isCorrection(header, head)) worth.slope = 0;
     packets.push_back({packet.number, packet.begin, packet.end, in_order.take(head, worth)});
   }
   return packets;

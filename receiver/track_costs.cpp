@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/length_unit.hpp"
+#include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/track/regions.hpp"
 #include "ground/frame.hpp"
 
@@ -168,6 +169,7 @@ TrackCosts::TrackCosts(const StreamHeader& header, const Sighting& sighting) {
   if (header.geometry) {
     for (const Region& region : regionsIn(*header.geometry))
       costs_[0].push_back(finite(sighted.costOfHeights(region)));
+    costs_[0].resize(costs_[0].size() + correctionTracks(*header.geometry, header.layers), 0);
   }
   if (header.texture) {
     for (const Region& region : regionsIn(*header.texture))

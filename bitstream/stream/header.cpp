@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 
+#include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/header_checks.hpp"
 
@@ -145,7 +146,9 @@ TrackCounts trackCounts(const StreamHeader& header) {
     const int side_log2 = component->regions.side_log2;
     return {regionCount(component->width, component->height, side_log2), side_log2 > 0};
   };
-  return {countOf(header.geometry), countOf(header.texture)};
+  TrackCounts counts = {countOf(header.geometry), countOf(header.texture)};
+  if (header.geometry) counts[0].tracks += correctionTracks(*header.geometry, header.layers);
+  return counts;
 }
 
 std::vector<uint8_t> writeHeader(const StreamHeader& header) {

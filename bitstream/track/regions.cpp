@@ -18,6 +18,14 @@ struct Grid {
 
   bool single() const { return columns == 1 && rows == 1; }
 
+  /// The rectangle of one region of a plane.
+  Window rectangle(uint32_t column, uint32_t row, uint32_t width, uint32_t height) const {
+    const uint32_t x = column << side_log2, y = row << side_log2;
+    const uint32_t x1 = column + 1 == columns ? width : (column + 1) << side_log2;
+    const uint32_t y1 = row + 1 == rows ? height : (row + 1) << side_log2;
+    return {x, y, x1 - x, y1 - y};
+  }
+
   /// The longest side of a region: the first one's, or the last one's with the remainder.
   static uint32_t longest(uint32_t side, int log2) {
     const uint64_t before = uint64_t{split(side, log2) - 1} << log2;
@@ -54,15 +62,27 @@ std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2) {
   for (auto grid = grids.rbegin(); grid != grids.rend(); ++grid) {
     for (uint32_t y = 0; y < grid->rows; ++y) {
       for (uint32_t x = 0; x < grid->columns; ++x) {
-        regions.push_back({level - kRegionLevels + 1, level, x << grid->side_log2,
-                           y << grid->side_log2,
-                           x + 1 == grid->columns ? width : (x + 1) << grid->side_log2,
-                           y + 1 == grid->rows ? height : (y + 1) << grid->side_log2});
+        const Window r = grid->rectangle(x, y, width, height);
+        regions.push_back(
+            {level - kRegionLevels + 1, level, r.x, r.y, r.x + r.width, r.y + r.height});
       }
     }
     level -= kRegionLevels;
   }
   assert(regions.size() == regionCount(width, height, side_log2));
+  return regions;
+}
+
+std::vector<Window> finestRegions(uint32_t width, uint32_t height, int side_log2) {
+  std::vector<Window> regions;
+  const std::vector<Grid> grids = gridsOf(width, height, side_log2);
+  if (grids.empty()) return regions;
+  const Grid& grid = grids.front();
+  regions.reserve(size_t{grid.columns} * grid.rows);
+  for (uint32_t y = 0; y < grid.rows; ++y) {
+    for (uint32_t x = 0; x < grid.columns; ++x)
+      regions.push_back(grid.rectangle(x, y, width, height));
+  }
   return regions;
 }
 
@@ -84,6 +104,11 @@ uint64_t regionCount(uint32_t width, uint32_t height, int side_log2) {
   for (const Grid& grid : gridsOf(width, height, side_log2))
     count += uint64_t{grid.columns} * grid.rows;
   return count;
+}
+
+uint64_t finestRegionCount(uint32_t width, uint32_t height, int side_log2) {
+  const std::vector<Grid> grids = gridsOf(width, height, side_log2);
+  return grids.empty() ? 0 : uint64_t{grids.front().columns} * grids.front().rows;
 }
 
 }  // namespace tetrakis::inline track

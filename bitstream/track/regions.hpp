@@ -12,6 +12,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/view.hpp"
+
 namespace tetrakis::inline track {
 
 inline constexpr int kRegionLevels = 3;
@@ -33,10 +35,17 @@ struct Region {
 /// coarsest levels to the finest, row by row. side_log2 0: the base alone, with everything.
 std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2);
 
+/// The regions of the finest levels, row by row, each as a rectangle of the plane; none if the base
+/// holds everything.
+std::vector<Window> finestRegions(uint32_t width, uint32_t height, int side_log2);
+
 /// For each group of levels a region that no other of the group is larger than, in rows or columns.
 std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2);
 
 /// How many regionsOf() are.
 uint64_t regionCount(uint32_t width, uint32_t height, int side_log2);
+
+/// How many finestRegions() are.
+uint64_t finestRegionCount(uint32_t width, uint32_t height, int side_log2);
 
 }  // namespace tetrakis::inline track

@@ -17,15 +17,17 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-/// What the significant coefficients of a level of the plane say of its vertices.
+/// What the significant coefficients that a view shows say of its vertices.
 class Significance {
  public:
-  Significance(const Pyramid& pyramid, int level, size_t tracks)
+  Significance(const Pyramid& pyramid, const View& view, size_t tracks)
       : pyramid_(pyramid),
-        level_(level),
-        low_(pyramid.low(level)),
-        marks_(low_.extent.samples()),
-        quiet_(tracks, pyramid.levels() - level) {}
+        level_(view.level),
+        low_(pyramid.low(view.level)),
+        shown_(view.window.value_or(Window{0, 0, low_.extent.width, low_.extent.height})),
+        is_window_(view.window.has_value()),
+        marks_(shown_.extent().samples()),
+        quiet_(tracks, pyramid.levels() - view.level) {}
 
   /// Takes the bands of a track. Called for different tracks at the same time.
   void take(size_t track, const TrackState& state, std::span<const BandPart> parts) {
@@ -41,8 +43,11 @@ class Significance {
 
   void giveTo(DecodedGeometry& geometry) {
     assert(!quiet_.empty());
-    geometry.quiet_levels = static_cast<uint32_t>(*std::min_element(quiet_.begin(), quiet_.end()));
-    marks_.resize(thin(pyramid_, level_, std::span(marks_)));
+    if (!is_window_) {
+      geometry.quiet_levels =
+          static_cast<uint32_t>(*std::min_element(quiet_.begin(), quiet_.end()));
+      marks_.resize(thin(pyramid_, level_, std::span(marks_)));
+    }
     geometry.significant = std::move(marks_);
   }
 
@@ -51,16 +56,18 @@ class Significance {
   void mark(const Band& band, const Subband& subband, const BandPart& part) {
     if (band.shape.empty()) return;
     const int splits = subband.splits_x - low_.splits_x;
-    const size_t first = subband.isHighX() ? size_t{1} << (splits - 1) : 0;
+    const size_t first = (subband.isHighX() ? size_t{1} << (splits - 1) : 0) - shown_.x;
     for (uint32_t row = 0; row < part.rows; ++row) {
-      uint8_t* out =
-          marks_.data() + pyramid_.indexOf(subband, part.row + row, level_) - subband.x + first;
+      const uint32_t y = (subband.planeRow(part.row + row) >> low_.splits_y) - shown_.y;
+      if (y >= shown_.height) continue;
+      uint8_t* out = marks_.data() + size_t{y} * shown_.width;
       for (uint32_t x = 0; x < band.shape.words(); ++x) {
         uint32_t todo = band.significant[band.shape.word(row, x)];
         for (; todo != 0; todo &= todo - 1) {
           const size_t column =
               part.column + 32 * size_t{x} + static_cast<size_t>(std::countr_zero(todo));
-          out[column << splits] = 1;
+          const size_t shown = first + (column << splits);
+          if (shown < shown_.width) out[shown] = 1;
         }
       }
     }
@@ -69,7 +76,9 @@ class Significance {
   const Pyramid& pyramid_;
   int level_;
   const LowBand& low_;
-  std::vector<uint8_t> marks_;  ///< of the samples of the low band
+  Window shown_;  ///< samples of the low band
+  bool is_window_;
+  std::vector<uint8_t> marks_;  ///< of those
   std::vector<int> quiet_;      ///< of each track, the finest levels without such a coefficient
 };
 
@@ -111,8 +120,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   assert(context.memory == nullptr || !view.window);
   ViewSynthesis synthesis(spec, layout.pyramid(), view);
   synthesis.allocate();
-  std::optional<Significance> significance;
-  if (!view.window) significance.emplace(layout.pyramid(), view.level, regions.size());
+  Significance significance(layout.pyramid(), view, regions.size());
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, view.level, context};
   DecodedGeometry out;
   const Precision precision = tracks.run(
@@ -121,7 +129,7 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
         const std::vector<BandPart> parts = layout.parts(regions[i]);
         for (size_t k = 0; k < parts.size(); ++k)
           synthesis.put(state.bands[k], more_bits, parts[k]);
-        if (significance) significance->take(i, state, parts);
+        significance.take(i, state, parts);
       });
   out.fraction_bits = precision.fraction_bits;
   for (int32_t& height : area_heights)  // of what the layout holds, as it is needed from here on
@@ -133,10 +141,8 @@ DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& co
   out.valid = view.isWhole() ? std::move(valid)
                              : cut(std::span<const uint8_t>(valid), header.extent(), view);
   clearUnmarked(std::span(out.heights), out.valid);
-  if (significance) {
-    significance->giveTo(out);
-    clearUnmarked(std::span(out.significant), out.valid);
-  }
+  significance.giveTo(out);
+  clearUnmarked(std::span(out.significant), out.valid);
   holdShown(flat, header.extent(), view, out.heights);
   return out;
 }

@@ -7,13 +7,11 @@
 #include <span>
 #include <utility>
 
-#include "codec/geometry/corrections/corrections_decoder.hpp"
-#include "codec/geometry/corrections/exact_corrections_decoder.hpp"
+#include "bitstream/stream/correction_tracks.hpp"
+#include "codec/geometry/corrected_heights.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
-#include "codec/geometry/relative/relative_decoder.hpp"
 #include "codec/geometry/shown_heights.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/stored_heights_decoder.hpp"
 #include "codec/geometry/values/value_stand_in.hpp"
 #include "codec/geometry/values/value_table_decoder.hpp"
@@ -28,44 +26,20 @@ std::span<const uint8_t> firstOf(std::span<const uint8_t> bytes, uint64_t count)
   return bytes.first(static_cast<size_t>(std::min<uint64_t>(count, bytes.size())));
 }
 
-/// The heights with corrections in units of so many steps.
-DecodedGeometry correctedSteps(DecodedGeometry geometry, uint32_t correction_step,
-                               std::span<const uint8_t> codeword) {
-  const std::vector<uint8_t> hints = activityHints(geometry);
-  const uint32_t unit = correction_step << geometry.fraction_bits;
-  const auto add = [&](size_t first, std::span<const int32_t> row) {
-    for (size_t x = 0; x < row.size(); ++x) {
-      int32_t& height = geometry.heights[first + x];
-      height = static_cast<int32_t>(static_cast<uint32_t>(height) +
-                                    static_cast<uint32_t>(row[x]) * unit);
-    }
-  };
-  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
-  return geometry;
-}
-
-/// The heights with corrections to whole steps: what a fraction is beside its sample is an error of
-/// the cut, which surfaces and meshes need not show.
-DecodedGeometry exactSteps(DecodedGeometry geometry, std::span<const uint8_t> codeword) {
-  const auto put = [&](size_t first, std::span<const int32_t> row) {
-    for (size_t x = 0; x < row.size(); ++x) {
-      const uint32_t whole = static_cast<uint32_t>(row[x]) << geometry.fraction_bits;
-      geometry.heights[first + x] = static_cast<int32_t>(whole);
-    }
-  };
-  decodeExactSteps(codeword, {geometry.heights, geometry.extent(), geometry.valid},
-                   geometry.fraction_bits, put);
-  return geometry;
-}
-
 /// The tracks taken apart.
 struct TakenLayers {
-  std::span<const uint8_t> lifted, validity, table, flat, corrections;
+  std::span<const uint8_t> lifted, validity, table, flat;
   Codewords coefficients;  ///< of the first track those before what lies among them
+  Codewords corrections;   ///< of each part of the plane
   std::vector<std::span<const uint8_t>> more;  ///< the others of it, in their order
 
-  TakenLayers(const Codewords& codewords, const GeometryLayers& layers) : coefficients(codewords) {
-    assert(!coefficients.empty());
+  TakenLayers(const Codewords& codewords, const GeometryHeader& header,
+              const GeometryLayers& layers)
+      : coefficients(codewords) {
+    const auto apart = static_cast<ptrdiff_t>(correctionTracks(header, layers));
+    assert(codewords.size() > static_cast<size_t>(apart));
+    corrections.assign(coefficients.end() - apart, coefficients.end());
+    coefficients.erase(coefficients.end() - apart, coefficients.end());
     std::span<const uint8_t>& first = coefficients.front();
     const auto take = [&](uint64_t count) {
       const std::span<const uint8_t> taken = firstOf(first, count);
@@ -95,7 +69,7 @@ struct TakenLayers {
     }
     const bool corrected = layers.corrections != CorrectionKind::kNone;
     more.push_back(take((corrected ? layers.coefficient_bytes : UINT64_MAX) - before));
-    corrections = first;
+    if (corrections.empty()) corrections.push_back(first);
     first = more.front();
     more.erase(more.begin());
     std::erase_if(more, [](std::span<const uint8_t> part) { return part.empty(); });
@@ -112,6 +86,11 @@ struct TakenLayers {
     for (const std::span<const uint8_t> part : more)
       whole.insert(whole.end(), part.begin(), part.end());
     return whole;
+  }
+
+  bool isCorrected() const {
+    return std::any_of(corrections.begin(), corrections.end(),
+                       [](const auto& codeword) { return !codeword.empty(); });
   }
 
   /// All is there that comes before the coefficients.
@@ -159,42 +138,6 @@ DecodedHeights heightsOf(DecodedGeometry steps, const TakenLayers& taken,
   return heightsOf(table, header, std::move(steps));
 }
 
-/// The heights with the corrections of samples that are decoded beside those that the table has
-/// made, if there is one.
-DecodedHeights correctedSamples(DecodedHeights decoded, const GeometryHeader& header,
-                                std::span<const uint8_t> codeword) {
-  const DecodedGeometry& geometry = decoded.geometry;
-  const std::vector<uint8_t> hints = sampleHints(geometry.heights, geometry.fraction_bits, header);
-  std::vector<int32_t>& corrections = decoded.corrections;
-  corrections.resize(geometry.heights.size());
-  const auto add = [&](size_t first, std::span<const int32_t> row) {
-    for (size_t x = 0; x < row.size(); ++x) {
-      int32_t& sum = corrections[first + x];
-      sum = static_cast<int32_t>(static_cast<uint32_t>(sum) + static_cast<uint32_t>(row[x]));
-    }
-  };
-  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
-  return decoded;
-}
-
-/// The window of heights that were decoded from the first row on, without the marks of their
-/// vertices.
-DecodedHeights cutWindow(const DecodedHeights& decoded, const View& view) {
-  const DecodedGeometry& geometry = decoded.geometry;
-  const auto cut_out = [&]<class T>(const std::vector<T>& values) {
-    return cut(std::span<const T>(values), geometry.extent(), view);
-  };
-  const Extent extent = view.extentIn(geometry.extent());
-  DecodedHeights part;
-  part.geometry.width = extent.width;
-  part.geometry.height = extent.height;
-  part.geometry.fraction_bits = geometry.fraction_bits;
-  part.geometry.heights = cut_out(geometry.heights);
-  part.geometry.valid = cut_out(geometry.valid);
-  part.corrections = cut_out(decoded.corrections);
-  return part;
-}
-
 }  // namespace
 
 uint64_t HeightsMemory::bytes() const {
@@ -202,26 +145,9 @@ uint64_t HeightsMemory::bytes() const {
          flat.heights.size() * sizeof(int32_t) + tracks.bytes();
 }
 
-std::vector<uint8_t> activityHints(const DecodedGeometry& geometry) {
-  const std::vector<uint8_t>& marks = geometry.significant;
-  const auto [width, height] = geometry.extent();
-  assert(marks.size() == geometry.extent().samples());
-  std::vector<uint8_t> hints = marks;
-  for (uint32_t y = 0; y < height; ++y) {
-    for (uint32_t x = 0; x < width; ++x) {
-      const size_t i = size_t{y} * width + x;
-      if (x > 0) hints[i] += marks[i - 1];
-      if (x + 1 < width) hints[i] += marks[i + 1];
-      if (y > 0) hints[i] += marks[i - width];
-      if (y + 1 < height) hints[i] += marks[i + width];
-    }
-  }
-  return hints;
-}
-
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view) {
-  const TakenLayers taken(codewords, layers);
+  const TakenLayers taken(codewords, header, layers);
   std::vector<uint8_t> lifted;
   if (layers.late_mask) lifted = lateLifted(taken, header, layers);
   const std::vector<uint8_t> valid = validityOf(taken, header, layers, lifted);
@@ -267,28 +193,21 @@ DecodedHeights decodeTaken(const GeometryHeader& header, const GeometryLayers& l
   }
   DecodedHeights decoded =
       heightsOf(decodeSteps(header, layers, taken, view, context), taken, header, layers);
-  if (taken.corrections.empty() || view.level > 0) return decoded;
-  if (layers.corrections == CorrectionKind::kSteps) {
-    decoded.geometry.quiet_levels = 0;
-    decoded.geometry =
-        layers.correction_step > 1
-            ? correctedSteps(std::move(decoded.geometry), layers.correction_step, taken.corrections)
-            : exactSteps(std::move(decoded.geometry), taken.corrections);
-    return decoded;
-  }
-  if (layers.corrections == CorrectionKind::kRelative)
-    return restoreRelative(std::move(decoded), header, layers.relative, taken.corrections);
-  return correctedSamples(std::move(decoded), header, taken.corrections);
+  if (view.level > 0 || !taken.isCorrected()) return decoded;
+  return corrected(std::move(decoded), header, layers, taken.corrections, view, context.threads);
 }
 
 /// Decodes a view of the coded lines; a window is cut out of what decodedView() says.
 DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& layers,
                            const Codewords& codewords, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
-  const TakenLayers taken(codewords, layers);
-  if (view.window && (header.direct() || !taken.corrections.empty())) {
+  const TakenLayers taken(codewords, header, layers);
+  if (view.window && (header.direct() || taken.isCorrected())) {
     const View all = decodedView(header, layers, view);
-    return cutWindow(decodeTaken(header, layers, taken, all, {context.threads}), view);
+    const DecodedHeights decoded = decodeTaken(header, layers, taken, all, {context.threads});
+    const Window& window = *view.window;
+    return windowOf(decoded, {window.x - all.firstColumn(), window.y - all.firstRow(), window.width,
+                              window.height});
   }
   return decodeTaken(header, layers, taken, view, context);
 }
@@ -297,10 +216,7 @@ DecodedHeights decodeLines(const GeometryHeader& header, const GeometryLayers& l
 
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {
   if (header.direct()) return {};
-  if (!view.window || layers.corrections == CorrectionKind::kNone) return view;
-  const uint32_t rows = view.window->y + view.window->height;
-  if (layers.corrections == CorrectionKind::kSteps || rows == header.height) return {};
-  return {0, Window{0, 0, header.width, rows}};
+  return correctedView(header, layers, view);
 }
 
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,

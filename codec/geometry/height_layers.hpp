@@ -25,13 +25,12 @@ struct HeightsMemory {
 };
 
 /// What a view takes of the coded lines. A stored sample's place depends on the voids before it,
-/// contexts of drawings come from the whole plane, and those of corrections from the rows before
-/// and from the heights that are corrected. Corrections of steps, which streams in regions hardly
-/// ever have, are decoded with all of them.
+/// contexts of drawings come from the whole plane, and those of corrections from the samples before
+/// and from the heights that are corrected (correctedView()).
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view);
 
 /// Decodes what a view shows of the heights. In a window the time follows its size if there are
-/// regions, with corrections of samples that of all rows from the first to its last. Levels above 0
+/// regions. Levels above 0
 /// have no corrections: those belong to the samples. codewords: any prefix of each track; the
 /// layers are those of the first. Safe on any bytes. The memory is that of earlier calls with the
 /// same headers and view, which is no window.
@@ -42,9 +41,5 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
 /// Decodes which samples of a view are valid, and nothing else; empty: all are valid.
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view);
-
-/// Returns the hints (codec/geometry/corrections/corrections_pass.hpp) of corrections of steps: how
-/// many of a vertex and its four neighbours are significant.
-std::vector<uint8_t> activityHints(const DecodedGeometry& geometry);
 
 }  // namespace tetrakis::inline geometry

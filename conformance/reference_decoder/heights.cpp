@@ -163,18 +163,19 @@ Plane significanceOf(const Surface& surface) {
   return marks;
 }
 
-void correctSteps(const Layers& layers, std::span<const uint8_t> codeword, Surface& surface) {
+/// marks: of significance.
+void correctSteps(const Layers& layers, std::span<const uint8_t> codeword, int f, Plane& marks,
+                  Plane& plane) {
   if (layers.correctionStep == 1) {
-    makeExact(codeword, surface.plane, surface.f);
+    makeExact(codeword, plane, f);
     return;
   }
-  Plane marks = significanceOf(surface);
   const std::vector<uint32_t> corrections =
-      decodeCorrections(codeword, surface.plane, activityHints(marks));
+      decodeCorrections(codeword, plane, activityHints(marks));
   for (size_t i = 0; i < corrections.size(); ++i) {
-    int32_t& v = surface.plane.values[i];
-    const uint32_t change = corrections[i] * (layers.correctionStep << surface.f);
-    v = static_cast<int32_t>(static_cast<uint32_t>(v) + change);
+    int32_t& v = plane.values[i];
+    v = static_cast<int32_t>(static_cast<uint32_t>(v) +
+                             corrections[i] * (layers.correctionStep << f));
   }
 }
 
@@ -238,6 +239,65 @@ void correctSamples(const GeometryHeader& header, std::span<const uint8_t> codew
   const std::vector<uint32_t> corrections = decodeCorrections(codeword, plane, hints);
   for (size_t i = 0; i < corrections.size(); ++i) {
     samples[i] = narrow(header, orderOf(header, orderOf(header, samples[i]) + corrections[i]));
+  }
+}
+
+/// What corrections know of the plane, or of a part of it.
+struct Correctable {
+  Plane plane, marks;
+  std::vector<uint32_t> samples, near;  ///< near: those that hints come from
+};
+
+template <class T>
+std::vector<T> cut(const std::vector<T>& values, int width, const Region& region) {
+  std::vector<T> part;
+  for (int64_t y = region.y0; y < region.y1 && !values.empty(); ++y) {
+    const auto row = values.begin() + y * width;
+    part.insert(part.end(), row + region.x0, row + region.x1);
+  }
+  return part;
+}
+
+template <class T>
+void put(const std::vector<T>& part, int width, const Region& region, std::vector<T>& values) {
+  auto from = part.begin();
+  for (int64_t y = region.y0; y < region.y1 && !part.empty(); ++y) {
+    for (int64_t x = region.x0; x < region.x1; ++x) values[y * width + x] = *from++;
+  }
+}
+
+Correctable partOf(const Correctable& whole, const Region& region) {
+  const int width = whole.plane.width;
+  const int columns = static_cast<int>(region.x1 - region.x0);
+  const int rows = static_cast<int>(region.y1 - region.y0);
+  return {{columns, rows, cut(whole.plane.values, width, region),
+           cut(whole.plane.valid, width, region)},
+          {columns, rows, cut(whole.marks.values, width, region)},
+          cut(whole.samples, width, region),
+          cut(whole.near, width, region)};
+}
+
+/// FORMAT 8.1: corrections of samples, which are made of the heights.
+void correctMade(const GeometryHeader& header, const Layers& layers,
+                 std::span<const uint8_t> codeword, Correctable& part) {
+  if (layers.corrections == 2)
+    correctSamples(header, codeword, part.plane, part.near, part.samples);
+  if (layers.corrections == 3)
+    correctFromRelative(header, layers, codeword, part.plane, part.samples);
+}
+
+/// Corrects the plane with one codeword, or each of its parts with its own.
+template <class Correct>
+void correctParts(const GeometryHeader& header,
+                  const std::vector<std::span<const uint8_t>>& codewords, Correctable& whole,
+                  const Correct& correct) {
+  const auto regions = finestRegionsOf(header.width, header.height, header.regions.log2);
+  if (regions.empty()) correct(codewords.at(0), whole);
+  for (size_t i = 0; i < regions.size(); ++i) {
+    Correctable part = partOf(whole, regions[i]);
+    correct(codewords.at(i), part);
+    put(part.plane.values, header.width, regions[i], whole.plane.values);
+    put(part.samples, header.width, regions[i], whole.samples);
   }
 }
 
@@ -358,22 +418,33 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   }
   std::vector<uint32_t> table;
   if (layers.tableBytes > 0) table = decodeTables(track.table, {layers.tableValues}, 32)[0];
-  std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
+  const auto tracks = codewords.begin() + regionsOf(width, height, header.regions.log2).size();
+  std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), tracks);
+  std::vector<std::span<const uint8_t>> corrections(tracks, codewords.end());
   coefficients[0] = track.coefficients;
+  if (corrections.empty()) corrections.push_back(track.corrections);
   Surface surface = decodeSurface(header, lifted, coefficients, std::move(known), level);
   if (table.empty() && !layers.tableKnots.empty()) standIn(layers, surface);
-  if (layers.corrections == 1 && level == 0) correctSteps(layers, track.corrections, surface);
+  if (layers.corrections == 1 && level == 0) {
+    Correctable whole{surface.plane, significanceOf(surface), {}, {}};
+    correctParts(header, corrections, whole, [&](std::span<const uint8_t> codeword, auto& part) {
+      correctSteps(layers, codeword, surface.f, part.marks, part.plane);
+    });
+    surface.plane.values = whole.plane.values;
+  }
   std::vector<uint32_t> samples =
       table.empty() ? samplesOf(header, surface) : valuesOf(header, table, surface);
-  if (layers.corrections == 2 && level == 0) {
+  if (layers.corrections >= 2 && level == 0) {
     std::vector<uint32_t> near = samples;
     if (!table.empty()) {
       for (uint32_t& bits : near) bits = nearValue(header, bits);
     }
-    correctSamples(header, track.corrections, surface.plane, near, samples);
+    Correctable whole{surface.plane, {width, height, {}}, samples, near};
+    correctParts(header, corrections, whole, [&](std::span<const uint8_t> codeword, auto& part) {
+      correctMade(header, layers, codeword, part);
+    });
+    samples = whole.samples;
   }
-  if (layers.corrections == 3 && level == 0)
-    correctFromRelative(header, layers, track.corrections, surface.plane, samples);
   putVoids(header, layers, surface.plane, samples);
   return bytesOf(header, samples);
 }

@@ -46,6 +46,12 @@ std::vector<Region> regionsOf(int width, int height, int log2) {
   return regions;
 }
 
+std::vector<Region> finestRegionsOf(int width, int height, int log2) {
+  std::vector<Region> regions = regionsOf(width, height, log2);
+  std::erase_if(regions, [](const Region& region) { return region.base || region.firstLevel > 1; });
+  return regions;
+}
+
 std::vector<Part> partsOf(const std::vector<Subband>& subbands, const Region& region) {
   std::vector<Part> parts;
   for (const Subband& subband : subbands) {

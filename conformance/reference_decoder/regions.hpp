@@ -31,6 +31,9 @@ struct Region {
 
 std::vector<Region> regionsOf(int width, int height, int log2);
 
+/// FORMAT 8.1: the regions of group 0, whose corrections are tracks of their own.
+std::vector<Region> finestRegionsOf(int width, int height, int log2);
+
 /// The rows and columns of a subband whose samples lie in a region.
 struct Part {
   Subband subband;

@@ -312,7 +312,13 @@ void makeCodewords(Stream& stream) {
   const auto count = [](const auto& c) {
     return c ? regionsOf(c->width, c->height, c->regions.log2).size() : 0;
   };
+  const auto corrections = [&](const GeometryHeader& g) {
+    return stream.layers.corrections > 0 ? finestRegionsOf(g.width, g.height, g.regions.log2).size()
+                                         : 0;
+  };
   stream.codewords[0].resize(count(stream.geometry));
+  if (stream.geometry)
+    stream.codewords[0].resize(stream.codewords[0].size() + corrections(*stream.geometry));
   stream.codewords[1].resize(count(stream.texture));
 }
 

@@ -7,6 +7,7 @@
 
 #include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
 #include "codec/geometry/stored_heights_encoder.hpp"
+#include "encoder/heights/corrected_tracks.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "ratecontrol/curves/hull.hpp"
 #include "wavelet/priority_map_encoder.hpp"
@@ -63,10 +64,9 @@ EncodedTrack withLayer(EncodedTrack coefficients, const AmongThem& layer) {
   return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
 }
 
-/// The account of such a track of coefficients, behind the opening and before the corrections. all:
-/// bytes of the whole track.
-std::vector<RatePoint> accountAmid(const QuantisedHeights& heights, const HeightLayers& layers,
-                                   const std::vector<RatePoint>& coefficients, uint64_t all) {
+/// The account of such a track of coefficients behind the opening.
+std::vector<RatePoint> accountBehind(const QuantisedHeights& heights, const HeightLayers& layers,
+                                     const std::vector<RatePoint>& coefficients) {
   const uint64_t opening = layers.layers.openingBytes();
   std::vector<RatePoint> points;
   if (opening > 0) {
@@ -82,19 +82,17 @@ std::vector<RatePoint> accountAmid(const QuantisedHeights& heights, const Height
     points.push_back(
         {point.bytes + opening, point.distortion + heights.left, point.dips, point.beyond});
   }
-  if (!layers.corrections.empty()) points.push_back({all, layers.corrected_to});
   return points;
 }
 
-/// The track of all layers: the coefficients, with what lies among them, amid the others.
-EncodedTrack amidLayers(const QuantisedHeights& heights, const HeightLayers& layers,
-                        const EncodedTrack& coefficients) {
+/// The coefficients, with what lies among them, behind the layers that open the track.
+EncodedTrack behindOpening(const QuantisedHeights& heights, const HeightLayers& layers,
+                           const EncodedTrack& coefficients) {
   std::vector<uint8_t> codeword = layers.layers.late_mask ? heights.late.lifted : heights.validity;
   for (const std::span<const uint8_t> layer :
-       {std::span(layers.flat.codeword), std::span(coefficients.codeword), layers.corrections})
+       {std::span(layers.flat.codeword), std::span(coefficients.codeword)})
     codeword.insert(codeword.end(), layer.begin(), layer.end());
-  std::vector<RatePoint> points =
-      accountAmid(heights, layers, coefficients.points, codeword.size());
+  std::vector<RatePoint> points = accountBehind(heights, layers, coefficients.points);
   assert(points.back().bytes == codeword.size());
   return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
 }
@@ -190,12 +188,19 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
                    [](const auto& a, const auto& b) { return a.after < b.after; });
   for (auto layer = among.rbegin(); layer != among.rend(); ++layer)
     first = withLayer(std::move(first), *layer);
-  coefficients.front() = amidLayers(heights, layers, first);
+  coefficients.front() = behindOpening(heights, layers, first);
+  uint64_t closing = 0;
+  if (!layers.corrections.empty()) {
+    const uint64_t before = coefficients.front().codeword.size();
+    coefficients =
+        tracksWithCorrections(std::move(coefficients), layers.corrections, layers.corrected_to);
+    closing = coefficients.front().codeword.size() - before;
+  }
   return {.quantised = std::move(quantised),
           .header = std::move(header),
           .layers = std::move(described),
           .tracks = std::move(coefficients),
-          .closing = layers.corrections.size(),
+          .closing = closing,
           .left = heights.left,
           .shown_void = shown_void,
           .flat = layers.flat};

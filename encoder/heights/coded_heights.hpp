@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/coding_choice/flat_choice.hpp"
 #include "codec/geometry/geometry_encoder.hpp"
 #include "encoder/heights/quantised_heights.hpp"
@@ -24,9 +25,9 @@ struct CodedHeights {
   GeometryHeader header;  ///< without max_error
   GeometryLayers layers;
   /// The first holds the codewords of validity and flat areas, coefficients with a table and a late
-  /// mask among them, corrections; others coefficients alone.
+  /// mask among them, corrections; others coefficients alone, or corrections.
   std::vector<EncodedTrack> tracks;
-  uint64_t closing = 0;                ///< bytes of corrections
+  uint64_t closing = 0;                ///< bytes of corrections in the first track
   double left = 0;                     ///< QuantisedHeights::left, or what stored samples leave
   double shown_void = 0;               ///< squared error, in steps, of a void shown as ground
   FlatLayer flat = {};                 ///< beside which the coefficients were coded
@@ -35,6 +36,7 @@ struct CodedHeights {
   /// The complete tracks restore every sample.
   bool restoresSamples() const;
   bool corrects() const { return layers.restoresSamples(); }
+  bool hasCorrections() const { return layers.corrections != CorrectionKind::kNone; }
   /// Bytes of the header that not every way to code them has.
   uint64_t inHeader() const { return 0; }
   /// Samples that count in the error.
@@ -45,16 +47,17 @@ struct CodedHeights {
            !layers.late_mask;
   }
   CodedTracks accounted() const {
-    return {Component::kGeometry, tracks, layers.openingBytes(), closing};
+    return {Component::kGeometry, tracks, layers.openingBytes(), closing,
+            static_cast<size_t>(correctionTracks(header, layers))};
   }
 };
 
 /// The layers around coefficients, and how these are coded.
 struct HeightLayers {
   GeometryLayers layers;
-  std::span<const uint8_t> corrections;  ///< codeword
-  double corrected_to = 0;               ///< the squared error that corrections leave
-  MaskRoom mask_room = {};               ///< of a late mask
+  std::span<const std::vector<uint8_t>> corrections;  ///< PartCodewords; empty: none
+  double corrected_to = 0;                            ///< the squared error that corrections leave
+  MaskRoom mask_room = {};                            ///< of a late mask
   WaveletHeader wavelet;
   PriorityHeader priorities;
   FlatLayer flat = {};

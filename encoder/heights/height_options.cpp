@@ -8,13 +8,11 @@
 
 namespace tetrakis::inline heights {
 
-/// Corrections to a largest error lie behind all coefficients: no window of them can be decoded
-/// alone.
 CoefficientOptions heightOptions(const EncodeInputs& inputs) {
   assert(inputs.heights != nullptr);
   const tks_encode_options& options = inputs.options;
   const Extent extent = extentOf(*inputs.heights);
-  const bool large = extent.samples() > kOneRegionHeights && options.max_error == 0;
+  const bool large = extent.samples() > kOneRegionHeights;
   const RegionChoice regions = chooseRegions(options, extent, large);
   const ViewPriorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->heights.empty();

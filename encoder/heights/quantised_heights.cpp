@@ -16,6 +16,7 @@
 #include "codec/geometry/relative/relative_step_choice.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
+#include "encoder/heights/height_options.hpp"
 #include "lattice/validity_encoder.hpp"
 
 namespace tetrakis::inline heights {
@@ -148,7 +149,9 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInpu
   const BridgeTarget bridges = bridgeTarget(inputs, chosen->steps);
   QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps), bridges));
   if (chosen->restore && !heights.steps.exact) {
-    SampleCorrections corrections = correctionsBehind(heights, heights.steps);
+    const int region_log2 = heightOptions(inputs).region_log2;
+    SampleCorrections corrections =
+        correctionsBehind(heights, heights.steps, region_log2, inputs.options.threads);
     heights = withCorrections(std::move(heights), std::move(corrections));
   }
   assert(heights.restored() || heights.corrections.empty());
@@ -174,17 +177,25 @@ std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& 
       withoutTable(inputs, *std::move(steps), {Purpose::kLossy, UINT64_MAX, rmse * rmse}));
 }
 
-SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown) {
-  const GeometryHeader header = headerOf(heights);
+SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown,
+                                    int region_log2, uint32_t threads) {
+  GeometryHeader header = headerOf(heights);
+  header.regions.side_log2 = static_cast<uint8_t>(region_log2);
   const std::vector<uint8_t> hints = sampleHints(decodedSteps(shown, header), 0, header);
-  return {encodeCorrections(sampleCorrections(*heights.samples, shown),
-                            {hints, header.extent(), shown.valid}),
-          std::max(heights.squaresOf(shown), QuantisedHeights::kInexact)};
+  const std::vector<int32_t> corrections = sampleCorrections(*heights.samples, shown);
+  PartCodewords codewords = encodeParts(header, threads, [&](const Window& part) {
+    const CutOut<int32_t> of_part(corrections, header.extent(), part);
+    const CutOut<uint8_t> hints_there(hints, header.extent(), part);
+    const CutOut<uint8_t> valid(shown.valid, header.extent(), part);
+    return encodeCorrections(of_part.values(),
+                             {hints_there.values(), part.extent(), valid.values()});
+  });
+  return {std::move(codewords), std::max(heights.squaresOf(shown), QuantisedHeights::kInexact)};
 }
 
 QuantisedHeights withCorrections(QuantisedHeights heights, SampleCorrections corrections) {
   heights.layers.corrections = CorrectionKind::kSamples;
-  heights.corrections = std::move(corrections.codeword);
+  heights.corrections = std::move(corrections.codewords);
   heights.left = corrections.left;
   return heights;
 }

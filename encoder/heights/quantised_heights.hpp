@@ -11,6 +11,7 @@
 
 #include "base/status.hpp"
 #include "bitstream/stream/header.hpp"
+#include "codec/geometry/corrections/correction_parts.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "encoder/heights/late_mask.hpp"
@@ -28,11 +29,11 @@ struct QuantisedHeights {
 
   const tks_heights* samples = nullptr;  ///< the input, which outlives this
   HeightSteps steps;
-  GeometryLayers layers;                  ///< the bytes of coefficients are not known yet
-  std::vector<uint8_t> validity = {};     ///< codeword; empty: all samples are valid
-  LateMask late = {};                     ///< in its place, where there are coefficients
-  std::vector<uint8_t> table = {};        ///< codeword; empty: steps are multiples
-  std::vector<uint8_t> corrections = {};  ///< codeword; restores the samples
+  GeometryLayers layers;               ///< the bytes of coefficients are not known yet
+  std::vector<uint8_t> validity = {};  ///< codeword; empty: all samples are valid
+  LateMask late = {};                  ///< in its place, where there are coefficients
+  std::vector<uint8_t> table = {};     ///< codeword; empty: steps are multiples
+  PartCodewords corrections = {};      ///< of each part of the plane; restore the samples
   /// Squared error that exact steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
   double left = 0;
@@ -81,12 +82,14 @@ std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& 
 
 /// What restores the samples behind steps.
 struct SampleCorrections {
-  std::vector<uint8_t> codeword;
+  PartCodewords codewords;
   double left;  ///< QuantisedHeights::left
 };
 
-/// shown: what decoders make of all coefficients, in steps of these heights.
-SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown);
+/// shown: what decoders make of all coefficients, in steps of these heights. region_log2: of the
+/// coefficients. threads: nothing depends on them.
+SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown,
+                                    int region_log2, uint32_t threads);
 
 QuantisedHeights withCorrections(QuantisedHeights heights, SampleCorrections corrections);
 

@@ -198,7 +198,7 @@ std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const Height
   const auto add = [&](HeightsCandidate way) {
     if (way.bytes() >= inputs.options.bytes) return;
     way.curve = curveOfHeights(inputs, *way.coded);
-    if (way.coded->closing == 0 && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
+    if (!way.coded->hasCorrections() && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
     ways.push_back(std::move(way));
   };
   if (relative_step > 0) {

@@ -16,6 +16,7 @@ struct CodedTracks {
   std::span<const EncodedTrack> tracks;  ///< at least one; they outlive this
   /// Bytes of the first track that come before, and behind, everything else.
   uint64_t opening = 0, closing = 0;
+  size_t closing_tracks = 0;  ///< the last ones, which come behind everything else
 };
 
 /// All codewords, in the order of the tracks, which they refer to.

@@ -7,15 +7,60 @@
 #include <span>
 #include <utility>
 
+#include "codec/geometry/corrected_heights.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/corrections/exact_corrections_encoder.hpp"
-#include "codec/geometry/height_layers.hpp"
 
 namespace tetrakis::inline coding_choice {
 
 int32_t nearestMultiple(int64_t q, int64_t largest) {
   const int64_t unit = 2 * largest + 1, shifted = q + largest;
   return static_cast<int32_t>((shifted - (shifted % unit + unit) % unit) / unit);
+}
+
+namespace {
+
+/// Corrections of a part in units of so many steps.
+std::vector<uint8_t> encodeWithinBound(const DecodedGeometry& decoded,
+                                       std::span<const int32_t> corrections, const Window& part) {
+  const Extent plane = decoded.extent();
+  const CutOut<int32_t> of_part(corrections, plane, part);
+  const CutOut<uint8_t> valid(decoded.valid, plane, part);
+  const std::vector<uint8_t> hints = activityHints(decoded, part);
+  return encodeCorrections(of_part.values(), {hints, part.extent(), valid.values()});
+}
+
+/// Corrections of a part to whole steps.
+std::vector<uint8_t> encodeExact(const DecodedGeometry& decoded, std::span<const int32_t> steps,
+                                 const Window& part) {
+  const Extent plane = decoded.extent();
+  const CutOut<int32_t> exact(steps, plane, part), heights(decoded.heights, plane, part);
+  const CutOut<uint8_t> valid(decoded.valid, plane, part);
+  return encodeExactSteps(exact.values(), {heights.values(), part.extent(), valid.values()},
+                          decoded.fraction_bits);
+}
+
+}  // namespace
+
+Corrected correct(const HeightSteps& steps, const GeometryHeader& header,
+                  const DecodedGeometry& decoded, int32_t largest, uint32_t threads) {
+  std::vector<int32_t> corrections = wholeSteps(decoded);
+  Corrected result;
+  bool any = false;
+  for (size_t i = 0; i < corrections.size(); ++i) {
+    const int64_t error = int64_t{steps.steps[i]} - corrections[i];
+    corrections[i] = nearestMultiple(error, largest);
+    any |= corrections[i] != 0;
+    const auto rest = static_cast<double>(error - corrections[i] * (2 * int64_t{largest} + 1));
+    result.before += static_cast<double>(error) * static_cast<double>(error);
+    result.after += rest * rest;
+  }
+  if (!any) return result;
+  result.codewords = encodeParts(header, threads, [&](const Window& part) {
+    return largest > 0 ? encodeWithinBound(decoded, corrections, part)
+                       : encodeExact(decoded, steps.steps, part);
+  });
+  return result;
 }
 
 /// Decodes a cut, from where the longest known cut ends that is no longer than it.
@@ -42,40 +87,15 @@ void CorrectedCut::forgetFarthest() {
 uint64_t CorrectedCut::total(uint64_t bytes) {
   const auto tried = totals_.find(bytes);
   if (tried != totals_.end()) return tried->second;
-  const uint64_t total = bytes + correct(bytes).codeword.size();
+  const uint64_t total = bytes + bytesOf(correct(bytes).codewords);
   if (totals_.empty() || total < totals_[shortest_]) shortest_ = bytes;
   totals_[bytes] = total;
   forgetFarthest();
   return total;
 }
 
-/// Corrections in units of 2 * largest + 1 steps.
-std::vector<uint8_t> CorrectedCut::withinBound(const DecodedGeometry& decoded,
-                                               std::span<const int32_t> corrections) const {
-  const std::vector<uint8_t> hints = activityHints(decoded);
-  return encodeCorrections(corrections, {hints, header_.extent(), steps_.valid});
-}
-
 Corrected CorrectedCut::correct(uint64_t bytes) {
-  const DecodedGeometry decoded = this->decoded(bytes);
-  std::vector<int32_t> corrections = wholeSteps(decoded);
-  Corrected result;
-  bool any = false;
-  for (size_t i = 0; i < corrections.size(); ++i) {
-    const int64_t error = int64_t{steps_.steps[i]} - corrections[i];
-    corrections[i] = nearestMultiple(error, largest_);
-    any |= corrections[i] != 0;
-    const auto rest = static_cast<double>(error - corrections[i] * (2 * int64_t{largest_} + 1));
-    result.before += static_cast<double>(error) * static_cast<double>(error);
-    result.after += rest * rest;
-  }
-  if (!any) return result;
-  result.codeword =
-      largest_ > 0
-          ? withinBound(decoded, corrections)
-          : encodeExactSteps(steps_.steps, {decoded.heights, header_.extent(), steps_.valid},
-                             decoded.fraction_bits);
-  return result;
+  return coding_choice::correct(steps_, header_, decoded(bytes), largest_, 1);
 }
 
 uint64_t CorrectedCut::bytesFor(double mean_square) const {

@@ -10,6 +10,7 @@
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
+#include "codec/geometry/corrections/correction_parts.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/geometry_decoder.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
@@ -21,9 +22,14 @@ int32_t nearestMultiple(int64_t q, int64_t largest);
 
 /// What corrections make of the heights that a cut leaves.
 struct Corrected {
-  std::vector<uint8_t> codeword;  ///< empty: nothing needs one
-  double before = 0, after = 0;   ///< squared errors in steps
+  PartCodewords codewords;       ///< of each part of the plane; empty: nothing needs one
+  double before = 0, after = 0;  ///< squared errors in steps
 };
+
+/// Corrections of decoded heights that leave a largest error, in steps. header: with its regions.
+/// threads: nothing depends on them.
+Corrected correct(const HeightSteps& steps, const GeometryHeader& header,
+                  const DecodedGeometry& decoded, int32_t largest, uint32_t threads);
 
 /// Tries cuts of one track of coefficients, complete or not. All arguments outlive it. It remembers
 /// what it has decoded of the cuts near the best one, so that others go on from there.
@@ -52,8 +58,6 @@ class CorrectedCut {
 
  private:
   DecodedGeometry decoded(uint64_t bytes);
-  std::vector<uint8_t> withinBound(const DecodedGeometry& decoded,
-                                   std::span<const int32_t> corrections) const;
   double cost(uint64_t bytes);
   void forgetFarthest();
 

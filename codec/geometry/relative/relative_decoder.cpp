@@ -50,9 +50,7 @@ void restoreRows(DecodedHeights& decoded, const GeometryHeader& header,
 
 DecodedHeights restoreRelative(DecodedHeights decoded, const GeometryHeader& header,
                                const RelativeSteps& relative, std::span<const uint8_t> codeword) {
-  assert(decoded.corrections.empty());
-  decoded.corrections.resize(decoded.geometry.heights.size());
-  decoded.geometry.quiet_levels = 0;
+  decoded.corrections.assign(decoded.geometry.heights.size(), 0);
   CorrectionReader reader(codeword);
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     restoreRows<decltype(type)>(decoded, header, relative, reader);

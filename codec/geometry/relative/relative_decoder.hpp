@@ -11,8 +11,8 @@
 namespace tetrakis::inline relative {
 
 /// The heights with the samples restored, row by row, as far as they are decided; meshes pass
-/// through these as well. decoded: first rows of the plane, whole, without corrections. codeword:
-/// any prefix of one that encodeRelative() made. relative: a finite and positive step, 1 to 4
+/// through these as well. decoded: first rows of what encodeRelative() coded, whole, without
+/// corrections. codeword: any prefix of its one. relative: a finite and positive step, 1 to 4
 /// quarters. Safe on any bytes.
 DecodedHeights restoreRelative(DecodedHeights decoded, const GeometryHeader& header,
                                const RelativeSteps& relative, std::span<const uint8_t> codeword);

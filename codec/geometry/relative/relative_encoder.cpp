@@ -27,18 +27,18 @@ int32_t multiplesBeside(const RelativePrediction& prediction, double sample, dou
 }
 
 template <class T>
-void writeRows(const T* samples, const PlaneView<const int32_t>& steps,
+void writeRows(const T* samples, const PlaneView<const int32_t>& steps, const Window& part,
                const GeometryHeader& header, const RelativeSteps& relative,
                CorrectionWriter& writer) {
-  const uint32_t width = steps.width;
+  const uint32_t width = part.width;
   KnownMultiples known(width, relative);
   CorrectionCoder multiples(width, kMultipleHints, writer), rests(width, kRestHints, writer);
-  for (uint32_t y = 0; y < steps.height; ++y) {
+  for (uint32_t y = 0; y < part.height; ++y) {
     known.nextRow();
     multiples.nextRow();
     rests.nextRow();
     for (uint32_t x = 0; x < width; ++x) {
-      const size_t i = size_t{y} * width + x;
+      const size_t i = (size_t{part.y} + y) * steps.width + part.x + x;
       if (!steps.valid[i]) continue;
       const auto near = static_cast<double>(restore<T>(header.base, header.step, steps.data[i]));
       const RelativePrediction prediction = known.predict(x, near);
@@ -56,13 +56,14 @@ void writeRows(const T* samples, const PlaneView<const int32_t>& steps,
 }  // namespace
 
 std::vector<uint8_t> encodeRelative(const tks_heights& samples, PlaneView<const int32_t> steps,
-                                    const GeometryHeader& header, const RelativeSteps& relative) {
+                                    const Window& part, const GeometryHeader& header,
+                                    const RelativeSteps& relative) {
   assert(samples.width == steps.width && samples.height == steps.height);
   assert(std::isfinite(relative.step) && relative.step > 0);
   CorrectionWriter writer;
   withSampleType(samples.sample, [&](auto type) {
     using T = decltype(type);
-    writeRows(static_cast<const T*>(samples.data), steps, header, relative, writer);
+    writeRows(static_cast<const T*>(samples.data), steps, part, header, relative, writer);
   });
   return writer.finish();
 }

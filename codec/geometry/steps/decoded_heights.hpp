@@ -15,7 +15,8 @@ struct DecodedGeometry {
   /// Heights in units of 2^-fraction_bits steps; 0 where samples are void.
   std::vector<int32_t> heights;
   int fraction_bits = 0;
-  /// 1 where the vertex of a sample has a non-zero coefficient. Empty if the view is a window.
+  /// 1 where the vertex of a sample has a non-zero coefficient. Empty in windows of corrected,
+  /// drawn and stored heights.
   std::vector<uint8_t> significant;
   std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
   /// How many of the finest levels of the view have no significant coefficient. 0 in a window.

@@ -105,8 +105,7 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
       made.push_back(candidateOf(*std::move(wide)));
     made.push_back(candidateOf(round(bound, largest)));
   }
-  const bool one_track = bound.options.region_log2 == 0;  // is cut, not many
-  if (ways.correct && one_track)
+  if (ways.correct)
     made.push_back(
         candidateOf(codeCorrected({bound.quantised, bound.purpose, bound.options, largest},
                                   {ways.mean_square, fewestOf(made)})));

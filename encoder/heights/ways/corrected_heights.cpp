@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "codec/geometry/height_layers.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/ways/cut_heights.hpp"
 
 namespace tetrakis::inline ways {
 
@@ -52,8 +54,8 @@ UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double eno
 /// account's own measure, which the audit corrects later.
 HeightLayers withCorrections(HeightLayers layers, const Corrected& corrected, int32_t largest,
                              double distortion) {
-  if (corrected.codeword.empty()) return layers;
-  layers.corrections = corrected.codeword;
+  if (corrected.codewords.empty()) return layers;
+  layers.corrections = corrected.codewords;
   layers.corrected_to = distortion * corrected.after / corrected.before;
   layers.layers.corrections = CorrectionKind::kSteps;
   layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
@@ -92,9 +94,34 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
   return *codeCut(heights, codeUncut(heights, choice, 0), target);
 }
 
+/// Codes the heights in regions. No cut is searched for: it leaves what cuts usually leave.
+CodedHeights codeInRegions(const Correctable& heights, const CutTarget& target) {
+  const QuantisedHeights& quantised = *heights.quantised;
+  HeightTarget lossy(heights.purpose);
+  lossy.mean_square = target.mean_square.value_or(usualCut(heights.largest));
+  CoefficientOptions options = heights.options;
+  options.enough = lossy.mean_square * quantised.counted();
+  CodedHeights coded = codeHeights(heights.quantised, lossy, options);
+  std::optional<CodedHeights> cut = cutAt(coded, options.enough);
+  if (cut) coded = *std::move(cut);
+  const DecodedHeights decoded = decodeHeights(
+      coded.header, coded.layers, codewordsOf(coded.tracks), {}, {options.threads, nullptr});
+  const Corrected corrected =
+      correct(quantised.steps, coded.header, decoded.geometry, heights.largest, options.threads);
+  if (corrected.codewords.empty()) return coded;
+  double left = 0;
+  for (const EncodedTrack& track : coded.tracks) left += track.points.back().distortion;
+  GeometryLayers layers = coded.layers;
+  layers.corrections = CorrectionKind::kSteps;
+  layers.correction_step = static_cast<uint32_t>(2 * heights.largest + 1);
+  return followedBy(std::move(coded), std::move(layers), corrected.codewords,
+                    left * corrected.after / corrected.before);
+}
+
 }  // namespace
 
 CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target) {
+  if (heights.options.region_log2 > 0) return codeInRegions(heights, target);
   const HeightSteps& steps = heights.quantised->steps;
   const PlaneView<const int32_t> plane = steps.lifting(extentOf(*heights.quantised->samples));
   return codeBeside(chooseFlatAreas(plane, heights.quantised->mayBeFlat(), cutPurpose(heights)),

@@ -16,8 +16,8 @@ namespace tetrakis::inline ways {
 struct Correctable {
   std::shared_ptr<const QuantisedHeights> quantised;  ///< without corrections
   Purpose purpose;                                    ///< of the coefficients
-  CoefficientOptions options;                         ///< of one track
-  int32_t largest = 0;                                ///< error, in steps, that corrections leave
+  CoefficientOptions options;
+  int32_t largest = 0;  ///< error, in steps, that corrections leave
 };
 
 /// What a cut is to be.

@@ -52,7 +52,7 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   CoefficientOptions options = heightOptions(inputs);
   auto whole = candidateOf(codeHeights(quantised, Purpose::kLossless, options));
   const HeightSteps& steps = quantised->steps;
-  if (whole.coded->tracks.size() > 1 || !steps.exact || !steps.table.empty()) return whole.coded;
+  if (!steps.exact || !steps.table.empty()) return whole.coded;
   if (!correctionsMayPay(*whole.coded)) return whole.coded;
   options.limit = whole.bytes();
   auto corrected =

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/heights/ways/relative_heights.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "codec/geometry/relative/relative_encoder.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/ways/cut_heights.hpp"
 #include "encoder/heights/ways/restored_heights.hpp"
-#include "ratecontrol/curves/track_order.hpp"
 
 namespace tetrakis::inline ways {
 
@@ -20,64 +19,10 @@ double squaresOfCut(const HeightSteps& steps, double relative_step) {
   return rmse * rmse;
 }
 
-/// The first bytes of a track: up to a point of its account.
-EncodedTrack firstOf(const EncodedTrack& whole, uint64_t bytes) {
-  EncodedTrack first = whole;
-  first.codeword.resize(bytes);
-  std::erase_if(first.points, [&](const RatePoint& point) { return point.bytes > bytes; });
-  first.complete = whole.complete && bytes == whole.codeword.size();
-  return first;
-}
-
-/// The heights cut where their squared error, in steps, falls to so much: what takes off most error
-/// a byte is kept of all tracks. Nothing if they do not come so far.
-std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
-  const auto is_near = [&](const RatePoint& point) { return point.distortion <= squares; };
-  CodedHeights cut = whole;
-  if (whole.tracks.size() == 1) {  // its packets are longer than its passes
-    const EncodedTrack& track = whole.tracks.front();
-    const auto end = std::find_if(track.points.begin(), track.points.end(), is_near);
-    if (end == track.points.end() || end->bytes < whole.layers.maskEnd()) return {};
-    cut.tracks.front() = firstOf(track, end->bytes);
-    return cut;
-  }
-  const OrderedTracks order = orderTracks(whole.accounted(), TrackOrder::kSlopes);
-  const auto end = std::find_if(order.points.begin(), order.points.end(), is_near);
-  if (end == order.points.end()) return {};
-  const Codewords kept = prefixAfter(whole.accounted(), order.packets, end->bytes);
-  if (kept.front().size() < whole.layers.maskEnd()) return {};
-  for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
-  return cut;
-}
-
-/// The tracks with the corrections behind the first one, which then leaves what all of them leave,
-/// until the corrections restore all samples.
-std::vector<EncodedTrack> tracksWithCorrections(std::vector<EncodedTrack> tracks,
-                                                const std::vector<uint8_t>& corrections) {
-  RatePoint left{0, QuantisedHeights::kInexact};
-  for (size_t i = 1; i < tracks.size(); ++i) {
-    const RatePoint last = tracks[i].points.back();
-    for (RatePoint& point : tracks[i].points) {
-      point.distortion -= last.distortion;
-      point.beyond -= last.beyond;
-    }
-    left.distortion += last.distortion;
-    left.beyond += last.beyond;
-  }
-  EncodedTrack& first = tracks.front();
-  for (RatePoint& point : first.points) {
-    point.distortion += left.distortion;
-    point.beyond += left.beyond;
-  }
-  first.codeword.insert(first.codeword.end(), corrections.begin(), corrections.end());
-  first.points.push_back({first.codeword.size(), 0});
-  return tracks;
-}
-
 /// The corrections behind what there is of the coefficients, and the pull that makes them short.
 struct RelativeCorrections {
   RelativeSteps relative;
-  std::vector<uint8_t> codeword;
+  PartCodewords codewords;
 };
 
 RelativeCorrections relativeCorrections(const CodedHeights& cut, double relative_step,
@@ -85,13 +30,15 @@ RelativeCorrections relativeCorrections(const CodedHeights& cut, double relative
   const HeightSteps shown = shownSteps(cut, threads);
   const auto pulled = [&](uint8_t quarters) {
     const RelativeSteps relative{relative_step, quarters};
-    return RelativeCorrections{
-        relative,
-        encodeRelative(*cut.quantised->samples, {shown.steps, cut.header.extent(), shown.valid},
-                       cut.header, relative)};
+    const PlaneView<const int32_t> steps(shown.steps, cut.header.extent(), shown.valid);
+    return RelativeCorrections{relative, encodeParts(cut.header, threads, [&](const Window& part) {
+                                 return encodeRelative(*cut.quantised->samples, steps, part,
+                                                       cut.header, relative);
+                               })};
   };
   RelativeCorrections all = pulled(4), quarter = pulled(1);
-  return quarter.codeword.size() < all.codeword.size() ? std::move(quarter) : std::move(all);
+  const bool less = bytesOf(quarter.codewords) < bytesOf(all.codewords);
+  return less ? std::move(quarter) : std::move(all);
 }
 
 CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint32_t threads) {
@@ -99,15 +46,9 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
   GeometryLayers layers = cut.layers;
   layers.corrections = CorrectionKind::kRelative;
   layers.relative = corrections.relative;
-  layers.coefficient_bytes = cut.tracks.front().codeword.size() - layers.besideCoefficients();
-  return {.quantised = cut.quantised,
-          .header = cut.header,
-          .layers = std::move(layers),
-          .tracks = tracksWithCorrections(std::move(cut.tracks), corrections.codeword),
-          .closing = corrections.codeword.size(),
-          .left = QuantisedHeights::kInexact,
-          .shown_void = cut.shown_void,
-          .flat = std::move(cut.flat)};
+  CodedHeights followed = followedBy(std::move(cut), std::move(layers), corrections.codewords, 0);
+  followed.left = QuantisedHeights::kInexact;
+  return followed;
 }
 
 }  // namespace
@@ -115,7 +56,8 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
 double relativeStepOf(const CodedHeights& lossy) {
   const QuantisedHeights& quantised = *lossy.quantised;
   const bool possible = !quantised.restored() && quantised.steps.table.empty() &&
-                        !lossy.header.direct() && lossy.closing == 0 && lossy.tracks.size() == 1;
+                        !lossy.header.direct() && !lossy.hasCorrections() &&
+                        lossy.tracks.size() == 1;
   return possible ? relativeStepOf(quantised) : 0;
 }
 

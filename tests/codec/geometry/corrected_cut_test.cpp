@@ -53,7 +53,7 @@ TEST_F(CorrectedCuts, RememberNothingThatIsNotSo) {
       const uint64_t bytes = any(random);
       CorrectedCut fresh = cuts(largest);
       ASSERT_EQ(remembering.total(bytes), fresh.total(bytes)) << bytes;
-      ASSERT_EQ(remembering.correct(bytes).codeword, fresh.correct(bytes).codeword) << bytes;
+      ASSERT_EQ(remembering.correct(bytes).codewords, fresh.correct(bytes).codewords) << bytes;
     }
   }
 }

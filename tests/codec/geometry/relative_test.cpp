@@ -69,8 +69,8 @@ std::vector<uint8_t> codewordOf(const samples::Raster& raster, const DecodedHeig
                                 const GeometryHeader& header, const RelativeSteps& relative) {
   const DecodedGeometry& geometry = near.geometry;
   const std::vector<int32_t> steps = wholeSteps(geometry);
-  return encodeRelative(heightsOf(raster), {steps, geometry.extent(), geometry.valid}, header,
-                        relative);
+  return encodeRelative(heightsOf(raster), {steps, geometry.extent(), geometry.valid},
+                        {0, 0, geometry.width, geometry.height}, header, relative);
 }
 
 GeometryHeader headerOf(tks_sample type) {

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/corrected_heights.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "bitstream/stream/correction_tracks.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
+#include "codec/geometry/corrections/exact_corrections_decoder.hpp"
+#include "codec/geometry/relative/relative_decoder.hpp"
+#include "codec/geometry/steps/height_samples.hpp"
+
+namespace tetrakis::inline geometry {
+
+namespace {
+
+/// The heights with corrections in units of so many steps.
+DecodedGeometry correctedSteps(DecodedGeometry geometry, uint32_t correction_step,
+                               std::span<const uint8_t> codeword) {
+  const std::vector<uint8_t> hints =
+      activityHints(geometry, {0, 0, geometry.width, geometry.height});
+  const uint32_t unit = correction_step << geometry.fraction_bits;
+  const auto add = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      int32_t& height = geometry.heights[first + x];
+      height = static_cast<int32_t>(static_cast<uint32_t>(height) +
+                                    static_cast<uint32_t>(row[x]) * unit);
+    }
+  };
+  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
+  return geometry;
+}
+
+/// The heights with corrections to whole steps: what a fraction is beside its sample is an error of
+/// the cut, which surfaces and meshes need not show.
+DecodedGeometry exactSteps(DecodedGeometry geometry, std::span<const uint8_t> codeword) {
+  const auto put = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      const uint32_t whole = static_cast<uint32_t>(row[x]) << geometry.fraction_bits;
+      geometry.heights[first + x] = static_cast<int32_t>(whole);
+    }
+  };
+  decodeExactSteps(codeword, {geometry.heights, geometry.extent(), geometry.valid},
+                   geometry.fraction_bits, put);
+  return geometry;
+}
+
+/// The heights with the corrections of samples that are decoded beside those that a table has made,
+/// if there is one.
+DecodedHeights correctedSamples(DecodedHeights decoded, const GeometryHeader& header,
+                                std::span<const uint8_t> codeword) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  const std::vector<uint8_t> hints = sampleHints(geometry.heights, geometry.fraction_bits, header);
+  std::vector<int32_t>& corrections = decoded.corrections;
+  corrections.resize(geometry.heights.size());
+  const auto add = [&](size_t first, std::span<const int32_t> row) {
+    for (size_t x = 0; x < row.size(); ++x) {
+      int32_t& sum = corrections[first + x];
+      sum = static_cast<int32_t>(static_cast<uint32_t>(sum) + static_cast<uint32_t>(row[x]));
+    }
+  };
+  decodeCorrections(codeword, {hints, geometry.extent(), geometry.valid}, add);
+  return decoded;
+}
+
+/// One part with its corrections, or its first rows.
+DecodedHeights correctedPart(DecodedHeights part, const GeometryHeader& header,
+                             const GeometryLayers& layers, std::span<const uint8_t> codeword) {
+  switch (layers.corrections) {
+    case CorrectionKind::kNone:
+      break;
+    case CorrectionKind::kSteps:
+      part.geometry = layers.correction_step > 1 ? correctedSteps(std::move(part.geometry),
+                                                                  layers.correction_step, codeword)
+                                                 : exactSteps(std::move(part.geometry), codeword);
+      break;
+    case CorrectionKind::kSamples:
+      return correctedSamples(std::move(part), header, codeword);
+    case CorrectionKind::kRelative:
+      return restoreRelative(std::move(part), header, layers.relative, codeword);
+  }
+  return part;
+}
+
+/// Puts what corrections change in a window of a plane.
+void put(const DecodedHeights& part, const Window& window, DecodedHeights& whole) {
+  const auto copy = [&](const std::vector<int32_t>& from, std::vector<int32_t>& to) {
+    for (uint32_t y = 0; y < window.height && !from.empty(); ++y) {
+      const auto row = from.begin() + static_cast<ptrdiff_t>(size_t{y} * window.width);
+      const size_t place = (size_t{window.y} + y) * whole.geometry.width + window.x;
+      std::copy_n(row, window.width, to.begin() + static_cast<ptrdiff_t>(place));
+    }
+  };
+  copy(part.geometry.heights, whole.geometry.heights);
+  copy(part.corrections, whole.corrections);
+}
+
+/// A part that a view shows.
+struct ShownPart {
+  Window window;  ///< in the view
+  std::span<const uint8_t> codeword;
+};
+
+std::vector<ShownPart> shownParts(const std::vector<Window>& parts,
+                                  const std::vector<std::span<const uint8_t>>& codewords,
+                                  const View& view, Extent shown) {
+  assert(codewords.size() == parts.size());
+  std::vector<ShownPart> some;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Window& part = parts[i];
+    const uint64_t x = uint64_t{part.x} - view.firstColumn(),
+                   y = uint64_t{part.y} - view.firstRow();
+    if (codewords[i].empty() || x >= shown.width || y >= shown.height) continue;
+    assert(x + part.width <= shown.width && y + part.height <= shown.height);
+    some.push_back({{static_cast<uint32_t>(x), static_cast<uint32_t>(y), part.width, part.height},
+                    codewords[i]});
+  }
+  return some;
+}
+
+/// The rectangle of whole parts around a window.
+Window partsAround(const std::vector<Window>& parts, const Window& window) {
+  uint32_t x0 = window.x, y0 = window.y, x1 = x0 + window.width, y1 = y0 + window.height;
+  for (const Window& part : parts) {
+    if (!part.meets(window)) continue;
+    x0 = std::min(x0, part.x);
+    y0 = std::min(y0, part.y);
+    x1 = std::max(x1, part.x + part.width);
+    y1 = std::max(y1, part.y + part.height);
+  }
+  return {x0, y0, x1 - x0, y1 - y0};
+}
+
+}  // namespace
+
+View correctedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {
+  if (!view.window || layers.corrections == CorrectionKind::kNone) return view;
+  if (correctionTracks(header, layers) > 0)
+    return {0,
+            partsAround(correctionParts(header.extent(), header.regions.side_log2), *view.window)};
+  // Hints of steps know the row below.
+  const uint32_t hints = layers.corrections == CorrectionKind::kSteps ? 1 : 0;
+  const uint32_t rows = std::min(view.window->y + view.window->height + hints, header.height);
+  if (rows == header.height) return {};
+  return {0, Window{0, 0, header.width, rows}};
+}
+
+DecodedHeights corrected(DecodedHeights decoded, const GeometryHeader& header,
+                         const GeometryLayers& layers,
+                         const std::vector<std::span<const uint8_t>>& codewords, const View& view,
+                         uint32_t threads) {
+  assert(view.level == 0);
+  if (correctionTracks(header, layers) == 0) {
+    decoded.geometry.quiet_levels = 0;
+    return correctedPart(std::move(decoded), header, layers, codewords.front());
+  }
+  const std::vector<ShownPart> parts =
+      shownParts(correctionParts(header.extent(), header.regions.side_log2), codewords, view,
+                 decoded.geometry.extent());
+  if (parts.empty()) return decoded;
+  decoded.geometry.quiet_levels = 0;
+  if (layers.restoresSamples()) decoded.corrections.resize(decoded.geometry.heights.size());
+  parallelFor(threads, parts.size(), [&](size_t i) {
+    const auto& [window, codeword] = parts[i];
+    put(correctedPart(windowOf(decoded, window), header, layers, codeword), window, decoded);
+  });
+  return decoded;
+}
+
+DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window) {
+  const DecodedGeometry& geometry = decoded.geometry;
+  const auto cut_out = [&]<class T>(const std::vector<T>& values) {
+    return cut(std::span<const T>(values), geometry.extent(), {0, window});
+  };
+  DecodedHeights part;
+  part.geometry.width = window.width;
+  part.geometry.height = window.height;
+  part.geometry.fraction_bits = geometry.fraction_bits;
+  part.geometry.heights = cut_out(geometry.heights);
+  part.geometry.significant = cut_out(geometry.significant);
+  part.geometry.valid = cut_out(geometry.valid);
+  part.corrections = cut_out(decoded.corrections);
+  return part;
+}
+
+std::vector<uint8_t> activityHints(const DecodedGeometry& geometry, const Window& part) {
+  assert(geometry.significant.size() == geometry.extent().samples());
+  const CutOut<uint8_t> cut_out(geometry.significant, geometry.extent(), part);
+  const std::span<const uint8_t> marks = cut_out.values();
+  const auto [width, height] = part.extent();
+  std::vector<uint8_t> hints(marks.begin(), marks.end());
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const size_t i = size_t{y} * width + x;
+      if (x > 0) hints[i] += marks[i - 1];
+      if (x + 1 < width) hints[i] += marks[i + 1];
+      if (y > 0) hints[i] += marks[i - width];
+      if (y + 1 < height) hints[i] += marks[i + width];
+    }
+  }
+  return hints;
+}
+
+}  // namespace tetrakis::inline geometry

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/heights/ways/cut_heights.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "encoder/heights/corrected_tracks.hpp"
+#include "ratecontrol/curves/track_order.hpp"
+
+namespace tetrakis::inline ways {
+
+namespace {
+
+/// The first bytes of a track: up to a point of its account.
+EncodedTrack firstOf(const EncodedTrack& whole, uint64_t bytes) {
+  EncodedTrack first = whole;
+  first.codeword.resize(bytes);
+  std::erase_if(first.points, [&](const RatePoint& point) { return point.bytes > bytes; });
+  first.complete = whole.complete && bytes == whole.codeword.size();
+  return first;
+}
+
+}  // namespace
+
+std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
+  const auto is_near = [&](const RatePoint& point) { return point.distortion <= squares; };
+  CodedHeights cut = whole;
+  if (whole.tracks.size() == 1) {  // its packets are longer than its passes
+    const EncodedTrack& track = whole.tracks.front();
+    const auto end = std::find_if(track.points.begin(), track.points.end(), is_near);
+    if (end == track.points.end() || end->bytes < whole.layers.maskEnd()) return {};
+    cut.tracks.front() = firstOf(track, end->bytes);
+    return cut;
+  }
+  const OrderedTracks order = orderTracks(whole.accounted(), TrackOrder::kSlopes);
+  const auto end = std::find_if(order.points.begin(), order.points.end(), is_near);
+  if (end == order.points.end()) return {};
+  const Codewords kept = prefixAfter(whole.accounted(), order.packets, end->bytes);
+  if (kept.front().size() < whole.layers.maskEnd()) return {};
+  for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
+  return cut;
+}
+
+CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
+                        const PartCodewords& corrections, double corrected_to) {
+  const uint64_t before = heights.tracks.front().codeword.size();
+  layers.coefficient_bytes = before - layers.besideCoefficients();
+  heights.layers = std::move(layers);
+  heights.tracks = tracksWithCorrections(std::move(heights.tracks), corrections, corrected_to);
+  heights.closing = heights.tracks.front().codeword.size() - before;
+  return heights;
+}
+
+}  // namespace tetrakis::inline ways
