@@ -4,8 +4,8 @@
 #include <string>
 
 #include "api/decoder.hpp"
+#include "api/gaps.hpp"
 #include "api/memory.hpp"
-#include "api/needed.hpp"
 #include "api/written.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
@@ -57,7 +57,7 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
   return decodeHeights(headerFor(decoder, *header.geometry, view), header.layers,
-                       decoder.packets.payload.codewordsOf(Component::kGeometry), view,
+                       heightTracksFor(decoder, view), view,
                        {decoder.threads, memoryOf(decoder, decoder.heights_memory, view)});
 }
 

@@ -1,81 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/needed.hpp"
-
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "api/memory.hpp"
+#include "api/needed_tracks.hpp"
 #include "api/ranges.hpp"
-#include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
-#include "codec/geometry/height_layers.hpp"
-#include "codec/lines/shown_lines.hpp"
-#include "wavelet/synthesis/view_synthesis.hpp"
-#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline api {
 
 namespace {
-
-/// For each track of coefficients, by its number, whether the view needs it.
-std::vector<bool> neededTracks(const auto& header, const View& view) {
-  const Pyramid pyramid(header.extent());
-  const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
-  const std::vector<Region> regions =
-      regionsOf(header.width, header.height, header.regions.side_log2);
-  std::vector<bool> needed(regions.size());
-  needed.front() = true;  // the component's opening and the coarsest levels
-  for (size_t i = 1; i < regions.size(); ++i) {
-    const std::vector<BandPart> parts = partsOf(pyramid.subbands(), regions[i]);
-    needed[i] = std::any_of(parts.begin(), parts.end(),
-                            [&](const BandPart& part) { return synthesis.needs(part); });
-  }
-  return needed;
-}
-
-/// The same for all tracks. view: of the lines that are shown.
-std::vector<bool> neededTracks(const StreamHeader& header, Component component, const View& view) {
-  if (component == Component::kTexture)
-    return neededTracks(*header.texture, codedView(*header.texture, view));
-  const GeometryHeader& geometry = *header.geometry;
-  const View lines = codedView(geometry, view);
-  std::vector<bool> needed = neededTracks(geometry, decodedView(geometry, header.layers, lines));
-  if (correctionTracks(geometry, header.layers) == 0) return needed;
-  const Window all{0, 0, geometry.width, geometry.height};
-  for (const Window& part : correctionParts(geometry.extent(), geometry.regions.side_log2))
-    needed.push_back(view.level == 0 && part.meets(lines.window.value_or(all)));
-  return needed;
-}
-
-/// How many bytes of coefficients that a view does not need are missing.
-uint64_t missingElsewhere(const tks_decoder& decoder, Component component, const View& view) {
-  const StreamHeader& header = decoder.parsed.header;
-  std::vector<bool> needed = neededTracks(header, component, view);
-  if (component == Component::kGeometry)
-    needed.resize(needed.size() - correctionTracks(*header.geometry, header.layers));
-  const auto elsewhere = [&](uint32_t track) { return track < needed.size() && !needed[track]; };
-  uint64_t bytes = 0;
-  const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
-  for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
-    const PacketHead& head = packet.entry.packet;
-    if (head.component() == component && elsewhere(head.track))
-      bytes += std::min(packet.end, end) - std::min(packet.payload, end);
-  }
-  for (const auto& [track, codeword] :
-       decoder.packets.payload.codewords[static_cast<size_t>(component)])
-    if (elsewhere(track)) bytes -= std::min<uint64_t>(bytes, codeword.size());
-  return bytes;
-}
-
-template <class Header>
-Header counted(const tks_decoder& decoder, const Header& header, Component component,
-               const View& view) {
-  Header result = header;
-  uint64_t& rounded = result.wavelet.rounded_bytes;
-  if (decoder.packets.has_gap && rounded > 0)
-    rounded -= std::min(rounded, missingElsewhere(decoder, component, view));
-  return result;
-}
 
 /// The view of a call for a part; meshes are made of everything.
 Result<View> viewOfPart(const tks_decoder& decoder, tks_part part, const tks_window* window) {
@@ -143,15 +78,6 @@ Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
 }
 
 }  // namespace
-
-GeometryHeader headerFor(const tks_decoder& decoder, const GeometryHeader& header,
-                         const View& view) {
-  return counted(decoder, header, Component::kGeometry, view);
-}
-
-TextureHeader headerFor(const tks_decoder& decoder, const TextureHeader& header, const View& view) {
-  return counted(decoder, header, Component::kTexture, view);
-}
 
 }  // namespace tetrakis::inline api
 

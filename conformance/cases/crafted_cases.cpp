@@ -3,6 +3,7 @@
 // Here are those of heights; wavelets and drawings have files of their own.
 #include <limits>
 
+#include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/lines/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
@@ -209,6 +210,22 @@ std::vector<VectorCase> repeatedCases() {
                   streamOf(texels, noise(900, 94)))};
 }
 
+/// Noise in regions: coefficients of all tracks, and corrections of all parts but the last.
+VectorCase correctionsInRegions(const std::string& name, const std::string& purpose,
+                                StreamHeader header, uint32_t seed) {
+  GeometryHeader& geometry = *header.geometry;
+  geometry.width = 40;
+  geometry.height = 33;
+  geometry.regions.side_log2 = 4;
+  header.layers.coefficient_bytes = 200;
+  std::vector<Bytes> tracks;
+  for (uint32_t i = 0; i + 1 < trackCounts(header)[0].tracks; ++i) {
+    const bool coefficients = i < coefficientTracks(geometry);
+    tracks.push_back(coefficients ? noise(i == 0 ? 230 : 60, seed + i) : noise(300, seed + i, 9));
+  }
+  return crafted(name, "noise: " + purpose, streamOf(header, tracks));
+}
+
 std::vector<VectorCase> correctionCases() {
   StreamHeader steps = heightsHeader(33, 21, TKS_I32, 12);
   steps.layers.corrections = CorrectionKind::kSteps;
@@ -218,28 +235,34 @@ std::vector<VectorCase> correctionCases() {
   append(codeword, noise(1500, 11, 9));
   StreamHeader exact = steps;
   exact.layers.correction_step = 1;
-  return {crafted("noise_exact_i32_33x21", "noise: exact corrections of all classes",
-                  streamOf(exact, codeword)),
-          crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
-                  streamOf(steps, codeword)),
-          correctionsOfNoise("noise_corrections_u32_30x20", "corrections of samples of all classes",
-                             sampleCorrections(TKS_U32, 1), 12),
-          correctionsOfNoise("noise_corrections_f32_30x20", "hints of floats of all sizes",
-                             sampleCorrections(TKS_F32, 1e-30), 14),
-          correctionsOfNoise("noise_hints_u8_30x20", "the largest hint",
-                             sampleCorrections(TKS_U8, 1e100), 16),
-          correctionsOfNoise("noise_subnormal_30x20", "hints of floats without an exponent",
-                             sampleCorrections(TKS_F32, 0x1p-137, 13), 24),
-          correctionsOfNoise("noise_hints_f32_30x20", "the smallest hints",
-                             sampleCorrections(TKS_F32, 1, 28), 18),
-          correctionsOfNoise("noise_relative_f32_30x20", "relative steps of floats",
-                             relativeCorrections(TKS_F32, {0.7, 1}), 91),
-          correctionsOfNoise("noise_relative_u8_30x20", "relative steps of bytes",
-                             relativeCorrections(TKS_U8, {2.5, 3}), 92),
-          correctionsOfNoise("noise_relative_i32_30x20", "relative steps beyond the type",
-                             relativeCorrections(TKS_I32, {0x1p1000, 4}), 93),
-          correctionsOfNoise("noise_relative_tiny_30x20", "the smallest relative steps",
-                             relativeCorrections(TKS_F32, {0x1p-1074, 2}), 94)};
+  return {
+      crafted("noise_exact_i32_33x21", "noise: exact corrections of all classes",
+              streamOf(exact, codeword)),
+      crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
+              streamOf(steps, codeword)),
+      correctionsInRegions("noise_exact_regions_40x33", "exact corrections of regions", exact, 120),
+      correctionsInRegions("noise_steps_regions_40x33", "corrections of steps, of regions", steps,
+                           140),
+      correctionsInRegions("noise_relative_regions_40x33", "relative steps of regions",
+                           relativeCorrections(TKS_F32, {0.7, 1}), 160),
+      correctionsOfNoise("noise_corrections_u32_30x20", "corrections of samples of all classes",
+                         sampleCorrections(TKS_U32, 1), 12),
+      correctionsOfNoise("noise_corrections_f32_30x20", "hints of floats of all sizes",
+                         sampleCorrections(TKS_F32, 1e-30), 14),
+      correctionsOfNoise("noise_hints_u8_30x20", "the largest hint",
+                         sampleCorrections(TKS_U8, 1e100), 16),
+      correctionsOfNoise("noise_subnormal_30x20", "hints of floats without an exponent",
+                         sampleCorrections(TKS_F32, 0x1p-137, 13), 24),
+      correctionsOfNoise("noise_hints_f32_30x20", "the smallest hints",
+                         sampleCorrections(TKS_F32, 1, 28), 18),
+      correctionsOfNoise("noise_relative_f32_30x20", "relative steps of floats",
+                         relativeCorrections(TKS_F32, {0.7, 1}), 91),
+      correctionsOfNoise("noise_relative_u8_30x20", "relative steps of bytes",
+                         relativeCorrections(TKS_U8, {2.5, 3}), 92),
+      correctionsOfNoise("noise_relative_i32_30x20", "relative steps beyond the type",
+                         relativeCorrections(TKS_I32, {0x1p1000, 4}), 93),
+      correctionsOfNoise("noise_relative_tiny_30x20", "the smallest relative steps",
+                         relativeCorrections(TKS_F32, {0x1p-1074, 2}), 94)};
 }
 
 /// base + q · step for few q, of which some are the declared nodata value.

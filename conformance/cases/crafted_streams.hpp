@@ -33,15 +33,24 @@ inline Bytes varint(uint64_t value) {
 }
 
 /// The header, and one packet that holds all of a component's first codeword.
-inline Bytes streamOf(StreamHeader header, const Bytes& codeword) {
+/// codewords: of the first tracks of the only component, each of which is one packet.
+inline Bytes streamOf(StreamHeader header, const std::vector<Bytes>& codewords) {
   const uint64_t component = header.geometry ? 0 : 1;
-  Bytes payload = varint(uint64_t{codeword.size()} << 2 | component);
-  payload.push_back(0);
-  append(payload, codeword);
+  Bytes payload;
+  for (size_t track = 0; track < codewords.size(); ++track) {
+    append(payload, varint(uint64_t{codewords[track].size()} << 2 | component));
+    if (trackCounts(header)[component].named) append(payload, varint(track));
+    payload.push_back(0);
+    append(payload, codewords[track]);
+  }
   header.payload_bytes = payload.size();
   Bytes stream = writeHeader(header);
   append(stream, payload);
   return stream;
+}
+
+inline Bytes streamOf(const StreamHeader& header, const Bytes& codeword) {
+  return streamOf(header, std::vector<Bytes>{codeword});
 }
 
 inline VectorCase crafted(const std::string& name, const std::string& purpose, Bytes stream) {

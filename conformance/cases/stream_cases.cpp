@@ -55,11 +55,17 @@ std::vector<VectorCase> regionCases() {
       heightsCase("regions_coast_gridless_60x41", "regions beside validity and corrections",
                   {Pattern::kRidges, 60, 41, 1, TKS_F32}, inRegions(lossless(), 16));
   corrected.gridless = true;
-  return {heightsCase("regions_groups_200x70", "two groups of regions below the base",
-                      {Pattern::kSteps, 200, 70, 1, TKS_U8}, inRegions(budget(1500), 16)),
-          heightsCase("regions_long_150x9", "regions side by side; a last one that is longer",
-                      {Pattern::kRidges, 150, 9, 1, TKS_I16}, inRegions(lossless(), 32)),
-          joint, budgeted, withVoids(corrected, samples::VoidShape::kCoast, NAN)};
+  return {
+      heightsCase("regions_groups_200x70", "two groups of regions below the base",
+                  {Pattern::kSteps, 200, 70, 1, TKS_U8}, inRegions(budget(1500), 16)),
+      heightsCase("regions_long_150x9", "regions side by side; a last one that is longer",
+                  {Pattern::kRidges, 150, 9, 1, TKS_I16}, inRegions(lossless(), 32)),
+      joint,
+      budgeted,
+      withVoids(corrected, samples::VoidShape::kCoast, NAN),
+      withVoids(heightsCase("regions_coast_bounded_64x50", "corrections of steps, of regions",
+                            {Pattern::kRidges, 64, 50, 1, TKS_I16}, inRegions(maxError(1500), 16)),
+                samples::VoidShape::kCoast, -32768)};
 }
 
 /// Coefficients have priorities, by what a camera sees.

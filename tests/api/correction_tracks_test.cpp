@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights in regions whose corrections are tracks of their own.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "bitstream/stream/correction_tracks.hpp"
+#include "bitstream/stream/indexed_packets.hpp"
+#include "conformance/samples/offset_heights.hpp"
+#include "tests/support/stream_fixture.hpp"
+#include "tests/support/window_checks.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+constexpr uint32_t kWidth = 150, kHeight = 140;
+
+struct CorrectedCase {
+  std::string name;
+  Raster heights;
+  double max_error;  ///< 0: lossless
+  CorrectionKind kind;
+};
+
+/// A smooth surface in whole steps: exact corrections take fewer bytes than its last bit-planes.
+Raster smoothSteps() {
+  Raster raster = make({Pattern::kRidges, kWidth, kHeight, 1, TKS_I16});
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+    const double x = i % kWidth, y = i / kWidth;
+    const auto step = static_cast<int16_t>(
+        std::lround(900 + 70 * std::sin(x / 19 + y / 43) + 50 * std::cos(y / 17) + x));
+    std::memcpy(raster.data.data() + 2 * size_t{i}, &step, 2);
+  }
+  return raster;
+}
+
+Raster roots() {
+  Raster raster = make({Pattern::kRidges, kWidth, kHeight, 1, TKS_F32});
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+    const auto root = static_cast<float>(std::sqrt(sampleAt(raster.data, TKS_F32, i) + 1) * 9);
+    std::memcpy(raster.data.data() + 4 * size_t{i}, &root, 4);
+  }
+  return raster;
+}
+
+Raster aboveGeoid() {
+  Raster whole = make({Pattern::kRidges, kWidth, kHeight, 1, TKS_U16, 3});
+  for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
+    const auto step = static_cast<uint16_t>(sampleAt(whole.data, TKS_U16, i) / 64);
+    std::memcpy(whole.data.data() + 2 * i, &step, 2);
+  }
+  return samples::withOffsets(whole, samples::OffsetKind::kGeoid);
+}
+
+std::vector<CorrectedCase> cases() {
+  return {{"exact", smoothSteps(), 0, CorrectionKind::kSteps},
+          {"bounded", make({Pattern::kRidges, kWidth, kHeight, 1, TKS_U16}), 1500,
+           CorrectionKind::kSteps},
+          {"gridless", roots(), 0, CorrectionKind::kSamples},
+          {"geoid", aboveGeoid(), 0, CorrectionKind::kRelative}};
+}
+
+Bytes encodeCase(const CorrectedCase& corrected, uint32_t threads = 1) {
+  tks_encode_options options = inRegions(lossless(), 32);
+  if (corrected.max_error > 0) {
+    options.lossless = 0;
+    options.max_error = corrected.max_error;
+  }
+  options.index = TKS_INDEX_PACKETS;
+  options.threads = threads;
+  return encode(&corrected.heights, nullptr, options);
+}
+
+double largestError(const Raster& heights, const std::vector<std::byte>& decoded) {
+  double largest = 0;
+  for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
+    const double error =
+        sampleAt(heights.data, heights.sample, i) - sampleAt(decoded, heights.sample, i);
+    largest = std::max(largest, std::abs(error));
+  }
+  return largest;
+}
+
+TEST(CorrectionTracks, KeepWhatWasPromised) {
+  for (const CorrectedCase& corrected : cases()) {
+    SCOPED_TRACE(corrected.name);
+    const Bytes bytes = encodeCase(corrected);
+    const auto parsed = readHeader(bytes);
+    ASSERT_TRUE(parsed.ok());
+    EXPECT_EQ(parsed->header.layers.corrections, corrected.kind);
+    EXPECT_EQ(correctionTracks(*parsed->header.geometry, parsed->header.layers), 20u);
+    EXPECT_LE(largestError(corrected.heights, Stream(bytes).heights()), corrected.max_error);
+    EXPECT_TRUE(encodeCase(corrected, 3) == bytes) << "threads";
+  }
+}
+
+TEST(CorrectionTracks, WindowsFit) {
+  for (const CorrectedCase& corrected : cases()) {
+    SCOPED_TRACE(corrected.name);
+    expectWindows(encodeCase(corrected));
+  }
+}
+
+/// Corrections come behind all coefficients, so that no prefix corrects what is still to change.
+TEST(CorrectionTracks, ComeLast) {
+  for (const CorrectedCase& corrected : cases()) {
+    SCOPED_TRACE(corrected.name);
+    const auto parsed = readHeader(encodeCase(corrected));
+    ASSERT_TRUE(parsed.ok());
+    const uint64_t coefficients = coefficientTracks(*parsed->header.geometry);
+    const auto of_corrections = [&](const IndexEntry& entry) {
+      return entry.packet.track >= coefficients;
+    };
+    EXPECT_TRUE(std::is_partitioned(parsed->header.index.begin(), parsed->header.index.end(),
+                                    [&](const auto& entry) { return !of_corrections(entry); }));
+    EXPECT_TRUE(of_corrections(parsed->header.index.back()));
+  }
+}
+
+/// While coefficients lack a packet, the corrections that are there are not used.
+TEST(CorrectionTracks, WaitForTheirCoefficients) {
+  for (const CorrectedCase& corrected : cases()) {
+    SCOPED_TRACE(corrected.name);
+    const Bytes bytes = encodeCase(corrected);
+    const auto parsed = readHeader(bytes);
+    ASSERT_TRUE(parsed.ok());
+    const uint64_t coefficients = coefficientTracks(*parsed->header.geometry);
+    const IndexedPackets packets(parsed->header, parsed->bytes);
+    std::vector<IndexedPacket> list;
+    for (const IndexedPacket& packet : packets) list.push_back(packet);
+    const auto is_last = [&](const IndexedPacket& p) {
+      return p.entry.packet.track < coefficients;
+    };
+    const size_t missing = static_cast<size_t>(
+        std::find_if(list.rbegin(), list.rend(), is_last).base() - list.begin() - 1);
+    Stream some(Prefix(bytes).first(parsed->bytes)), without(Prefix(bytes).first(parsed->bytes));
+    for (size_t i = 0; i < list.size(); ++i) {
+      if (i == missing) continue;
+      const IndexedPacket& p = list[i];
+      const auto put = [&](Stream& stream) {
+        ASSERT_EQ(tks_put(stream.get(), p.begin, bytes.data() + p.begin, p.end - p.begin), TKS_OK);
+      };
+      put(some);
+      if (p.entry.packet.track < coefficients) put(without);
+    }
+    EXPECT_TRUE(some.heights() == without.heights());
+    const IndexedPacket& p = list[missing];
+    ASSERT_EQ(tks_put(some.get(), p.begin, bytes.data() + p.begin, p.end - p.begin), TKS_OK);
+    EXPECT_LE(largestError(corrected.heights, some.heights()), corrected.max_error);
+  }
+}
+
+TEST(CorrectionTracks, CostLittle) {
+  for (const CorrectedCase& corrected : cases()) {
+    SCOPED_TRACE(corrected.name);
+    tks_encode_options options = inRegions(lossless(), 1);
+    options.lossless = corrected.max_error == 0;
+    options.max_error = corrected.max_error;
+    const size_t one = encode(&corrected.heights, nullptr, options).size();
+    EXPECT_LT(encodeCase(corrected).size(), one + one / 4 + 1500);  // 20 regions and their index
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test
