@@ -81,7 +81,7 @@ Status makeVectors(const std::string& directory) {
 }  // namespace tetrakis::conformance
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
+  if (argc != 2 || argv[1][0] == '-') {
     std::cerr << "usage: make_vectors OUTDIR\n";
     return TKS_USAGE;
   }

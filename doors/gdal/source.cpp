@@ -239,10 +239,7 @@ uint32_t Source::coarsestLevel() const {
 }
 
 uint32_t Source::regionSide() const {
-  if (part_ == TKS_PART_TEXTURE) return info_.texture_regions;
-  // Corrections lie in one codeword: windows of such streams take all of it (tetrakis.h).
-  const bool corrected = info_.max_error > 0 || (info_.lossless && !info_.exact_steps);
-  return corrected ? 0 : info_.regions;
+  return part_ == TKS_PART_TEXTURE ? info_.texture_regions : info_.regions;
 }
 
 bool Source::decodeLevel(uint32_t level, std::vector<std::byte>& out) {

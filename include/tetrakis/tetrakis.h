@@ -389,10 +389,9 @@ typedef struct tks_window {
 
 /* These write what tks_decode_heights, _surface and _texture would write in the window, and nothing
  * else: window->width * window->height samples, row by row. The window must lie inside and hold a
- * sample, else TKS_USAGE. Of a stream in regions they decode only those that reach the window. With
- * corrections they decode more: those that reach the window's rows or any rows before them
- * (corrections of floats that no step restores), or all regions (corrections to a largest error).
- * */
+ * sample, else TKS_USAGE. Of a stream in regions they decode only those that reach the window; with
+ * corrections (of a largest error, or of samples that no step restores) those that reach the
+ * regions that it meets. */
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
 tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
