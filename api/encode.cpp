@@ -96,13 +96,18 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
     return misuse("The weights of the texture are unknown.");
   if (o.index < TKS_INDEX_NONE || o.index > TKS_INDEX_WINDOWS)
     return misuse("The kind of index is unknown.");
-  if (o.index == TKS_INDEX_WINDOWS && o.lossless == 0) {
-    return misuse(
-        "Only a lossless stream is laid out for windows: a shorter one would lack whole "
-        "regions.");
-  }
   if (o.camera_count > 0 && o.cameras == nullptr) return misuse("The cameras are missing.");
   return {};
+}
+
+/// Streams for windows hold all that there is: a texture beside heights within a largest error is
+/// cut where it is as good as these.
+Status checkWindows(const tks_encode_options& o, bool has_texture) {
+  const bool whole = o.lossless != 0 || (o.max_error > 0 && !has_texture);
+  if (o.index != TKS_INDEX_WINDOWS || whole) return {};
+  return misuse(
+      "Only a lossless stream, or heights alone within a largest error, are laid out for windows: "
+      "a shorter stream would lack whole regions.");
 }
 
 /// The caller's structs as this library knows them, checked.
@@ -125,6 +130,7 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   constexpr size_t kTargets = offsetof(tks_encode_options, threads);
   Status status = takeSized("encoding options", *options, kTargets, out.options);
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
+  if (status.ok()) status = checkWindows(out.options, image != nullptr);
   if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
   if (status.ok() && image != nullptr) {
     status = takeSized("texture", *image, offsetof(tks_image, geotransform), out.image);

@@ -171,7 +171,7 @@ typedef enum tks_index {
                             region by region within one */
   TKS_INDEX_WINDOWS = 2  /* an index; each region lies in one piece, so that windows take few
                             requests, but a prefix has some regions and lacks others. Only of
-                            lossless streams */
+                            lossless streams, and of heights alone within max_error */
 } tks_index;
 
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
@@ -188,7 +188,7 @@ typedef struct tks_encode_options {
   uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
   uint32_t regions;  /* side of the regions by which windows can be decoded, in samples of either
                         component: a power of two from 16 to 2^20; 1: none, which tks_info calls 0;
-                        0: chosen, none with max_error or up to 1025 x 1025 heights, 2048² texels */
+                        0: chosen, none up to 1025 x 1025 heights, 2048² texels */
   int index;         /* tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;

@@ -139,6 +139,22 @@ TEST(NeededRanges, LieTogetherWhereTheIndexIsForWindows) {
   EXPECT_EQ(tks_encode(&source, nullptr, &cut, &none, nullptr, 0), TKS_USAGE);
 }
 
+/// Heights within a largest error are whole, too; beside them a texture would be cut.
+TEST(NeededRanges, OfBoundedHeightsFollowTheWindow) {
+  const samples::Raster heights = ridges(200, 150, TKS_U16),
+                        image = samples::make({samples::Pattern::kRidges, 40, 30, 3, TKS_U8});
+  tks_encode_options options = forWindows();
+  options.lossless = 0;
+  options.max_error = 500;
+  const Bytes bytes = encodeRegions(&heights, nullptr, options);
+  EXPECT_EQ(Stream(bytes).info().index, TKS_INDEX_WINDOWS);
+  expectWindows(bytes, TKS_PART_HEIGHTS, 200, 150);
+  tks_buffer none = {};
+  const tks_heights source = heights.heights();
+  const tks_image texture = image.image();
+  EXPECT_EQ(tks_encode(&source, &texture, &options, &none, nullptr, 0), TKS_USAGE);
+}
+
 TEST(NeededRanges, OfLevelsLeaveOutTheFinestRegions) {
   const samples::Raster heights = ridges(201, 170, TKS_I16),
                         image = samples::make({samples::Pattern::kRidges, 180, 150, 3, TKS_U8});

@@ -53,7 +53,8 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
   verb.add_flag(
       "--windows", arguments.windows,
-      "With --lossless: an index, and each region in one piece, for windows over a network");
+      "With --lossless or --max-error: an index, and each region in one piece, for windows over "
+      "a network");
 }
 
 void addDescription(CLI::App& verb, EncodeArguments& arguments) {

@@ -248,8 +248,9 @@ def encode(
     How it is coded
         triangles: meshes will have at most so many. weights: "psnr", or "visual" for the eye.
         regions: side in samples of the regions by which windows decode, a power of two from 16;
-            1: none; chosen unless given. index: write where every packet lies; "windows" (lossless
-            only) also lays each region out in one piece, for windows over a network.
+            1: none; chosen unless given. index: write where every packet lies; "windows" (lossless,
+            or heights alone within max_error) also lays each region out in one piece, for windows
+            over a network.
         threads: how many may work; the bytes never depend on it.
         progress: called with a number from 0 to 1, from the threads that work; true stops. What it
             raises, `encode` raises.
