@@ -19,8 +19,7 @@ namespace {
 /// The heights with corrections in units of so many steps.
 DecodedGeometry correctedSteps(DecodedGeometry geometry, uint32_t correction_step,
                                std::span<const uint8_t> codeword) {
-  const std::vector<uint8_t> hints =
-      activityHints(geometry, {0, 0, geometry.width, geometry.height});
+  const std::vector<uint8_t> hints = activityHints(geometry.significant, geometry.extent());
   const uint32_t unit = correction_step << geometry.fraction_bits;
   const auto add = [&](size_t first, std::span<const int32_t> row) {
     for (size_t x = 0; x < row.size(); ++x) {
@@ -185,19 +184,17 @@ DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window) {
   return part;
 }
 
-std::vector<uint8_t> activityHints(const DecodedGeometry& geometry, const Window& part) {
-  assert(geometry.significant.size() == geometry.extent().samples());
-  const CutOut<uint8_t> cut_out(geometry.significant, geometry.extent(), part);
-  const std::span<const uint8_t> marks = cut_out.values();
-  const auto [width, height] = part.extent();
-  std::vector<uint8_t> hints(marks.begin(), marks.end());
+std::vector<uint8_t> activityHints(std::span<const uint8_t> significant, Extent extent) {
+  assert(significant.size() == extent.samples());
+  const auto [width, height] = extent;
+  std::vector<uint8_t> hints(significant.begin(), significant.end());
   for (uint32_t y = 0; y < height; ++y) {
     for (uint32_t x = 0; x < width; ++x) {
       const size_t i = size_t{y} * width + x;
-      if (x > 0) hints[i] += marks[i - 1];
-      if (x + 1 < width) hints[i] += marks[i + 1];
-      if (y > 0) hints[i] += marks[i - width];
-      if (y + 1 < height) hints[i] += marks[i + width];
+      if (x > 0) hints[i] += significant[i - 1];
+      if (x + 1 < width) hints[i] += significant[i + 1];
+      if (y > 0) hints[i] += significant[i - width];
+      if (y + 1 < height) hints[i] += significant[i + width];
     }
   }
   return hints;

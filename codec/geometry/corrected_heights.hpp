@@ -27,8 +27,8 @@ DecodedHeights corrected(DecodedHeights decoded, const GeometryHeader& header,
 /// The window of heights of a larger view, without its marks of vertices where it has none.
 DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window);
 
-/// Returns the hints (codec/geometry/corrections/corrections_pass.hpp) of corrections of steps in a
-/// part: how many of a vertex and its four neighbours there are significant.
-std::vector<uint8_t> activityHints(const DecodedGeometry& geometry, const Window& part);
+/// Returns the hints (codec/geometry/corrections/corrections_pass.hpp) of corrections of steps: how
+/// many of a vertex and its four neighbours are significant. significant: of the samples of a part.
+std::vector<uint8_t> activityHints(std::span<const uint8_t> significant, Extent extent);
 
 }  // namespace tetrakis::inline geometry

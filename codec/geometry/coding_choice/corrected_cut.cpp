@@ -26,7 +26,8 @@ std::vector<uint8_t> encodeWithinBound(const DecodedGeometry& decoded,
   const Extent plane = decoded.extent();
   const CutOut<int32_t> of_part(corrections, plane, part);
   const CutOut<uint8_t> valid(decoded.valid, plane, part);
-  const std::vector<uint8_t> hints = activityHints(decoded, part);
+  const CutOut<uint8_t> significant(decoded.significant, plane, part);
+  const std::vector<uint8_t> hints = activityHints(significant.values(), part.extent());
   return encodeCorrections(of_part.values(), {hints, part.extent(), valid.values()});
 }
 
