@@ -64,7 +64,7 @@ bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
 }
 
 bool canBeCorrected(const CodedHeights& heights) {
-  return hasLosslessWay(heights) && heights.tracks.size() == 1 && heights.quantised->table.empty();
+  return hasLosslessWay(heights) && heights.quantised->table.empty();
 }
 
 /// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
@@ -74,8 +74,7 @@ constexpr double kExactCut = 0.3;
 constexpr double kSharedExactCut = 0.5;
 
 /// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
-/// of the lossy heights. Corrections come behind all coefficients: windows of heights in regions
-/// would need all of these. Where samples are on no grid the way of fewer bytes is taken.
+/// of the lossy heights. Where samples are on no grid the way of fewer bytes is taken.
 /// relative_step: of the lossy heights, or 0.
 std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
                                              const HeightsCandidate& lossy, double relative_step,
@@ -92,8 +91,8 @@ std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
   }
   if (!hasLosslessWay(*lossy.coded)) return {};
   if (canBeCorrected(*lossy.coded)) {
-    HeightsCandidate corrected = candidateOf(codeCorrected(inputs, *lossy.coded, kExactCut));
-    if (corrected.bytes() < room) return corrected;
+    std::optional<CodedHeights> corrected = codeCorrected(inputs, *lossy.coded, kExactCut);
+    if (corrected && bytesOf(corrected->tracks) < room) return candidateOf(*std::move(corrected));
   }
   HeightsCandidate whole = codeLossless(inputs, *lossy.coded);
   if (whole.bytes() >= room) return {};
@@ -206,8 +205,10 @@ std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const Height
       add(candidateOf(*std::move(relative)));
   }
   if (canBeRestored(*lossy.coded)) add(candidateOf(codeRestored(inputs, *lossy.coded)));
-  if (canBeCorrected(*lossy.coded))
-    add(candidateOf(codeCorrected(inputs, *lossy.coded, kSharedExactCut)));
+  if (canBeCorrected(*lossy.coded)) {
+    if (auto corrected = codeCorrected(inputs, *lossy.coded, kSharedExactCut))
+      add(candidateOf(*std::move(corrected)));
+  }
   if (hasLosslessWay(*lossy.coded)) add(codeLossless(inputs, *lossy.coded));
   return ways;
 }

@@ -42,7 +42,8 @@ Raster smoothSteps() {
 Raster roots() {
   Raster raster = make({Pattern::kRidges, kWidth, kHeight, 1, TKS_F32});
   for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
-    const auto root = static_cast<float>(std::sqrt(sampleAt(raster.data, TKS_F32, i) + 1) * 9);
+    const auto root =
+        static_cast<float>(std::sqrt(std::abs(sampleAt(raster.data, TKS_F32, i)) + 1) * 9);
     std::memcpy(raster.data.data() + 4 * size_t{i}, &root, 4);
   }
   return raster;
@@ -163,6 +164,26 @@ TEST(CorrectionTracks, CostLittle) {
     options.max_error = corrected.max_error;
     const size_t one = encode(&corrected.heights, nullptr, options).size();
     EXPECT_LT(encodeCase(corrected).size(), one + one / 4 + 1500);  // 20 regions and their index
+  }
+}
+
+/// A budget that lossless heights have room in ends exact, and its prefixes are those of a smaller
+/// one.
+TEST(CorrectionTracks, EndBudgetsThatHaveRoom) {
+  for (const CorrectedCase& corrected : cases()) {
+    if (corrected.max_error > 0) continue;
+    SCOPED_TRACE(corrected.name);
+    const size_t lossless_bytes = encodeCase(corrected).size();
+    const Bytes ample = encode(&corrected.heights, nullptr,
+                               inRegions(budget(2 * lossless_bytes + 20000), 32)),
+                little =
+                    encode(&corrected.heights, nullptr, inRegions(budget(lossless_bytes / 4), 32));
+    EXPECT_EQ(Stream(ample).info().lossless, 1);
+    EXPECT_LT(ample.size(), lossless_bytes * 3 / 2);
+    EXPECT_EQ(largestError(corrected.heights, Stream(ample).heights()), 0);
+    const double cut =
+        squaredError(corrected.heights, Stream(Prefix(ample).first(little.size())).heights());
+    EXPECT_LT(cut, 1.1 * squaredError(corrected.heights, Stream(little).heights()));
   }
 }
 

@@ -94,6 +94,22 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
   return *codeCut(heights, codeUncut(heights, choice, 0), target);
 }
 
+/// Heights in regions with corrections behind them; as they are if nothing is off.
+CodedHeights followedByCorrections(CodedHeights cut, int32_t largest, uint32_t threads) {
+  const DecodedHeights decoded =
+      decodeHeights(cut.header, cut.layers, codewordsOf(cut.tracks), {}, {threads, nullptr});
+  const Corrected corrected =
+      correct(cut.quantised->steps, cut.header, decoded.geometry, largest, threads);
+  if (corrected.codewords.empty()) return cut;
+  double left = 0;
+  for (const EncodedTrack& track : cut.tracks) left += track.points.back().distortion;
+  GeometryLayers layers = cut.layers;
+  layers.corrections = CorrectionKind::kSteps;
+  layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
+  return followedBy(std::move(cut), std::move(layers), corrected.codewords,
+                    left * corrected.after / corrected.before);
+}
+
 /// Codes the heights in regions. No cut is searched for: it leaves what cuts usually leave.
 CodedHeights codeInRegions(const Correctable& heights, const CutTarget& target) {
   const QuantisedHeights& quantised = *heights.quantised;
@@ -103,19 +119,8 @@ CodedHeights codeInRegions(const Correctable& heights, const CutTarget& target) 
   options.enough = lossy.mean_square * quantised.counted();
   CodedHeights coded = codeHeights(heights.quantised, lossy, options);
   std::optional<CodedHeights> cut = cutAt(coded, options.enough);
-  if (cut) coded = *std::move(cut);
-  const DecodedHeights decoded = decodeHeights(
-      coded.header, coded.layers, codewordsOf(coded.tracks), {}, {options.threads, nullptr});
-  const Corrected corrected =
-      correct(quantised.steps, coded.header, decoded.geometry, heights.largest, options.threads);
-  if (corrected.codewords.empty()) return coded;
-  double left = 0;
-  for (const EncodedTrack& track : coded.tracks) left += track.points.back().distortion;
-  GeometryLayers layers = coded.layers;
-  layers.corrections = CorrectionKind::kSteps;
-  layers.correction_step = static_cast<uint32_t>(2 * heights.largest + 1);
-  return followedBy(std::move(coded), std::move(layers), corrected.codewords,
-                    left * corrected.after / corrected.before);
+  return followedByCorrections(cut ? *std::move(cut) : std::move(coded), heights.largest,
+                               options.threads);
 }
 
 }  // namespace
@@ -128,11 +133,16 @@ CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target) 
                     heights, target);
 }
 
-CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut) {
-  assert(lossy.tracks.size() == 1 && lossy.quantised->steps.exact &&
-         lossy.quantised->table.empty());
-  const Correctable heights{lossy.quantised, Purpose::kLossy, heightOptions(inputs)};
-  return codeBeside({lossy.flat, lossy.header.wavelet}, heights, {cut * cut});
+std::optional<CodedHeights> codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy,
+                                          double rmse) {
+  assert(lossy.quantised->steps.exact && lossy.quantised->table.empty());
+  if (lossy.tracks.size() == 1) {
+    const Correctable heights{lossy.quantised, Purpose::kLossy, heightOptions(inputs)};
+    return codeBeside({lossy.flat, lossy.header.wavelet}, heights, {rmse * rmse});
+  }
+  std::optional<CodedHeights> cut = cutAt(lossy, rmse * rmse * lossy.counted());
+  if (!cut) return {};
+  return followedByCorrections(*std::move(cut), 0, inputs.options.threads);
 }
 
 }  // namespace tetrakis::inline ways

@@ -31,8 +31,9 @@ struct CutTarget {
 CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target);
 
 /// Lossy heights cut at an RMSE, in steps, and corrections of all that are still off. Prefixes up
-/// to the cut are those of the lossy heights, and the end is exact. lossy: of one track, of exact
-/// steps without a table.
-CodedHeights codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy, double cut);
+/// to the cut are those of the lossy heights, and the end is exact. Nothing if heights in regions
+/// do not come so far. lossy: of exact steps without a table.
+std::optional<CodedHeights> codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy,
+                                          double rmse);
 
 }  // namespace tetrakis::inline ways

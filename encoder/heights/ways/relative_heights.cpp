@@ -56,8 +56,7 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
 double relativeStepOf(const CodedHeights& lossy) {
   const QuantisedHeights& quantised = *lossy.quantised;
   const bool possible = !quantised.restored() && quantised.steps.table.empty() &&
-                        !lossy.header.direct() && !lossy.hasCorrections() &&
-                        lossy.tracks.size() == 1;
+                        !lossy.header.direct() && !lossy.hasCorrections();
   return possible ? relativeStepOf(quantised) : 0;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/heights/ways/restored_heights.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <memory>
 #include <utility>
@@ -24,15 +25,18 @@ HeightSteps shownSteps(const CodedHeights& heights, uint32_t threads) {
 bool canBeRestored(const CodedHeights& lossy) {
   const QuantisedHeights& quantised = *lossy.quantised;
   return !quantised.steps.exact && !quantised.restored() && quantised.steps.table.empty() &&
-         !lossy.header.direct() && !lossy.hasCorrections() && lossy.tracks.size() == 1 &&
-         lossy.tracks.front().complete;
+         !lossy.header.direct() && !lossy.hasCorrections() &&
+         std::all_of(lossy.tracks.begin(), lossy.tracks.end(),
+                     [](const EncodedTrack& track) { return track.complete; });
 }
 
 CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy) {
   assert(canBeRestored(lossy));
-  const HeightSteps shown = shownSteps(lossy, inputs.options.threads);
-  const auto quantised = std::make_shared<const QuantisedHeights>(
-      withCorrections(*lossy.quantised, correctionsBehind(*lossy.quantised, shown, 0, 1)));
+  const uint32_t threads = inputs.options.threads;
+  const HeightSteps shown = shownSteps(lossy, threads);
+  const auto quantised = std::make_shared<const QuantisedHeights>(withCorrections(
+      *lossy.quantised,
+      correctionsBehind(*lossy.quantised, shown, lossy.header.regions.side_log2, threads)));
   GeometryLayers layers = lossy.layers;
   layers.corrections = CorrectionKind::kSamples;
   CodedHeights heights = lossy;

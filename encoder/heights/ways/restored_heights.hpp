@@ -12,8 +12,8 @@ namespace tetrakis::inline ways {
 /// What decoders make of all bytes, in whole steps.
 HeightSteps shownSteps(const CodedHeights& heights, uint32_t threads);
 
-/// Whether lossy heights can be followed by corrections of the samples: they are coded whole, in
-/// one track, and are no lossless heights yet.
+/// Whether lossy heights can be followed by corrections of the samples: they are coded whole, and
+/// are no lossless heights yet.
 bool canBeRestored(const CodedHeights& lossy);
 
 /// The heights with their coefficients as they are and the corrections behind them. lossy:
