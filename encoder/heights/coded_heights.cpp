@@ -7,7 +7,7 @@
 
 #include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
 #include "codec/geometry/stored_heights_encoder.hpp"
-#include "encoder/heights/corrected_tracks.hpp"
+#include "encoder/heights/followed_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "ratecontrol/curves/hull.hpp"
 #include "wavelet/priority_map_encoder.hpp"
@@ -138,7 +138,6 @@ HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
                           const PriorityMap* priorities) {
   HeightLayers layers{
       .layers = heights.layers,
-      .corrections = heights.corrections,
       .wavelet = choice.wavelet,
       .priorities = priorities != nullptr ? headerOf(*priorities) : PriorityHeader(),
       .flat = std::move(choice.flat)};
@@ -179,7 +178,6 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
   EncodedTrack first = std::move(coefficients.front());
   GeometryHeader header = headerOf(heights, layers, first.planes);
   header.regions.side_log2 = static_cast<uint8_t>(region_log2);
-  if (!layers.corrections.empty()) described.coefficient_bytes = first.codeword.size();
   if (!heights.table.empty()) {
     described.table_after = bytesBeforeTable(first, heights.table.size(), heights.without_table);
     among.push_back({described.table_after, heights.table, heights.without_table});
@@ -189,21 +187,16 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
   for (auto layer = among.rbegin(); layer != among.rend(); ++layer)
     first = withLayer(std::move(first), *layer);
   coefficients.front() = behindOpening(heights, layers, first);
-  uint64_t closing = 0;
-  if (!layers.corrections.empty()) {
-    const uint64_t before = coefficients.front().codeword.size();
-    coefficients =
-        tracksWithCorrections(std::move(coefficients), layers.corrections, layers.corrected_to);
-    closing = coefficients.front().codeword.size() - before;
-  }
-  return {.quantised = std::move(quantised),
-          .header = std::move(header),
-          .layers = std::move(described),
-          .tracks = std::move(coefficients),
-          .closing = closing,
-          .left = heights.left,
-          .shown_void = shown_void,
-          .flat = layers.flat};
+  const PartCodewords& corrections = heights.corrections;
+  CodedHeights coded{.quantised = quantised,
+                     .header = std::move(header),
+                     .layers = described,
+                     .tracks = std::move(coefficients),
+                     .left = heights.left,
+                     .shown_void = shown_void,
+                     .flat = layers.flat};
+  if (corrections.empty()) return coded;
+  return followedBy(std::move(coded), std::move(described), corrections, 0);
 }
 
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,

@@ -55,9 +55,7 @@ struct CodedHeights {
 /// The layers around coefficients, and how these are coded.
 struct HeightLayers {
   GeometryLayers layers;
-  std::span<const std::vector<uint8_t>> corrections;  ///< PartCodewords; empty: none
-  double corrected_to = 0;                            ///< the squared error that corrections leave
-  MaskRoom mask_room = {};                            ///< of a late mask
+  MaskRoom mask_room = {};  ///< of a late mask
   WaveletHeader wavelet;
   PriorityHeader priorities;
   FlatLayer flat = {};
@@ -78,9 +76,9 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            CoefficientOptions options);
 
-/// Validity and flat areas before the coefficients of the first track, corrections behind them, a
-/// table within them, where its bytes take off as much error as theirs, and a late mask.
-/// region_log2: what the coefficients were coded with.
+/// Validity and flat areas before the coefficients of the first track, a table within them, where
+/// its bytes take off as much error as theirs, and a late mask; the corrections that the heights
+/// come with behind them. region_log2: what the coefficients were coded with.
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
                         const HeightLayers& layers, std::vector<EncodedTrack> coefficients,
                         int region_log2);

@@ -7,6 +7,7 @@
 
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/height_layers.hpp"
+#include "encoder/heights/followed_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/cut_heights.hpp"
 
@@ -50,16 +51,17 @@ UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double eno
   return {std::move(layers), std::move(track), may_go_on};
 }
 
-/// The layers with corrections to a largest error. distortion: of the cut before them, in the
-/// account's own measure, which the audit corrects later.
-HeightLayers withCorrections(HeightLayers layers, const Corrected& corrected, int32_t largest,
-                             double distortion) {
-  if (corrected.codewords.empty()) return layers;
-  layers.corrections = corrected.codewords;
-  layers.corrected_to = distortion * corrected.after / corrected.before;
-  layers.layers.corrections = CorrectionKind::kSteps;
-  layers.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
-  return layers;
+/// The heights with corrections to a largest error behind them; as they are if nothing is off. What
+/// corrections leave is told in the account's own measure, which the audit corrects later.
+CodedHeights followedBy(CodedHeights cut, const Corrected& corrected, int32_t largest) {
+  if (corrected.codewords.empty()) return cut;
+  double left = 0;
+  for (const EncodedTrack& track : cut.tracks) left += track.points.back().distortion;
+  GeometryLayers layers = cut.layers;
+  layers.corrections = CorrectionKind::kSteps;
+  layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
+  return heights::followedBy(std::move(cut), std::move(layers), corrected.codewords,
+                             left * corrected.after / corrected.before);
 }
 
 /// The heights with the best cut of the coefficients; nothing if that comes near their end and they
@@ -74,11 +76,9 @@ std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeigh
       target.mean_square ? cut.bytesFor(*target.mean_square) : cut.best(target.rival);
   const bool near = kNear * static_cast<double>(bytes) > static_cast<double>(track.codeword.size());
   if (near && may_go_on) return {};
-  const Corrected corrected = cut.correct(bytes);
-  const double distortion = distortionAt(track.points, bytes);
-  return joinLayers(heights.quantised,
-                    withCorrections(layers, corrected, heights.largest, distortion),
-                    {cutAt(track, bytes)}, heights.options.region_log2);
+  CodedHeights coded =
+      joinLayers(heights.quantised, layers, {cutAt(track, bytes)}, heights.options.region_log2);
+  return followedBy(std::move(coded), cut.correct(bytes), heights.largest);
 }
 
 /// Codes the heights beside flat areas. Coding ends at a small part of the error that cuts usually
@@ -94,20 +94,13 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
   return *codeCut(heights, codeUncut(heights, choice, 0), target);
 }
 
-/// Heights in regions with corrections behind them; as they are if nothing is off.
-CodedHeights followedByCorrections(CodedHeights cut, int32_t largest, uint32_t threads) {
+/// Heights in regions with corrections behind them.
+CodedHeights withCorrections(CodedHeights cut, int32_t largest, uint32_t threads) {
   const DecodedHeights decoded =
       decodeHeights(cut.header, cut.layers, codewordsOf(cut.tracks), {}, {threads, nullptr});
   const Corrected corrected =
       correct(cut.quantised->steps, cut.header, decoded.geometry, largest, threads);
-  if (corrected.codewords.empty()) return cut;
-  double left = 0;
-  for (const EncodedTrack& track : cut.tracks) left += track.points.back().distortion;
-  GeometryLayers layers = cut.layers;
-  layers.corrections = CorrectionKind::kSteps;
-  layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
-  return followedBy(std::move(cut), std::move(layers), corrected.codewords,
-                    left * corrected.after / corrected.before);
+  return followedBy(std::move(cut), corrected, largest);
 }
 
 /// Codes the heights in regions. No cut is searched for: it leaves what cuts usually leave.
@@ -119,8 +112,8 @@ CodedHeights codeInRegions(const Correctable& heights, const CutTarget& target) 
   options.enough = lossy.mean_square * quantised.counted();
   CodedHeights coded = codeHeights(heights.quantised, lossy, options);
   std::optional<CodedHeights> cut = cutAt(coded, options.enough);
-  return followedByCorrections(cut ? *std::move(cut) : std::move(coded), heights.largest,
-                               options.threads);
+  return withCorrections(cut ? *std::move(cut) : std::move(coded), heights.largest,
+                         options.threads);
 }
 
 }  // namespace
@@ -142,7 +135,7 @@ std::optional<CodedHeights> codeCorrected(const EncodeInputs& inputs, const Code
   }
   std::optional<CodedHeights> cut = cutAt(lossy, rmse * rmse * lossy.counted());
   if (!cut) return {};
-  return followedByCorrections(*std::move(cut), 0, inputs.options.threads);
+  return withCorrections(*std::move(cut), 0, inputs.options.threads);
 }
 
 }  // namespace tetrakis::inline ways

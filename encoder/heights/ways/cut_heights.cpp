@@ -2,9 +2,7 @@
 #include "encoder/heights/ways/cut_heights.hpp"
 
 #include <algorithm>
-#include <utility>
 
-#include "encoder/heights/corrected_tracks.hpp"
 #include "ratecontrol/curves/track_order.hpp"
 
 namespace tetrakis::inline ways {
@@ -39,16 +37,6 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
   if (kept.front().size() < whole.layers.maskEnd()) return {};
   for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
   return cut;
-}
-
-CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
-                        const PartCodewords& corrections, double corrected_to) {
-  const uint64_t before = heights.tracks.front().codeword.size();
-  layers.coefficient_bytes = before - layers.besideCoefficients();
-  heights.layers = std::move(layers);
-  heights.tracks = tracksWithCorrections(std::move(heights.tracks), corrections, corrected_to);
-  heights.closing = heights.tracks.front().codeword.size() - before;
-  return heights;
 }
 
 }  // namespace tetrakis::inline ways

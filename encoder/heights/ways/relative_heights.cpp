@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "codec/geometry/relative/relative_encoder.hpp"
+#include "encoder/heights/followed_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/cut_heights.hpp"
 #include "encoder/heights/ways/restored_heights.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "codec/geometry/height_layers.hpp"
-#include "encoder/heights/ways/cut_heights.hpp"
+#include "encoder/heights/followed_heights.hpp"
 
 namespace tetrakis::inline ways {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/corrected_tracks.hpp"
+#include "encoder/heights/followed_heights.hpp"
 
 #include <cassert>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace tetrakis::inline heights {
 
@@ -24,11 +25,9 @@ RatePoint takeRest(std::vector<EncodedTrack>& tracks) {
   return rest;
 }
 
-}  // namespace
-
-std::vector<EncodedTrack> tracksWithCorrections(std::vector<EncodedTrack> tracks,
-                                                std::span<const std::vector<uint8_t>> corrections,
-                                                double corrected_to) {
+/// One codeword lies at the end of the first track, several are tracks of their own.
+std::vector<EncodedTrack> withCorrections(std::vector<EncodedTrack> tracks,
+                                          const PartCodewords& corrections, double corrected_to) {
   assert(!corrections.empty());
   const RatePoint rest = takeRest(tracks);
   if (corrections.size() == 1) {
@@ -41,8 +40,7 @@ std::vector<EncodedTrack> tracksWithCorrections(std::vector<EncodedTrack> tracks
     first.points.push_back({first.codeword.size(), corrected_to});
     return tracks;
   }
-  double all = 0;
-  for (const auto& codeword : corrections) all += static_cast<double>(codeword.size());
+  const auto all = static_cast<double>(bytesOf(corrections));
   for (const std::vector<uint8_t>& codeword : corrections) {
     EncodedTrack track{codeword, {}, tracks.front().planes};
     const double share = all > 0 ? static_cast<double>(codeword.size()) / all : 0;
@@ -51,6 +49,18 @@ std::vector<EncodedTrack> tracksWithCorrections(std::vector<EncodedTrack> tracks
     tracks.push_back(std::move(track));
   }
   return tracks;
+}
+
+}  // namespace
+
+CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
+                        const PartCodewords& corrections, double corrected_to) {
+  const uint64_t before = heights.tracks.front().codeword.size();
+  layers.coefficient_bytes = before - layers.besideCoefficients();
+  heights.layers = std::move(layers);
+  heights.tracks = withCorrections(std::move(heights.tracks), corrections, corrected_to);
+  heights.closing = heights.tracks.front().codeword.size() - before;
+  return heights;
 }
 
 }  // namespace tetrakis::inline heights

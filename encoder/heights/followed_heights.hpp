@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Corrections follow the coefficients of coded heights: at the end of the first track, or, of
+// heights in regions, in tracks of their own (bitstream/stream/correction_tracks.hpp).
+#pragma once
+
+#include "codec/geometry/corrections/correction_parts.hpp"
+#include "encoder/heights/coded_heights.hpp"
+
+namespace tetrakis::inline heights {
+
+/// heights: without corrections. layers: theirs, with what the header says of corrections.
+/// corrections: the codeword of each part of the plane. corrected_to: the squared error, in steps,
+/// that they leave.
+CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
+                        const PartCodewords& corrections, double corrected_to);
+
+}  // namespace tetrakis::inline heights
