@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """bench/kinds runs this: kinds.py OUT FOLDER... From the middle 512 x 512 samples of each
 FOLDER/**/height.tif it makes files as such heights come in, OUT/TERRAIN_KIND/height.tif, for
-bench/lossless. Needs NumPy and GDAL's Python module; GDAL decodes LERC."""
+bench/lossless. Needs NumPy, SciPy and GDAL's Python module; GDAL decodes LERC."""
 
 import sys
 import tempfile
@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from osgeo import gdal
+from scipy import interpolate, ndimage
 
 gdal.UseExceptions()
 SIDE, FOOT, VOID = 512, 0.3048, -32768
@@ -84,6 +85,48 @@ def strips(heights):
     return np.where(gaps, VOID, np.round(heights)).astype(np.int16)
 
 
+def triangulated(heights, samples_a_point):
+    """Linear between points that lie anywhere."""
+    last = np.array(heights.shape) - 1
+    corners = np.array([[0, 0], [0, 1], [1, 0], [1, 1]])
+    anywhere = np.random.default_rng(3).random((heights.size // samples_a_point, 2))
+    points = np.concatenate([corners, anywhere]) * last
+    values = ndimage.map_coordinates(heights, points.T, order=1)
+    rows, columns = np.indices(heights.shape)
+    return interpolate.LinearNDInterpolator(points, values)(rows, columns)
+
+
+def nearest(heights, degrees, across, along):
+    """Whole metres, turned and stretched by nearest neighbours, as warping does by default."""
+    middle_y, middle_x = (side / 2 for side in heights.shape)
+    rows, columns = np.indices(heights.shape)
+    y, x, angle = rows - middle_y, columns - middle_x, np.deg2rad(degrees)
+    from_y = (np.sin(angle) * x + np.cos(angle) * y) * along + middle_y
+    from_x = (np.cos(angle) * x - np.sin(angle) * y) * across + middle_x
+    places = [
+        np.clip(np.round(place), 0, side - 1).astype(int)
+        for place, side in zip((from_y, from_x), heights.shape)
+    ]
+    return np.round(heights)[places[0], places[1]].astype(np.int16)
+
+
+def resampled(heights):
+    """As floats come out of a filter."""
+    return ndimage.gaussian_filter(heights, 1)
+
+
+def beside(heights, other):
+    """The left half beside the right half of others."""
+    middle_column = heights.shape[1] // 2
+    return np.concatenate([heights[:, :middle_column], other[:, middle_column:]], axis=1)
+
+
+def in_patches(heights, other):
+    """Patches of both, as of surveys of different years."""
+    patches = ndimage.gaussian_filter(np.random.default_rng(4).normal(size=heights.shape), 40) > 0
+    return np.where(patches, heights, other)
+
+
 KINDS = {
     "feet": lambda h: (np.round(h / FOOT) * FOOT).astype(np.float32),
     "feet_whole_metres": lambda h: np.round(np.round(h / FOOT) * FOOT).astype(np.int16),
@@ -102,6 +145,20 @@ KINDS = {
     "holes_1_percent": lambda h: with_holes(h, 0.01),
     "holes_20_percent": lambda h: with_holes(h, 0.2),
     "strips": strips,
+    "tin_20": lambda h: np.round(triangulated(h, 20)).astype(np.int16),
+    "tin_150": lambda h: np.round(triangulated(h, 150)).astype(np.int16),
+    "tin_1000": lambda h: np.round(triangulated(h, 1000)).astype(np.int16),
+    "tin_20_floats": lambda h: triangulated(h, 20).astype(np.float32),
+    "tin_150_floats": lambda h: triangulated(h, 150).astype(np.float32),
+    "tin_1000_floats": lambda h: triangulated(h, 1000).astype(np.float32),
+    "terraces": lambda h: (np.floor(h / 15) * 15).astype(np.int16),
+    "smoothed": lambda h: np.round(ndimage.gaussian_filter(h, 6)).astype(np.int16),
+    "smoothed_decimetres": lambda h: np.round(ndimage.gaussian_filter(h, 3), 1).astype(np.float32),
+    "turned": lambda h: nearest(h, 23, 0.68, 0.68),
+    "warped": lambda h: nearest(h, 1.1, 0.82, 1),
+    "metres_beside_tens": lambda h: beside(np.round(h), np.round(h / 10) * 10).astype(np.int16),
+    "metres_and_tens": lambda h: in_patches(np.round(h), np.round(h / 10) * 10).astype(np.int16),
+    "metres_and_floats": lambda h: in_patches(np.round(h), resampled(h)).astype(np.float32),
 }
 
 

@@ -14,7 +14,7 @@ namespace tetrakis::samples {
 enum class FewValues : uint8_t {
   kFeet,      ///< f32: whole feet written as metres
   kRescaled,  ///< f32: 8 bits stretched by 2.09, in decimal fractions that no float holds
-  kRare,      ///< f32: whole metres, of which one in a hundred was interpolated
+  kRare,      ///< f32: whole feet in metres, of which one in a hundred was interpolated
   kStretched  ///< u16: the square roots of the heights, over the whole range
 };
 inline constexpr FewValues kFewValues[] = {FewValues::kFeet, FewValues::kRescaled, FewValues::kRare,
@@ -26,7 +26,7 @@ inline float floatOf(FewValues kind, uint8_t v, uint32_t sample) {
   if (kind == FewValues::kRescaled) return std::floor(static_cast<float>(v) * 20.9f) * kTenth;
   const uint32_t random = hash(sample, 7, 51);
   const bool rare = random % 100 == 0;
-  return static_cast<float>(v) + (rare ? static_cast<float>(random >> 16) / 65536 : 0);
+  return static_cast<float>(v) * kFoot + (rare ? static_cast<float>(random >> 16) / 65536 : 0);
 }
 
 /// heights: u8.

@@ -65,12 +65,14 @@ enum class Kind {
   kNegativeZeros,
   kGeoid,
   kSquares,
+  kMosaic,
   kCount
 };
 
 constexpr std::array<const char*, static_cast<size_t>(Kind::kCount)> kKindNames = {
-    "ground",  "half flat", "lakes",  "stripes", "two values",     "checker", "constant",
-    "outlier", "noise",     "sparse", "feet",    "negative zeros", "geoid",   "squares"};
+    "ground",  "half flat",      "lakes",   "stripes", "two values",
+    "checker", "constant",       "outlier", "noise",   "sparse",
+    "feet",    "negative zeros", "geoid",   "squares", "mosaic"};
 
 /// What a sample type makes of ground whose values are from 0 to 65535.
 double scaled(tks_sample sample, double ground) {
@@ -160,12 +162,20 @@ class Ground {
         return above(samples::OffsetKind::kGeoid, x, y, ground);
       case Kind::kSquares:
         return above(samples::OffsetKind::kSquares, x, y, ground);
+      case Kind::kMosaic:
+        return mosaic(x / 24 + y / 24, ground);
       default:
         return scaled(sample_, ground);
     }
   }
 
  private:
+  /// Whole numbers beside others.
+  double mosaic(uint32_t patch, double ground) const {
+    const double whole = scaled(sample_, ground);
+    if (sample_ != TKS_F32 || (patch & 1) == 0) return whole;
+    return static_cast<double>(static_cast<float>(std::sqrt(ground + 1) * 17));
+  }
   double oddValue(Dice& dice) const {
     const Bounds bounds = boundsOf(sample_);
     if (sample_ != TKS_F32) return dice.once(2) ? bounds.low : bounds.high;

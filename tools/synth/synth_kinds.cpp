@@ -102,6 +102,18 @@ Storage raise(const Task& task) {
   return {.sample = TKS_F32, .step = 1, .voids = {}};
 }
 
+/// Patches of two surveys: one in whole metres, one that knows more.
+Storage join(const Task& task) {
+  const double extent = task.size - 1;
+  Grid& height = task.relief.height;
+  height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
+    const Point p = task.samples(x, y);
+    const double patch = fractal(task.seed + 20, {4 * p.x / extent, 4 * p.y / extent}, 3);
+    return patch > 0 ? height.at(x, y) : std::floor(height.at(x, y) + 0.5);
+  });
+  return {.sample = TKS_F32, .step = 1, .voids = {}};
+}
+
 /// What is left of a map of 8 bits, stretched to its range and then to metres with three decimals;
 /// the samples that an editor has interpolated lie between its values.
 Storage rescale(const Task& task) {
@@ -220,6 +232,8 @@ Storage reshape(Relief& relief, SynthKind kind, uint32_t size, uint64_t seed) {
       return layer(task);
     case SynthKind::kGeoid:
       return raise(task);
+    case SynthKind::kMosaic:
+      return join(task);
   }
   return {};
 }

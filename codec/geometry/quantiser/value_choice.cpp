@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "base/samples.hpp"
+#include "codec/geometry/quantiser/exact_bits.hpp"
 #include "codec/geometry/quantiser/value_gaps.hpp"
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
-#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline quantiser {
 
@@ -80,25 +80,6 @@ class Values {
   std::vector<Value> values_;
 };
 
-/// Corrections of samples: how many are not 0, and the bits that their magnitudes take.
-struct Exceptions {
-  size_t count = 0;
-  double magnitude_bits = 0;
-
-  void add(uint32_t correction, size_t samples) {
-    const auto signed_one = static_cast<double>(static_cast<int32_t>(correction));
-    count += samples;
-    magnitude_bits += static_cast<double>(samples) * (1 + std::log2(1 + std::abs(signed_one)));
-  }
-  /// The bits of the corrections that are not 0, and of their places among all samples.
-  double bits(size_t samples) const {
-    const double share = static_cast<double>(count) / static_cast<double>(samples);
-    if (count == 0 || count == samples) return magnitude_bits;
-    const double entropy = -share * std::log2(share) - (1 - share) * std::log2(1 - share);
-    return magnitude_bits + static_cast<double>(samples) * entropy;
-  }
-};
-
 /// bits: the geometric mean of its own and of what its prefixes make of them.
 struct Candidate {
   HeightSteps steps;
@@ -134,7 +115,7 @@ class TableChoice {
   std::optional<HeightSteps> best() {
     sortValues();
     Candidate best;
-    best.bits = bitsOfMultiples() * kClearly;
+    best.bits = exactBits(heights_, multiples_) * kClearly;
     for (const uint32_t least : {1u, 2u, 4u}) {
       const size_t rare = rarerThan(least);
       if (rare > samples_ / kSamplesForAnException) break;
@@ -166,21 +147,6 @@ class TableChoice {
     return rare;
   }
 
-  double bitsOfMultiples() const {
-    double bits = bitsOf(multiples_);
-    if (multiples_.exact) return bits;
-    Exceptions exceptions;
-    for (const int32_t correction : sampleCorrections(heights_, multiples_)) {
-      if (correction != 0) exceptions.add(static_cast<uint32_t>(correction), 1);
-    }
-    return bits + exceptions.bits(samples_);
-  }
-
-  double bitsOf(const HeightSteps& steps) const {
-    return losslessBits({steps.steps, {heights_.width, heights_.height}, steps.valid},
-                        steps.range_bits);
-  }
-
   /// The table of the values that so many samples have at least. All others get the place of the
   /// next smaller value that is in it.
   Candidate tableOf(uint32_t least) const {
@@ -205,7 +171,7 @@ class TableChoice {
     describe(place, out.steps);
     out.steps.exact = exceptions.count == 0;
     const double table_bits = 8.0 * static_cast<double>(encodeValueTable(out.steps.table).size());
-    const double bits = bitsOf(out.steps) + table_bits + exceptions.bits(samples_);
+    const double bits = bitsOfSteps(heights_, out.steps) + table_bits + exceptions.bits(samples_);
     const double uneven = gaps.unevenness(samples) * static_cast<double>(samples_);
     out.bits = std::sqrt(bits * (bits + uneven));
     return out;

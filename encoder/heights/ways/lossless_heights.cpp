@@ -62,12 +62,15 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 
-/// Whether the steps need not be tried: by the estimate, their coefficients alone take more bytes.
+/// Whether the steps need not be tried: by the estimate, their coefficients alone clearly take more
+/// bytes. Of few bits a sample it is often too much by a fifth.
 bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
+  constexpr double kClearly = 1.25;
   const HeightSteps& steps = quantised.steps;
   if (!steps.table.empty()) return false;
   const PlaneView<const int32_t> plane = steps.lifting(extentOf(*quantised.samples));
-  return typicalCost(plane, steps.range_bits, 0).bits / 8 > static_cast<double>(bytes);
+  const double estimated = typicalCost(plane, steps.range_bits, 0).bits / 8;
+  return estimated > kClearly * static_cast<double>(bytes);
 }
 
 /// Samples with a relative step mostly take far fewer bytes from it.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// About how many bits heights take to the last bit. Encoder only.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "codec/geometry/quantiser/height_steps.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline quantiser {
+
+/// Corrections of samples: how many are not 0, and the bits that their magnitudes take.
+struct Exceptions {
+  size_t count = 0;
+  double magnitude_bits = 0;
+
+  void add(uint32_t correction, size_t samples) {
+    const auto signed_one = static_cast<double>(static_cast<int32_t>(correction));
+    count += samples;
+    magnitude_bits += static_cast<double>(samples) * (1 + std::log2(1 + std::abs(signed_one)));
+  }
+  /// The bits of the corrections that are not 0, and of their places among all samples.
+  double bits(size_t samples) const {
+    const double share = static_cast<double>(count) / static_cast<double>(samples);
+    if (count == 0 || count == samples) return magnitude_bits;
+    const double entropy = -share * std::log2(share) - (1 - share) * std::log2(1 - share);
+    return magnitude_bits + static_cast<double>(samples) * entropy;
+  }
+};
+
+/// The coefficients of steps, without what restores samples behind them.
+double bitsOfSteps(const tks_heights& heights, const HeightSteps& steps);
+
+/// The steps, multiples of `step`, and the corrections that restore the samples.
+double exactBits(const tks_heights& heights, const HeightSteps& steps);
+
+}  // namespace tetrakis::inline quantiser

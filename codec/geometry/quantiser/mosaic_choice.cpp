@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/quantiser/mosaic_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/status.hpp"
+#include "codec/geometry/quantiser/exact_bits.hpp"
+#include "codec/geometry/quantiser/step_choice.hpp"
+
+namespace tetrakis::inline quantiser {
+
+namespace {
+
+/// The share of multiples among the samples that differ from the one before. Flat ground says
+/// nothing about steps. Some thousands of samples are looked at.
+double shareOfMultiples(const tks_heights& heights, const HeightSteps& fine, double step) {
+  constexpr size_t kLookedAt = 1 << 16;
+  const auto* samples = static_cast<const float*>(heights.data);
+  const size_t count = fine.steps.size(), stride = std::max<size_t>(count / kLookedAt, 1) | 1;
+  size_t multiples = 0, changes = 0;
+  for (size_t i = 1; i < count; i += stride) {
+    if ((!fine.valid.empty() && !fine.valid[i]) || samples[i] == samples[i - 1]) continue;
+    const double nearest = std::round(static_cast<double>(samples[i]) / step) * step;
+    multiples += static_cast<float>(nearest) == samples[i];
+    ++changes;
+  }
+  return static_cast<double>(multiples) / static_cast<double>(std::max<size_t>(changes, 1));
+}
+
+}  // namespace
+
+HeightSteps fewerBitsOfMosaic(const tks_heights& heights, HeightSteps fine) {
+  constexpr double kCoarser = 4, kSome = 1. / 8, kClearly = 0.96;
+  if (heights.sample != TKS_F32) return fine;
+  double least = -1;
+  for (const double step : {1.0, 0.1, 0.01}) {
+    if (step < kCoarser * fine.step || shareOfMultiples(heights, fine, step) < kSome) continue;
+    Result<HeightSteps> coarse = toSteps(heights, {.given = step});
+    if (!coarse.ok()) continue;
+    if (least < 0) least = kClearly * exactBits(heights, fine);
+    const double bits = exactBits(heights, *coarse);
+    if (bits >= least) continue;
+    least = bits;
+    fine = std::move(*coarse);
+  }
+  return fine;
+}
+
+}  // namespace tetrakis::inline quantiser

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which step suits files that join several sources.
+#include "codec/geometry/quantiser/mosaic_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "codec/geometry/quantiser/step_choice.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+constexpr uint32_t kSide = 160;
+
+std::vector<float> floats(const std::function<double(uint32_t x, uint32_t y, double ground)>& of) {
+  std::vector<float> heights;
+  uint32_t noise = 1;
+  for (uint32_t y = 0; y < kSide; ++y) {
+    for (uint32_t x = 0; x < kSide; ++x) {
+      noise = noise * 1664525 + 1013904223;
+      const double ground = 900 + 70 * std::sin(x / 9. + y / 23.) + 50 * std::cos(y / 7.) +
+                            (noise >> 8) * 0x1p-24 * 9;
+      heights.push_back(static_cast<float>(of(x, y, ground)));
+    }
+  }
+  return heights;
+}
+
+HeightSteps stepsOf(const std::vector<float>& heights, bool lossless = true) {
+  tks_heights source = {};
+  source.size = sizeof source;
+  source.width = source.height = kSide;
+  source.sample = TKS_F32;
+  source.data = heights.data();
+  source.scale = 1;
+  return *toSteps(source, {.lossless = lossless, .table = lossless});
+}
+
+double wholeIn(double unit, double ground) {
+  return unit * std::round(ground / unit);
+}
+
+TEST(MosaicChoice, TakesTheStepOfThePartThatHasOne) {
+  for (const double unit : {1.0, 0.1}) {
+    const HeightSteps steps = stepsOf(floats([&](uint32_t x, uint32_t y, double ground) {
+      return (x / 40 + y / 40) % 3 == 0 ? ground : wholeIn(unit, ground);
+    }));
+    EXPECT_EQ(steps.step, unit);
+    EXPECT_FALSE(steps.exact) << "corrections restore the others";
+  }
+}
+
+/// Rounded ones would need corrections that take more bits than the fine step does.
+TEST(MosaicChoice, KeepsFineStepsOfOthers) {
+  const auto ground = [](uint32_t, uint32_t, double height) { return height; };
+  const double fine = stepsOf(floats(ground)).step;
+  EXPECT_LT(fine, 1e-2);
+  const HeightSteps few = stepsOf(floats([&](uint32_t x, uint32_t, double height) {
+    return x % 16 == 0 ? wholeIn(1, height) : height;
+  }));
+  EXPECT_EQ(few.step, fine);
+  const HeightSteps flat = stepsOf(
+      floats([&](uint32_t x, uint32_t, double height) { return x < kSide / 2 ? 700 : height; }));
+  EXPECT_EQ(flat.step, fine) << "flat ground has no step";
+}
+
+/// Steps that restore every sample in few bits stay: metres beside centimetres.
+TEST(MosaicChoice, KeepsExactStepsThatAreNearlyAsCoarse) {
+  const HeightSteps steps = stepsOf(floats([&](uint32_t x, uint32_t y, double ground) {
+    return (x / 40 + y / 40) % 2 == 0 ? wholeIn(0.1, ground) : wholeIn(1, ground);
+  }));
+  EXPECT_TRUE(steps.exact || !steps.table.empty());
+}
+
+TEST(MosaicChoice, IsForLosslessHeightsAlone) {
+  const std::vector<float> heights = floats([&](uint32_t x, uint32_t y, double ground) {
+    return (x / 40 + y / 40) % 3 == 0 ? ground : wholeIn(1, ground);
+  });
+  EXPECT_LT(stepsOf(heights, false).step, 1e-2);
+}
+
+}  // namespace
+}  // namespace tetrakis::test
