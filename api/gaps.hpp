@@ -14,8 +14,8 @@ GeometryHeader headerFor(const tks_decoder& decoder, const GeometryHeader& heade
                          const View& view);
 TextureHeader headerFor(const tks_decoder& decoder, const TextureHeader& header, const View& view);
 
-/// The tracks of the heights: those of corrections are empty unless all coefficients that the view
-/// needs are there, because corrections of other heights correct nothing.
+/// The tracks of the heights: corrections of a region are empty unless all coefficients are there
+/// that reach into it, because corrections of other heights correct nothing.
 Codewords heightTracksFor(const tks_decoder& decoder, const View& view);
 
 }  // namespace tetrakis::inline api

@@ -52,6 +52,9 @@ Result<std::vector<size_t>> orderFor(const StreamHeader& header,
   if (!packets.ok()) return packets.status();
   std::stable_sort(packets->begin(), packets->end(),
                    [](const auto& a, const auto& b) { return helpsMore(a.worth, b.worth); });
+  // A prefix of the order corrects nothing that is still to change, seen or not.
+  std::stable_partition(packets->begin(), packets->end(),
+                        [](const PlacedPacket& packet) { return !packet.is_correction; });
   std::vector<size_t> order;
   for (const PlacedPacket& packet : *packets) order.push_back(packet.number);
   for (size_t i = order.size(); i < header.index.size(); ++i) order.push_back(i);

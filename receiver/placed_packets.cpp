@@ -39,12 +39,32 @@ class WorthInOrder {
   std::map<std::pair<Component, uint32_t>, PacketWorth> last_;
 };
 
-/// Whether a packet holds corrections in tracks of their own. They come last: beside coefficients
-/// that lack something they would correct nothing.
+/// Whether a packet holds corrections in tracks of their own.
 bool isCorrection(const StreamHeader& header, const PacketHead& head) {
   if (head.component() != Component::kGeometry || !header.geometry) return false;
   return head.track >= coefficientTracks(*header.geometry);
 }
+
+/// Corrections come behind all coefficients that help: beside those that lack something they
+/// correct nothing.
+class CorrectionsLast {
+ public:
+  void take(const PacketWorth& worth, bool is_correction) {
+    if (!(worth.all > 0) || worth.all == kOpening) return;
+    if (is_correction)
+      most_ = std::max(most_, worth.all);
+    else
+      least_ = std::min(least_, worth.all);
+  }
+
+  PacketWorth of(const PacketWorth& correction) const {
+    const double factor = most_ > 0 && least_ < kOpening ? least_ / (2 * most_) : 1;
+    return {correction.all * factor, correction.now * factor, 0};
+  }
+
+ private:
+  double least_ = kOpening, most_ = 0;
+};
 
 }  // namespace
 
@@ -58,11 +78,13 @@ Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint
   costs.reserve(sightings.size());
   for (const WeightedSighting& s : sightings) costs.emplace_back(header, s.sighting);
   WorthInOrder in_order(header);
+  CorrectionsLast last;
   std::vector<PlacedPacket> packets;
   packets.reserve(header.index.size());
   for (const IndexedPacket& packet : IndexedPackets(header, begin)) {
     const PacketHead& head = packet.entry.packet;
-    const double slope = slopeOf(packet.entry.slope);
+    const bool is_correction = isCorrection(header, head);
+    const double slope = is_correction ? 1 : slopeOf(packet.entry.slope);
     PacketWorth worth{0, 0, slope};
     for (size_t i = 0; i < costs.size(); ++i) {
       if (!costs[i].holds(head))
@@ -71,9 +93,12 @@ Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint
       if (i == 0) worth.now = here;
       worth.all += here;
     }
-    if (isCorrection(header, head)) worth.slope = 0;
-    packets.push_back({packet.number, packet.begin, packet.end, in_order.take(head, worth)});
+    packets.push_back(
+        {packet.number, packet.begin, packet.end, in_order.take(head, worth), is_correction});
+    last.take(packets.back().worth, is_correction);
   }
+  for (PlacedPacket& packet : packets)
+    if (packet.is_correction) packet.worth = last.of(packet.worth);
   return packets;
 }
 

@@ -33,6 +33,7 @@ struct PlacedPacket {
   size_t number = 0;
   uint64_t begin = 0, end = 0;  ///< bytes of the stream
   PacketWorth worth;
+  bool is_correction = false;  ///< in a track of its own
 };
 
 /// What helps more comes first; of what helps alike the greater slope.

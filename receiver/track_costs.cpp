@@ -169,7 +169,10 @@ TrackCosts::TrackCosts(const StreamHeader& header, const Sighting& sighting) {
   if (header.geometry) {
     for (const Region& region : regionsIn(*header.geometry))
       costs_[0].push_back(finite(sighted.costOfHeights(region)));
-    costs_[0].resize(costs_[0].size() + correctionTracks(*header.geometry, header.layers), 0);
+    const size_t coefficients = costs_[0].size(),
+                 corrections = correctionTracks(*header.geometry, header.layers);
+    for (size_t i = coefficients - corrections; i < coefficients; ++i)  // those of the same ground
+      costs_[0].push_back(costs_[0][i]);
   }
   if (header.texture) {
     for (const Region& region : regionsIn(*header.texture))

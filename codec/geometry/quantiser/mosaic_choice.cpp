@@ -32,18 +32,22 @@ double shareOfMultiples(const tks_heights& heights, const HeightSteps& fine, dou
 }  // namespace
 
 HeightSteps fewerBitsOfMosaic(const tks_heights& heights, HeightSteps fine) {
-  constexpr double kCoarser = 4, kSome = 1. / 8, kClearly = 0.96;
+  constexpr double kCoarser = 4, kSome = 1. / 8, kClearly = 0.96, kFiner = 1. / 16;
   if (heights.sample != TKS_F32) return fine;
+  const double found = fine.step;
   double least = -1;
-  for (const double step : {1.0, 0.1, 0.01}) {
-    if (step < kCoarser * fine.step || shareOfMultiples(heights, fine, step) < kSome) continue;
-    Result<HeightSteps> coarse = toSteps(heights, {.given = step});
-    if (!coarse.ok()) continue;
+  const auto tryStep = [&](double step) {
+    Result<HeightSteps> other = toSteps(heights, {.given = step});
+    if (!other.ok()) return;
     if (least < 0) least = kClearly * exactBits(heights, fine);
-    const double bits = exactBits(heights, *coarse);
-    if (bits >= least) continue;
+    const double bits = exactBits(heights, *other);
+    if (bits >= least) return;
     least = bits;
-    fine = std::move(*coarse);
+    fine = std::move(*other);
+  };
+  if (!fine.exact) tryStep(found * kFiner);
+  for (const double step : {1.0, 0.1, 0.01}) {
+    if (step >= kCoarser * found && shareOfMultiples(heights, fine, step) >= kSome) tryStep(step);
   }
   return fine;
 }
