@@ -13,7 +13,7 @@
 #include <type_traits>
 
 #include "base/samples.hpp"
-#include "codec/geometry/quantiser/mosaic_choice.hpp"
+#include "codec/geometry/quantiser/other_steps.hpp"
 #include "codec/geometry/quantiser/value_choice.hpp"
 #include "codec/geometry/quantiser/voids.hpp"
 #include "codec/geometry/steps/restore.hpp"
@@ -274,7 +274,7 @@ Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs) 
   if (!result.ok()) return result;
   result->valid = std::move(*valid);
   if (!needs.lossless) return result;
-  if (needs.given <= 0) *result = fewerBitsOfMosaic(heights, std::move(*result));
+  if (needs.given <= 0) *result = fewerBitsByOtherSteps(heights, std::move(*result));
   if (needs.table) *result = fewerBits(heights, std::move(*result));
   return result;
 }

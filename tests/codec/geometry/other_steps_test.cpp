@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which step suits files that join several sources.
-#include "codec/geometry/quantiser/mosaic_choice.hpp"
+// Which step suits files that join several sources, and smooth ones.
+#include "codec/geometry/quantiser/other_steps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ double wholeIn(double unit, double ground) {
   return unit * std::round(ground / unit);
 }
 
-TEST(MosaicChoice, TakesTheStepOfThePartThatHasOne) {
+TEST(OtherSteps, TakeTheStepOfThePartThatHasOne) {
   for (const double unit : {1.0, 0.1}) {
     const HeightSteps steps = stepsOf(floats([&](uint32_t x, uint32_t y, double ground) {
       return (x / 40 + y / 40) % 3 == 0 ? ground : wholeIn(unit, ground);
@@ -54,7 +54,7 @@ TEST(MosaicChoice, TakesTheStepOfThePartThatHasOne) {
 }
 
 /// Rounded ones would need corrections that take more bits than the fine step does.
-TEST(MosaicChoice, KeepsFineStepsOfOthers) {
+TEST(OtherSteps, KeepFineStepsOfOthers) {
   const auto ground = [](uint32_t, uint32_t, double height) { return height; };
   const double fine = stepsOf(floats(ground)).step;
   EXPECT_LT(fine, 1e-2);
@@ -68,14 +68,23 @@ TEST(MosaicChoice, KeepsFineStepsOfOthers) {
 }
 
 /// Steps that restore every sample in few bits stay: metres beside centimetres.
-TEST(MosaicChoice, KeepsExactStepsThatAreNearlyAsCoarse) {
+TEST(OtherSteps, KeepExactStepsThatAreNearlyAsCoarse) {
   const HeightSteps steps = stepsOf(floats([&](uint32_t x, uint32_t y, double ground) {
     return (x / 40 + y / 40) % 2 == 0 ? wholeIn(0.1, ground) : wholeIn(1, ground);
   }));
   EXPECT_TRUE(steps.exact || !steps.table.empty());
 }
 
-TEST(MosaicChoice, IsForLosslessHeightsAlone) {
+/// Planes that floats round: corrections know nothing of them, coefficients do.
+TEST(OtherSteps, AreFinerForPlanes) {
+  const auto plane = [](uint32_t x, uint32_t y, double) { return 1 + x * 0.110317 + y * 0.091733; };
+  const auto rough = [](uint32_t x, uint32_t, double height) {
+    return std::fmod(height * 50, 33) + 1 + x * 1e-3;
+  };
+  EXPECT_LT(16 * stepsOf(floats(plane)).step, 1.01 * stepsOf(floats(rough)).step);
+}
+
+TEST(OtherSteps, AreForLosslessHeightsAlone) {
   const std::vector<float> heights = floats([&](uint32_t x, uint32_t y, double ground) {
     return (x / 40 + y / 40) % 3 == 0 ? ground : wholeIn(1, ground);
   });
