@@ -66,8 +66,7 @@ Codewords heightTracksFor(const tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
   const GeometryHeader& geometry = *header.geometry;
   Codewords tracks = decoder.packets.payload.codewordsOf(Component::kGeometry);
-  const uint64_t corrections = correctionTracks(geometry, header.layers);
-  if (!decoder.packets.has_gap || corrections == 0) return tracks;
+  if (!decoder.packets.has_gap || correctionTracks(geometry, header.layers) == 0) return tracks;
   const auto lacksSome = [&](const View& part) {
     return missingOf(decoder, Component::kGeometry,
                      neededCoefficients(header, Component::kGeometry, part)) > 0;
@@ -75,11 +74,11 @@ Codewords heightTracksFor(const tks_decoder& decoder, const View& view) {
   if (!lacksSome(view)) return tracks;
   // Without fraction bits all heights change with the last coefficient, which makes them round.
   const bool change = geometry.wavelet.fraction_bits == 0;
-  const std::span<std::span<const uint8_t>> codewords(
-      tracks.end() - static_cast<ptrdiff_t>(corrections), tracks.end());
   const auto parts = correctionParts(geometry.extent(), geometry.regions.side_log2);
+  const size_t coefficients = tracks.size() - parts.size();
   for (size_t i = 0; i < parts.size(); ++i) {
-    if (!codewords[i].empty() && (change || lacksSome({0, parts[i]}))) codewords[i] = {};
+    std::span<const uint8_t>& codeword = tracks[coefficients + i];
+    if (!codeword.empty() && (change || lacksSome({0, parts[i]}))) codeword = {};
   }
   return tracks;
 }
