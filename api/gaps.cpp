@@ -21,22 +21,46 @@ std::vector<bool> neededCoefficients(const StreamHeader& header, Component compo
   return needed;
 }
 
-/// How many bytes are missing of those tracks.
-uint64_t missingOf(const tks_decoder& decoder, Component component,
-                   const std::vector<bool>& tracks) {
+/// Calls take(track, bytes) with what the index tells of each packet of a component.
+template <class Take>
+void forEachPacket(const tks_decoder& decoder, Component component, const Take& take) {
   const StreamHeader& header = decoder.parsed.header;
-  const auto counts = [&](uint32_t track) { return track < tracks.size() && tracks[track]; };
-  uint64_t bytes = 0;
   const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
   for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
     const PacketHead& head = packet.entry.packet;
-    if (head.component() == component && counts(head.track))
-      bytes += std::min(packet.end, end) - std::min(packet.payload, end);
+    if (head.component() == component)
+      take(head.track, std::min(packet.end, end) - std::min(packet.payload, end));
   }
-  for (const auto& [track, codeword] :
-       decoder.packets.payload.codewords[static_cast<size_t>(component)])
+}
+
+const auto& codewordsThere(const tks_decoder& decoder, Component component) {
+  return decoder.packets.payload.codewords[static_cast<size_t>(component)];
+}
+
+/// How many bytes are missing of those tracks.
+uint64_t missingOf(const tks_decoder& decoder, Component component,
+                   const std::vector<bool>& tracks) {
+  const auto counts = [&](uint32_t track) { return track < tracks.size() && tracks[track]; };
+  uint64_t bytes = 0;
+  forEachPacket(decoder, component, [&](uint32_t track, uint64_t size) {
+    if (counts(track)) bytes += size;
+  });
+  for (const auto& [track, codeword] : codewordsThere(decoder, component))
     if (counts(track)) bytes -= std::min<uint64_t>(bytes, codeword.size());
   return bytes;
+}
+
+/// For each of the first tracks of the heights, whether some of its bytes are missing.
+std::vector<bool> lackingTracks(const tks_decoder& decoder, size_t count) {
+  std::vector<uint64_t> missing(count);
+  forEachPacket(decoder, Component::kGeometry, [&](uint32_t track, uint64_t size) {
+    if (track < count) missing[track] += size;
+  });
+  for (const auto& [track, codeword] : codewordsThere(decoder, Component::kGeometry))
+    if (track < count) missing[track] -= std::min<uint64_t>(missing[track], codeword.size());
+  std::vector<bool> lacking(count);
+  for (size_t i = 0; i < count; ++i) lacking[i] = missing[i] > 0;
+  return lacking;
 }
 
 template <class Header>
@@ -62,23 +86,32 @@ TextureHeader headerFor(const tks_decoder& decoder, const TextureHeader& header,
   return counted(decoder, header, Component::kTexture, view);
 }
 
+/// Which region a missing coefficient reaches is looked up for each region, in proportion to the
+/// square of their number: in planes of very many regions all corrections wait for all coefficients
+/// of the view.
 Codewords heightTracksFor(const tks_decoder& decoder, const View& view) {
+  constexpr uint64_t kMostLookedUp = 1 << 17;  // about a tenth of a second
   const StreamHeader& header = decoder.parsed.header;
   const GeometryHeader& geometry = *header.geometry;
   Codewords tracks = decoder.packets.payload.codewordsOf(Component::kGeometry);
-  if (!decoder.packets.has_gap || correctionTracks(geometry, header.layers) == 0) return tracks;
+  const uint64_t corrections = correctionTracks(geometry, header.layers);
+  if (!decoder.packets.has_gap || corrections == 0) return tracks;
+  const size_t coefficients = tracks.size() - corrections;
+  const std::vector<bool> lacking = lackingTracks(decoder, coefficients);
   const auto lacksSome = [&](const View& part) {
-    return missingOf(decoder, Component::kGeometry,
-                     neededCoefficients(header, Component::kGeometry, part)) > 0;
+    const std::vector<bool> needed = neededCoefficients(header, Component::kGeometry, part);
+    for (size_t i = 0; i < needed.size(); ++i)
+      if (needed[i] && lacking[i]) return true;
+    return false;
   };
   if (!lacksSome(view)) return tracks;
   // Without fraction bits all heights change with the last coefficient, which makes them round.
-  const bool change = geometry.wavelet.fraction_bits == 0;
+  const bool all_wait =
+      geometry.wavelet.fraction_bits == 0 || corrections * tracks.size() > kMostLookedUp;
   const auto parts = correctionParts(geometry.extent(), geometry.regions.side_log2);
-  const size_t coefficients = tracks.size() - parts.size();
   for (size_t i = 0; i < parts.size(); ++i) {
     std::span<const uint8_t>& codeword = tracks[coefficients + i];
-    if (!codeword.empty() && (change || lacksSome({0, parts[i]}))) codeword = {};
+    if (!codeword.empty() && (all_wait || lacksSome({0, parts[i]}))) codeword = {};
   }
   return tracks;
 }
