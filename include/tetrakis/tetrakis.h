@@ -278,7 +278,8 @@ tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
  * (tks_encode_options.index): `size` bytes from `offset` on. Bytes that are there already are left
  * as they are. Each track is decoded up to its first gap. So of a stream in regions any regions may
  * come first: the index tells the byte ranges of their packets. The other tracks of a component are
- * decoded once the first one has its masks. info.available_bytes and info.packets count up to the
+ * decoded once the first one has its masks, and corrections of a region once all coefficients are
+ * there that reach into it. info.available_bytes and info.packets count up to the
  * first gap. TKS_USAGE: there is no index, and `offset` lies behind a gap. */
 tks_status tks_put(tks_decoder* decoder, uint64_t offset, const uint8_t* data, size_t size);
 
