@@ -15,6 +15,7 @@ class DecisionDecoding {
  public:
   explicit DecisionDecoding(std::span<const uint8_t> codeword) : decoder_(codeword) {}
   bool decide(AdaptiveBit& model, bool) { return decoder_.decode(model); }
+  bool decideOf(uint32_t zero, bool) { return decoder_.decodeOf(zero); }
   bool even(bool) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
 

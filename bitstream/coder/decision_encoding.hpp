@@ -17,6 +17,11 @@ class DecisionEncoding {
     encoder_.encode(model, answer);
     return answer;
   }
+  /// zero: the odds that the answer is 0, in units of 2^-16.
+  bool decideOf(uint32_t zero, bool answer) {
+    encoder_.encodeOf(zero, answer);
+    return answer;
+  }
   bool even(bool answer) {
     encoder_.encodeEven(answer);
     return answer;

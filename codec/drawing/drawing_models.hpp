@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bitstream/coder/adaptive_bit.hpp"
-#include "codec/drawing/drawing_mixture.hpp"
+#include "bitstream/coder/mixture.hpp"
 #include "codec/drawing/drawing_neighbours.hpp"
 
 namespace tetrakis::inline drawing {

@@ -8,6 +8,7 @@
 
 #include "base/samples.hpp"
 #include "conformance/cases/vector_cases.hpp"
+#include "conformance/samples/patches.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::conformance {
@@ -32,12 +33,9 @@ samples::Raster enlarged(const samples::Raster& of, const uint32_t (&copies)[2])
 }
 
 samples::Raster surfaceOf(const VectorCase& vector_case) {
-  samples::Raster surface = samples::make(*vector_case.heights);
-  for (std::byte& sample : surface.data) {
-    if (vector_case.classes == 0) break;
-    const uint32_t place = std::to_integer<uint32_t>(sample) * vector_case.classes / 256;
-    sample = std::byte(place * (255 / vector_case.classes));
-  }
+  const samples::Recipe& recipe = *vector_case.heights;
+  samples::Raster surface =
+      vector_case.patches ? samples::patches(recipe.width, recipe.height) : samples::make(recipe);
   if (vector_case.values) surface = samples::withFewValues(surface, *vector_case.values);
   if (vector_case.offsets) surface = samples::withOffsets(surface, *vector_case.offsets);
   const uint32_t width = surface.width, height = surface.height;

@@ -57,28 +57,28 @@ std::vector<VectorCase> relativeCases() {
 
 /// Few values in large shapes, which take fewer bytes drawn than by wavelet.
 std::vector<VectorCase> drawnHeightsCases() {
-  const auto classes = [](const std::string& name, const std::string& purpose, uint32_t width,
+  const auto patches = [](const std::string& name, const std::string& purpose, uint32_t width,
                           uint32_t height) {
     VectorCase vector_case =
         heightsCase(name, purpose, {Pattern::kRidges, width, height, 1, TKS_U8, 3}, lossless());
-    vector_case.classes = 5;
+    vector_case.patches = true;
     return vector_case;
   };
   VectorCase rescaled =
-      classes("drawn_table_f32_60x47", "drawn heights that count the values of a table", 60, 47);
+      patches("drawn_table_f32_60x47", "drawn heights that count the values of a table", 60, 47);
   rescaled.values = samples::FewValues::kRescaled;
   VectorCase rare =
-      classes("drawn_rare_f32_52x44", "drawn heights beside corrections of samples", 52, 44);
+      patches("drawn_rare_f32_66x60", "drawn heights beside corrections of samples", 66, 60);
   rare.values = samples::FewValues::kRare;
   VectorCase joint =
-      classes("drawn_joint_index_50x41_30x20", "drawn heights beside a texture, index", 50, 41);
+      patches("drawn_joint_index_50x41_30x20", "drawn heights beside a texture, index", 50, 41);
   joint.texture = Recipe{Pattern::kRidges, 30, 20, 3, TKS_U8, 7};
   joint.options = indexed(lossless());
-  VectorCase copied = classes("drawn_copies_u8_75x62", "drawn heights whose lines repeat", 38, 31);
+  VectorCase copied = patches("drawn_copies_u8_119x93", "drawn heights whose lines repeat", 60, 47);
   copied.copies[0] = copied.copies[1] = 2;
-  return {classes("drawn_u8_70x53", "drawn heights", 70, 53),
-          classes("drawn_long_u8_2x300", "drawn heights, two columns", 2, 300),
-          withVoids(classes("drawn_coast_u8_64x51", "drawn heights beside voids", 64, 51),
+  return {patches("drawn_u8_70x53", "drawn heights", 70, 53),
+          patches("drawn_long_u8_2x300", "drawn heights, two columns", 2, 300),
+          withVoids(patches("drawn_coast_u8_64x51", "drawn heights beside voids", 64, 51),
                     samples::VoidShape::kCoast, 255),
           rescaled,
           rare,

@@ -26,7 +26,7 @@ struct VectorCase {
   double scale = 1, offset = 0;
   std::optional<samples::FewValues> values;    ///< u8 heights are made into samples of these
   std::optional<samples::OffsetKind> offsets;  ///< u16 heights become floats in steps above these
-  uint32_t classes = 0;   ///< > 0: u8 heights are gathered in so many classes, before `values`
+  bool patches = false;   ///< u8 heights have few values in patches, before `values`
   bool gridless = false;  ///< heights are divided by about 3, so that no step holds them
   std::optional<samples::VoidShape> voids;
   std::optional<samples::VoidShape> water;  ///< at one of two levels there, left and right

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "conformance/reference_decoder/mixed.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 
 namespace tetrakis::reference {
@@ -45,8 +46,8 @@ class Drawing {
         pattern_(6 << 14),
         slope_(1 << 16),
         trio_(1 << 16) {
-    for (auto& weights : weights_) weights.fill(20000);
-    known_weights_.fill(20000);
+    for (auto& weights : weights_) weights.fill(kFirstWeight);
+    known_weights_.fill(kFirstWeight);
   }
 
  protected:

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "conformance/reference_decoder/layers.hpp"
+#include "conformance/reference_decoder/mixed.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 #include "conformance/reference_decoder/samples.hpp"
 
@@ -13,60 +14,165 @@ namespace tetrakis::reference {
 
 namespace {
 
+int bitsOf(int64_t n) {
+  return static_cast<int>(std::bit_width(static_cast<uint64_t>(n)));
+}
+
+int levelOf(int64_t n) {
+  const int bits = bitsOf(n);
+  return n < 4 ? bits : std::min(2 * bits - 3 + static_cast<int>(n >> (bits - 2) & 1), 19);
+}
+
+/// What is known of each sample that has been decoded.
+class Known {
+ public:
+  explicit Known(const Plane& plane) : plane_(plane), samples_(plane.values.size()) {}
+
+  struct Sample {
+    int32_t q = 0;
+    int64_t error = 0, missed = 0;
+  };
+  void put(int x, int y, const Sample& sample) { samples_[index(x, y)] = sample; }
+  bool has(int x, int y) const {
+    return x >= 0 && x < plane_.width && y >= 0 && plane_.isValid(x, y);
+  }
+  Sample at(int x, int y) const { return has(x, y) ? samples_[index(x, y)] : Sample(); }
+
+ private:
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * plane_.width + x; }
+
+  const Plane& plane_;
+  std::vector<Sample> samples_;
+};
+
+/// "The q of samples nearby".
+struct Nearby {
+  int64_t w, n, nw, ne, ww, nn, nne, nww, nnw;
+
+  Nearby(const Known& known, int x, int y, int64_t r, int d) {
+    const auto at = [&](int i, int j, int64_t otherwise) {
+      return known.has(x + i, y + j) ? (known.at(x + i, y + j).q - r) * d : otherwise;
+    };
+    w = at(-1, 0, at(0, -1, 0));
+    n = at(0, -1, w);
+    nw = at(-1, -1, n);
+    ne = at(1, -1, n);
+    ww = at(-2, 0, w);
+    nn = at(0, -2, n);
+    nne = at(1, -2, ne);
+    nww = at(-2, -1, nw);
+    nnw = at(-1, -2, nw);
+  }
+  int alike() const {
+    const bool same[9] = {w == nw, w == n,    n == ne,   n == nn,  w == ww,
+                          n == nw, ne == nne, nw == nww, nw == nnw};
+    int bits = 0;
+    for (int i = 0; i < 9; ++i) bits |= same[i] << i;
+    return bits;
+  }
+  int spread() const { return bitsOf(std::abs(w - nw) + std::abs(n - nw) + std::abs(n - ne)); }
+};
+
 /// The correction of a sample; nothing if a decision does not count.
 class ExactCorrections {
  public:
-  explicit ExactCorrections(RangeDecoder& decoder)
-      : decoder_(decoder), any_(20 * 8), more_(20 * 32), sign_(4 * 8), high_(33) {}
+  explicit ExactCorrections(RangeDecoder& decoder) : decoder_(decoder) {
+    for (auto& weights : weights_) weights.fill(kFirstWeight);
+  }
 
-  std::optional<uint32_t> next(int l, int g) {
-    int k = 0;
-    for (; k < 32; ++k) {
-      Model& model =
-          k == 0 ? any_[static_cast<size_t>(l * 8 + g)] : more_[static_cast<size_t>(l * 32 + k)];
-      const std::optional<int> more = model.decode(decoder_);
+  std::optional<uint32_t> next(const Nearby& nearby, int l, int g) {
+    nearby_ = &nearby;
+    z_ = 8 * l + g;
+    const std::optional<int> any = ask(0, 0, 0);
+    if (!any) return std::nullopt;
+    if (*any == 0) return 0;
+    const std::optional<int> negative = ask(1, 1, 0);
+    if (!negative) return std::nullopt;
+    const int s = *negative ? -1 : 1;
+    uint32_t k = 1;
+    for (; k < 8; ++k) {
+      const int size = static_cast<int>(k);
+      const auto more = ask(1 + std::min(size, 4) + 4 * *negative, 2 + *negative, s * size);
       if (!more) return std::nullopt;
       if (!*more) break;
     }
-    if (k == 0) return 0;
-    const auto negative = sign_[static_cast<size_t>((std::min(k, 4) - 1) * 8 + g)].decode(decoder_);
-    if (!negative) return std::nullopt;
-    uint32_t magnitude = 1;
-    for (int i = 1; i < k; ++i) {
-      const std::optional<int> bit =
-          i == 1 ? high_[static_cast<size_t>(k)].decode(decoder_) : decoder_.decode(1 << 15);
-      if (!bit) return std::nullopt;
-      magnitude = 2 * magnitude + static_cast<uint32_t>(*bit);
+    if (k == 8) {
+      const std::optional<uint32_t> rest = restOf(s);
+      if (!rest) return std::nullopt;
+      k = 7 + *rest;
     }
-    return *negative != 0 ? 0 - magnitude : magnitude;
+    return s < 0 ? 0 - k : k;
   }
 
  private:
-  RangeDecoder& decoder_;
-  std::vector<Model> any_, more_, sign_, high_;
-};
+  std::optional<uint32_t> restOf(int s) {
+    int j = 1;
+    for (; j < 32; ++j) {
+      const std::optional<int> more = ask(9 + std::min(j, 8), 4, 8 * s);
+      if (!more) return std::nullopt;
+      if (!*more) break;
+    }
+    uint32_t rest = 1;
+    for (int i = 1; i < j; ++i) {
+      const std::optional<int> bit =
+          i == 1 ? high_[static_cast<size_t>(j)].decode(decoder_) : decoder_.decode(1 << 15);
+      if (!bit) return std::nullopt;
+      rest = 2 * rest + static_cast<uint32_t>(*bit);
+    }
+    return rest;
+  }
 
-int levelOf(int64_t n) {
-  const int bits = static_cast<int>(std::bit_width(static_cast<uint64_t>(n)));
-  return n < 4 ? bits : std::min(2 * bits - 3 + static_cast<int>(n >> (bits - 2) & 1), 19);
-}
+  std::optional<int> ask(int i, int t, int64_t a) {
+    const Nearby& q = *nearby_;
+    const auto near = [&](int64_t step, int64_t k) {
+      return static_cast<int>(std::clamp(step - a, -k, k) + k);
+    };
+    const int two = near(q.w, 1) + 3 * near(q.n, 1), spread = q.spread();
+    const int64_t plane = q.w + q.n - q.nw;
+    const int lines =
+        (near(plane, 5) * 11 + near((q.w + q.n) >> 1, 5)) * 11 + near(q.n + q.ne - q.nne, 5);
+    const int straight = near(2 * q.w - q.ww, 5) * 11 + near(2 * q.n - q.nn, 5);
+    const int around = ((near(q.w, 3) * 7 + near(q.n, 3)) * 7 + near(q.nw, 3)) * 7 + near(q.ne, 3);
+    Model* const models[7] = {&size_[z_ * 18 + i],
+                              &lines_[lines * 5 + t],
+                              &plane_[(near(plane, 10) * 8 + std::min(spread, 7)) * 5 + t],
+                              &alike_[(q.alike() * 9 + two) * 5 + t],
+                              &sized_[(z_ * 9 + two) * 5 + t],
+                              &straight_[straight * 5 + t],
+                              &around_[around * 5 + t]};
+    return decodeMixed(decoder_, models, weights_[std::min(spread, 9) * 18 + i]);
+  }
+
+  struct Models : std::vector<Model> {
+    using std::vector<Model>::vector;
+    Model& operator[](int i) { return at(static_cast<size_t>(i)); }
+  };
+
+  RangeDecoder& decoder_;
+  const Nearby* nearby_ = nullptr;
+  int z_ = 0;
+  Models size_ = Models(160 * 18), lines_ = Models(11 * 11 * 11 * 5), plane_ = Models(21 * 8 * 5);
+  Models alike_ = Models(512 * 9 * 5), sized_ = Models(160 * 9 * 5),
+         straight_ = Models(11 * 11 * 5);
+  Models around_ = Models(7 * 7 * 7 * 7 * 5), high_ = Models(33);
+  std::array<std::array<int64_t, 7>, 10 * 18> weights_;
+};
 
 }  // namespace
 
 void makeExact(std::span<const uint8_t> codeword, Plane& plane, int f) {
-  constexpr int kNeighbours[6][2] = {{-1, 0}, {0, -1}, {-1, -1}, {1, -1}, {-2, 0}, {0, -2}};
+  constexpr int kNeighbours[12][2] = {{-1, 0}, {0, -1},  {-1, -1}, {1, -1}, {-2, 0}, {0, -2},
+                                      {2, -1}, {-2, -1}, {-1, -2}, {1, -2}, {-3, 0}, {0, -3}};
   RangeDecoder decoder(codeword);
   ExactCorrections corrections(decoder);
-  std::vector<int64_t> errors(plane.values.size(), 0);
-  std::array<int64_t, 6> e, w = {};
+  Known known(plane);
+  std::array<int64_t, 12> e, w = {};
   for (int y = 0; y < plane.height; ++y) {
     for (int x = 0; x < plane.width; ++x) {
       if (!plane.isValid(x, y)) continue;
       int64_t p = 1 << 15, squares = 64;
-      for (size_t i = 0; i < 6; ++i) {
-        const int nx = x + kNeighbours[i][0], ny = y + kNeighbours[i][1];
-        const bool inside = nx >= 0 && nx < plane.width && ny >= 0;
-        e[i] = inside ? errors[static_cast<size_t>(ny) * plane.width + nx] : 0;
+      for (size_t i = 0; i < 12; ++i) {
+        e[i] = known.at(x + kNeighbours[i][0], y + kNeighbours[i][1]).error;
         p += w[i] * e[i];
         squares += e[i] * e[i];
       }
@@ -76,17 +182,18 @@ void makeExact(std::span<const uint8_t> codeword, Plane& plane, int f) {
       const int32_t r = stepOf(u, f);
       const int64_t b = u - (int64_t{r} << f);
       const int g = static_cast<int>(std::min<int64_t>((std::abs(b) * 16) >> f, 7));
-      const int l =
-          levelOf(2 * (std::abs(e[0]) + std::abs(e[1])) + std::abs(e[2]) + std::abs(e[3]));
-      const std::optional<uint32_t> c = corrections.next(l, g);
+      const int d = b < 0 ? -1 : 1;
+      const auto missed = [&](int i, int j) { return known.at(x + i, y + j).missed; };
+      const int l = levelOf(2 * missed(-1, 0) + 2 * missed(0, -1) + missed(-1, -1) + missed(1, -1));
+      const std::optional<uint32_t> c = corrections.next(Nearby(known, x, y, r, d), l, g);
       if (!c) return;
-      const uint32_t q = b < 0 ? static_cast<uint32_t>(r) - *c : static_cast<uint32_t>(r) + *c;
+      const uint32_t q = d < 0 ? static_cast<uint32_t>(r) - *c : static_cast<uint32_t>(r) + *c;
       const auto whole = static_cast<int32_t>(q << f);
       const int64_t error = std::clamp<int64_t>(int64_t{whole} - v, -(1 << 15), 1 << 15);
-      errors[static_cast<size_t>(y) * plane.width + x] = error;
-      const int64_t d = (error - p) * (1 << 12) / squares;
-      for (size_t i = 0; i < 6; ++i)
-        w[i] = std::clamp<int64_t>(w[i] + ((d * e[i]) >> 4), -(1 << 18), 1 << 18);
+      known.put(x, y, {static_cast<int32_t>(q), error, std::abs(error - p)});
+      const int64_t h = (error - p) * (1 << 12) / squares;
+      for (size_t i = 0; i < 12; ++i)
+        w[i] = std::clamp<int64_t>(w[i] + ((h * e[i]) >> 4), -(1 << 18), 1 << 18);
       v = whole;
     }
   }

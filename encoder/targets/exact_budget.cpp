@@ -73,6 +73,18 @@ constexpr double kExactCut = 0.3;
 /// Beside a texture that is not exact: it makes more of the 3 % of bytes than prefixes lose.
 constexpr double kSharedExactCut = 0.5;
 
+/// The heights with corrections in less than so many bytes: behind a fine cut, so that prefixes are
+/// those of the lossy heights for long, unless that takes far more bytes than another.
+std::optional<HeightsCandidate> correctedHeights(const EncodeInputs& inputs,
+                                                 const CodedHeights& lossy, uint64_t room) {
+  std::optional<CodedHeights> corrected = codeCorrected(inputs, lossy, kExactCut);
+  const uint64_t bytes = corrected ? bytesOf(corrected->tracks) : room;
+  if (const std::optional<double> rmse = farShorterCut(lossy, bytes))
+    corrected = codeCorrected(inputs, lossy, std::max(*rmse, kExactCut));
+  if (!corrected || bytesOf(corrected->tracks) >= room) return {};
+  return candidateOf(*std::move(corrected));
+}
+
 /// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
 /// of the lossy heights. Where samples are on no grid the way of fewer bytes is taken.
 /// relative_step: of the lossy heights, or 0.
@@ -91,8 +103,7 @@ std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
   }
   if (!hasLosslessWay(*lossy.coded)) return {};
   if (canBeCorrected(*lossy.coded)) {
-    std::optional<CodedHeights> corrected = codeCorrected(inputs, *lossy.coded, kExactCut);
-    if (corrected && bytesOf(corrected->tracks) < room) return candidateOf(*std::move(corrected));
+    if (auto corrected = correctedHeights(inputs, *lossy.coded, room)) return corrected;
   }
   HeightsCandidate whole = codeLossless(inputs, *lossy.coded);
   if (whole.bytes() >= room) return {};
@@ -128,7 +139,8 @@ std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates
 
 /// Heights of few values to the last bit, in less than the budget. Lossy heights know nothing of
 /// drawings or tables of values, and may never come as near; so prefixes may be somewhat worse. A
-/// table has to save half of the budget for that; a drawing has saved enough by what it is.
+/// table has to save half of the budget for that; a drawing, or corrections in the place of one,
+/// have saved enough by what they are.
 std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
                                           const HeightsCandidate& lossy) {
   constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
@@ -136,17 +148,16 @@ std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
   if (!lossy.coded) return {};
   const uint64_t room = std::min(inputs.options.bytes, lossy.bytes());
   const QuantisedHeights& quantised = *lossy.coded->quantised;
+  const bool few = drawingMayFit(
+      {quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid}, room);
   const bool generous =
       static_cast<double>(inputs.options.bytes) >= kGenerous * lossy.coded->counted();
-  if (!generous &&
-      !drawingMayFit({quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid},
-                     room))
-    return {};
+  if (!few && !generous) return {};
   HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError, room)};
   if (!exact.coded) return {};
-  const bool drawn = exact.coded->header.drawn;
-  if (!drawn && exact.coded->layers.table_bytes == 0) return {};
-  if (drawn ? exact.bytes() > room : 2 * exact.bytes() > inputs.options.bytes) return {};
+  const bool shapes = exact.coded->header.drawn || (few && exact.coded->hasCorrections());
+  if (!shapes && exact.coded->layers.table_bytes == 0) return {};
+  if (shapes ? exact.bytes() > room : 2 * exact.bytes() > inputs.options.bytes) return {};
   exact.curve = curveOfHeights(inputs, *exact.coded);
   return exact;
 }

@@ -7,6 +7,7 @@
 #include "bitstream/stream/header.hpp"
 #include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/few_values.hpp"
+#include "conformance/samples/patches.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
@@ -15,6 +16,7 @@ namespace tetrakis::test {
 namespace {
 
 using samples::make;
+using samples::patches;
 using samples::Pattern;
 using samples::Raster;
 
@@ -317,16 +319,15 @@ TEST(DecodeMemory, TexturesOfKindsStayBelowTheBound) {
 
 /// Few values in large shapes, whole, beside voids, counted by a table, beside corrections.
 TEST(DecodeMemory, DrawnHeightsStayBelowTheBound) {
-  Raster classes = make({Pattern::kRidges, 161, 130, 1, TKS_U8, 3});
-  for (std::byte& sample : classes.data) sample = std::byte(std::to_integer<int>(sample) / 52 * 50);
+  const Raster few = patches(161, 130, 2000);
   const auto expectDrawn = [](const Bytes& bytes, const std::string& what) {
     EXPECT_EQ(Stream(bytes).info().heights_drawn, 1) << what;
     expectWithinBounds(bytes, what, readHeader(bytes)->header.layers.validity_bytes > 0);
   };
-  expectDrawn(encode(&classes, nullptr, lossless()), "drawn");
-  expectDrawn(withVoids(classes, lossless()), "drawn beside voids");
+  expectDrawn(encode(&few, nullptr, lossless()), "drawn");
+  expectDrawn(withVoids(few, lossless()), "drawn beside voids");
   for (const samples::FewValues kind : {samples::FewValues::kRescaled, samples::FewValues::kRare}) {
-    const Raster floats = samples::withFewValues(classes, kind);
+    const Raster floats = samples::withFewValues(few, kind);
     expectDrawn(encode(&floats, nullptr, lossless()), "drawn floats");
   }
 }

@@ -9,6 +9,7 @@
 #include "bitstream/stream/header.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "conformance/samples/few_values.hpp"
+#include "conformance/samples/patches.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/stream_fixture.hpp"
 
@@ -16,18 +17,9 @@ namespace tetrakis::test {
 namespace {
 
 using samples::make;
+using samples::patches;
 using samples::Pattern;
 using samples::Raster;
-
-/// Terrain in `classes` bands.
-Raster classesOf(uint32_t width, uint32_t height, uint32_t classes = 5) {
-  Raster heights = make({Pattern::kRidges, width, height, 1, TKS_U8, 3});
-  for (std::byte& sample : heights.data) {
-    const uint32_t place = std::to_integer<uint32_t>(sample) * classes / 256;
-    sample = std::byte(place * (250 / classes));
-  }
-  return heights;
-}
 
 Bytes encodeWithVoids(Raster& heights, samples::VoidShape shape) {
   const std::vector<uint8_t> valid = samples::validity(shape, heights.width, heights.height);
@@ -48,7 +40,7 @@ struct DrawnKind {
 };
 
 std::vector<DrawnKind> drawnKinds(uint32_t width, uint32_t height) {
-  const Raster plain = classesOf(width, height);
+  const Raster plain = patches(width, height);
   std::vector<DrawnKind> kinds = {{"plain", plain, encode(&plain, nullptr, lossless())}};
   Raster holed = plain;
   const Bytes beside = encodeWithVoids(holed, samples::VoidShape::kCoast);
@@ -61,8 +53,8 @@ std::vector<DrawnKind> drawnKinds(uint32_t width, uint32_t height) {
 }
 
 TEST(DrawnHeights, ComeBackExactly) {
-  for (const auto& [width, height] : {std::pair{70u, 53u}, {2u, 300u}, {301u, 2u}, {128u, 129u}}) {
-    const Raster heights = classesOf(width, height);
+  for (const auto& [width, height] : {std::pair{70u, 53u}, {2u, 300u}, {301u, 9u}, {128u, 129u}}) {
+    const Raster heights = patches(width, height);
     const Bytes stream = encode(&heights, nullptr, lossless());
     EXPECT_EQ(Stream(stream).info().heights_drawn, 1) << width;
     EXPECT_EQ(Stream(stream).info().lossless, 1);
@@ -95,7 +87,7 @@ TEST(DrawnHeights, NoTargetTakesMoreBytesThanTheLastBit) {
 
 /// Of all bytes the texture gets those that the drawing leaves.
 TEST(DrawnHeights, AreExactBesideATexture) {
-  const Raster heights = classesOf(90, 81);
+  const Raster heights = patches(90, 81);
   const Raster image = make({Pattern::kRidges, 90, 81, 3, TKS_U8, 9});
   const size_t drawing = encode(&heights, nullptr, lossless()).size();
   const Bytes stream = encode(&heights, &image, budget(8 * drawing));
@@ -133,7 +125,7 @@ TEST(DrawnHeights, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
 
 /// With every sixteenth of the stream; all prefixes of small ones are those of stream_prefix_test.
 TEST(DrawnHeights, PrefixesImprove) {
-  const Raster heights = classesOf(150, 140);
+  const Raster heights = patches(150, 140);
   const Bytes stream = encode(&heights, nullptr, lossless());
   double before = INFINITY;
   for (size_t part = 2; part <= 16; ++part) {
@@ -168,7 +160,7 @@ TEST(DrawnHeights, WindowsAreThoseOfTheWholeInAllPrefixes) {
 
 /// Levels hold every 2^k-th sample, and nothing that was filtered.
 TEST(DrawnHeights, LevelsHoldSamples) {
-  Raster heights = classesOf(97, 65);
+  Raster heights = patches(97, 65);
   for (size_t x = 0; x < 97; ++x) heights.data[64 * 97 + x] = std::byte(x % 3);  // no line repeats
   for (size_t y = 0; y < 65; ++y) heights.data[97 * y + 96] = std::byte(y % 3);
   Stream stream(encode(&heights, nullptr, lossless()));
@@ -182,7 +174,7 @@ TEST(DrawnHeights, LevelsHoldSamples) {
 
 /// Vertices of the coded mesh lie where heights are not those between their neighbours.
 TEST(DrawnHeights, CodedMeshHasFewVerticesAndTheirHeights) {
-  const Raster heights = classesOf(129, 129, 3);
+  const Raster heights = patches(129, 129);
   Stream stream(encode(&heights, nullptr, lossless()));
   tks_mesh mesh = {};
   ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_CODED, 0, &mesh), TKS_OK);

@@ -150,7 +150,8 @@ Raster roundedHills(double height) {
 }
 
 /// Of smooth heights the coefficients are cut, and corrections restore the samples: no budget finds
-/// a shorter stream to the last bit, and prefixes are those of lossy streams.
+/// a shorter stream to the last bit. A third of it is as good as of the stream for an ample budget,
+/// whose cut lies later.
 TEST(StreamRate, LosslessIsTheShortestWayToTheLastBit) {
   for (const double height : {40., 90.}) {
     const Raster hills = roundedHills(height);
@@ -159,9 +160,9 @@ TEST(StreamRate, LosslessIsTheShortestWayToTheLastBit) {
     Stream stream(whole), exact(ample);
     EXPECT_TRUE(stream.heights() == hills.data && exact.heights() == hills.data);
     EXPECT_LE(whole.size(), ample.size());
-    const size_t half = whole.size() / 2;
-    EXPECT_LE(squaredError(hills, Stream(Prefix(whole).first(half)).heights()),
-              squaredError(hills, Stream(Prefix(ample).first(half)).heights()) * 1.1);
+    const size_t third = whole.size() / 3;
+    EXPECT_LE(squaredError(hills, Stream(Prefix(whole).first(third)).heights()),
+              squaredError(hills, Stream(Prefix(ample).first(third)).heights()) * 1.1);
   }
 }
 

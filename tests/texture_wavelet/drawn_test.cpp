@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "bitstream/coder/mixture.hpp"
 #include "bitstream/stream/fields.hpp"
-#include "codec/drawing/drawing_mixture.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
 #include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/texture_choice.hpp"

@@ -6,14 +6,15 @@
 #include <span>
 #include <utility>
 
-#include "wavelet/wavelet_header.hpp"
+#include "wavelet/wavelet.hpp"
 
 namespace tetrakis::inline choice {
 
 TypicalPlane::Part::Part(PlanePart part, const WaveletHeader& header, size_t shown)
     : samples(std::move(part)),
       layout(specOf(header), samples.extent, samples.valid, {}),
-      coefficients(withFractions(samples.values, header.fraction_bits)) {
+      coefficients(withFractions(samples.values, header.fraction_bits)),
+      wavelet(header) {
   forwardWavelet(specOf(header), layout.pyramid(), coefficients);
   const size_t coded = markedIn(samples.extent, samples.valid);
   share = static_cast<double>(shown) / static_cast<double>(std::max<size_t>(coded, 1));
@@ -51,6 +52,37 @@ double TypicalPlane::step(double bits) const {
   int log2 = 0;
   while (log2 < kMost && cost(std::exp2(log2)).bits > bits) ++log2;
   return std::exp2(log2);
+}
+
+namespace {
+
+/// What a decoder makes of coefficients that are known down to a step.
+void requantise(std::span<int32_t> coefficients, double step) {
+  constexpr double kBeyond = 7. / 16;  // as in typicalMagnitude()
+  for (int32_t& c : coefficients) {
+    const double level = std::trunc(std::abs(c) / step);
+    const double known = level == 0 ? 0 : (level + kBeyond) * step;
+    c = static_cast<int32_t>(std::lround(std::copysign(known, c)));
+  }
+}
+
+}  // namespace
+
+std::vector<TypicalPlane::Shown> TypicalPlane::shown(double step) const {
+  std::vector<Shown> all;
+  for (const Part& part : parts_) {
+    std::vector<int32_t> values = part.coefficients;
+    const Pyramid& pyramid = part.layout.pyramid();
+    for (size_t i = 0; i < part.layout.subbands().size(); ++i) {
+      const Subband& band = part.layout.subbands()[i];
+      const double own = step * unit_ / std::sqrt(part.layout.energy(i));
+      for (uint32_t y = 0; y < band.height; ++y)
+        requantise(std::span(values).subspan(pyramid.indexOf(band, y), band.width), own);
+    }
+    inverseWavelet(specOf(part.wavelet), pyramid, values, {.rounds = false});
+    all.push_back({part.samples, std::move(values), part.wavelet.fraction_bits});
+  }
+  return all;
 }
 
 PlaneCost typicalCost(const PlaneView<const int32_t>& plane, int bits, double step) {

@@ -12,6 +12,7 @@
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/plane_cost.hpp"
 #include "wavelet/choice/typical_parts.hpp"
+#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline choice {
 
@@ -29,12 +30,24 @@ class TypicalPlane {
   /// The least power of two at which the coefficients cost at most so many bits.
   double step(double bits) const;
 
+  /// A part of the plane beside what coefficients make of it.
+  struct Shown {
+    const PlanePart& samples;
+    std::vector<int32_t> values;  ///< in units of 2^-fraction_bits
+    int fraction_bits;
+  };
+  /// Each part as it is decoded from coefficients with a step > 0. They refer to this.
+  std::vector<Shown> shown(double step) const;
+  /// For how many samples of the plane a sample of the parts stands.
+  double standsFor() const { return whole_; }
+
  private:
   struct Part {
     PlanePart samples;
     PlaneLayout layout;  ///< refers to the samples
     std::vector<int32_t> coefficients;
     double share;  ///< of the coded samples, those that are shown
+    WaveletHeader wavelet;
 
     Part(PlanePart part, const WaveletHeader& header, size_t shown);
     Part(const Part&) = delete;

@@ -2,11 +2,8 @@
 #include "codec/geometry/coding_choice/bound_choice.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
 #include <deque>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,7 +11,6 @@
 #include "codec/geometry/geometry_encoder.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/typical_parts.hpp"
-#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline coding_choice {
 
@@ -95,31 +91,6 @@ BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
   return best;
 }
 
-/// Entropy of whole steps at distances of a normal error from what is known of them.
-double entropyOfSteps(double known, double mean_square) {
-  constexpr int kFarthest = 16;
-  std::array<double, 2 * kFarthest + 1> weights;
-  double sum = 0, bits = 0;
-  for (int step = -kFarthest; step <= kFarthest; ++step) {
-    const double error = step - known;
-    sum += weights[static_cast<size_t>(step + kFarthest)] =
-        std::exp(-error * error / (2 * mean_square));
-  }
-  for (const double weight : weights)
-    if (weight > 0) bits -= weight / sum * std::log2(weight / sum);
-  return bits;
-}
-
-/// The mean over all places between two steps.
-double correctionBits(double mean_square) {
-  constexpr int kPlaces = 8;
-  if (mean_square <= 0) return 0;
-  double bits = 0;
-  for (int place = 0; place < kPlaces; ++place)
-    bits += entropyOfSteps((place + 0.5) / (2 * kPlaces), mean_square);
-  return bits / kPlaces;
-}
-
 }  // namespace
 
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
@@ -138,16 +109,6 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   const BestCut cut = bestCut(trials, largest);
   const bool correct = cut.bytes < rounded;
   return {!correct, correct, cut.mean_square};
-}
-
-bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes) {
-  constexpr double kLeastBits = 0.5, kMostBits = 3, kTries = 1.015;
-  const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
-  const double bits = 8 * static_cast<double>(bytes) / samples;
-  if (bits < kLeastBits || bits > kMostBits) return false;
-  const PlaneCost cut = typicalCost(heights, range_bits, 1);
-  return cut.bits + samples * correctionBits(cut.squares / samples) <
-         kTries * typicalCost(heights, range_bits, 0).bits;
 }
 
 }  // namespace tetrakis::inline coding_choice

@@ -26,10 +26,4 @@ struct BoundWays {
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
                     int32_t largest);
 
-/// Whether smooth heights, which take so many bytes to the last bit, may take fewer as coefficients
-/// with fraction bits, cut, and corrections behind them. The integer transform rounds each
-/// coefficient, which costs about a bit a sample where the heights themselves hold less; of rounded
-/// samples of a smooth surface, a cut knows most. Estimated on typical parts. heights: in steps.
-bool correctionsMayPay(const PlaneView<const int32_t>& heights, int range_bits, uint64_t bytes);
-
 }  // namespace tetrakis::inline coding_choice

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "codec/geometry/corrected_heights.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/corrections/exact_corrections_encoder.hpp"
@@ -20,48 +21,88 @@ int32_t nearestMultiple(int64_t q, int64_t largest) {
 
 namespace {
 
+/// A part of the plane: its steps, and what is decoded of them.
+struct DecodedPart {
+  CutOut<int32_t> steps, heights;
+  CutOut<uint8_t> valid;
+  Extent extent;
+  int fraction_bits;
+
+  DecodedPart(const HeightSteps& whole, Extent plane, const DecodedWindow& decoded,
+              const Window& part)
+      : steps(whole.steps, plane, part),
+        heights(decoded.heights.heights, decoded.window.extent(), inside(decoded, part)),
+        valid(decoded.heights.valid, decoded.window.extent(), inside(decoded, part)),
+        extent(part.extent()),
+        fraction_bits(decoded.heights.fraction_bits) {}
+
+  static Window inside(const DecodedWindow& decoded, const Window& part) {
+    return {part.x - decoded.window.x, part.y - decoded.window.y, part.width, part.height};
+  }
+  int64_t error(size_t i) const {
+    return int64_t{steps.values()[i]} - wholeStep(heights.values()[i], fraction_bits);
+  }
+};
+
 /// Corrections of a part in units of so many steps.
-std::vector<uint8_t> encodeWithinBound(const DecodedGeometry& decoded,
-                                       std::span<const int32_t> corrections, const Window& part) {
-  const Extent plane = decoded.extent();
-  const CutOut<int32_t> of_part(corrections, plane, part);
-  const CutOut<uint8_t> valid(decoded.valid, plane, part);
-  const CutOut<uint8_t> significant(decoded.significant, plane, part);
-  const std::vector<uint8_t> hints = activityHints(significant.values(), part.extent());
-  return encodeCorrections(of_part.values(), {hints, part.extent(), valid.values()});
+std::vector<uint8_t> encodeWithinBound(const DecodedPart& part,
+                                       std::span<const uint8_t> significant, int32_t largest) {
+  std::vector<int32_t> corrections(part.extent.samples());
+  for (size_t i = 0; i < corrections.size(); ++i)
+    corrections[i] = nearestMultiple(part.error(i), largest);
+  const std::vector<uint8_t> hints = activityHints(significant, part.extent);
+  return encodeCorrections(corrections, {hints, part.extent, part.valid.values()});
 }
 
 /// Corrections of a part to whole steps.
-std::vector<uint8_t> encodeExact(const DecodedGeometry& decoded, std::span<const int32_t> steps,
-                                 const Window& part) {
-  const Extent plane = decoded.extent();
-  const CutOut<int32_t> exact(steps, plane, part), heights(decoded.heights, plane, part);
-  const CutOut<uint8_t> valid(decoded.valid, plane, part);
-  return encodeExactSteps(exact.values(), {heights.values(), part.extent(), valid.values()},
-                          decoded.fraction_bits);
+std::vector<uint8_t> encodeExact(const DecodedPart& part) {
+  return encodeExactSteps(part.steps.values(),
+                          {part.heights.values(), part.extent, part.valid.values()},
+                          part.fraction_bits);
+}
+
+Corrected correct(const HeightSteps& steps, Extent plane, const DecodedWindow& decoded,
+                  const Window& window, int32_t largest) {
+  const DecodedPart part(steps, plane, decoded, window);
+  Corrected result;
+  for (size_t i = 0; i < part.extent.samples(); ++i) {
+    const int64_t error = part.error(i), correction = nearestMultiple(error, largest);
+    const auto rest = static_cast<double>(error - correction * (2 * int64_t{largest} + 1));
+    result.any |= correction != 0;
+    result.before += static_cast<double>(error) * static_cast<double>(error);
+    result.after += rest * rest;
+  }
+  if (largest == 0) {
+    result.codewords.push_back(encodeExact(part));
+    return result;
+  }
+  const CutOut<uint8_t> significant(decoded.heights.significant, decoded.window.extent(),
+                                    DecodedPart::inside(decoded, window));
+  result.codewords.push_back(encodeWithinBound(part, significant.values(), largest));
+  return result;
 }
 
 }  // namespace
 
-Corrected correct(const HeightSteps& steps, const GeometryHeader& header,
-                  const DecodedGeometry& decoded, int32_t largest, uint32_t threads) {
-  std::vector<int32_t> corrections = wholeSteps(decoded);
-  Corrected result;
-  bool any = false;
-  for (size_t i = 0; i < corrections.size(); ++i) {
-    const int64_t error = int64_t{steps.steps[i]} - corrections[i];
-    corrections[i] = nearestMultiple(error, largest);
-    any |= corrections[i] != 0;
-    const auto rest = static_cast<double>(error - corrections[i] * (2 * int64_t{largest} + 1));
-    result.before += static_cast<double>(error) * static_cast<double>(error);
-    result.after += rest * rest;
+Corrected correct(const HeightSteps& steps, uint32_t width, const DecodedWindow& decoded,
+                  std::span<const Window> parts, int32_t largest, uint32_t threads) {
+  const Extent plane = {width, static_cast<uint32_t>(steps.steps.size() / width)};
+  std::vector<Corrected> of_parts(parts.size());
+  parallelFor(threads, parts.size(),
+              [&](size_t i) { of_parts[i] = correct(steps, plane, decoded, parts[i], largest); });
+  Corrected all;
+  for (Corrected& part : of_parts) {
+    all.codewords.push_back(std::move(part.codewords.front()));
+    all.any |= part.any;
+    all.before += part.before;
+    all.after += part.after;
   }
-  if (!any) return result;
-  result.codewords = encodeParts(header, threads, [&](const Window& part) {
-    return largest > 0 ? encodeWithinBound(decoded, corrections, part)
-                       : encodeExact(decoded, steps.steps, part);
-  });
-  return result;
+  return all;
+}
+
+Corrected correct(const HeightSteps& steps, const DecodedGeometry& decoded, int32_t largest) {
+  const Window whole = {0, 0, decoded.width, decoded.height};
+  return correct(steps, decoded.extent(), {decoded, whole}, whole, largest);
 }
 
 /// Decodes a cut, from where the longest known cut ends that is no longer than it.
@@ -88,7 +129,8 @@ void CorrectedCut::forgetFarthest() {
 uint64_t CorrectedCut::total(uint64_t bytes) {
   const auto tried = totals_.find(bytes);
   if (tried != totals_.end()) return tried->second;
-  const uint64_t total = bytes + bytesOf(correct(bytes).codewords);
+  const Corrected corrected = correct(bytes);
+  const uint64_t total = bytes + (corrected.any ? bytesOf(corrected.codewords) : 0);
   if (totals_.empty() || total < totals_[shortest_]) shortest_ = bytes;
   totals_[bytes] = total;
   forgetFarthest();
@@ -96,7 +138,7 @@ uint64_t CorrectedCut::total(uint64_t bytes) {
 }
 
 Corrected CorrectedCut::correct(uint64_t bytes) {
-  return coding_choice::correct(steps_, header_, decoded(bytes), largest_, 1);
+  return coding_choice::correct(steps_, decoded(bytes), largest_);
 }
 
 uint64_t CorrectedCut::bytesFor(double mean_square) const {
@@ -107,16 +149,7 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
   return coefficients_.codeword.size();
 }
 
-/// Behind a cut the error falls row by row, so that prefixes of exact heights lose by early cuts.
-/// So exact heights count as 5 % more bytes for each halving of the cut against all bytes.
-double CorrectedCut::cost(uint64_t bytes) {
-  constexpr double kHalving = 0.05;
-  const auto all = static_cast<double>(total(bytes));
-  if (largest_ > 0) return all;
-  return all * (1 + kHalving * std::log2(all / static_cast<double>(std::max<uint64_t>(bytes, 1))));
-}
-
-/// The cost has one minimum, near the usual cut: descent from there with ever smaller strides.
+/// The total has one minimum, near the usual cut: descent from there with ever smaller strides.
 /// Every turn but the last of each stride costs less than the one before. The shorter neighbour is
 /// tried first, because the usual cut goes on from it.
 uint64_t CorrectedCut::best(uint64_t rival) {
@@ -126,19 +159,16 @@ uint64_t CorrectedCut::best(uint64_t rival) {
     return std::min<uint64_t>(static_cast<uint64_t>(static_cast<double>(bytes) * factor),
                               coefficients_.codeword.size());
   };
-  const double finest = largest_ > 0 ? 1.04 : 1.1;  // exact heights gain less than 1 % by 1.04
   uint64_t best = bytesFor(usualCut(largest_));
   total(scaled(best, 1 / kWidest));
-  double least = cost(best);
+  uint64_t least = total(best);
   for (const double stride : {kWidest, 1.1, 1.04}) {
-    if (stride < finest) break;
-    const auto bytes = static_cast<double>(total(best));
-    const bool lost = bytes > kClearly * static_cast<double>(rival);
+    const bool lost = static_cast<double>(least) > kClearly * static_cast<double>(rival);
     if (lost && stride < kWidest) break;
     for (const double factor : {1 / stride, stride}) {
       for (;;) {
         const uint64_t cut = scaled(best, factor);
-        const double next = cost(cut);
+        const uint64_t next = total(cut);
         if (next >= least) break;
         best = cut;
         least = next;

@@ -22,14 +22,24 @@ int32_t nearestMultiple(int64_t q, int64_t largest);
 
 /// What corrections make of the heights that a cut leaves.
 struct Corrected {
-  PartCodewords codewords;       ///< of each part of the plane; empty: nothing needs one
+  PartCodewords codewords;       ///< of each part
+  bool any = false;              ///< some sample is off by more than allowed
   double before = 0, after = 0;  ///< squared errors in steps
 };
 
-/// Corrections of decoded heights that leave a largest error, in steps. header: with its regions.
-/// threads: nothing depends on them.
-Corrected correct(const HeightSteps& steps, const GeometryHeader& header,
-                  const DecodedGeometry& decoded, int32_t largest, uint32_t threads);
+/// What a decoder makes of a window of the plane.
+struct DecodedWindow {
+  const DecodedGeometry& heights;
+  Window window;
+};
+
+/// Corrections of decoded heights that leave a largest error, in steps. steps: of the whole plane,
+/// which is so wide. parts: those that the window consists of. threads: nothing depends on them.
+Corrected correct(const HeightSteps& steps, uint32_t width, const DecodedWindow& decoded,
+                  std::span<const Window> parts, int32_t largest, uint32_t threads);
+
+/// The same for a plane that is one part.
+Corrected correct(const HeightSteps& steps, const DecodedGeometry& decoded, int32_t largest);
 
 /// Tries cuts of one track of coefficients, complete or not. All arguments outlive it. It remembers
 /// what it has decoded of the cuts near the best one, so that others go on from there.
@@ -52,13 +62,11 @@ class CorrectedCut {
   /// Bytes of the coefficients, cut there, and of their corrections.
   uint64_t total(uint64_t bytes);
 
-  /// The cut of fewest bytes in all, or somewhat later of exact heights; where these are clearly
-  /// more than the rival's, about it.
+  /// The cut of fewest bytes in all; where these are clearly more than the rival's, about it.
   uint64_t best(uint64_t rival);
 
  private:
   DecodedGeometry decoded(uint64_t bytes);
-  double cost(uint64_t bytes);
   void forgetFarthest();
 
   const HeightSteps& steps_;

@@ -1,92 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact corrections turn decoded heights, which have fractions of steps, into the whole steps that
-// they come from, row by row. All samples before one are exact then, so that the errors of the
-// decoded heights are known there; those of its neighbours foretell its own:
+// they come from, row by row. All samples before one are exact then: the errors of the decoded
+// heights are known there and foretell its own (error_forecast.hpp). The height and its foretold
+// error add up to a sum. The correction counts steps from the one nearest to this sum, and is
+// positive on the side of that step where the sum lies.
 //
-//   foretold = sum of weights * errors of W, N, NW, NE, WW and NN
-//
-// The weights learn from each sample by normalised least mean squares (B. Widrow, M. Hoff 1960;
-// J. Nagumo, A. Noda 1967): they follow a filter that oscillates as well as a plane that a cut has
-// smoothed away. The height and its foretold error add up to a sum. The correction counts steps
-// from the one nearest to this sum, and is positive on the side of that step where the sum lies.
-// The contexts are how near the sum is to the middle of two steps, and the size of the errors
-// nearby.
-//
-// All of it is in integers: errors in units of the heights, weights in units of 2^-16.
+// A correction is told by questions: is there one, is it negative, is it more than 1, more than 2,
+// and so on. Each question asks whether the sample is one certain step or lies beyond it, so that
+// exact steps nearby answer it as well as the decoded height does: where samples were copied,
+// turned or rounded to tens, a neighbour has that very step. Seven models, each with contexts of
+// its own, answer together (bitstream/coder/mixture.hpp).
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "base/plane.hpp"
+#include "bitstream/coder/mixture.hpp"
 #include "codec/geometry/corrections/correction_coder.hpp"
+#include "codec/geometry/corrections/error_forecast.hpp"
+#include "codec/geometry/corrections/near_steps.hpp"
 
 namespace tetrakis::inline corrections {
-
-/// What the errors of decoded heights before a sample say of its own.
-class ErrorForecast {
- public:
-  static constexpr size_t kLevels = 20;
-
-  explicit ErrorForecast(uint32_t width)
-      : rows_{Row(width + kMargins), Row(width + kMargins), Row(width + kMargins)} {}
-
-  /// Begins a row, whose samples have no error unless one is learnt.
-  void nextRow() {
-    std::rotate(rows_.begin(), rows_.end() - 1, rows_.end());
-    std::fill(rows_[0].begin(), rows_[0].end(), 0);
-  }
-
-  /// Looks at the neighbours of the sample in column x.
-  void look(uint32_t x) {
-    const auto &here = rows_[0], &above = rows_[1];
-    const size_t i = x + kLeft;
-    near_ = {here[i - 1], above[i], above[i - 1], above[i + 1], here[i - 2], rows_[2][i]};
-    int64_t sum = 0;
-    for (size_t k = 0; k < near_.size(); ++k) sum += weights_[k] * near_[k];
-    foretold_ = static_cast<int32_t>((sum + (1 << 15)) >> 16);
-  }
-  int32_t foretold() const { return foretold_; }
-
-  /// The size of the errors nearby: two levels an octave.
-  size_t level() const {
-    const auto size = [&](size_t k) { return static_cast<uint32_t>(std::abs(near_[k])); };
-    const uint32_t sum = 2 * (size(0) + size(1)) + size(2) + size(3);
-    const auto bits = static_cast<size_t>(std::bit_width(sum));
-    return bits < 3 ? bits : std::min(2 * bits - 3 + (sum >> (bits - 2) & 1), kLevels - 1);
-  }
-
-  /// Learns the error of the sample that it has looked at.
-  void learn(uint32_t x, int64_t error) {
-    constexpr int64_t kRate = 1 << 12, kQuiet = 64, kLargestWeight = 1 << 18;
-    const auto clamped = static_cast<int32_t>(std::clamp<int64_t>(error, -kLargest, kLargest));
-    rows_[0][x + kLeft] = clamped;
-    int64_t power = kQuiet;
-    for (const int64_t e : near_) power += e * e;
-    const int64_t gain = (clamped - int64_t{foretold_}) * kRate / power;
-    for (size_t k = 0; k < near_.size(); ++k) {
-      const int64_t weight = weights_[k] + ((gain * near_[k]) >> 4);
-      weights_[k] = std::clamp(weight, -kLargestWeight, kLargestWeight);
-    }
-  }
-
- private:
-  using Row = std::vector<int32_t>;
-  static constexpr int64_t kLargest = 1 << 15;
-  static constexpr uint32_t kLeft = 2, kMargins = kLeft + 1;
-
-  std::array<Row, 3> rows_;  ///< errors of this row, the one above and the one above that
-  std::array<int32_t, 6> near_ = {};
-  std::array<int64_t, 6> weights_ = {};
-  int32_t foretold_ = 0;
-};
 
 /// The step nearest to a height with its foretold error, halves up.
 struct ForetoldStep {
@@ -118,35 +58,137 @@ struct ForetoldStep {
   }
 };
 
-/// Io: as of CorrectionCoder.
+/// The questions about a correction. Small magnitudes are asked for one by one, others by their
+/// number of bits above these.
+struct Question {
+  static constexpr int32_t kOneByOne = 8;
+  static constexpr size_t kMany = 18, kKinds = 5;
+
+  size_t number;  ///< of kMany
+  size_t kind;    ///< of kKinds
+  int32_t step;   ///< the correction that it asks about
+
+  static constexpr Question any() { return {0, 0, 0}; }
+  static constexpr Question sign() { return {1, 1, 0}; }
+  /// Is the magnitude more than this? magnitude: from 1 to kOneByOne - 1.
+  static constexpr Question more(int32_t magnitude, bool negative) {
+    const auto which = static_cast<size_t>(std::min(magnitude, 4));
+    return {(negative ? 5 : 1) + which, negative ? 3u : 2u, negative ? -magnitude : magnitude};
+  }
+  /// Has the rest of the magnitude more than so many bits?
+  static constexpr Question beyond(int bits, bool negative) {
+    return {9 + static_cast<size_t>(std::min(bits, 8)), 4, negative ? -kOneByOne : kOneByOne};
+  }
+};
+
+/// Seven models that answer a question.
+class StepModels {
+ public:
+  static constexpr size_t kModels = 7;
+
+  StepModels()
+      : size_(kSizes * Question::kMany),
+        lines_(11 * 11 * 11 * Question::kKinds),
+        plane_(21 * 8 * Question::kKinds),
+        alike_(NearSteps::kAlike * 9 * Question::kKinds),
+        sized_(kSizes * 9 * Question::kKinds),
+        straight_(11 * 11 * Question::kKinds),
+        around_(7 * 7 * 7 * 7 * Question::kKinds),
+        weights_(kSpreads * Question::kMany, freshWeights<kModels>()) {}
+
+  /// What is known of a sample before it is asked about.
+  void look(const NearSteps& near, size_t level, size_t place) {
+    near_ = near;
+    sizes_ = level * ForetoldStep::kPlaces + place;
+    spread_ = std::min(near.spread, kSpreads - 1);
+  }
+
+  Mixture<kModels> ask(const Question& question) {
+    const auto away = [&](int64_t step, int64_t most) {
+      return static_cast<size_t>(std::clamp<int64_t>(step - question.step, -most, most) + most);
+    };
+    const size_t two = away(near_.west, 1) + 3 * away(near_.north, 1);
+    const size_t lines =
+        (away(near_.plane, 5) * 11 + away(near_.mean, 5)) * 11 + away(near_.slope, 5);
+    const size_t around =
+        ((away(near_.west, 3) * 7 + away(near_.north, 3)) * 7 + away(near_.north_west, 3)) * 7 +
+        away(near_.north_east, 3);
+    const size_t kinds = Question::kKinds, kind = question.kind;
+    return {{&size_[sizes_ * Question::kMany + question.number], &lines_[lines * kinds + kind],
+             &plane_[(away(near_.plane, 10) * 8 + std::min<size_t>(spread_, 7)) * kinds + kind],
+             &alike_[(near_.alike * 9 + two) * kinds + kind],
+             &sized_[(sizes_ * 9 + two) * kinds + kind],
+             &straight_[(away(near_.row, 5) * 11 + away(near_.column, 5)) * kinds + kind],
+             &around_[around * kinds + kind]},
+            weights_[spread_ * Question::kMany + question.number],
+            odds_};
+  }
+
+ private:
+  static constexpr size_t kSizes = ErrorForecast::kLevels * ForetoldStep::kPlaces;
+  static constexpr size_t kSpreads = 10;
+  using Models = std::vector<AdaptiveBit>;
+
+  Models size_;      ///< by the size of the error, and the place between two steps
+  Models lines_;     ///< by where a plane, a mean and a slope lie
+  Models plane_;     ///< by where a plane lies, and how rough it is
+  Models alike_;     ///< by which neighbours are the same, and whether W and N have the step
+  Models sized_;     ///< by the size of the error, and whether W and N have the step
+  Models straight_;  ///< by where a row and a column go on to
+  Models around_;    ///< by where the four neighbours lie
+  std::vector<MixtureWeights<kModels>> weights_;
+  const OddsTable odds_ = makeOddsTable();
+  NearSteps near_ = {};
+  size_t sizes_ = 0, spread_ = 0;
+};
+
+/// Io: DecisionEncoding or DecisionDecoding (bitstream/coder/).
 template <class Io>
 class ExactCorrectionCoder {
  public:
   explicit ExactCorrectionCoder(Io& io) : io_(io) {}
 
   /// known: the correction, or anything in decoders. Where io has stopped the result means nothing.
-  int32_t code(size_t level, size_t place, int32_t known) {
-    if (!io_.more(any_[level][place], known, 0) || io_.stopped()) return 0;
-    int bits = 1;
-    while (bits < kMostBits && io_.more(more_[level][static_cast<size_t>(bits)], known, bits))
-      ++bits;
-    const size_t size = std::min<size_t>(static_cast<size_t>(bits), sign_.size()) - 1;
-    const bool negative = io_.negative(sign_[size][place], known, false);
-    if (io_.stopped()) return 0;
-    const uint32_t magnitude = digits_.code(io_, known, bits);
-    return static_cast<int32_t>(negative ? 0u - magnitude : magnitude);
+  int32_t code(const NearSteps& near, size_t level, size_t place, int32_t known) {
+    models_.look(near, level, place);
+    if (!decide(Question::any(), known != 0)) return 0;
+    const bool negative = decide(Question::sign(), known < 0);
+    const uint32_t magnitude = codeMagnitude(negative, magnitudeOf(known));
+    return toSide(static_cast<int32_t>(magnitude), negative);
   }
 
  private:
+  uint32_t codeMagnitude(bool negative, uint32_t known) {
+    for (int32_t size = 1; size < Question::kOneByOne; ++size) {
+      const auto magnitude = static_cast<uint32_t>(size);
+      if (!decide(Question::more(size, negative), known > magnitude)) return magnitude;
+    }
+    const uint32_t known_rest = known - (Question::kOneByOne - 1);
+    const int known_bits = std::bit_width(known_rest);
+    int bits = 1;
+    while (bits < kMostBits && decide(Question::beyond(bits, negative), known_bits > bits)) ++bits;
+    uint32_t rest = 1;
+    for (int position = bits - 2; position >= 0; --position) {
+      const bool bit = (known_rest >> position) & 1;
+      rest =
+          2 * rest + (position == bits - 2 ? io_.decide(high_[static_cast<size_t>(bits) - 1], bit)
+                                           : io_.even(bit));
+    }
+    return rest + (Question::kOneByOne - 1);
+  }
+
+  bool decide(const Question& question, bool known) {
+    Mixture<StepModels::kModels> mixture = models_.ask(question);
+    const bool answer = io_.decideOf(mixture.zero(), known);
+    mixture.learn(answer);
+    return answer;
+  }
+
   static constexpr int kMostBits = 32;
-  template <size_t kFirst, size_t kSecond>
-  using Models = std::array<std::array<AdaptiveBit, kSecond>, kFirst>;
 
   Io& io_;
-  Models<ErrorForecast::kLevels, ForetoldStep::kPlaces> any_;  ///< whether there is a correction
-  Models<ErrorForecast::kLevels, kMostBits> more_;
-  Models<4, ForetoldStep::kPlaces> sign_;
-  CorrectionDigits digits_;
+  StepModels models_;
+  std::array<AdaptiveBit, kMostBits> high_;  ///< the second digit of a rest, by its bits
 };
 
 /// heights: in units of 2^-fraction_bits steps. exact(sample): the whole steps that it comes from,
@@ -156,11 +198,13 @@ template <class Io, class ExactStep, class TakeRow>
 void codeExactSteps(const PlaneView<const int32_t>& heights, int fraction_bits, Io& io,
                     const ExactStep& exact, const TakeRow& take) {
   ErrorForecast forecast(heights.width);
+  ExactRows rows(heights.width);
   ExactCorrectionCoder<Io> coder(io);
   std::vector<int32_t> row(heights.width);
   for (uint32_t y = 0; y < heights.height; ++y) {
     const size_t first = size_t{y} * heights.width;
     forecast.nextRow();
+    rows.nextRow();
     for (uint32_t x = 0; x < heights.width; ++x) {
       row[x] = 0;
       if (!heights.valid[first + x]) continue;
@@ -168,10 +212,12 @@ void codeExactSteps(const PlaneView<const int32_t>& heights, int fraction_bits, 
       forecast.look(x);
       const ForetoldStep step(height, forecast.foretold(), fraction_bits);
       const int32_t known = step.correctionTo(exact(first + x));
-      row[x] = step.corrected(coder.code(forecast.level(), step.place, known));
+      const NearSteps near = rows.near(x, step.step, step.below);
+      row[x] = step.corrected(coder.code(near, forecast.level(), step.place, known));
       if (io.stopped()) return take(first, std::span<const int32_t>(row).first(x));
       const auto whole = static_cast<int32_t>(static_cast<uint32_t>(row[x]) << fraction_bits);
       forecast.learn(x, int64_t{whole} - height);
+      rows.put(x, row[x]);
     }
     take(first, std::span<const int32_t>(row));
   }

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "codec/geometry/corrections/correction_writer.hpp"
+#include "bitstream/coder/decision_encoding.hpp"
 #include "codec/geometry/corrections/exact_corrections.hpp"
 
 namespace tetrakis::inline corrections {
@@ -11,7 +11,7 @@ namespace tetrakis::inline corrections {
 std::vector<uint8_t> encodeExactSteps(std::span<const int32_t> steps,
                                       const PlaneView<const int32_t>& heights, int fraction_bits) {
   assert(steps.size() == heights.extent().samples());
-  CorrectionWriter writer;
+  DecisionEncoding writer;
   codeExactSteps(
       heights, fraction_bits, writer, [&](size_t sample) { return steps[sample]; },
       [](size_t, std::span<const int32_t>) {});

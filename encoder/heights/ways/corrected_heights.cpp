@@ -2,14 +2,18 @@
 #include "encoder/heights/ways/corrected_heights.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <span>
 #include <utility>
 
+#include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/height_layers.hpp"
 #include "encoder/heights/followed_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/cut_heights.hpp"
+#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline ways {
 
@@ -54,7 +58,7 @@ UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double eno
 /// The heights with corrections to a largest error behind them; as they are if nothing is off. What
 /// corrections leave is told in the account's own measure, which the audit corrects later.
 CodedHeights followedBy(CodedHeights cut, const Corrected& corrected, int32_t largest) {
-  if (corrected.codewords.empty()) return cut;
+  if (!corrected.any) return cut;
   double left = 0;
   for (const EncodedTrack& track : cut.tracks) left += track.points.back().distortion;
   GeometryLayers layers = cut.layers;
@@ -70,8 +74,9 @@ std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeigh
                                     const CutTarget& target) {
   constexpr double kNear = 1.5;
   const auto& [layers, track, may_go_on] = uncut;
-  const GeometryHeader header = headerOf(*heights.quantised, layers, track.planes);
-  CorrectedCut cut(heights.quantised->steps, layers.flat.areas, header, track, heights.largest);
+  const QuantisedHeights& quantised = *heights.quantised;
+  const GeometryHeader header = headerOf(quantised, layers, track.planes);
+  CorrectedCut cut(quantised.steps, layers.flat.areas, header, track, heights.largest);
   const uint64_t bytes =
       target.mean_square ? cut.bytesFor(*target.mean_square) : cut.best(target.rival);
   const bool near = kNear * static_cast<double>(bytes) > static_cast<double>(track.codeword.size());
@@ -94,13 +99,46 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
   return *codeCut(heights, codeUncut(heights, choice, 0), target);
 }
 
+/// The parts of rows of regions, as many rows as make a window of a million samples: what decoding
+/// takes is of a window.
+std::vector<std::vector<Window>> bandsOf(const std::vector<Window>& parts) {
+  constexpr uint64_t kEnough = 1 << 20;
+  std::vector<std::vector<Window>> bands;
+  uint64_t samples = kEnough;
+  for (const Window& part : parts) {
+    const bool new_row = bands.empty() || part.y != bands.back().back().y;
+    if (new_row && samples >= kEnough) {
+      bands.emplace_back();
+      samples = 0;
+    }
+    bands.back().push_back(part);
+    samples += part.extent().samples();
+  }
+  return bands;
+}
+
+Window around(const std::vector<Window>& parts) {
+  const Window &first = parts.front(), &last = parts.back();
+  return {first.x, first.y, last.x + last.width - first.x, last.y + last.height - first.y};
+}
+
 /// Heights in regions with corrections behind them.
 CodedHeights withCorrections(CodedHeights cut, int32_t largest, uint32_t threads) {
-  const DecodedHeights decoded =
-      decodeHeights(cut.header, cut.layers, codewordsOf(cut.tracks), {}, {threads, nullptr});
-  const Corrected corrected =
-      correct(cut.quantised->steps, cut.header, decoded.geometry, largest, threads);
-  return followedBy(std::move(cut), corrected, largest);
+  const Codewords codewords = codewordsOf(cut.tracks);
+  Corrected all;
+  for (const std::vector<Window>& parts :
+       bandsOf(correctionParts(cut.header.extent(), cut.header.regions.side_log2))) {
+    const View view = {0, around(parts)};
+    const DecodedHeights decoded =
+        decodeHeights(cut.header, cut.layers, codewords, view, {threads, nullptr});
+    Corrected band = correct(cut.quantised->steps, cut.header.width,
+                             {decoded.geometry, *view.window}, parts, largest, threads);
+    for (auto& codeword : band.codewords) all.codewords.push_back(std::move(codeword));
+    all.any |= band.any;
+    all.before += band.before;
+    all.after += band.after;
+  }
+  return followedBy(std::move(cut), all, largest);
 }
 
 /// Codes the heights in regions. No cut is searched for: it leaves what cuts usually leave.
@@ -136,6 +174,16 @@ std::optional<CodedHeights> codeCorrected(const EncodeInputs& inputs, const Code
   std::optional<CodedHeights> cut = cutAt(lossy, rmse * rmse * lossy.counted());
   if (!cut) return {};
   return withCorrections(*std::move(cut), 0, inputs.options.threads);
+}
+
+std::optional<double> farShorterCut(const CodedHeights& lossy, uint64_t bytes) {
+  constexpr double kFar = 0.8;
+  const HeightSteps& steps = lossy.quantised->steps;
+  const PlaneView<const int32_t> plane = steps.lifting(extentOf(*lossy.quantised->samples));
+  const auto whole = static_cast<uint64_t>(typicalCost(plane, steps.range_bits, 0).bits / 8);
+  const std::optional<ExactCut> cut = chooseExactCut(plane, steps.range_bits, whole);
+  if (!cut || cut->bytes > kFar * static_cast<double>(bytes)) return {};
+  return std::sqrt(cut->mean_square);
 }
 
 }  // namespace tetrakis::inline ways

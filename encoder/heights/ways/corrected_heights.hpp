@@ -36,4 +36,8 @@ CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target);
 std::optional<CodedHeights> codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy,
                                           double rmse);
 
+/// The RMSE, in steps, of a cut that is estimated to take, with its corrections, far less than so
+/// many bytes; nothing if there is none. lossy: of exact steps without a table.
+std::optional<double> farShorterCut(const CodedHeights& lossy, uint64_t bytes);
+
 }  // namespace tetrakis::inline ways

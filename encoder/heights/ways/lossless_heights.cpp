@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/coding_choice/bound_choice.hpp"
+#include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
@@ -29,20 +29,29 @@ std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
   return free;
 }
 
-/// Whether corrections behind a cut may take fewer bytes than the whole coefficients. In the mean
+/// The best cut to put corrections behind, if any is as good as the whole coefficients. In the mean
 /// of all samples flat areas hide what the free ones would gain; where the areas are holes in
 /// noise, free samples alone lack the surface that the transform would have without areas. Either
 /// hint is worth a trial.
-bool correctionsMayPay(const CodedHeights& whole) {
+std::optional<ExactCut> exactCutFor(const CodedHeights& whole) {
   const HeightSteps& steps = whole.quantised->steps;
-  const uint64_t bytes = bytesOf(whole.tracks);
-  const auto may_pay = [&](const std::vector<uint8_t>& mask) {
+  const auto choose = [&](const std::vector<uint8_t>& mask) {
     const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.quantised->samples), mask);
-    return correctionsMayPay(plane, steps.range_bits, bytes);
+    return chooseExactCut(plane, steps.range_bits, bytesOf(whole.tracks));
   };
-  const bool some_flat = !whole.flat.areas.heights.empty();
-  return may_pay(freeSamples(whole)) ||
-         (some_flat && may_pay(steps.bridge > 0 ? steps.lifted : steps.valid));
+  if (const std::optional<ExactCut> cut = choose(freeSamples(whole))) return cut;
+  if (whole.flat.areas.heights.empty()) return {};
+  return choose(steps.bridge > 0 ? steps.lifted : steps.valid);
+}
+
+/// exactWorth() of heights behind a cut.
+double worthOf(const CodedHeights& corrected) {
+  uint64_t cut = 0;
+  const size_t coefficients = corrected.tracks.size() - static_cast<size_t>(correctionTracks(
+                                                            corrected.header, corrected.layers));
+  for (size_t i = 0; i < coefficients; ++i) cut += corrected.tracks[i].codeword.size();
+  return exactWorth(static_cast<double>(bytesOf(corrected.tracks)),
+                    static_cast<double>(cut - corrected.closing));
 }
 
 /// Codes heights to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
@@ -53,12 +62,14 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
   auto whole = candidateOf(codeHeights(quantised, Purpose::kLossless, options));
   const HeightSteps& steps = quantised->steps;
   if (!steps.exact || !steps.table.empty()) return whole.coded;
-  if (!correctionsMayPay(*whole.coded)) return whole.coded;
+  const std::optional<ExactCut> cut = exactCutFor(*whole.coded);
+  if (!cut) return whole.coded;
   options.limit = whole.bytes();
   auto corrected =
-      candidateOf(codeCorrected({quantised, Purpose::kLossy, options}, {{}, whole.bytes()}));
+      candidateOf(codeCorrected({quantised, Purpose::kLossy, options}, {cut->mean_square}));
   // Without corrections its account would not end at exact.
   if (corrected.coded->layers.corrections == CorrectionKind::kNone) return whole.coded;
+  if (!isWorth(worthOf(*corrected.coded), static_cast<double>(whole.bytes()))) return whole.coded;
   return fewestBytes<CodedHeights>({std::move(whole), std::move(corrected)}).coded;
 }
 

@@ -29,7 +29,7 @@ Cut cutOf(const std::function<double(double x, double y)>& error) {
   Cut cut;
   for (uint32_t y = 0; y < kPlane.height; ++y) {
     for (uint32_t x = 0; x < kPlane.width; ++x) {
-      cut.steps.push_back(static_cast<int32_t>(samples::hash(x / 9, y / 7, 91) % 5000));
+      cut.steps.push_back(static_cast<int32_t>(samples::hash(x, y, 91) % 5000));
       const auto off = static_cast<int32_t>(std::lround(error(x, y)));
       cut.heights.push_back(cut.steps.back() * (1 << kFractionBits) - off);
     }
@@ -89,11 +89,13 @@ double bitsOf(const Cut& cut) {
   return 8. * static_cast<double>(bytes) / static_cast<double>(kPlane.samples());
 }
 
+/// Errors as they come, that nothing foretells.
+double noise(double x, double y) {
+  return samples::hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 98) * 0x1p-32 - 0.5;
+}
+
 /// What a cut has smoothed away, and what its filters leave, is known from the samples before.
 TEST(ExactCorrections, ErrorsThatFollowOthersTakeFewBits) {
-  const auto noise = [](double x, double y) {
-    return samples::hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 98) * 0x1p-32 - 0.5;
-  };
   const double unlike = bitsOf(cutOf([&](double x, double y) { return 90 * noise(x, y); }));
   EXPECT_GT(unlike, 2);
   const double smooth = bitsOf(cutOf(
@@ -116,6 +118,37 @@ TEST(ExactCorrections, FractionsSayWhichStepsAreSure) {
     return side * (quarter(x, y) == 0 ? 9 : 2);
   }));
   EXPECT_LT(told, 0.25) << "though the entropy of which samples are corrected is 0.81";
+}
+
+/// steps(x, y), beside heights that are off by up to three steps.
+double bitsOfSteps(const std::function<int32_t(int32_t x, int32_t y)>& steps) {
+  Cut cut = cutOf([](double x, double y) { return 96 * noise(x, y); });
+  for (uint32_t i = 0; i < kPlane.samples(); ++i) {
+    const int32_t off = cut.steps[i] * (1 << kFractionBits) - cut.heights[i];
+    cut.steps[i] =
+        steps(static_cast<int32_t>(i % kPlane.width), static_cast<int32_t>(i / kPlane.width));
+    cut.heights[i] = cut.steps[i] * (1 << kFractionBits) - off;
+  }
+  return bitsOf(cut);
+}
+
+/// Steps that are those of neighbours, lie in planes or are multiples need no near heights.
+TEST(ExactCorrections, NeighboursSayWhichStepsAreLikely) {
+  const auto any = [](int32_t x, int32_t y) {
+    return static_cast<int32_t>(
+        samples::hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 100) % 5000);
+  };
+  const double unlike = bitsOfSteps(any);
+  EXPECT_GT(unlike, 2.5);
+  // Nearest neighbours of a grid that is turned.
+  EXPECT_LT(
+      bitsOfSteps([&](int32_t x, int32_t y) { return any((5 * x + y) / 16, (5 * y - x) / 16); }),
+      unlike / 2);
+  EXPECT_LT(bitsOfSteps([&](int32_t x, int32_t y) { return any(x / 20, 0) % 7 * x + 3 * y; }),
+            unlike / 3);
+  EXPECT_LT(
+      bitsOfSteps([&](int32_t x, int32_t y) { return any(x / 8, y / 8) + any(x, y) % 2 * 6; }),
+      unlike / 1.5);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/drawing/drawing_mixture.hpp"
+#include "bitstream/coder/mixture.hpp"
 
-namespace tetrakis::inline drawing {
+namespace tetrakis::inline coder {
 
 OddsTable makeOddsTable() {
   OddsTable table{};
@@ -13,4 +13,4 @@ OddsTable makeOddsTable() {
   return table;
 }
 
-}  // namespace tetrakis::inline drawing
+}  // namespace tetrakis::inline coder

@@ -12,7 +12,7 @@
 
 #include "bitstream/coder/adaptive_bit.hpp"
 
-namespace tetrakis::inline drawing {
+namespace tetrakis::inline coder {
 
 /// Probabilities are multiples of 2^-12 here; logarithms of odds, of 2^-8, lie within kMostOdds.
 inline constexpr int kMostOdds = 2047;
@@ -79,4 +79,4 @@ class Mixture {
   int32_t zero_;
 };
 
-}  // namespace tetrakis::inline drawing
+}  // namespace tetrakis::inline coder

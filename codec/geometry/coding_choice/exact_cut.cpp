@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/coding_choice/exact_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "codec/geometry/corrections/exact_corrections_encoder.hpp"
+#include "wavelet/choice/typical_plane.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+namespace {
+
+constexpr double kHalving = 0.05;
+
+/// Parts of a plane one below the other, so that what is learnt of one helps with the next.
+struct StackedParts {
+  Extent extent;
+  std::vector<int32_t> steps, heights;
+  std::vector<uint8_t> valid;
+};
+
+StackedParts stacked(const std::vector<TypicalPlane::Shown>& parts) {
+  StackedParts all{{0, 0}, {}, {}, {}};
+  for (const auto& part : parts) {
+    all.extent.width = std::max(all.extent.width, part.samples.extent.width);
+    all.extent.height += part.samples.extent.height;
+  }
+  all.steps.resize(all.extent.samples());
+  all.heights.resize(all.extent.samples());
+  all.valid.resize(all.extent.samples());
+  size_t to = 0;
+  for (const auto& part : parts) {
+    const Mask valid = part.samples.valid;
+    const auto [width, height] = part.samples.extent;
+    for (uint32_t y = 0; y < height; ++y, to += all.extent.width) {
+      for (uint32_t x = 0; x < width; ++x) {
+        const size_t from = size_t{y} * width + x;
+        all.steps[to + x] = part.samples.values[from];
+        all.heights[to + x] = part.values[from];
+        all.valid[to + x] = valid[from];
+      }
+    }
+  }
+  return all;
+}
+
+/// Cuts by the step of their coefficients, a power of two.
+class TriedCuts {
+ public:
+  TriedCuts(const PlaneView<const int32_t>& heights, int range_bits, uint64_t whole_bytes)
+      : lossy_(heights, range_bits, Purpose::kLossy),
+        samples_(static_cast<double>(markedIn(heights.extent(), heights.valid))),
+        whole_(typicalCost(heights, range_bits, 0).bits / 8) {
+    // Estimates of coefficients err by this much, alike for all of their steps. What is beyond it
+    // the plane has elsewhere than in its typical parts, and corrections will be there as well.
+    constexpr double kOff = 1.15;
+    coefficients_ = static_cast<double>(whole_bytes) / whole_;
+    corrections_ = coefficients_ / std::clamp(coefficients_, 1 / kOff, kOff);
+  }
+
+  const ExactCut& at(int log2) {
+    const auto [known, is_new] = cuts_.try_emplace(log2);
+    if (is_new) known->second = tried(std::exp2(log2));
+    return known->second;
+  }
+
+ private:
+  ExactCut tried(double step) const {
+    const PlaneCost cost = lossy_.cost(step);
+    const std::vector<TypicalPlane::Shown> shown = lossy_.shown(step);
+    const StackedParts parts = stacked(shown);
+    const auto corrections = encodeExactSteps(
+        parts.steps, {parts.heights, parts.extent, parts.valid}, shown.front().fraction_bits);
+    const double cut = coefficients_ * cost.bits / 8;
+    const double behind =
+        corrections_ * lossy_.standsFor() * static_cast<double>(corrections.size());
+    return {cost.squares / samples_, cut + behind, exactWorth(cut + behind, cut)};
+  }
+
+  TypicalPlane lossy_;
+  double samples_, whole_;
+  double coefficients_, corrections_;  ///< bytes of the plane for those of the parts
+  std::map<int, ExactCut> cuts_;
+};
+
+}  // namespace
+
+double exactWorth(double bytes, double cut) {
+  return bytes * (1 + kHalving * std::log2(std::max(bytes, 1.) / std::max(cut, 1.)));
+}
+
+bool isWorth(double worth, double whole_bytes) {
+  return worth < (1 + kHalving) * whole_bytes;
+}
+
+std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
+                                       uint64_t whole_bytes) {
+  constexpr int kUsual = 2, kLast = 12;
+  constexpr double kHopeless = 1.04;
+  const auto bytes = static_cast<double>(whole_bytes);
+  TriedCuts cuts(heights, range_bits, whole_bytes);
+  if (!isWorth(cuts.at(kUsual).worth, kHopeless * bytes)) return {};
+  int best = kUsual;
+  for (const int stride : {-1, 1}) {
+    while (best + stride >= 0 && best + stride <= kLast &&
+           cuts.at(best + stride).worth < cuts.at(best).worth)
+      best += stride;
+  }
+  const ExactCut& cut = cuts.at(best);
+  if (cut.bytes > bytes || !isWorth(cut.worth, bytes)) return {};
+  return cut;
+}
+
+}  // namespace tetrakis::inline coding_choice

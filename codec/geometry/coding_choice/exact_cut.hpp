@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights to the last bit are coefficients without fraction bits, or a cut of lossy ones with exact
+// corrections behind it. This file says which is worth trying, and where to cut.
+//
+// The integer transform rounds each coefficient, which costs about a bit a sample where the heights
+// themselves hold less, and of copies, planes that meet at edges, and heights rounded to tens it
+// knows nothing. Corrections look at the exact neighbours of each sample.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline coding_choice {
+
+struct ExactCut {
+  double mean_square;  ///< squared error of a sample, in steps, that the cut leaves
+  double bytes;        ///< of it and of what follows, as far as is known
+  double worth;        ///< exactWorth() of these
+};
+
+/// What bytes count of which the first so many are the cut. Behind a cut the error falls row by
+/// row, so that prefixes lose by early cuts: 5 % more for each halving of the cut against all.
+double exactWorth(double bytes, double cut);
+
+/// Whether a way of this worth is as good as coefficients to the last bit that take so many bytes,
+/// which lose about as much by their own prefixes as one halving.
+bool isWorth(double worth, double whole_bytes);
+
+/// The best cut, by typical parts of the heights; nothing if none comes near the whole coefficients
+/// to the last bit, which take so many bytes. heights: in steps. range_bits: of them.
+std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
+                                       uint64_t whole_bytes);
+
+}  // namespace tetrakis::inline coding_choice
