@@ -25,6 +25,8 @@ constexpr uint64_t kBytesPerTrack = 64;       // its region, and views of its by
 constexpr uint64_t kValue = sizeof(int32_t);  // of a plane
 constexpr uint64_t kRow = 8;                  // of corrections, a sample of the row before
 constexpr uint64_t kRelativeRow = 24;         // likewise, with what is known of its multiple
+constexpr uint64_t kExactRow = 56;            // of exact ones: errors and steps of four rows
+constexpr uint64_t kExactModels = 384 << 10;  // likewise
 
 /// How many samples a rectangle has.
 uint64_t area(const auto& extent) {
@@ -160,8 +162,12 @@ class HeightsBytes {
   uint64_t copyBytes() const { return api::copyBytes(header_, copied_, 2 * (kValue + 1)); }
   /// Rows that corrections are decoded beside.
   uint64_t rows() const {
+    if (exact()) return kExactModels + kExactRow * header_.width;
     const bool relative = layers_.corrections == CorrectionKind::kRelative;
     return (relative ? kRelativeRow : kRow) * header_.width;
+  }
+  bool exact() const {
+    return layers_.corrections == CorrectionKind::kSteps && layers_.correction_step == 1;
   }
   /// Parts of the plane with their heights, corrections, marks, masks and hints, and the models of
   /// their corrections, so many as are corrected at a time.
@@ -173,7 +179,8 @@ class HeightsBytes {
     const Region largest =
         largestRegions(header_.width, header_.height, header_.regions.side_log2).front();
     const uint64_t samples = uint64_t{largest.x1} * largest.y1;
-    return at_a_time * (samples * kSample + kModels) + count * sizeof(Window);
+    const uint64_t models = exact() ? kExactModels + kExactRow * largest.x1 : kModels;
+    return at_a_time * (samples * kSample + models) + count * sizeof(Window);
   }
   /// The table, its values as heights, and a correction for each sample.
   uint64_t tableBytes() const {

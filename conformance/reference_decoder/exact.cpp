@@ -78,11 +78,19 @@ class ExactCorrections {
  public:
   explicit ExactCorrections(RangeDecoder& decoder) : decoder_(decoder) {
     for (auto& weights : weights_) weights.fill(kFirstWeight);
+    for (auto& weights : farWeights_) weights.fill(kFirstWeight);
   }
 
   std::optional<uint32_t> next(const Nearby& nearby, int l, int g) {
     nearby_ = &nearby;
     z_ = 8 * l + g;
+    const int64_t far[3] = {nearby.w, nearby.n, nearby.ne};
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(far[i]) <= 8 || std::find(far, far + i, far[i]) != far + i) continue;
+      const std::optional<int> same = askFar(i, far[i], l);
+      if (!same) return std::nullopt;
+      if (*same) return static_cast<uint32_t>(far[i]);
+    }
     const std::optional<int> any = ask(0, 0, 0);
     if (!any) return std::nullopt;
     if (*any == 0) return 0;
@@ -122,6 +130,17 @@ class ExactCorrections {
     return rest;
   }
 
+  std::optional<int> askFar(int i, int64_t a, int l) {
+    const Nearby& q = *nearby_;
+    const int64_t six[6] = {q.w, q.n, q.nw, q.ne, q.ww, q.nn};
+    int which = 0;
+    for (int bit = 0; bit < 6; ++bit) which |= (six[bit] == a) << bit;
+    const int z = std::min(bitsOf(std::abs(a)), 15);
+    Model* const models[3] = {&farSize_[(l * 16 + z) * 3 + i], &farSix_[(which * 20 + l) * 3 + i],
+                              &farAlike_[(q.alike() * 16 + z) * 3 + i]};
+    return decodeMixed(decoder_, models, farWeights_[std::min(q.spread(), 9) * 3 + i]);
+  }
+
   std::optional<int> ask(int i, int t, int64_t a) {
     const Nearby& q = *nearby_;
     const auto near = [&](int64_t step, int64_t k) {
@@ -133,11 +152,10 @@ class ExactCorrections {
         (near(plane, 5) * 11 + near((q.w + q.n) >> 1, 5)) * 11 + near(q.n + q.ne - q.nne, 5);
     const int straight = near(2 * q.w - q.ww, 5) * 11 + near(2 * q.n - q.nn, 5);
     const int around = ((near(q.w, 3) * 7 + near(q.n, 3)) * 7 + near(q.nw, 3)) * 7 + near(q.ne, 3);
-    Model* const models[7] = {&size_[z_ * 18 + i],
+    Model* const models[6] = {&size_[z_ * 18 + i],
                               &lines_[lines * 5 + t],
                               &plane_[(near(plane, 10) * 8 + std::min(spread, 7)) * 5 + t],
                               &alike_[(q.alike() * 9 + two) * 5 + t],
-                              &sized_[(z_ * 9 + two) * 5 + t],
                               &straight_[straight * 5 + t],
                               &around_[around * 5 + t]};
     return decodeMixed(decoder_, models, weights_[std::min(spread, 9) * 18 + i]);
@@ -152,10 +170,12 @@ class ExactCorrections {
   const Nearby* nearby_ = nullptr;
   int z_ = 0;
   Models size_ = Models(160 * 18), lines_ = Models(11 * 11 * 11 * 5), plane_ = Models(21 * 8 * 5);
-  Models alike_ = Models(512 * 9 * 5), sized_ = Models(160 * 9 * 5),
-         straight_ = Models(11 * 11 * 5);
+  Models alike_ = Models(512 * 9 * 5), straight_ = Models(11 * 11 * 5);
   Models around_ = Models(7 * 7 * 7 * 7 * 5), high_ = Models(33);
-  std::array<std::array<int64_t, 7>, 10 * 18> weights_;
+  Models farSize_ = Models(20 * 16 * 3), farSix_ = Models(64 * 20 * 3);
+  Models farAlike_ = Models(512 * 16 * 3);
+  std::array<std::array<int64_t, 6>, 10 * 18> weights_;
+  std::array<std::array<int64_t, 3>, 10 * 3> farWeights_;
 };
 
 }  // namespace

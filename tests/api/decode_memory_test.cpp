@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What decoding allocates is at most what tks_check_memory says, for streams of every kind and all
 // that can be asked of them; and what it says is not much more than that.
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -317,6 +318,28 @@ TEST(DecodeMemory, TexturesOfKindsStayBelowTheBound) {
   expectWithinBounds(bytes, "few values of channels");
 }
 
+/// Nearest neighbours of a grid that is turned: whole, in regions, in one long row.
+TEST(DecodeMemory, ExactCorrectionsStayBelowTheBound) {
+  const auto turned = [](uint32_t width, uint32_t height) {
+    const Raster ridges = make({Pattern::kRidges, 300, 300, 1, TKS_I16, 3});
+    Raster nearest = make({Pattern::kRidges, width, height, 1, TKS_I16, 3});
+    const auto* from = reinterpret_cast<const int16_t*>(ridges.data.data());
+    auto* to = reinterpret_cast<int16_t*>(nearest.data.data());
+    for (uint32_t i = 0; i < width * height; ++i) {
+      const uint32_t x = i % width, y = i / width;
+      to[i] = from[(150 + 2 * y - x / 4) % 300 / 2 * 300 + (2 * x + y / 2) % 600 / 4];
+    }
+    return nearest;
+  };
+  for (const auto& [width, height, regions] :
+       {std::array{190u, 170u, 0u}, {190u, 170u, 64u}, {1500u, 24u, 0u}}) {
+    const Raster nearest = turned(width, height);
+    const Bytes bytes = encode(&nearest, nullptr, inRegions(lossless(), regions));
+    EXPECT_EQ(readHeader(bytes)->header.layers.correction_step, 1u) << width << ", " << regions;
+    expectWithinBounds(bytes, "exact corrections");
+  }
+}
+
 /// Few values in large shapes, whole, beside voids, counted by a table, beside corrections.
 TEST(DecodeMemory, DrawnHeightsStayBelowTheBound) {
   const Raster few = patches(161, 130, 2000);
@@ -333,7 +356,9 @@ TEST(DecodeMemory, DrawnHeightsStayBelowTheBound) {
 }
 
 TEST(DecodeMemory, StoredSamplesStayBelowTheBound) {
-  const Raster noise = make({Pattern::kExtreme, 161, 124, 1, TKS_I16});
+  Raster noise = make({Pattern::kExtreme, 161, 124, 1, TKS_I16});
+  for (size_t i = 0; i < noise.data.size(); ++i)
+    noise.data[i] = std::byte(samples::hash(static_cast<uint32_t>(i), 0, 17) % 256);
   const Bytes heights = encode(&noise, nullptr, lossless());
   EXPECT_EQ(Stream(heights).info().heights_drawn, 3);
   expectWithinBounds(heights, "stored");

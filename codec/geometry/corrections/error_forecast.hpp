@@ -43,7 +43,7 @@ class ErrorForecast {
     near_ = {here[i - 1],  above[i],     above[i - 1], above[i + 1], here[i - 2], upper[i],
              above[i + 2], above[i - 2], upper[i - 1], upper[i + 1], here[i - 3], errors_[3][i]};
     int64_t sum = 1 << 15;
-    for (size_t k = 0; k < near_.size(); ++k) sum += weights_[k] * near_[k];
+    for (size_t k = 0; k < near_.size(); ++k) sum += int64_t{weights_[k]} * near_[k];
     foretold_ = static_cast<int32_t>(sum >> 16);
     const auto &left = missed_[0], &up = missed_[1];
     missed_nearby_ = 2 * (left[i - 1] + up[i]) + up[i - 1] + up[i + 1];
@@ -65,11 +65,11 @@ class ErrorForecast {
     errors_[0][x + kLeft] = clamped;
     missed_[0][x + kLeft] = static_cast<uint32_t>(std::abs(missed));
     int64_t power = kQuiet;
-    for (const int64_t e : near_) power += e * e;
-    const int64_t gain = missed * kRate / power;
+    for (const int32_t e : near_) power += int64_t{e} * e;
+    const auto gain = static_cast<int32_t>(missed * kRate / power);
     for (size_t k = 0; k < near_.size(); ++k) {
-      const int64_t weight = weights_[k] + ((gain * near_[k]) >> 4);
-      weights_[k] = std::clamp(weight, -kLargestWeight, kLargestWeight);
+      const int64_t weight = weights_[k] + ((int64_t{gain} * near_[k]) >> 4);
+      weights_[k] = static_cast<int32_t>(std::clamp(weight, -kLargestWeight, kLargestWeight));
     }
   }
 
@@ -81,7 +81,7 @@ class ErrorForecast {
   std::array<Row, 4> errors_;                    ///< of this row and of those above it
   std::array<std::vector<uint32_t>, 2> missed_;  ///< by forecasts of this row and the one above
   std::array<int32_t, 12> near_ = {};
-  std::array<int64_t, 12> weights_ = {};
+  std::array<int32_t, 12> weights_ = {};
   int32_t foretold_ = 0;
   uint32_t missed_nearby_ = 0;
 };

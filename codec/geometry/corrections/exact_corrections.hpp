@@ -8,15 +8,18 @@
 // A correction is told by questions: is there one, is it negative, is it more than 1, more than 2,
 // and so on. Each question asks whether the sample is one certain step or lies beyond it, so that
 // exact steps nearby answer it as well as the decoded height does: where samples were copied,
-// turned or rounded to tens, a neighbour has that very step. Seven models, each with contexts of
-// its own, answer together (bitstream/coder/mixture.hpp).
+// turned or rounded to tens, a neighbour has that very step. If a neighbour's step lies farther off
+// than these questions go, whether it is the sample's is asked before them. Several models, each
+// with contexts of its own, answer together (bitstream/coder/mixture.hpp).
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -81,24 +84,29 @@ struct Question {
   }
 };
 
-/// Seven models that answer a question.
+/// Models that answer questions about the steps of samples.
 class StepModels {
  public:
-  static constexpr size_t kModels = 7;
+  static constexpr size_t kModels = 6, kFarModels = 3;
+  static constexpr size_t kFar = 3;  ///< neighbours whose steps may be far off: W, N, NE
 
   StepModels()
       : size_(kSizes * Question::kMany),
         lines_(11 * 11 * 11 * Question::kKinds),
         plane_(21 * 8 * Question::kKinds),
         alike_(NearSteps::kAlike * 9 * Question::kKinds),
-        sized_(kSizes * 9 * Question::kKinds),
         straight_(11 * 11 * Question::kKinds),
         around_(7 * 7 * 7 * 7 * Question::kKinds),
-        weights_(kSpreads * Question::kMany, freshWeights<kModels>()) {}
+        weights_(kSpreads * Question::kMany, freshWeights<kModels>()),
+        far_size_(ErrorForecast::kLevels * kSizesOfFar * kFar),
+        far_six_(NearSteps::kSix * ErrorForecast::kLevels * kFar),
+        far_alike_(NearSteps::kAlike * kSizesOfFar * kFar),
+        far_weights_(kSpreads * kFar, freshWeights<kFarModels>()) {}
 
   /// What is known of a sample before it is asked about.
   void look(const NearSteps& near, size_t level, size_t place) {
     near_ = near;
+    level_ = level;
     sizes_ = level * ForetoldStep::kPlaces + place;
     spread_ = std::min(near.spread, kSpreads - 1);
   }
@@ -117,29 +125,44 @@ class StepModels {
     return {{&size_[sizes_ * Question::kMany + question.number], &lines_[lines * kinds + kind],
              &plane_[(away(near_.plane, 10) * 8 + std::min<size_t>(spread_, 7)) * kinds + kind],
              &alike_[(near_.alike * 9 + two) * kinds + kind],
-             &sized_[(sizes_ * 9 + two) * kinds + kind],
              &straight_[(away(near_.row, 5) * 11 + away(near_.column, 5)) * kinds + kind],
              &around_[around * kinds + kind]},
             weights_[spread_ * Question::kMany + question.number],
             odds_};
   }
 
+  /// Asks whether the sample has the step of a neighbour, which is far off. which: of kFar.
+  Mixture<kFarModels> askFar(size_t which, int64_t step) {
+    const size_t bits =
+        std::min<size_t>(static_cast<size_t>(std::bit_width(static_cast<uint64_t>(std::abs(step)))),
+                         kSizesOfFar - 1);
+    const size_t six = near_.whichHave(step) * ErrorForecast::kLevels + level_;
+    return {
+        {&far_size_[(level_ * kSizesOfFar + bits) * kFar + which], &far_six_[six * kFar + which],
+         &far_alike_[(near_.alike * kSizesOfFar + bits) * kFar + which]},
+        far_weights_[spread_ * kFar + which],
+        odds_};
+  }
+
  private:
   static constexpr size_t kSizes = ErrorForecast::kLevels * ForetoldStep::kPlaces;
-  static constexpr size_t kSpreads = 10;
+  static constexpr size_t kSpreads = 10, kSizesOfFar = 16;
   using Models = std::vector<AdaptiveBit>;
 
   Models size_;      ///< by the size of the error, and the place between two steps
   Models lines_;     ///< by where a plane, a mean and a slope lie
   Models plane_;     ///< by where a plane lies, and how rough it is
   Models alike_;     ///< by which neighbours are the same, and whether W and N have the step
-  Models sized_;     ///< by the size of the error, and whether W and N have the step
   Models straight_;  ///< by where a row and a column go on to
   Models around_;    ///< by where the four neighbours lie
   std::vector<MixtureWeights<kModels>> weights_;
+  Models far_size_;   ///< by the size of the error, and how far off the step is
+  Models far_six_;    ///< by which neighbours have the step, and the size of the error
+  Models far_alike_;  ///< by which neighbours are the same, and how far off the step is
+  std::vector<MixtureWeights<kFarModels>> far_weights_;
   const OddsTable odds_ = makeOddsTable();
   NearSteps near_ = {};
-  size_t sizes_ = 0, spread_ = 0;
+  size_t level_ = 0, sizes_ = 0, spread_ = 0;
 };
 
 /// Io: DecisionEncoding or DecisionDecoding (bitstream/coder/).
@@ -151,6 +174,7 @@ class ExactCorrectionCoder {
   /// known: the correction, or anything in decoders. Where io has stopped the result means nothing.
   int32_t code(const NearSteps& near, size_t level, size_t place, int32_t known) {
     models_.look(near, level, place);
+    if (const std::optional<int32_t> far = codeFar(near, known)) return *far;
     if (!decide(Question::any(), known != 0)) return 0;
     const bool negative = decide(Question::sign(), known < 0);
     const uint32_t magnitude = codeMagnitude(negative, magnitudeOf(known));
@@ -158,6 +182,21 @@ class ExactCorrectionCoder {
   }
 
  private:
+  /// The correction, if it leads to the step of a neighbour that one question after the other would
+  /// not ask for.
+  std::optional<int32_t> codeFar(const NearSteps& near, int32_t known) {
+    const std::array<int64_t, StepModels::kFar> steps = {near.west, near.north, near.north_east};
+    for (size_t which = 0; which < steps.size(); ++which) {
+      const int64_t step = steps[which];
+      const auto end = steps.begin() + static_cast<ptrdiff_t>(which);
+      if (std::abs(step) <= Question::kOneByOne || std::find(steps.begin(), end, step) != end)
+        continue;
+      const auto correction = static_cast<int32_t>(static_cast<uint32_t>(step));
+      if (decide(models_.askFar(which, step), known == correction)) return correction;
+    }
+    return {};
+  }
+
   uint32_t codeMagnitude(bool negative, uint32_t known) {
     for (int32_t size = 1; size < Question::kOneByOne; ++size) {
       const auto magnitude = static_cast<uint32_t>(size);
@@ -177,8 +216,9 @@ class ExactCorrectionCoder {
     return rest + (Question::kOneByOne - 1);
   }
 
-  bool decide(const Question& question, bool known) {
-    Mixture<StepModels::kModels> mixture = models_.ask(question);
+  bool decide(const Question& question, bool known) { return decide(models_.ask(question), known); }
+  template <size_t kModels>
+  bool decide(Mixture<kModels> mixture, bool known) {
     const bool answer = io_.decideOf(mixture.zero(), known);
     mixture.learn(answer);
     return answer;

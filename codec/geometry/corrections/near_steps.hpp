@@ -16,7 +16,7 @@ namespace tetrakis::inline corrections {
 
 /// Steps near a sample, counted from one of them; corrections count from it as well.
 struct NearSteps {
-  int64_t west, north, north_west, north_east;
+  int64_t west, north, north_west, north_east, second_west, second_north;
   int64_t plane;        ///< W + N - NW
   int64_t mean;         ///< of W and N
   int64_t slope;        ///< N, and on as from NNE to NE
@@ -25,6 +25,15 @@ struct NearSteps {
   size_t spread;        ///< bits of the differences W - NW, N - NW and N - NE
 
   static constexpr size_t kAlike = 512;
+
+  /// Which of six neighbours have a step: a bit for each.
+  static constexpr size_t kSix = 64;
+  size_t whichHave(int64_t step) const {
+    size_t which = 0, bit = 0;
+    for (const int64_t one : {west, north, north_west, north_east, second_west, second_north})
+      which |= size_t{one == step} << bit++;
+    return which;
+  }
 };
 
 class ExactRows {
@@ -57,7 +66,7 @@ class ExactRows {
     const int64_t ww = counted(here[i - 2], w), nn = counted(upper[i], n);
     const int64_t nne = counted(upper[i + 1], ne);
     const int64_t nnw = counted(upper[i - 1], nw), nww = counted(above[i - 2], nw);
-    NearSteps near{w,          n,          nw, ne, w + n - nw, (w + n) >> 1, n + ne - nne,
+    NearSteps near{w,          n,          nw, ne, ww, nn, w + n - nw, (w + n) >> 1, n + ne - nne,
                    2 * w - ww, 2 * n - nn, 0,  0};
     size_t bit = 0;
     for (const bool same :
