@@ -15,7 +15,8 @@ namespace {
 /// of 20 bits have no fraction bits either.
 AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletHeader& wavelet) {
   const bool lossless = wavelet.fraction_bits == 0 && wavelet.bits > 0 && wavelet.bits < 20;
-  return {samples, inputs.budgeted() && !lossless ? inputs.options.bytes : UINT64_MAX};
+  return {samples, inputs.budgeted() && !lossless ? inputs.options.bytes : UINT64_MAX,
+          inputs.options.max_error > 0};
 }
 
 /// Whether the states of so many samples' tracks are decoded anew for each prefix: to remember them

@@ -32,6 +32,12 @@ class Records {
     }
   }
   bool exact() const { return !points_.empty() && points_.back().distortion == 0; }
+  /// Keeps the end of a track that does not improve.
+  void keepEnd(uint64_t bytes) {
+    constexpr double kLess = 1 - 1e-6;
+    if (exact() || points_.back().bytes >= bytes) return;
+    points_.push_back({bytes, kLess * points_.back().distortion, false, points_.back().beyond});
+  }
   std::vector<RatePoint> take() { return std::move(points_); }
 
  private:
@@ -100,14 +106,16 @@ std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScop
       records.add({bytes, measure(bytes)}, parts == b.bytes - a.bytes ? kDip : kSparseDip);
     }
   }
+  if (scope.whole) records.keepEnd(track.points.back().bytes);
   return records.take();
 }
 
 /// Estimates say nothing of dips: where one rises above those before it, nobody has seen a prefix
 /// that does.
-std::vector<RatePoint> falling(std::span<const RatePoint> points) {
+std::vector<RatePoint> falling(std::span<const RatePoint> points, bool whole) {
   Records records;
   for (const RatePoint& point : points) records.add(point, std::numeric_limits<double>::infinity());
+  if (whole) records.keepEnd(points.back().bytes);
   return records.take();
 }
 
@@ -176,8 +184,8 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                                  [](const RatePoint& point) { return point.beyond == 0; });
   if (alike && scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);
   const std::span<const RatePoint> points = track.points;
-  if (scope.budget < UINT64_MAX) return falling(points);
-  return falling(scaled(points, {points, pointsToMeasure(points), measure}));
+  if (scope.budget < UINT64_MAX) return falling(points, scope.whole);
+  return falling(scaled(points, {points, pointsToMeasure(points), measure}), scope.whole);
 }
 
 std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure) {

@@ -20,6 +20,9 @@ using Measure = std::function<double(uint64_t bytes)>;
 struct AuditScope {
   uint64_t samples = 0;
   uint64_t budget = UINT64_MAX;  ///< bytes of the track that can be sent at most
+  /// All of the track is needed, as a largest error needs it, whatever its last bytes improve in
+  /// the mean.
+  bool whole = false;
 };
 
 /// Returns the track's points so that their distortion falls strictly.

@@ -149,5 +149,22 @@ TEST(FlatWater, CostsNothingWhereThereIsNone) {
     EXPECT_EQ(layersOf(encode(&land, nullptr, options)).flat_bytes, 0u);
 }
 
+/// Areas of few heights that leave next to nothing to coefficients: a cut of these, which exact
+/// corrections follow, keeps the areas.
+TEST(FlatWater, CutsOfCoefficientsKeepTheAreas) {
+  Raster bands = make({Pattern::kFlat, 4, 131, 1, TKS_U32});
+  constexpr uint32_t kHeights[] = {0, 153, 143, 157, 163};
+  for (uint32_t i = 0; i < 4 * 131; ++i) {
+    const uint32_t height = kHeights[(i + 8 * (i % 4)) * 5 / (4 * 131 + 24)];
+    std::memcpy(bands.data.data() + i * sizeof height, &height, sizeof height);
+  }
+  for (const uint32_t regions : {0u, 64u}) {
+    for (const uint64_t bytes : {200u, 300u, 766u}) {
+      Stream stream(encode(&bands, nullptr, inRegions(budget(bytes), regions)));
+      EXPECT_TRUE(stream.heights() == bands.data) << regions << ", " << bytes;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -104,6 +104,41 @@ TEST(VoidStream, BoundsHoldForValidSamples) {
   }
 }
 
+/// The last bits of a mask may tell of heights that are off by as much as voids count. They are
+/// within the bound, so they have to be there.
+TEST(VoidStream, BoundsHoldForTheLastHeightOfAColumn) {
+  constexpr uint32_t kRows = 176;
+  Holed h{make({Pattern::kFlat, 1, kRows, 1, TKS_U8}), std::vector<uint8_t>(kRows), 255};
+  std::fill(h.raster.data.begin(), h.raster.data.end(), std::byte{255});
+  for (const auto& [row, height] : {std::pair{4u, 0},
+                                    {24u, 0},
+                                    {32u, 0},
+                                    {40u, 3},
+                                    {46u, 0},
+                                    {51u, 0},
+                                    {52u, 0},
+                                    {54u, 0},
+                                    {74u, 0},
+                                    {86u, 4},
+                                    {99u, 0},
+                                    {111u, 1},
+                                    {138u, 4},
+                                    {146u, 0},
+                                    {149u, 1},
+                                    {157u, 0},
+                                    {163u, 3},
+                                    {164u, 5},
+                                    {173u, 4}}) {
+    h.raster.data[row] = std::byte(height);
+    h.valid[row] = 1;
+  }
+  for (const double error : {3., 8., 60.}) {
+    const Bytes bytes = encode(h, within(error));
+    Stream stream(bytes);
+    EXPECT_LE(checkedError(h, stream), error);
+  }
+}
+
 /// Where all valid heights are one, nothing but the mask is left to send.
 TEST(VoidStream, PsnrIsReachedByOneHeightAndByNone) {
   Holed h{make({Pattern::kFlat, 64, 64, 1, TKS_I32}), std::vector<uint8_t>(64 * 64, 1), -5};

@@ -66,13 +66,17 @@ enum class Kind {
   kGeoid,
   kSquares,
   kMosaic,
+  kTurned,
+  kTens,
+  kBands,
+  kNarrow,
   kCount
 };
 
 constexpr std::array<const char*, static_cast<size_t>(Kind::kCount)> kKindNames = {
-    "ground",  "half flat",      "lakes",   "stripes", "two values",
-    "checker", "constant",       "outlier", "noise",   "sparse",
-    "feet",    "negative zeros", "geoid",   "squares", "mosaic"};
+    "ground",  "half flat", "lakes",  "stripes", "two values",     "checker", "constant",
+    "outlier", "noise",     "sparse", "feet",    "negative zeros", "geoid",   "squares",
+    "mosaic",  "turned",    "tens",   "bands",   "narrow"};
 
 /// What a sample type makes of ground whose values are from 0 to 65535.
 double scaled(tks_sample sample, double ground) {
@@ -164,6 +168,18 @@ class Ground {
         return above(samples::OffsetKind::kSquares, x, y, ground);
       case Kind::kMosaic:
         return mosaic(x / 24 + y / 24, ground);
+      case Kind::kTurned: {
+        const uint32_t u = (5 * x + 2 * y + period_) / 9, v = (5 * y + 2 * (4096 - x)) / 9;
+        return scaled(sample_, samples::ridges(u, v, seed_));
+      }
+      case Kind::kTens: {
+        const double whole = scaled(sample_, ground);
+        return (x / 32 + y / 32) % 2 == 0 ? whole : std::floor(whole / 10) * 10;
+      }
+      case Kind::kBands:
+        return scaled(sample_, level_ / 2) + std::floor(ground / 13200) * (1 + period_ % 9);
+      case Kind::kNarrow:
+        return std::floor(ground / 65536 * (1 + period_ % 9));
       default:
         return scaled(sample_, ground);
     }
@@ -259,11 +275,12 @@ void punch(Dice& dice, AwkwardCase& c) {
   }
   const bool nan = raster.sample == TKS_F32 && dice.once(2);
   if (!c.nodata && !nan) return;
-  const uint32_t seed = static_cast<uint32_t>(dice.next()), share = dice.below(5);
+  const uint32_t seed = static_cast<uint32_t>(dice.next()), share = dice.below(6);
   for (uint32_t y = 0; y < raster.height; ++y) {
     for (uint32_t x = 0; x < raster.width; ++x) {
-      const bool hole = share < 3 ? samples::valueNoise(x, y, 3 + share, seed) < 20000 * share
-                                  : samples::hash(x, y, seed) % 64 == 0;
+      const bool hole = share < 3    ? samples::valueNoise(x, y, 3 + share, seed) < 20000 * share
+                        : share == 3 ? samples::hash(x, y, seed) % 10 != 0
+                                     : samples::hash(x, y, seed) % 64 == 0;
       const bool held = raster.sample == TKS_F32 || *c.nodata != -9999.5;
       if (!hole || !held) continue;
       storeSample(raster, size_t{y} * raster.width + x,

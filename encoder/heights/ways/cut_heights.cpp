@@ -18,6 +18,11 @@ EncodedTrack firstOf(const EncodedTrack& whole, uint64_t bytes) {
   return first;
 }
 
+/// Where coefficients begin in the first track, and what is known by then of voids.
+uint64_t leastCut(const GeometryLayers& layers) {
+  return std::max(layers.openingBytes(), layers.maskEnd());
+}
+
 }  // namespace
 
 std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
@@ -26,7 +31,7 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
   if (whole.tracks.size() == 1) {  // its packets are longer than its passes
     const EncodedTrack& track = whole.tracks.front();
     const auto end = std::find_if(track.points.begin(), track.points.end(), is_near);
-    if (end == track.points.end() || end->bytes < whole.layers.maskEnd()) return {};
+    if (end == track.points.end() || end->bytes < leastCut(whole.layers)) return {};
     cut.tracks.front() = firstOf(track, end->bytes);
     return cut;
   }
@@ -34,7 +39,7 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
   const auto end = std::find_if(order.points.begin(), order.points.end(), is_near);
   if (end == order.points.end()) return {};
   const Codewords kept = prefixAfter(whole.accounted(), order.packets, end->bytes);
-  if (kept.front().size() < whole.layers.maskEnd()) return {};
+  if (kept.front().size() < leastCut(whole.layers)) return {};
   for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
   return cut;
 }
