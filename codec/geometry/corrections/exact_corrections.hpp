@@ -5,12 +5,10 @@
 // error add up to a sum. The correction counts steps from the one nearest to this sum, and is
 // positive on the side of that step where the sum lies.
 //
-// A correction is told by questions: is there one, is it negative, is it more than 1, more than 2,
-// and so on. Each question asks whether the sample is one certain step or lies beyond it, so that
-// exact steps nearby answer it as well as the decoded height does: where samples were copied,
-// turned or rounded to tens, a neighbour has that very step. If a neighbour's step lies farther off
-// than these questions go, whether it is the sample's is asked before them. Several models, each
-// with contexts of its own, answer together (bitstream/coder/mixture.hpp).
+// A correction is told by questions (step_models.hpp): is there one, is it negative, is it more
+// than 1, more than 2, and so on. Where samples were copied, turned or rounded to tens, a neighbour
+// has the very step that one of them asks about. If its step lies farther off than these questions
+// go, whether it is the sample's is asked before them.
 #pragma once
 
 #include <algorithm>
@@ -24,17 +22,15 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "bitstream/coder/mixture.hpp"
 #include "codec/geometry/corrections/correction_coder.hpp"
 #include "codec/geometry/corrections/error_forecast.hpp"
 #include "codec/geometry/corrections/near_steps.hpp"
+#include "codec/geometry/corrections/step_models.hpp"
 
 namespace tetrakis::inline corrections {
 
 /// The step nearest to a height with its foretold error, halves up.
 struct ForetoldStep {
-  static constexpr size_t kPlaces = 8;
-
   int32_t step;
   bool below;    ///< the height lies below it
   size_t place;  ///< between the step and the middle of two
@@ -47,8 +43,8 @@ struct ForetoldStep {
     const uint32_t whole = static_cast<uint32_t>(step) << fraction_bits;
     const auto beside = static_cast<int32_t>(static_cast<uint32_t>(sum) - whole);
     below = beside < 0;
-    place =
-        std::min(static_cast<size_t>(std::abs(beside)) * 2 * kPlaces >> fraction_bits, kPlaces - 1);
+    place = std::min(static_cast<size_t>(std::abs(beside)) * 2 * kStepPlaces >> fraction_bits,
+                     kStepPlaces - 1);
   }
 
   int32_t correctionTo(int32_t exact) const {
@@ -59,110 +55,6 @@ struct ForetoldStep {
     return static_cast<int32_t>(static_cast<uint32_t>(step) +
                                 static_cast<uint32_t>(toSide(correction, below)));
   }
-};
-
-/// The questions about a correction. Small magnitudes are asked for one by one, others by their
-/// number of bits above these.
-struct Question {
-  static constexpr int32_t kOneByOne = 8;
-  static constexpr size_t kMany = 18, kKinds = 5;
-
-  size_t number;  ///< of kMany
-  size_t kind;    ///< of kKinds
-  int32_t step;   ///< the correction that it asks about
-
-  static constexpr Question any() { return {0, 0, 0}; }
-  static constexpr Question sign() { return {1, 1, 0}; }
-  /// Is the magnitude more than this? magnitude: from 1 to kOneByOne - 1.
-  static constexpr Question more(int32_t magnitude, bool negative) {
-    const auto which = static_cast<size_t>(std::min(magnitude, 4));
-    return {(negative ? 5 : 1) + which, negative ? 3u : 2u, negative ? -magnitude : magnitude};
-  }
-  /// Has the rest of the magnitude more than so many bits?
-  static constexpr Question beyond(int bits, bool negative) {
-    return {9 + static_cast<size_t>(std::min(bits, 8)), 4, negative ? -kOneByOne : kOneByOne};
-  }
-};
-
-/// Models that answer questions about the steps of samples.
-class StepModels {
- public:
-  static constexpr size_t kModels = 6, kFarModels = 3;
-  static constexpr size_t kFar = 3;  ///< neighbours whose steps may be far off: W, N, NE
-
-  StepModels()
-      : size_(kSizes * Question::kMany),
-        lines_(11 * 11 * 11 * Question::kKinds),
-        plane_(21 * 8 * Question::kKinds),
-        alike_(NearSteps::kAlike * 9 * Question::kKinds),
-        straight_(11 * 11 * Question::kKinds),
-        around_(7 * 7 * 7 * 7 * Question::kKinds),
-        weights_(kSpreads * Question::kMany, freshWeights<kModels>()),
-        far_size_(ErrorForecast::kLevels * kSizesOfFar * kFar),
-        far_six_(NearSteps::kSix * ErrorForecast::kLevels * kFar),
-        far_alike_(NearSteps::kAlike * kSizesOfFar * kFar),
-        far_weights_(kSpreads * kFar, freshWeights<kFarModels>()) {}
-
-  /// What is known of a sample before it is asked about.
-  void look(const NearSteps& near, size_t level, size_t place) {
-    near_ = near;
-    level_ = level;
-    sizes_ = level * ForetoldStep::kPlaces + place;
-    spread_ = std::min(near.spread, kSpreads - 1);
-  }
-
-  Mixture<kModels> ask(const Question& question) {
-    const auto away = [&](int64_t step, int64_t most) {
-      return static_cast<size_t>(std::clamp<int64_t>(step - question.step, -most, most) + most);
-    };
-    const size_t two = away(near_.west, 1) + 3 * away(near_.north, 1);
-    const size_t lines =
-        (away(near_.plane, 5) * 11 + away(near_.mean, 5)) * 11 + away(near_.slope, 5);
-    const size_t around =
-        ((away(near_.west, 3) * 7 + away(near_.north, 3)) * 7 + away(near_.north_west, 3)) * 7 +
-        away(near_.north_east, 3);
-    const size_t kinds = Question::kKinds, kind = question.kind;
-    return {{&size_[sizes_ * Question::kMany + question.number], &lines_[lines * kinds + kind],
-             &plane_[(away(near_.plane, 10) * 8 + std::min<size_t>(spread_, 7)) * kinds + kind],
-             &alike_[(near_.alike * 9 + two) * kinds + kind],
-             &straight_[(away(near_.row, 5) * 11 + away(near_.column, 5)) * kinds + kind],
-             &around_[around * kinds + kind]},
-            weights_[spread_ * Question::kMany + question.number],
-            odds_};
-  }
-
-  /// Asks whether the sample has the step of a neighbour, which is far off. which: of kFar.
-  Mixture<kFarModels> askFar(size_t which, int64_t step) {
-    const size_t bits =
-        std::min<size_t>(static_cast<size_t>(std::bit_width(static_cast<uint64_t>(std::abs(step)))),
-                         kSizesOfFar - 1);
-    const size_t six = near_.whichHave(step) * ErrorForecast::kLevels + level_;
-    return {
-        {&far_size_[(level_ * kSizesOfFar + bits) * kFar + which], &far_six_[six * kFar + which],
-         &far_alike_[(near_.alike * kSizesOfFar + bits) * kFar + which]},
-        far_weights_[spread_ * kFar + which],
-        odds_};
-  }
-
- private:
-  static constexpr size_t kSizes = ErrorForecast::kLevels * ForetoldStep::kPlaces;
-  static constexpr size_t kSpreads = 10, kSizesOfFar = 16;
-  using Models = std::vector<AdaptiveBit>;
-
-  Models size_;      ///< by the size of the error, and the place between two steps
-  Models lines_;     ///< by where a plane, a mean and a slope lie
-  Models plane_;     ///< by where a plane lies, and how rough it is
-  Models alike_;     ///< by which neighbours are the same, and whether W and N have the step
-  Models straight_;  ///< by where a row and a column go on to
-  Models around_;    ///< by where the four neighbours lie
-  std::vector<MixtureWeights<kModels>> weights_;
-  Models far_size_;   ///< by the size of the error, and how far off the step is
-  Models far_six_;    ///< by which neighbours have the step, and the size of the error
-  Models far_alike_;  ///< by which neighbours are the same, and how far off the step is
-  std::vector<MixtureWeights<kFarModels>> far_weights_;
-  const OddsTable odds_ = makeOddsTable();
-  NearSteps near_ = {};
-  size_t level_ = 0, sizes_ = 0, spread_ = 0;
 };
 
 /// Io: DecisionEncoding or DecisionDecoding (bitstream/coder/).
