@@ -74,7 +74,8 @@ std::vector<VectorCase> drawnHeightsCases() {
       patches("drawn_joint_index_50x41_30x20", "drawn heights beside a texture, index", 50, 41);
   joint.texture = Recipe{Pattern::kRidges, 30, 20, 3, TKS_U8, 7};
   joint.options = indexed(lossless());
-  VectorCase copied = patches("drawn_copies_u8_119x93", "drawn heights whose lines repeat", 60, 47);
+  VectorCase copied =
+      patches("drawn_copies_u8_127x101", "drawn heights whose lines repeat", 64, 51);
   copied.copies[0] = copied.copies[1] = 2;
   return {patches("drawn_u8_70x53", "drawn heights", 70, 53),
           patches("drawn_long_u8_2x300", "drawn heights, two columns", 2, 300),

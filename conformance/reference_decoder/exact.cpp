@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <numeric>
 
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/mixed.hpp"
@@ -69,6 +70,12 @@ struct Nearby {
     int bits = 0;
     for (int i = 0; i < 9; ++i) bits |= same[i] << i;
     return bits;
+  }
+  int64_t divisor() const {
+    int64_t divisor = 0;
+    for (const int64_t other : {nw, n, ne, ww, nn, nne, nnw, nww})
+      divisor = std::gcd(divisor, w - other);
+    return divisor;
   }
   int spread() const { return bitsOf(std::abs(w - nw) + std::abs(n - nw) + std::abs(n - ne)); }
 };
@@ -152,12 +159,17 @@ class ExactCorrections {
         (near(plane, 5) * 11 + near((q.w + q.n) >> 1, 5)) * 11 + near(q.n + q.ne - q.nne, 5);
     const int straight = near(2 * q.w - q.ww, 5) * 11 + near(2 * q.n - q.nn, 5);
     const int around = ((near(q.w, 3) * 7 + near(q.n, 3)) * 7 + near(q.nw, 3)) * 7 + near(q.ne, 3);
-    Model* const models[6] = {&size_[z_ * 18 + i],
+    const int64_t divisor = q.divisor();
+    const bool multiple = divisor > 0 && (q.w - a) % divisor == 0;
+    const int multiples = (static_cast<int>(std::min<int64_t>(divisor, 40)) * 2 + multiple) * 10 +
+                          std::min(spread, 9);
+    Model* const models[7] = {&size_[z_ * 18 + i],
                               &lines_[lines * 5 + t],
                               &plane_[(near(plane, 10) * 8 + std::min(spread, 7)) * 5 + t],
                               &alike_[(q.alike() * 9 + two) * 5 + t],
                               &straight_[straight * 5 + t],
-                              &around_[around * 5 + t]};
+                              &around_[around * 5 + t],
+                              &multiples_[multiples * 5 + t]};
     return decodeMixed(decoder_, models, weights_[std::min(spread, 9) * 18 + i]);
   }
 
@@ -172,9 +184,10 @@ class ExactCorrections {
   Models size_ = Models(160 * 18), lines_ = Models(11 * 11 * 11 * 5), plane_ = Models(21 * 8 * 5);
   Models alike_ = Models(512 * 9 * 5), straight_ = Models(11 * 11 * 5);
   Models around_ = Models(7 * 7 * 7 * 7 * 5), high_ = Models(33);
+  Models multiples_ = Models(41 * 2 * 10 * 5);
   Models farSize_ = Models(20 * 16 * 3), farSix_ = Models(64 * 20 * 3);
   Models farAlike_ = Models(512 * 16 * 3);
-  std::array<std::array<int64_t, 6>, 10 * 18> weights_;
+  std::array<std::array<int64_t, 7>, 10 * 18> weights_;
   std::array<std::array<int64_t, 3>, 10 * 3> farWeights_;
 };
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace tetrakis::inline corrections {
@@ -23,6 +24,7 @@ struct NearSteps {
   int64_t row, column;  ///< 2 W - WW, 2 N - NN
   size_t alike;         ///< which of them are the same, kAlike patterns
   size_t spread;        ///< bits of the differences W - NW, N - NW and N - NE
+  int64_t divisor;      ///< the largest of all differences of W from the others; 0: none differs
 
   static constexpr size_t kAlike = 512;
 
@@ -67,13 +69,17 @@ class ExactRows {
     const int64_t nne = counted(upper[i + 1], ne);
     const int64_t nnw = counted(upper[i - 1], nw), nww = counted(above[i - 2], nw);
     NearSteps near{w,          n,          nw, ne, ww, nn, w + n - nw, (w + n) >> 1, n + ne - nne,
-                   2 * w - ww, 2 * n - nn, 0,  0};
+                   2 * w - ww, 2 * n - nn, 0,  0,  0};
     size_t bit = 0;
     for (const bool same :
          {w == nw, w == n, n == ne, n == nn, w == ww, n == nw, ne == nne, nw == nww, nw == nnw})
       near.alike |= size_t{same} << bit++;
     near.spread = static_cast<size_t>(std::bit_width(
         static_cast<uint64_t>(std::abs(w - nw) + std::abs(n - nw) + std::abs(n - ne))));
+    for (const int64_t other : {nw, n, ne, ww, nn, nne, nnw, nww}) {
+      if (near.divisor == 1) break;
+      near.divisor = std::gcd(near.divisor, w - other);
+    }
     return near;
   }
 

@@ -47,7 +47,7 @@ struct Question {
 /// Models that answer questions about the steps of samples.
 class StepModels {
  public:
-  static constexpr size_t kModels = 6, kFarModels = 3;
+  static constexpr size_t kModels = 7, kFarModels = 3;
   static constexpr size_t kFar = 3;  ///< neighbours whose steps may be far off: W, N, NE
 
   StepModels()
@@ -57,6 +57,7 @@ class StepModels {
         alike_(NearSteps::kAlike * 9 * Question::kKinds),
         straight_(11 * 11 * Question::kKinds),
         around_(7 * 7 * 7 * 7 * Question::kKinds),
+        multiples_((kMostDivisor + 1) * 2 * kSpreads * Question::kKinds),
         weights_(kSpreads * Question::kMany, freshWeights<kModels>()),
         far_size_(ErrorForecast::kLevels * kSizesOfFar * kFar),
         far_six_(NearSteps::kSix * ErrorForecast::kLevels * kFar),
@@ -81,12 +82,15 @@ class StepModels {
     const size_t around =
         ((away(near_.west, 3) * 7 + away(near_.north, 3)) * 7 + away(near_.north_west, 3)) * 7 +
         away(near_.north_east, 3);
+    const bool multiple = near_.divisor > 0 && (near_.west - question.step) % near_.divisor == 0;
+    const auto divisor = static_cast<size_t>(std::min(near_.divisor, kMostDivisor));
     const size_t kinds = Question::kKinds, kind = question.kind;
     return {{&size_[sizes_ * Question::kMany + question.number], &lines_[lines * kinds + kind],
              &plane_[(away(near_.plane, 10) * 8 + std::min<size_t>(spread_, 7)) * kinds + kind],
              &alike_[(near_.alike * 9 + two) * kinds + kind],
              &straight_[(away(near_.row, 5) * 11 + away(near_.column, 5)) * kinds + kind],
-             &around_[around * kinds + kind]},
+             &around_[around * kinds + kind],
+             &multiples_[((divisor * 2 + multiple) * kSpreads + spread_) * kinds + kind]},
             weights_[spread_ * Question::kMany + question.number],
             odds_};
   }
@@ -107,14 +111,16 @@ class StepModels {
  private:
   static constexpr size_t kSizes = ErrorForecast::kLevels * kStepPlaces;
   static constexpr size_t kSpreads = 10, kSizesOfFar = 16;
+  static constexpr int64_t kMostDivisor = 40;
   using Models = std::vector<AdaptiveBit>;
 
-  Models size_;      ///< by the size of the error, and the place between two steps
-  Models lines_;     ///< by where a plane, a mean and a slope lie
-  Models plane_;     ///< by where a plane lies, and how rough it is
-  Models alike_;     ///< by which neighbours are the same, and whether W and N have the step
-  Models straight_;  ///< by where a row and a column go on to
-  Models around_;    ///< by where the four neighbours lie
+  Models size_;       ///< by the size of the error, and the place between two steps
+  Models lines_;      ///< by where a plane, a mean and a slope lie
+  Models plane_;      ///< by where a plane lies, and how rough it is
+  Models alike_;      ///< by which neighbours are the same, and whether W and N have the step
+  Models straight_;   ///< by where a row and a column go on to
+  Models around_;     ///< by where the four neighbours lie
+  Models multiples_;  ///< by what divides the neighbours' differences, and whether the step's
   std::vector<MixtureWeights<kModels>> weights_;
   Models far_size_;   ///< by the size of the error, and how far off the step is
   Models far_six_;    ///< by which neighbours have the step, and the size of the error
