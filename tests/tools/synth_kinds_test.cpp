@@ -191,5 +191,16 @@ TEST_P(SynthKindsOf, MosaicsAreWholeMetresInPart) {
   EXPECT_GT(others, kSize * kSize / 8);
 }
 
+/// Neighbours are often copies of one sample, and rows of copies have no common length.
+TEST_P(SynthKindsOf, TurnedHeightsAreCopiesInWholeMetres) {
+  const SynthTerrain terrain = synthesize({kSize, GetParam(), SynthKind::kTurned});
+  EXPECT_EQ(terrain.heights.scale, 1);
+  const std::vector<double> metres = metresOf(terrain.heights);
+  const double turned = shareOfSteps(metres, [](double step) { return step == 0; });
+  const std::vector<double> mountains = metresOf(SynthKind::kMountains, GetParam());
+  const double smooth = shareOfSteps(mountains, [](double step) { return step < 0.05; });
+  EXPECT_GT(turned, smooth + 0.2);
+}
+
 }  // namespace
 }  // namespace tetrakis::tools

@@ -150,6 +150,23 @@ Storage pierce(const Task& task) {
   return {.sample = TKS_F32, .step = 1, .voids = std::move(voids)};
 }
 
+/// Nearest neighbours of a coarser grid that lies at an angle: what warping a map without
+/// interpolation leaves.
+Storage turn(const Task& task) {
+  constexpr double kCosine = 12. / 13, kSine = 5. / 13, kCoarse = 1.6;  // of its own samples
+  const Grid before = task.relief.height;
+  const double middle = before.side() / 2.;
+  task.relief.height = rasterOf<double>(before.side(), [&](uint32_t x, uint32_t y) {
+    const double dx = x - middle, dy = y - middle;
+    const double u = std::floor((kCosine * dx + kSine * dy) / kCoarse);
+    const double v = std::floor((kCosine * dy - kSine * dx) / kCoarse);
+    return before.clamped(
+        static_cast<int64_t>(std::floor(middle + kCoarse * (kCosine * u - kSine * v))),
+        static_cast<int64_t>(std::floor(middle + kCoarse * (kSine * u + kCosine * v))));
+  });
+  return {.sample = TKS_U16, .step = 1, .voids = {}};
+}
+
 /// Some metres of relief in all, under the noise of a scanner.
 Storage flatten(const Task& task) {
   Relief& relief = task.relief;
@@ -234,6 +251,8 @@ Storage reshape(Relief& relief, SynthKind kind, uint32_t size, uint64_t seed) {
       return raise(task);
     case SynthKind::kMosaic:
       return join(task);
+    case SynthKind::kTurned:
+      return turn(task);
   }
   return {};
 }
