@@ -100,7 +100,11 @@ std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, 
                                        uint64_t whole_bytes) {
   constexpr int kUsual = 2, kLast = 12;
   constexpr double kHopeless = 1.04;
+  // Planes and plains of so few bits lose more by a cut that shows where levels and surfaces end.
+  constexpr double kLeastBits = 0.1;
   const auto bytes = static_cast<double>(whole_bytes);
+  const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
+  if (8 * bytes <= kLeastBits * samples) return {};
   TriedCuts cuts(heights, range_bits, whole_bytes);
   if (!isWorth(cuts.at(kUsual).worth, kHopeless * bytes)) return {};
   int best = kUsual;
