@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <set>
 #include <span>
@@ -87,7 +88,8 @@ TEST(SynthKinds, MakeTheSameBytesEverywhere) {
   constexpr uint64_t kDigests[] = {0x4034d9316f42ecb5u, 0xe16895c828fac842u, 0x258a0ae1a04cdb93u,
                                    0xea646d0c221fbf14u, 0x45a49728f8f1c229u, 0x43987c57ef155ac7u,
                                    0x127a105b6a2645fbu, 0x2421035136751a12u, 0xc8c552b13c885c57u,
-                                   0xf563fb7491c34841u, 0xf9011a9faa66495au};
+                                   0xf563fb7491c34841u, 0xf9011a9faa66495au, 0xbbdaa312fa1911ddu};
+  static_assert(std::size(kDigests) == kSynthKinds.size());
   for (size_t kind = 0; kind < kSynthKinds.size(); ++kind) {
     const SynthTerrain t = synthesize({65, 7, static_cast<SynthKind>(kind)});
     const uint64_t all =
