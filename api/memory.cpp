@@ -23,10 +23,17 @@ constexpr uint64_t kOnce = 256 << 10;         // models, plans, lists of levels
 constexpr uint64_t kDrawnOnce = 7 << 19;      // models of drawings and overlays
 constexpr uint64_t kBytesPerTrack = 64;       // its region, and views of its bytes
 constexpr uint64_t kValue = sizeof(int32_t);  // of a plane
-constexpr uint64_t kRow = 8;                  // of corrections, a sample of the row before
-constexpr uint64_t kRelativeRow = 24;         // likewise, with what is known of its multiple
-constexpr uint64_t kExactRow = 56;            // of exact ones: errors and steps of four rows
-constexpr uint64_t kExactModels = 384 << 10;  // likewise
+
+/// What corrections of so many columns take while they are decoded.
+struct CorrectionBytes {
+  uint64_t models, column;
+
+  uint64_t of(uint64_t width) const { return models + column * width; }
+};
+constexpr CorrectionBytes kPlain = {160 << 10, 8};      // a sample of the row before
+constexpr CorrectionBytes kRelative = {160 << 10, 24};  // with what is known of its multiple
+constexpr CorrectionBytes kExact = {384 << 10, 56};     // errors and steps of four rows
+constexpr CorrectionBytes kFacets = {128 << 10, 56};    // errors, samples and ways of four rows
 
 /// How many samples a rectangle has.
 uint64_t area(const auto& extent) {
@@ -160,27 +167,34 @@ class HeightsBytes {
   }
   /// Heights, marks, mask and corrections that are copied, beside what they are copied from.
   uint64_t copyBytes() const { return api::copyBytes(header_, copied_, 2 * (kValue + 1)); }
-  /// Rows that corrections are decoded beside.
-  uint64_t rows() const {
-    if (exact()) return kExactModels + kExactRow * header_.width;
-    const bool relative = layers_.corrections == CorrectionKind::kRelative;
-    return (relative ? kRelativeRow : kRow) * header_.width;
-  }
-  bool exact() const {
-    return layers_.corrections == CorrectionKind::kSteps && layers_.correction_step == 1;
+  uint64_t rows() const { return kindOfCorrections().of(header_.width); }
+  CorrectionBytes kindOfCorrections() const {
+    switch (layers_.corrections) {
+      case CorrectionKind::kNone:
+        return {0, 0};
+      case CorrectionKind::kSteps:
+        return layers_.correction_step == 1 ? kExact : kPlain;
+      case CorrectionKind::kSamples:
+        return kPlain;
+      case CorrectionKind::kRelative:
+        return kRelative;
+      case CorrectionKind::kFacets:
+        return kFacets;
+    }
+    return kPlain;
   }
   /// Parts of the plane with their heights, corrections, marks, masks and hints, and the models of
   /// their corrections, so many as are corrected at a time.
   uint64_t parts() const {
-    constexpr uint64_t kSample = 2 * kValue + 3, kModels = 160 << 10;
+    constexpr uint64_t kSample = 2 * kValue + 3;
     const uint64_t count = correctionTracks(header_, layers_);
     if (count == 0) return 0;
     const uint64_t at_a_time = std::clamp<uint64_t>(decoder_.threads, 1, count);
     const Region largest =
         largestRegions(header_.width, header_.height, header_.regions.side_log2).front();
     const uint64_t samples = uint64_t{largest.x1} * largest.y1;
-    const uint64_t models = exact() ? kExactModels + kExactRow * largest.x1 : kModels;
-    return at_a_time * (samples * kSample + models) + count * sizeof(Window);
+    const uint64_t beside = kindOfCorrections().of(largest.x1);
+    return at_a_time * (samples * kSample + beside) + count * sizeof(Window);
   }
   /// The table, its values as heights, and a correction for each sample.
   uint64_t tableBytes() const {

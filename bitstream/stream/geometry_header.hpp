@@ -19,9 +19,10 @@ inline constexpr uint32_t kMaxSide = 1u << 20;  ///< samples in a row or column 
 /// What corrections are added to.
 enum class CorrectionKind : uint8_t {
   kNone = 0,
-  kSteps = 1,    ///< heights in steps: heights += correction_step * correction
-  kSamples = 2,  ///< samples, in the order of their type: restores them bit for bit
-  kRelative = 3  ///< the same, counted from multiples of a step beside the samples before
+  kSteps = 1,     ///< heights in steps: heights += correction_step * correction
+  kSamples = 2,   ///< samples, in the order of their type: restores them bit for bit
+  kRelative = 3,  ///< the same, counted from multiples of a step beside the samples before
+  kFacets = 4     ///< the same, counted from where facets go on from the samples before
 };
 
 /// Heights: integer q (after dropping fraction_bits) stands for the sample base + q * step.
@@ -114,6 +115,7 @@ struct GeometryLayers {
   uint64_t coefficient_bytes = 0;  ///< with corrections only: what follows is theirs
   uint32_t correction_step = 0;    ///< kSteps only: unit of the corrections, in steps
   RelativeSteps relative = {};     ///< kRelative only
+  uint8_t facet_unit = 0;          ///< kFacets only: of FacetUnit (codec/geometry/facets/)
 
   bool isDefault() const { return *this == GeometryLayers{}; }
   bool operator==(const GeometryLayers&) const = default;
@@ -123,13 +125,16 @@ struct GeometryLayers {
     v.varint("validity_bytes", validity_bytes, 0, UINT64_MAX >> 1);
     v.u8("has_nodata", has_nodata, 0, 1);
     if (has_nodata) v.f64("nodata", nodata);
+    bool facets = corrections == CorrectionKind::kFacets;
     auto kinds = static_cast<uint8_t>(
-        static_cast<uint8_t>(corrections) | (table_bytes > 0 ? kWithTable : 0) |
-        (flat_bytes > 0 ? kWithFlatAreas : 0) | (bridge > 0 ? kWithBridges : 0) |
-        (late_mask ? kWithLateMask : 0));
-    v.u8("layer_kinds", kinds, 0, kWithLateMask + kWithFlatAreas + kWithTable + 3);
-    corrections = static_cast<CorrectionKind>(kinds % kWithTable);
-    if (kinds & kWithTable) {
+        (facets ? kOfFacets : static_cast<uint8_t>(corrections)) |
+        (table_bytes > 0 ? kWithTable : 0) | (flat_bytes > 0 ? kWithFlatAreas : 0) |
+        (bridge > 0 ? kWithBridges : 0) | (late_mask ? kWithLateMask : 0));
+    v.u8("layer_kinds", kinds, 0, kWithLateMask + kWithFlatAreas + kOfFacets);
+    facets = kinds % kWithFlatAreas == kOfFacets;
+    corrections =
+        facets ? CorrectionKind::kFacets : static_cast<CorrectionKind>(kinds % kWithTable);
+    if (kinds & kWithTable && !facets) {
       v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
       v.varint("table_values", table_values, 2, kMostValues);
       v.varint("table_after", table_after, 0, UINT64_MAX >> 1);
@@ -155,10 +160,12 @@ struct GeometryLayers {
       v.f64("relative_step", relative.step);
       v.u8("relative_quarters", relative.quarters, 1, 4);
     }
+    if (corrections == CorrectionKind::kFacets) v.u8("facet_unit", facet_unit, 1, 254);
   }
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
   static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8, kWithBridges = 16,
                            kWithLateMask = 32;  ///< bits beside the corrections
+  static constexpr uint8_t kOfFacets = 7;       ///< in the place of corrections and table
   static constexpr uint64_t kMostFlatAreas = 65535;
   static constexpr uint64_t kMostFlatSamples = uint64_t{1} << 31;  ///< of a plane with flat areas
   static constexpr uint32_t kMostValues = 1u << 20;
@@ -178,7 +185,8 @@ struct GeometryLayers {
   }
   /// Corrections restore every sample.
   bool restoresSamples() const {
-    return corrections == CorrectionKind::kSamples || corrections == CorrectionKind::kRelative;
+    return corrections == CorrectionKind::kSamples || corrections == CorrectionKind::kRelative ||
+           corrections == CorrectionKind::kFacets;
   }
 
  private:

@@ -31,6 +31,8 @@ Status checkLayers(const StreamHeader& header) {
       !(std::isfinite(layers.relative.step) && layers.relative.step > 0)) {
     return {TKS_CORRUPT, "Corrupt stream: the relative step of its heights is out of range."};
   }
+  if (layers.corrections == CorrectionKind::kFacets && header.geometry->sample != TKS_F32)
+    return {TKS_CORRUPT, "Corrupt stream: its heights have facets but are no floats."};
   const bool steep =
       std::any_of(layers.table_knots.begin(), layers.table_knots.end(),
                   [](const TableKnot& k) { return std::abs(k.rise) > GeometryLayers::kMostRise; });
@@ -71,7 +73,8 @@ Status checkDirect(const StreamHeader& header) {
   const GeometryLayers& layers = header.layers;
   if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 || layers.bridge > 0 ||
       layers.late_mask || layers.corrections == CorrectionKind::kSteps ||
-      layers.corrections == CorrectionKind::kRelative) {
+      layers.corrections == CorrectionKind::kRelative ||
+      layers.corrections == CorrectionKind::kFacets) {
     return {TKS_CORRUPT,
             "Corrupt stream: drawn or stored heights have regions, flat areas, bridges or "
             "corrections of steps."};

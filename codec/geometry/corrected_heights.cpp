@@ -9,6 +9,7 @@
 #include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/corrections/exact_corrections_decoder.hpp"
+#include "codec/geometry/facets/facets_decoder.hpp"
 #include "codec/geometry/relative/relative_decoder.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 
@@ -79,6 +80,8 @@ DecodedHeights correctedPart(DecodedHeights part, const GeometryHeader& header,
       return correctedSamples(std::move(part), header, codeword);
     case CorrectionKind::kRelative:
       return restoreRelative(std::move(part), header, layers.relative, codeword);
+    case CorrectionKind::kFacets:
+      return restoreFacets(std::move(part), header, layers.facet_unit, codeword);
   }
   return part;
 }

@@ -17,6 +17,7 @@ std::vector<VectorCase> sparseCases();
 // height_kind_cases.cpp
 std::vector<VectorCase> tableCases();
 std::vector<VectorCase> relativeCases();
+std::vector<VectorCase> facetCases();
 std::vector<VectorCase> drawnHeightsCases();
 std::vector<VectorCase> copiedCases();
 std::vector<VectorCase> waterCases();

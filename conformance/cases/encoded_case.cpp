@@ -8,6 +8,7 @@
 
 #include "base/samples.hpp"
 #include "conformance/cases/vector_cases.hpp"
+#include "conformance/samples/facets.hpp"
 #include "conformance/samples/patches.hpp"
 #include "tetrakis/tetrakis.hpp"
 
@@ -38,6 +39,8 @@ samples::Raster surfaceOf(const VectorCase& vector_case) {
       vector_case.patches ? samples::patches(recipe.width, recipe.height) : samples::make(recipe);
   if (vector_case.values) surface = samples::withFewValues(surface, *vector_case.values);
   if (vector_case.offsets) surface = samples::withOffsets(surface, *vector_case.offsets);
+  if (vector_case.facets > 0)
+    surface = samples::facets(recipe.width, recipe.height, vector_case.facets);
   const uint32_t width = surface.width, height = surface.height;
   const std::vector<uint8_t> valid = vector_case.voids
                                          ? samples::validity(*vector_case.voids, width, height)

@@ -55,6 +55,28 @@ std::vector<VectorCase> relativeCases() {
   };
 }
 
+/// Floats that are linear between points.
+std::vector<VectorCase> facetCases() {
+  const auto faceted = [](double spacing, VectorCase vector_case) {
+    vector_case.facets = spacing;
+    return vector_case;
+  };
+  const auto ground = [](uint32_t width, uint32_t height) {
+    return Recipe{Pattern::kRidges, width, height, 1, TKS_F32, 3};
+  };
+  return {
+      faceted(9.7, heightsCase("facets_83x61", "corrections from facets: triangles between points",
+                               ground(83, 61), lossless())),
+      withVoids(faceted(6.3, heightsCase("facets_voids_64x75",
+                                         "corrections from facets: triangles beside voids, in "
+                                         "regions",
+                                         ground(64, 75), inRegions(lossless(), 16))),
+                samples::VoidShape::kCoast, -9999),
+      faceted(31.4, heightsCase("facets_row_700x1", "corrections from facets: lines between points",
+                                ground(700, 1), lossless())),
+  };
+}
+
 /// Few values in large shapes, which take fewer bytes drawn than by wavelet.
 std::vector<VectorCase> drawnHeightsCases() {
   const auto patches = [](const std::string& name, const std::string& purpose, uint32_t width,

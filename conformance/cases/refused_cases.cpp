@@ -144,8 +144,18 @@ std::vector<VectorCase> refusedHeaders() {
     relative(h, 1);
     h.layers.relative.quarters = 5;
   });
-  refuse("relative_table", "a table of values beside relative steps", [&](StreamHeader& h) {
-    relative(h, 1);
+  refuse("facet_unit", "a unit of facets beyond all floats", [&](StreamHeader& h) {
+    h.geometry->sample = TKS_F32;
+    h.layers.corrections = CorrectionKind::kFacets;
+    h.layers.facet_unit = 255;
+  });
+  refuse("facets_integer", "facets of integers", [&](StreamHeader& h) {
+    h.layers.corrections = CorrectionKind::kFacets;
+    h.layers.facet_unit = 100;
+  });
+  refuse("table_steps", "a table of values beside corrections of steps", [&](StreamHeader& h) {
+    h.layers.corrections = CorrectionKind::kSteps;
+    h.layers.correction_step = 3;
     h.layers.table_bytes = 9;
     h.layers.table_values = 2;
   });

@@ -12,6 +12,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : textureCases()) all.push_back(std::move(next));
   for (VectorCase& next : tableCases()) all.push_back(std::move(next));
   for (VectorCase& next : relativeCases()) all.push_back(std::move(next));
+  for (VectorCase& next : facetCases()) all.push_back(std::move(next));
   for (VectorCase& next : drawnHeightsCases()) all.push_back(std::move(next));
   for (VectorCase& next : storedCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));

@@ -27,6 +27,7 @@ struct VectorCase {
   std::optional<samples::FewValues> values;    ///< u8 heights are made into samples of these
   std::optional<samples::OffsetKind> offsets;  ///< u16 heights become floats in steps above these
   bool patches = false;   ///< u8 heights have few values in patches, before `values`
+  double facets = 0;      ///< > 0: heights are floats, linear between points so far apart
   bool gridless = false;  ///< heights are divided by about 3, so that no step holds them
   std::optional<samples::VoidShape> voids;
   std::optional<samples::VoidShape> water;  ///< at one of two levels there, left and right

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "conformance/reference_decoder/error_forecast.hpp"
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/mixed.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
@@ -19,40 +20,31 @@ int bitsOf(int64_t n) {
   return static_cast<int>(std::bit_width(static_cast<uint64_t>(n)));
 }
 
-int levelOf(int64_t n) {
-  const int bits = bitsOf(n);
-  return n < 4 ? bits : std::min(2 * bits - 3 + static_cast<int>(n >> (bits - 2) & 1), 19);
-}
-
-/// What is known of each sample that has been decoded.
-class Known {
+/// The steps of samples that have been decoded.
+class KnownSteps {
  public:
-  explicit Known(const Plane& plane) : plane_(plane), samples_(plane.values.size()) {}
+  explicit KnownSteps(const Plane& plane) : plane_(plane), q_(plane.values.size()) {}
 
-  struct Sample {
-    int32_t q = 0;
-    int64_t error = 0, missed = 0;
-  };
-  void put(int x, int y, const Sample& sample) { samples_[index(x, y)] = sample; }
+  void put(int x, int y, int32_t q) { q_[index(x, y)] = q; }
   bool has(int x, int y) const {
     return x >= 0 && x < plane_.width && y >= 0 && plane_.isValid(x, y);
   }
-  Sample at(int x, int y) const { return has(x, y) ? samples_[index(x, y)] : Sample(); }
+  int32_t at(int x, int y) const { return q_[index(x, y)]; }
 
  private:
   size_t index(int x, int y) const { return static_cast<size_t>(y) * plane_.width + x; }
 
   const Plane& plane_;
-  std::vector<Sample> samples_;
+  std::vector<int32_t> q_;
 };
 
 /// "The q of samples nearby".
 struct Nearby {
   int64_t w, n, nw, ne, ww, nn, nne, nww, nnw;
 
-  Nearby(const Known& known, int x, int y, int64_t r, int d) {
+  Nearby(const KnownSteps& known, int x, int y, int64_t r, int d) {
     const auto at = [&](int i, int j, int64_t otherwise) {
-      return known.has(x + i, y + j) ? (known.at(x + i, y + j).q - r) * d : otherwise;
+      return known.has(x + i, y + j) ? (int64_t{known.at(x + i, y + j)} - r) * d : otherwise;
     };
     w = at(-1, 0, at(0, -1, 0));
     n = at(0, -1, w);
@@ -194,39 +186,26 @@ class ExactCorrections {
 }  // namespace
 
 void makeExact(std::span<const uint8_t> codeword, Plane& plane, int f) {
-  constexpr int kNeighbours[12][2] = {{-1, 0}, {0, -1},  {-1, -1}, {1, -1}, {-2, 0}, {0, -2},
-                                      {2, -1}, {-2, -1}, {-1, -2}, {1, -2}, {-3, 0}, {0, -3}};
   RangeDecoder decoder(codeword);
   ExactCorrections corrections(decoder);
-  Known known(plane);
-  std::array<int64_t, 12> e, w = {};
+  KnownSteps known(plane);
+  ErrorForecast forecast(plane);
   for (int y = 0; y < plane.height; ++y) {
     for (int x = 0; x < plane.width; ++x) {
       if (!plane.isValid(x, y)) continue;
-      int64_t p = 1 << 15, squares = 64;
-      for (size_t i = 0; i < 12; ++i) {
-        e[i] = known.at(x + kNeighbours[i][0], y + kNeighbours[i][1]).error;
-        p += w[i] * e[i];
-        squares += e[i] * e[i];
-      }
-      p >>= 16;
       int32_t& v = plane.values[static_cast<size_t>(y) * plane.width + x];
-      const auto u = static_cast<int32_t>(v + p);
+      const auto u = static_cast<int32_t>(v + forecast.look(x, y));
       const int32_t r = stepOf(u, f);
       const int64_t b = u - (int64_t{r} << f);
       const int g = static_cast<int>(std::min<int64_t>((std::abs(b) * 16) >> f, 7));
       const int d = b < 0 ? -1 : 1;
-      const auto missed = [&](int i, int j) { return known.at(x + i, y + j).missed; };
-      const int l = levelOf(2 * missed(-1, 0) + 2 * missed(0, -1) + missed(-1, -1) + missed(1, -1));
+      const int l = std::min(levelOf(forecast.missedNearby(x, y)), 19);
       const std::optional<uint32_t> c = corrections.next(Nearby(known, x, y, r, d), l, g);
       if (!c) return;
       const uint32_t q = d < 0 ? static_cast<uint32_t>(r) - *c : static_cast<uint32_t>(r) + *c;
       const auto whole = static_cast<int32_t>(q << f);
-      const int64_t error = std::clamp<int64_t>(int64_t{whole} - v, -(1 << 15), 1 << 15);
-      known.put(x, y, {static_cast<int32_t>(q), error, std::abs(error - p)});
-      const int64_t h = (error - p) * (1 << 12) / squares;
-      for (size_t i = 0; i < 12; ++i)
-        w[i] = std::clamp<int64_t>(w[i] + ((h * e[i]) >> 4), -(1 << 18), 1 << 18);
+      known.put(x, y, static_cast<int32_t>(q));
+      forecast.learn(x, y, int64_t{whole} - v);
       v = whole;
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "conformance/reference_decoder/facets.hpp"
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/relative.hpp"
@@ -279,11 +280,13 @@ Correctable partOf(const Correctable& whole, const Region& region) {
 
 /// FORMAT 8.1: corrections of samples, which are made of the heights.
 void correctMade(const GeometryHeader& header, const Layers& layers,
-                 std::span<const uint8_t> codeword, Correctable& part) {
+                 std::span<const uint8_t> codeword, int f, Correctable& part) {
   if (layers.corrections == 2)
     correctSamples(header, codeword, part.plane, part.near, part.samples);
   if (layers.corrections == 3)
     correctFromRelative(header, layers, codeword, part.plane, part.samples);
+  if (layers.corrections == 4)
+    correctFromFacets(header, layers, codeword, part.plane, f, part.samples);
 }
 
 /// Corrects the plane with one codeword, or each of its parts with its own.
@@ -441,7 +444,7 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
     }
     Correctable whole{surface.plane, {width, height, {}}, samples, near};
     correctParts(header, corrections, whole, [&](std::span<const uint8_t> codeword, auto& part) {
-      correctMade(header, layers, codeword, part);
+      correctMade(header, layers, codeword, surface.f, part);
     });
     samples = whole.samples;
   }

@@ -109,10 +109,11 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   layers.validityBytes = in.varint(0, INT64_MAX);
   layers.hasNodata = in.u8(0, 1);
   if (layers.hasNodata) layers.nodata = in.f64();
-  const int kinds = in.u8(0, 46);
-  layers.corrections = kinds % 4;
-  if (kinds % 8 == 5 || kinds % 8 == 7) in.fail(Outcome::kCorrupt);
-  if (kinds & 4) {
+  const int kinds = in.u8(0, 47);
+  const bool facets = kinds % 8 == 7;
+  layers.corrections = facets ? 4 : kinds % 4;
+  if (kinds % 8 == 5) in.fail(Outcome::kCorrupt);
+  if (kinds & 4 && !facets) {
     layers.tableBytes = in.varint(1, INT64_MAX);
     layers.tableValues = static_cast<uint32_t>(in.varint(2, 1 << 20));
     readKnots(in, layers);
@@ -146,11 +147,15 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
     layers.relativeQuarters = in.u8(1, 4);
     if (!std::isfinite(layers.relativeStep) || layers.relativeStep <= 0) in.fail(Outcome::kCorrupt);
   }
+  if (layers.corrections == 4) {
+    layers.facetUnit = in.u8(1, 254);
+    if (geometry && geometry->sample != kF32) in.fail(Outcome::kCorrupt);
+  }
   const bool meant = layers.validityBytes > 0 || layers.hasNodata || kinds > 0;
   if (meant && !geometry) in.fail(Outcome::kCorrupt);
   const bool direct = geometry && geometry->planes == kStoredPlanes;
   if (direct && !geometry->drawn && kinds > 0) in.fail(Outcome::kCorrupt);
-  if (direct && (kinds >= 8 || layers.corrections % 2 == 1)) in.fail(Outcome::kCorrupt);
+  if (direct && (kinds >= 7 || layers.corrections % 2 == 1)) in.fail(Outcome::kCorrupt);
   const bool integer = geometry && geometry->sample != kF32;
   if (integer && layers.validityBytes > 0) {
     const bool held = layers.hasNodata && holds(geometry->sample, layers.nodata);

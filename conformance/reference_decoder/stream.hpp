@@ -63,10 +63,11 @@ struct Layers {
   uint64_t validityBytes = 0, coefficientBytes = 0;
   bool hasNodata = false;
   double nodata = 0;
-  int corrections = 0;  ///< 0 none, 1 of steps, 2 of samples, 3 from relative steps
+  int corrections = 0;  ///< 0 none, 1 of steps, 2 of samples, 3 from relative steps, 4 facets
   uint32_t correctionStep = 0;
   double relativeStep = 0;
   int relativeQuarters = 0;
+  int facetUnit = 0;
   uint64_t tableBytes = 0;  ///< 0: no table of values
   uint64_t flatBytes = 0;
   uint32_t flatAreas = 0;

@@ -177,6 +177,13 @@ std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& 
       withoutTable(inputs, *std::move(steps), {Purpose::kLossy, UINT64_MAX, rmse * rmse}));
 }
 
+std::shared_ptr<const QuantisedHeights> quantiseForFacets(const EncodeInputs& inputs) {
+  Result<HeightSteps> steps = toSteps(*inputs.heights, {.leave_outliers = true});
+  if (!steps.ok()) return nullptr;
+  return std::make_shared<const QuantisedHeights>(
+      withoutTable(inputs, *std::move(steps), {Purpose::kLossy}));
+}
+
 SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown,
                                     int region_log2, uint32_t threads) {
   GeometryHeader header = headerOf(heights);

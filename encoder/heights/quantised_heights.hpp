@@ -80,6 +80,9 @@ double relativeStepOf(const QuantisedHeights& heights);
 std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& inputs,
                                                             double relative_step);
 
+/// The heights in steps for facets, which restore the samples; null if no steps suffice.
+std::shared_ptr<const QuantisedHeights> quantiseForFacets(const EncodeInputs& inputs);
+
 /// What restores the samples behind steps.
 struct SampleCorrections {
   PartCodewords codewords;

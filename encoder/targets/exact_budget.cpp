@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
+#include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
 #include "encoder/heights/ways/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
@@ -24,22 +26,50 @@ namespace tetrakis::inline targets {
 
 namespace {
 
+/// How neighbours restore samples that are on no grid of steps.
+struct ByNeighbours {
+  double relative_step = 0;  ///< in sample units; 0: none
+  std::optional<FacetShare> facets = {};
+
+  /// lossy: the heights, if there are any. room: bytes that there are for them.
+  ByNeighbours(const HeightsCandidate& lossy, uint64_t room) {
+    if (!lossy.coded) return;
+    relative_step = relativeStepOf(*lossy.coded);
+    facets = facetsOf(*lossy.coded, room);
+  }
+};
+
+/// The lossy heights with what restores them, each way in less than so many bytes.
+std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const CodedHeights& lossy,
+                                             const ByNeighbours& neighbours, uint64_t room) {
+  const uint32_t threads = inputs.options.threads;
+  std::vector<HeightsCandidate> ways;
+  const auto add = [&](std::optional<CodedHeights> way) {
+    if (way && bytesOf(way->tracks) < room) ways.push_back(candidateOf(*std::move(way)));
+  };
+  if (neighbours.relative_step > 0) add(codeRelative(lossy, neighbours.relative_step, threads));
+  if (neighbours.facets) add(codeFacets(lossy, *neighbours.facets, room, threads));
+  if (canBeRestored(lossy)) add(codeRestored(inputs, lossy));
+  return ways;
+}
+
 /// The budget buys so much of a component, if there is one, that losslessness is in reach: all that
 /// there is of it, or nearly all that it shows.
 struct Nearly {
   bool heights, texture;
 };
 
-/// relative_step: that of the heights, in sample units, or 0.
-Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection, double relative_step) {
+Nearly nearlyExact(const EncodeInputs& inputs, const Selection& selection,
+                   const ByNeighbours& neighbours) {
   const auto rmse = statedWithin(selection.packets, inputs.options.bytes);
   const bool texture =
       !selection.texture || rmse[1] <= kNearlyExact * gapOfValues(*selection.texture);
   if (!selection.heights) return {true, texture};
   const CodedHeights& heights = *selection.heights;
   const bool all = bytesOfPackets(selection.packets) <= inputs.options.bytes;
-  const double step = std::max(1., relative_step / heights.quantised->steps.step);
-  return {rmse[0] <= kNearlyExact * step || (all && canBeRestored(heights)), texture};
+  const double step = std::max(1., neighbours.relative_step / heights.quantised->steps.step);
+  const bool near = rmse[0] <= kNearlyExact * step || neighbours.facets.has_value();
+  return {near || (all && canBeRestored(heights)), texture};
 }
 
 /// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
@@ -87,20 +117,11 @@ std::optional<HeightsCandidate> correctedHeights(const EncodeInputs& inputs,
 
 /// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
 /// of the lossy heights. Where samples are on no grid the way of fewer bytes is taken.
-/// relative_step: of the lossy heights, or 0.
 std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
-                                             const HeightsCandidate& lossy, double relative_step,
-                                             uint64_t room) {
-  std::vector<HeightsCandidate> ways;
-  if (relative_step > 0) {
-    if (auto relative = codeRelative(*lossy.coded, relative_step, inputs.options.threads))
-      ways.push_back(candidateOf(*std::move(relative)));
-  }
-  if (canBeRestored(*lossy.coded)) ways.push_back(candidateOf(codeRestored(inputs, *lossy.coded)));
-  if (!ways.empty()) {
-    HeightsCandidate fewest = fewestBytes(std::move(ways));
-    if (fewest.bytes() < room) return fewest;
-  }
+                                             const HeightsCandidate& lossy,
+                                             const ByNeighbours& neighbours, uint64_t room) {
+  std::vector<HeightsCandidate> ways = restoredWithin(inputs, *lossy.coded, neighbours, room);
+  if (!ways.empty()) return fewestBytes(std::move(ways));
   if (!hasLosslessWay(*lossy.coded)) return {};
   if (canBeCorrected(*lossy.coded)) {
     if (auto corrected = correctedHeights(inputs, *lossy.coded, room)) return corrected;
@@ -178,7 +199,7 @@ std::optional<Candidate<Coded>> within(uint64_t room, std::optional<Candidate<Co
 /// component, whatever the other one does. few: heights of few values, which are taken as they are.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy,
                                           const std::optional<HeightsCandidate>& few,
-                                          double relative_step) {
+                                          const ByNeighbours& neighbours) {
   const auto& [heights, texture, errors] = lossy;
   if (!heights.coded && !hasLosslessWay(*texture.coded)) return {};
   Candidates exact = lossy;
@@ -192,7 +213,7 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
   }
   if (heights.coded) {
     std::optional<HeightsCandidate> whole =
-        within(room, few ? few : exactHeights(inputs, heights, relative_step, room), heights);
+        within(room, few ? few : exactHeights(inputs, heights, neighbours, room), heights);
     if (!whole) return {};
     exact.heights = *std::move(whole);
     if (few) exact.errors = nullptr;
@@ -203,7 +224,7 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
 /// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
 /// the lossy heights, which have a curve. Coefficients of a cut are those of the lossy heights.
 std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy,
-                                        double relative_step) {
+                                        const ByNeighbours& neighbours) {
   std::vector<HeightsCandidate> ways;
   const auto add = [&](HeightsCandidate way) {
     if (way.bytes() >= inputs.options.bytes) return;
@@ -211,11 +232,9 @@ std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const Height
     if (!way.coded->hasCorrections() && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
     ways.push_back(std::move(way));
   };
-  if (relative_step > 0) {
-    if (auto relative = codeRelative(*lossy.coded, relative_step, inputs.options.threads))
-      add(candidateOf(*std::move(relative)));
-  }
-  if (canBeRestored(*lossy.coded)) add(candidateOf(codeRestored(inputs, *lossy.coded)));
+  for (HeightsCandidate& way :
+       restoredWithin(inputs, *lossy.coded, neighbours, inputs.options.bytes))
+    add(std::move(way));
   if (canBeCorrected(*lossy.coded)) {
     if (auto corrected = codeCorrected(inputs, *lossy.coded, kSharedExactCut))
       add(candidateOf(*std::move(corrected)));
@@ -297,15 +316,15 @@ std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Can
                                            const Selection& selection) {
   assert(inputs.budgeted());
   std::optional<HeightsCandidate> few = fewValues(inputs, lossy.heights);
-  const double relative_step = lossy.heights.coded ? relativeStepOf(*lossy.heights.coded) : 0;
-  const Nearly nearly = nearlyExact(inputs, selection, relative_step);
+  const ByNeighbours neighbours(lossy.heights, inputs.options.bytes);
+  const Nearly nearly = nearlyExact(inputs, selection, neighbours);
   if ((few || nearly.heights) && nearly.texture) {
-    std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few, relative_step);
+    std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few, neighbours);
     if (exact) return exact;
   }
   if (!lossy.errors) return {};
   std::vector<HeightsCandidate> ways;
-  if (nearly.heights) ways = exactWays(inputs, lossy.heights, relative_step);
+  if (nearly.heights) ways = exactWays(inputs, lossy.heights, neighbours);
   return exactHeightsIfTheyPay(inputs, lossy, std::move(few), std::move(ways));
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bitstream/stream/header.hpp"
+#include "conformance/samples/facets.hpp"
 #include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/few_values.hpp"
 #include "conformance/samples/patches.hpp"
@@ -337,6 +338,16 @@ TEST(DecodeMemory, ExactCorrectionsStayBelowTheBound) {
     const Bytes bytes = encode(&nearest, nullptr, inRegions(lossless(), regions));
     EXPECT_EQ(readHeader(bytes)->header.layers.correction_step, 1u) << width << ", " << regions;
     expectWithinBounds(bytes, "exact corrections");
+  }
+}
+
+TEST(DecodeMemory, FacetsStayBelowTheBound) {
+  for (const auto& [width, height, regions] :
+       {std::array{190u, 170u, 0u}, {190u, 170u, 64u}, {1500u, 24u, 0u}}) {
+    const Raster heights = samples::facets(width, height, 20.7);
+    const Bytes bytes = encode(&heights, nullptr, inRegions(lossless(), regions));
+    EXPECT_EQ(readHeader(bytes)->header.layers.corrections, CorrectionKind::kFacets) << width;
+    expectWithinBounds(bytes, "facets");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "conformance/samples/facets.hpp"
 #include "conformance/samples/offset_heights.hpp"
 
 namespace tetrakis::test {
@@ -70,13 +71,14 @@ enum class Kind {
   kTens,
   kBands,
   kNarrow,
+  kFacets,
   kCount
 };
 
 constexpr std::array<const char*, static_cast<size_t>(Kind::kCount)> kKindNames = {
     "ground",  "half flat", "lakes",  "stripes", "two values",     "checker", "constant",
     "outlier", "noise",     "sparse", "feet",    "negative zeros", "geoid",   "squares",
-    "mosaic",  "turned",    "tens",   "bands",   "narrow"};
+    "mosaic",  "turned",    "tens",   "bands",   "narrow",         "facets"};
 
 /// What a sample type makes of ground whose values are from 0 to 65535.
 double scaled(tks_sample sample, double ground) {
@@ -180,12 +182,20 @@ class Ground {
         return scaled(sample_, level_ / 2) + std::floor(ground / 13200) * (1 + period_ % 9);
       case Kind::kNarrow:
         return std::floor(ground / 65536 * (1 + period_ % 9));
+      case Kind::kFacets:
+        return facets(x, y, ground);
       default:
         return scaled(sample_, ground);
     }
   }
 
  private:
+  /// Linear between points, but for a few samples.
+  double facets(uint32_t x, uint32_t y, double ground) const {
+    const double linear = samples::facetAt(x, y, 3.7 + period_ % 40, seed_);
+    if (sample_ != TKS_F32 || ground < 2000) return scaled(sample_, ground);
+    return static_cast<double>(static_cast<float>(linear - 128));
+  }
   /// Whole numbers beside others.
   double mosaic(uint32_t patch, double ground) const {
     const double whole = scaled(sample_, ground);

@@ -88,7 +88,8 @@ TEST(SynthKinds, MakeTheSameBytesEverywhere) {
   constexpr uint64_t kDigests[] = {0x4034d9316f42ecb5u, 0xe16895c828fac842u, 0x258a0ae1a04cdb93u,
                                    0xea646d0c221fbf14u, 0x45a49728f8f1c229u, 0x43987c57ef155ac7u,
                                    0x127a105b6a2645fbu, 0x2421035136751a12u, 0xc8c552b13c885c57u,
-                                   0xf563fb7491c34841u, 0xf9011a9faa66495au, 0xbbdaa312fa1911ddu};
+                                   0xf563fb7491c34841u, 0xf9011a9faa66495au, 0xbbdaa312fa1911ddu,
+                                   0x59cd26fa64bc6c55u};
   static_assert(std::size(kDigests) == kSynthKinds.size());
   for (size_t kind = 0; kind < kSynthKinds.size(); ++kind) {
     const SynthTerrain t = synthesize({65, 7, static_cast<SynthKind>(kind)});
@@ -202,6 +203,21 @@ TEST_P(SynthKindsOf, TurnedHeightsAreCopiesInWholeMetres) {
   const std::vector<double> mountains = metresOf(SynthKind::kMountains, GetParam());
   const double smooth = shareOfSteps(mountains, [](double step) { return step < 0.05; });
   EXPECT_GT(turned, smooth + 0.2);
+}
+
+/// Most samples go on from those to the left of them as these do.
+TEST_P(SynthKindsOf, FacetsAreLinearBetweenPoints) {
+  const SynthTerrain terrain = synthesize({kSize, GetParam(), SynthKind::kFacets});
+  ASSERT_EQ(terrain.heights.sample, TKS_F32);
+  const std::vector<double> metres = metresOf(terrain.heights);
+  size_t straight = 0, all = 0;
+  for (size_t i = 2; i < metres.size(); ++i) {
+    if (i % kSize < 2) continue;
+    ++all;
+    const double bend = metres[i] - 2 * metres[i - 1] + metres[i - 2];
+    straight += std::abs(bend) <= 1e-6 * std::abs(metres[i]) + 1e-6;
+  }
+  EXPECT_GT(straight, 2 * all / 3);
 }
 
 }  // namespace

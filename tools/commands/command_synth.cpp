@@ -72,7 +72,7 @@ void addSynth(CLI::App& app, CommandLine& line) {
   verb.add_option(
           "--kind", arguments->kind,
           "Of terrain: mountains (default), coast, lakes, steps, voids, plain, city, rescaled, "
-          "bands, geoid, mosaic, turned")
+          "bands, geoid, mosaic, turned, facets")
       ->check(
           silent(CLI::IsMember(std::vector<std::string>(kSynthKinds.begin(), kSynthKinds.end()))))
       ->type_name("NAME");

@@ -23,13 +23,14 @@ enum class SynthKind {
   kBands,
   kGeoid,
   kMosaic,
-  kTurned
+  kTurned,
+  kFacets
 };
 
 /// Their names, in order.
-inline constexpr std::array<const char*, 12> kSynthKinds = {
-    "mountains", "coast",    "lakes", "steps", "voids",  "plain",
-    "city",      "rescaled", "bands", "geoid", "mosaic", "turned"};
+inline constexpr std::array<const char*, 13> kSynthKinds = {
+    "mountains", "coast", "lakes", "steps",  "voids",  "plain", "city",
+    "rescaled",  "bands", "geoid", "mosaic", "turned", "facets"};
 
 struct SynthOptions {
   uint32_t size = 513;  ///< samples along a side, at least 2
@@ -38,8 +39,8 @@ struct SynthOptions {
 };
 
 /// heights: size x size samples, 30 m apart (a city's 1 m): TKS_U16 in steps of 0.1 m (a plain's of
-/// 0.01 m, turned ones of 1 m), steps, voids, rescaled, geoid and mosaic TKS_F32 in metres; the sea
-/// is 0 and each lake one level.
+/// 0.01 m, turned ones of 1 m), steps, voids, rescaled, geoid, mosaic and facets TKS_F32 in metres;
+/// the sea is 0 and each lake one level.
 /// texture and map: RGB8 of 2 (size - 1) texels a side over the same footprint.
 struct SynthTerrain {
   HeightFile heights;

@@ -167,6 +167,25 @@ Storage turn(const Task& task) {
   return {.sample = TKS_U16, .step = 1, .voids = {}};
 }
 
+/// Triangles between the points of a coarse grid that does not meet the samples.
+Storage triangulate(const Task& task) {
+  constexpr double kApart = 11.3;  // points
+  const Grid before = task.relief.height;
+  task.relief.height = rasterOf<double>(before.side(), [&](uint32_t x, uint32_t y) {
+    const double u = x / kApart, v = y / kApart;
+    const double column = std::floor(u), row = std::floor(v), a = u - column, b = v - row;
+    const auto point = [&](double right, double down) {
+      return before.clamped(static_cast<int64_t>((column + right) * kApart),
+                            static_cast<int64_t>((row + down) * kApart));
+    };
+    const double first = point(0, 0), last = point(1, 1);
+    const double corner = a > b ? point(1, 0) : point(0, 1);
+    return a > b ? first + a * (corner - first) + b * (last - corner)
+                 : first + b * (corner - first) + a * (last - corner);
+  });
+  return {.sample = TKS_F32, .step = 1, .voids = {}};
+}
+
 /// Some metres of relief in all, under the noise of a scanner.
 Storage flatten(const Task& task) {
   Relief& relief = task.relief;
@@ -253,6 +272,8 @@ Storage reshape(Relief& relief, SynthKind kind, uint32_t size, uint64_t seed) {
       return join(task);
     case SynthKind::kTurned:
       return turn(task);
+    case SynthKind::kFacets:
+      return triangulate(task);
   }
   return {};
 }

@@ -19,6 +19,12 @@
 
 namespace tetrakis::inline corrections {
 
+/// Levels of a size, two an octave.
+inline size_t levelOf(uint64_t size) {
+  const auto bits = static_cast<size_t>(std::bit_width(size));
+  return bits < 3 ? bits : 2 * bits - 3 + (size >> (bits - 2) & 1);
+}
+
 class ErrorForecast {
  public:
   static constexpr size_t kLevels = 20;
@@ -50,12 +56,9 @@ class ErrorForecast {
   }
   int32_t foretold() const { return foretold_; }
 
-  /// By how much forecasts nearby have missed the errors: two levels an octave.
-  size_t level() const {
-    const uint32_t sum = missed_nearby_;
-    const auto bits = static_cast<size_t>(std::bit_width(sum));
-    return bits < 3 ? bits : std::min(2 * bits - 3 + (sum >> (bits - 2) & 1), kLevels - 1);
-  }
+  /// By how much forecasts nearby have missed the errors.
+  size_t missedLevel() const { return levelOf(missed_nearby_); }
+  size_t level() const { return std::min(missedLevel(), kLevels - 1); }
 
   /// Learns the error of the sample that it has looked at.
   void learn(uint32_t x, int64_t error) {

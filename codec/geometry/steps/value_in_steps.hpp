@@ -20,16 +20,18 @@ struct ValueInSteps {
   int32_t correction;  ///< from what the nearest whole step restores to the value
 };
 
-/// value: any, NaN included, which has the height 0. header: base and step.
+/// Any number in units of 2^-fraction_bits steps; 0 for a NaN. header: base and step.
+inline int32_t heightOf(double sample, const GeometryHeader& header, int fraction_bits) {
+  constexpr double kMost = 1 << 29;
+  const double steps = (sample - header.base) / header.step;
+  if (std::isnan(steps)) return 0;
+  const double scaled = std::ldexp(steps, fraction_bits);
+  return static_cast<int32_t>(std::round(std::clamp(scaled, -kMost, kMost)));
+}
+
 template <class T>
 ValueInSteps inSteps(T value, const GeometryHeader& header, int fraction_bits) {
-  constexpr double kMost = 1 << 29;
-  const double steps = (static_cast<double>(value) - header.base) / header.step;
-  ValueInSteps out{0, 0};
-  if (!std::isnan(steps)) {
-    const double scaled = std::ldexp(steps, fraction_bits);
-    out.height = static_cast<int32_t>(std::round(std::clamp(scaled, -kMost, kMost)));
-  }
+  ValueInSteps out{heightOf(static_cast<double>(value), header, fraction_bits), 0};
   const T near = restore<T>(header.base, header.step, wholeStep(out.height, fraction_bits));
   out.correction = static_cast<int32_t>(orderOf(value) - orderOf(near));
   return out;

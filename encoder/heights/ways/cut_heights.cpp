@@ -2,7 +2,9 @@
 #include "encoder/heights/ways/cut_heights.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "encoder/heights/height_options.hpp"
 #include "ratecontrol/curves/track_order.hpp"
 
 namespace tetrakis::inline ways {
@@ -42,6 +44,18 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
   if (kept.front().size() < leastCut(whole.layers)) return {};
   for (size_t i = 0; i < kept.size(); ++i) cut.tracks[i] = firstOf(whole.tracks[i], kept[i].size());
   return cut;
+}
+
+/// Coding ends with a whole bit-plane of all tracks; the cut lies before that.
+CodedHeights codeUpTo(const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> quantised,
+                      double mean_square) {
+  HeightTarget target(Purpose::kLossy);
+  target.mean_square = mean_square;
+  CoefficientOptions options = heightOptions(inputs);
+  options.enough = mean_square * quantised->counted();
+  CodedHeights coded = codeHeights(std::move(quantised), target, options);
+  std::optional<CodedHeights> cut = cutAt(coded, options.enough);
+  return cut ? *std::move(cut) : std::move(coded);
 }
 
 }  // namespace tetrakis::inline ways

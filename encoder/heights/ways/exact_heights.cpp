@@ -3,8 +3,10 @@
 
 #include <cassert>
 
+#include "codec/geometry/coding_choice/facet_cut.hpp"
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/quantised_heights.hpp"
+#include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
 #include "wavelet/choice/typical_plane.hpp"
 
@@ -27,6 +29,10 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   const bool few = !steps.table.empty() || drawingMayFit(plane, lossy_bytes);
   if (few) return codeLosslessHeights(lossless, *heights);
   if (error < relativeStepOf(**heights)) return codeLosslessHeights(lossless, *heights);
+  if (const std::optional<FacetShare> facets = facetsOf(**heights)) {
+    const double all = chooseFacetCut(steps, plane.extent(), *facets, 0).bytes;
+    if (all < static_cast<double>(lossy_bytes)) return codeLosslessHeights(lossless, *heights);
+  }
   if (error > kMostSteps * steps.step) return nullptr;
   const double bytes = typicalCost(steps.lifting(plane.extent()), steps.range_bits, 0).bits / 8;
   if (bytes > kClearly * static_cast<double>(lossy_bytes)) return nullptr;

@@ -9,6 +9,7 @@
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
 #include "ratecontrol/needs/candidate.hpp"
 #include "wavelet/choice/typical_plane.hpp"
@@ -84,12 +85,20 @@ bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
   return estimated > kClearly * static_cast<double>(bytes);
 }
 
-/// Samples with a relative step mostly take far fewer bytes from it.
-std::shared_ptr<const CodedHeights> codeFromRelative(const EncodeInputs& inputs,
-                                                     const QuantisedHeights& quantised) {
+/// Samples that neighbours say better than steps do: with a relative step, or on facets. They
+/// mostly take far fewer bytes from these.
+std::shared_ptr<const CodedHeights> codeFromNeighbours(const EncodeInputs& inputs,
+                                                       const QuantisedHeights& quantised) {
+  std::vector<Candidate<CodedHeights>> ways;
   const double relative_step = relativeStepOf(quantised);
-  const Quantised fine = relative_step > 0 ? quantiseForRelative(inputs, relative_step) : nullptr;
-  return fine ? candidateOf(codeRelative(inputs, fine, relative_step)).coded : nullptr;
+  if (const Quantised fine =
+          relative_step > 0 ? quantiseForRelative(inputs, relative_step) : nullptr)
+    ways.push_back(candidateOf(codeRelative(inputs, fine, relative_step)));
+  if (const std::optional<FacetShare> facets = facetsOf(quantised)) {
+    if (std::optional<CodedHeights> coded = codeFacets(inputs, *facets))
+      ways.push_back(candidateOf(*std::move(coded)));
+  }
+  return ways.empty() ? nullptr : fewestBytes<CodedHeights>(std::move(ways)).coded;
 }
 
 }  // namespace
@@ -101,10 +110,10 @@ std::shared_ptr<const CodedHeights> codeFromRelative(const EncodeInputs& inputs,
 std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
                                                         const Quantised& quantised) {
   constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
-  const std::shared_ptr<const CodedHeights> relative = codeFromRelative(inputs, *quantised);
-  if (relative && takesMore(*quantised, bytesOf(relative->tracks))) return relative;
+  const std::shared_ptr<const CodedHeights> near = codeFromNeighbours(inputs, *quantised);
+  if (near && takesMore(*quantised, bytesOf(near->tracks))) return near;
   std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, quantised);
-  if (relative) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {relative}}).coded;
+  if (near) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {near}}).coded;
   if (whole->tracks.size() > 1) return whole;
   const HeightSteps& steps = quantised->steps;
   const auto bytes = static_cast<double>(bytesOf(whole->tracks));

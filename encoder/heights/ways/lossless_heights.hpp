@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights to the last bit: coefficients without fraction bits, corrections behind a cut of lossy
-// coefficients (of steps, or from a relative step), or a drawing, whichever takes the fewest bytes.
+// coefficients (of steps, from a relative step, or of facets), or a drawing, whichever takes the
+// fewest bytes.
 #pragma once
 
 #include <memory>

@@ -6,7 +6,6 @@
 
 #include "codec/geometry/relative/relative_encoder.hpp"
 #include "encoder/heights/followed_heights.hpp"
-#include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/cut_heights.hpp"
 #include "encoder/heights/ways/restored_heights.hpp"
 
@@ -69,18 +68,11 @@ std::optional<CodedHeights> codeRelative(const CodedHeights& lossy, double relat
   return followedByCorrections(*std::move(cut), relative_step, threads);
 }
 
-/// Coding ends with a whole bit-plane of all tracks; the cut lies before that.
 CodedHeights codeRelative(const EncodeInputs& inputs,
                           const std::shared_ptr<const QuantisedHeights>& quantised,
                           double relative_step) {
-  HeightTarget target(Purpose::kLossy);
-  target.mean_square = squaresOfCut(quantised->steps, relative_step);
-  CoefficientOptions options = heightOptions(inputs);
-  options.enough = target.mean_square * quantised->counted();
-  CodedHeights coded = codeHeights(quantised, target, options);
-  std::optional<CodedHeights> cut = cutAt(coded, options.enough);
-  return followedByCorrections(cut ? *std::move(cut) : std::move(coded), relative_step,
-                               inputs.options.threads);
+  CodedHeights cut = codeUpTo(inputs, quantised, squaresOfCut(quantised->steps, relative_step));
+  return followedByCorrections(std::move(cut), relative_step, inputs.options.threads);
 }
 
 }  // namespace tetrakis::inline ways

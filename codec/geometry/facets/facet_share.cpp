@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/facets/facet_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "codec/geometry/facets/facet_rows.hpp"
+#include "codec/geometry/facets/facet_unit.hpp"
+#include "codec/geometry/steps/sample_order.hpp"
+
+namespace tetrakis::inline facets {
+
+namespace {
+
+/// Looks at bands of rows, the first two of which only predict, unless no rows are above them.
+class BandReader {
+ public:
+  BandReader(const tks_heights& heights, Mask valid, int unit)
+      : samples_(static_cast<const float*>(heights.data)),
+        width_(heights.width),
+        valid_(valid),
+        unit_(unit) {}
+
+  void look(uint32_t x, uint32_t columns, uint32_t y, uint32_t rows) {
+    FacetRows band(columns);
+    for (uint32_t row = 0; row < rows; ++row) {
+      band.nextRow();
+      for (uint32_t column = 0; column < columns; ++column) {
+        const size_t i = (size_t{y} + row) * width_ + x + column;
+        if (!valid_[i]) continue;
+        const int64_t sample = unit_.multiplesOf(samples_[i]);
+        band.look(column, 0);
+        if (y == 0 || row >= kBefore) count(samples_[i], band.waysTo(sample) != 0);
+        band.put(column, sample);
+      }
+    }
+  }
+
+  FacetShare share(int unit) const {
+    if (seen_ == 0) return {1, 1, unit};
+    const auto seen = static_cast<double>(seen_);
+    return {static_cast<double>(beyond_) / seen, std::exp2(static_cast<double>(exponents_) / seen),
+            unit};
+  }
+
+ private:
+  static constexpr uint32_t kBefore = 2;
+
+  void count(float sample, bool near) {
+    ++seen_;
+    beyond_ += !near;
+    exponents_ += spacingExponent(sample);
+  }
+
+  const float* samples_;
+  uint32_t width_;
+  Mask valid_;
+  FacetUnit unit_;
+  uint64_t seen_ = 0, beyond_ = 0;
+  int64_t exponents_ = 0;
+};
+
+float largestOf(const tks_heights& heights, Mask valid) {
+  const auto* samples = static_cast<const float*>(heights.data);
+  float largest = 0;
+  for (size_t i = 0; i < size_t{heights.width} * heights.height; ++i) {
+    const float size = std::abs(samples[i]);
+    if (valid[i] && std::isfinite(size)) largest = std::max(largest, size);
+  }
+  return largest;
+}
+
+}  // namespace
+
+FacetShare findFacets(const tks_heights& heights, Mask valid) {
+  constexpr uint32_t kBands = 32, kRows = 8, kColumns = 512;
+  const int unit = FacetUnit::exponentFor(largestOf(heights, valid));
+  BandReader reader(heights, valid, unit);
+  const uint32_t columns = std::min(kColumns, heights.width);
+  const uint32_t rows = std::min(kRows, heights.height);
+  for (uint32_t band = 0; band < kBands; ++band) {
+    const auto place = [&](uint32_t room, double part) {
+      return static_cast<uint32_t>((part - std::floor(part)) * room);
+    };
+    constexpr double kGolden = 0.6180339887498949;
+    reader.look(place(heights.width - columns + 1, band * kGolden), columns,
+                place(heights.height - rows + 1, (band + 0.5) / kBands), rows);
+  }
+  return reader.share(unit);
+}
+
+}  // namespace tetrakis::inline facets

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/geometry/facets/facets_decoder.hpp"
+
+#include <cassert>
+
+#include "bitstream/coder/decision_decoding.hpp"
+#include "codec/geometry/facets/facet_coder.hpp"
+
+namespace tetrakis::inline facets {
+
+DecodedHeights restoreFacets(DecodedHeights decoded, const GeometryHeader& header, int unit,
+                             std::span<const uint8_t> codeword) {
+  assert(header.sample == TKS_F32);
+  DecodedGeometry& geometry = decoded.geometry;
+  decoded.corrections.assign(geometry.heights.size(), 0);
+  DecisionDecoding reader(codeword);
+  codeFacets(
+      {geometry.heights, geometry.extent(), geometry.valid}, geometry.fraction_bits, header,
+      FacetUnit(unit), reader, [](size_t) { return 0.f; },
+      [&](size_t i, float sample) {
+        const ValueInSteps value = inSteps(sample, header, geometry.fraction_bits);
+        geometry.heights[i] = value.height;
+        decoded.corrections[i] = value.correction;
+      });
+  return decoded;
+}
+
+}  // namespace tetrakis::inline facets
