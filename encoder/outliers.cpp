@@ -15,13 +15,15 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-constexpr double kHuge = 1e30;  // no height in any unit is as large
+constexpr double kHuge = 1e30;      // whatever is beyond it is no height
+constexpr double kNoHeight = 1e10;  // no height in any unit is as large
 
 /// What files write where they have no height: rows of nines below zero, the least numbers of 16
-/// bits and the least of 32, whatever type holds them, and floats too large for a height.
+/// bits and the least of 32, whatever type holds them, and numbers too large for a height.
 bool isFill(double value) {
   constexpr std::array kLeast = {-32768.0, -32767.0, -2147483648.0};
-  if (std::abs(value) > kHuge || std::find(kLeast.begin(), kLeast.end(), value) != kLeast.end())
+  if (std::abs(value) >= kNoHeight ||
+      std::find(kLeast.begin(), kLeast.end(), value) != kLeast.end())
     return true;
   double nines = -999;
   while (nines > value) nines = 10 * nines - 9;

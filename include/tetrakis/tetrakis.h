@@ -228,7 +228,7 @@ typedef struct tks_outliers {
   uint64_t count; /* 0: there are none, or heights->has_nodata */
   double value;   /* the outermost of them, as a sample */
   int is_fill;    /* all have that value, and files write it where they have no height: -9999 and
-                     other rows of nines, -32768, -32767, -2147483648, floats beyond 1e30. Whoever
+                     other rows of nines, -32768, -32767, -2147483648, floats from 1e10 on. Whoever
                      declares it as nodata saves bytes, and most of the error of small streams */
 } tks_outliers;
 

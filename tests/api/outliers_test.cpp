@@ -52,6 +52,8 @@ TEST(Outliers, NumbersThatFilesWriteWithoutAHeightAreFill) {
     EXPECT_EQ(found.count, count) << value;
   };
   expectFill(std::vector<float>{1, kLowest, 7, kLowest, 3}, double{kLowest}, 2);
+  expectFill(std::vector<float>{1, 1e20F, 7, 1e20F, 3}, double{1e20F}, 2);
+  expectFill(std::vector<float>{1, -1e10F, 7, -1e10F, 3}, -1e10, 2);
   expectFill(std::vector<float>{1, -9999, 2, -9999, 1500, std::nanf("")}, -9999, 2);
   expectFill(std::vector<float>{1, 2, -32767, -32767, 15}, -32767, 2);
   expectFill(std::vector<int16_t>{-400, 8848, -9999, 3, -9999}, -9999, 2);

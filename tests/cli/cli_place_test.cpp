@@ -84,6 +84,36 @@ TEST_F(CliPlace, TilesLieWhereGdalReadsThem) {
             std::string::npos);
 }
 
+/// GDAL keeps beside a file what its format has no room for.
+TEST_F(CliPlace, FilesOfGdalBesideAPictureSayWhereItLies) {
+  ASSERT_TRUE(tools::writeHeights(path("h.png"), hills(9)).ok());
+  write("h.png.aux.xml",
+        "<PAMDataset><SRS dataAxisToSRSAxisMapping=\"1,2\">EPSG:32632</SRS>"
+        "<GeoTransform> 5.0e+05, 3.0e+01, 0.0, 5.2e+06, 0.0, -2.5e+01</GeoTransform>"
+        "<Metadata><MDI key=\"AREA_OR_POINT\">Point</MDI></Metadata>"
+        "<PAMRasterBand band=\"1\"><NoDataValue>3</NoDataValue><UnitType>ft</UnitType>"
+        "<Offset>7</Offset><Scale>0.5</Scale><Description>ground &amp; more</Description>"
+        "</PAMRasterBand></PAMDataset>");
+  ASSERT_EQ(cli("-q encode h.png --lossless -o s.tks").code, 0);
+  const Json heights = Json::parse(cli("info --json s.tks").out)["heights"];
+  EXPECT_EQ(heights["crs"], "EPSG:32632");
+  EXPECT_EQ(heights["geotransform"], Json({5e5, 30, 0, 5.2e6, 0, -25}));
+  EXPECT_EQ(heights["registration"], "point");
+  EXPECT_EQ(heights["spacing_y"], 25);
+  EXPECT_EQ(heights["nodata"], 3);
+  EXPECT_EQ(heights["unit"], "ft");
+  EXPECT_EQ(heights["offset"], 7);
+  EXPECT_EQ(heights["scale"], 0.5);
+  EXPECT_EQ(heights["description"], "ground & more");
+  for (const char* broken : {"", "<PAMDataset>",
+                             "<PAMDataset><GeoTransform>1,2</GeoTransform>"
+                             "<SRS></SRS></PAMDataset>"}) {
+    write("h.png.aux.xml", broken);
+    EXPECT_EQ(cli("-q encode h.png --lossless -f -o s.tks").code, 0) << broken;
+    EXPECT_FALSE(placeOf("s.tks", "heights")) << broken;
+  }
+}
+
 TEST_F(CliPlace, SampleTerrainsLieInTheAlps) {
   for (const char* kind : {"mountains", "city", "voids"}) {
     ASSERT_EQ(cli(std::string("synth --size 18 -f -o s --kind ") + kind).code, 0);

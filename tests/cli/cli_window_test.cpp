@@ -47,6 +47,52 @@ TEST_F(CliWindows, WritesThePartOfHeightsAndTexture) {
   EXPECT_TRUE(sameBytes(image->data, cropOf(whole->data, whole->width, whole->channels, texels)));
 }
 
+/// Twice the ground of the heights in each direction, from the same corner, or another projection.
+TEST_F(CliWindows, TexelsLieOverTheSamplesWhateverTheTextureCovers) {
+  tools::HeightFile heights = hills(40);
+  heights.crs = "EPSG:32632";
+  heights.geotransform = tools::GeoTransform{500000, 30, 0, 5200000, 0, -30};
+  ASSERT_TRUE(tools::writeHeights(path("h.tif"), heights).ok());
+  tools::ImageFile image{80, 80, 3, TKS_U8, {}};
+  for (uint32_t i = 0; i < 80 * 80; ++i)
+    for (const uint32_t part : {i % 80, i / 80, 0u}) image.data.push_back(std::byte(part));
+  const auto encode = [&](const std::string& crs, const tools::GeoTransform& place) {
+    image.place.crs = crs;
+    image.place.geotransform = place;
+    ASSERT_TRUE(tools::writeImage(path("t.tif"), image).ok());
+    const Outcome run = cli("encode h.tif --texture t.tif --lossless -f -o w.tks");
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("covers other ground"), std::string::npos) << run.err;
+  };
+  const auto window = [&](const std::string& text) {
+    const Outcome run = cli("decode w.tks -f --texture b.png --window " + text);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return *tools::readImage(path("b.png"));
+  };
+  encode("EPSG:32632", {500000, 30, 0, 5200000, 0, -30});
+  const tools::ImageFile part = window("10,20,8,5");
+  EXPECT_EQ(part.width, 8u);
+  EXPECT_EQ(part.height, 5u);
+  EXPECT_EQ(part.data[0], std::byte{10});
+  EXPECT_EQ(part.data[1], std::byte{20});
+
+  // The first sample lies at 500015, 5199985: 9.0002 degrees east, 46.9534 north.
+  encode("EPSG:4326", {8.99, 0.0004, 0, 46.96, 0, -0.0004});
+  const tools::ImageFile other = window("0,0,1,1");
+  EXPECT_NEAR(std::to_integer<int>(other.data[0]), (9.0002 - 8.99) / 0.0004, 1);
+  EXPECT_NEAR(std::to_integer<int>(other.data[1]), (46.96 - 46.9534) / 0.0004, 1);
+
+  image.place.crs = "EPSG:32632";
+  image.place.geotransform = tools::GeoTransform{900000, 30, 0, 5200000, 0, -30};
+  ASSERT_TRUE(tools::writeImage(path("t.tif"), image).ok());
+  const Outcome beside = cli("encode h.tif --texture t.tif --lossless -f -o w.tks");
+  EXPECT_NE(beside.err.find("lies beside the ground"), std::string::npos) << beside.err;
+  const Outcome none = cli("decode w.tks --window 1,1,2,2 --texture c.png");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("beside the ground of --window"), std::string::npos) << none.err;
+  EXPECT_EQ(cli("decode w.tks --window 1,1,2,2 --height c.tif").code, 0);
+}
+
 TEST_F(CliWindows, RefusesWhatMakesNoSense) {
   ASSERT_TRUE(tools::writeHeights(path("h.tif"), hills(17)).ok());
   EXPECT_EQ(cli("encode h.tif --regions 100 --lossless -o w.tks").code, 1);

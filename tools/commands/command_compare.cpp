@@ -8,6 +8,7 @@
 
 #include "tools/commands/camera_pictures.hpp"
 #include "tools/commands/command.hpp"
+#include "tools/files/file_bytes.hpp"
 #include "tools/files/text.hpp"
 #include "tools/output/json.hpp"
 #include "tools/report/comparison.hpp"
@@ -72,6 +73,11 @@ Result<Reference> readReference(const CompareArguments& arguments, const tks_inf
     Result<HeightFile> heights =
         readHeights(arguments.height, info.has_nodata ? std::optional(info.nodata) : std::nullopt);
     if (!heights.ok()) return heights.status();
+    if (heights->rounding > 0)
+      tellNote(quoted(arguments.height) +
+                   " holds 64-bit floats that 32 bits do not hold: errors are those beside them "
+                   "as the nearest 32-bit floats",
+               quiet);
     reference.heights = std::move(*heights);
   }
   if (!arguments.texture.empty()) {
@@ -139,7 +145,8 @@ Status compare(const CompareArguments& arguments, bool quiet) {
         !status.ok())
       return status;
   tellNote(coarsestNote(measurement->triangles.value_or(0), arguments.triangles), quiet);
-  const Json json = measurementJson(*measurement, comparer->cameras());
+  Json json = measurementJson(*measurement, comparer->cameras());
+  if (reference->heights && reference->heights->rounding > 0) json["height_exact"] = false;
   if (Status status = print(arguments.json ? dump(json) : table(legible(json))); !status.ok())
     return status;
   return arguments.triangles == 0 ? checkPromise(info, *measurement) : Status();

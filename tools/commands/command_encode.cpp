@@ -15,8 +15,10 @@
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/given_crs.hpp"
+#include "tools/files/place/texture_place.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
+#include "tools/files/void_samples.hpp"
 #include "tools/output/output.hpp"
 #include "tools/output/output_names.hpp"
 #include "tools/output/progress.hpp"
@@ -30,8 +32,12 @@ std::string voidNote(const HeightFile& heights) {
   const Surface surface = heightsOf(heights);
   const auto count = std::count_if(surface.values.begin(), surface.values.end(),
                                    [](double height) { return std::isnan(height); });
-  return count == 0 ? ""
-                    : counted(static_cast<uint64_t>(count), "sample is", "samples are") + " void";
+  if (count == 0) return "";
+  std::string note = counted(static_cast<uint64_t>(count), "sample is", "samples are") + " void";
+  if (const uint64_t nans = nansBesideNodata(heights))
+    note += ", of which " + counted(nans, "is", "are") + " NaN and will be " +
+            shortest(*heights.nodata) + " as the others";
+  return note;
 }
 
 Status describe(const EncodeArguments& arguments, HeightFile& heights) {
@@ -86,6 +92,20 @@ Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const
   return notes;
 }
 
+/// What to say of a texture that has a place of its own; "" if it covers the heights.
+std::string placeNote(const std::string& texture, const HeightFile& heights,
+                      const ImageFile& image) {
+  PlacedRaster texels(image.width, image.height, image.place);
+  if (texels.crs.empty()) texels.crs = heights.crs;
+  const TexturePlace place(PlacedRaster(heights.width, heights.height, heights), texels);
+  if (!place.texelsOver({0, 0, heights.width, heights.height}))
+    return quoted(texture) + " lies beside the ground of the heights, which get its border";
+  if (!place.isOwn()) return "";
+  return quoted(texture) +
+         " covers other ground than the heights: `decode` and `tiles` put it where it lies, but "
+         "cameras and viewers see it stretched over them; gdalwarp can cut it to their ground";
+}
+
 Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   Reference inputs;
   if (!arguments.height.empty()) {
@@ -108,6 +128,7 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
     Result<ImageFile> image = readImage(arguments.texture, &remark);
     if (!image.ok()) return image.status();
     tellNote(remark, quiet);
+    if (inputs.heights) tellNote(placeNote(arguments.texture, *inputs.heights, *image), quiet);
     inputs.image = std::move(*image);
   }
   return inputs;

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/commands/decode_windows.hpp"
 
-#include <algorithm>
 #include <string>
-#include <utility>
+
+#include "tools/files/place/texture_place.hpp"
 
 namespace tetrakis::tools {
 
 namespace {
 
-/// The image covers the ground from the first sample to the last.
-tks_window texelsOver(const tks_window& samples, const tks_info& info) {
-  const auto side = [](uint64_t first, uint64_t count, uint64_t all, uint64_t texels) {
-    const uint64_t begin = std::min(first * texels / (all - 1), texels - 1);
-    const uint64_t end = ((first + count - 1) * texels + all - 2) / (all - 1);
-    return std::pair(static_cast<uint32_t>(begin),
-                     static_cast<uint32_t>(std::clamp(end, begin + 1, texels) - begin));
-  };
-  const auto [x, width] = side(samples.x, samples.width, info.width, info.texture_width);
-  const auto [y, height] = side(samples.y, samples.height, info.height, info.texture_height);
-  return {x, y, width, height};
+std::optional<tks_window> texelsOver(const tks_window& samples, const tks_info& info) {
+  return TexturePlace(PlacedRaster::heightsOf(info), PlacedRaster::textureOf(info))
+      .texelsOver(samples);
 }
 
 }  // namespace
@@ -43,7 +35,9 @@ Status checkWindow(const DecodeArguments& arguments, const tks_info& info) {
   const uint64_t height = info.has_heights ? info.height : info.texture_height;
   if (w->width > 0 && w->height > 0 && uint64_t{w->x} + w->width <= width &&
       uint64_t{w->y} + w->height <= height) {
-    return Status();
+    const bool both = wantsTexture(arguments) && info.has_heights && info.has_texture;
+    if (!both || texelsOver(*w, info)) return Status();
+    return Status(TKS_USAGE, "the texture of this stream lies beside the ground of --window");
   }
   return Status(TKS_USAGE, "--window must lie inside the " + std::to_string(width) + " x " +
                                std::to_string(height) + " samples");

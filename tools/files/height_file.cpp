@@ -14,6 +14,7 @@
 #include "tools/files/pictures/png.hpp"
 #include "tools/files/pictures/raster.hpp"
 #include "tools/files/pictures/tiff.hpp"
+#include "tools/files/place/pam.hpp"
 #include "tools/files/place/world_file.hpp"
 #include "tools/files/plain_heights.hpp"
 #include "tools/files/void_samples.hpp"
@@ -141,11 +142,9 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
     const Status tags = readGeoTags(raster->file.path(), heights, notes);
     if (!tags.ok()) return tags;
   }
-  if (nodata) {
-    heights.nodata = nodata;
-  } else if (const auto note = noteOnNodata(heights)) {
-    notes.push_back(*note);
-  }
+  takePam(path, heights);
+  if (nodata) heights.nodata = nodata;
+  if (const auto note = noteOnNodata(heights)) notes.push_back(*note);
   const bool wide = raster->shape.sample == PictureSample::kDouble;
   auto data = readSamples(*raster, wide ? PictureSample::kDouble : storedAs(*sample));
   if (!data.ok()) return data.status();

@@ -9,6 +9,7 @@
 #include "tools/files/pictures/alpha.hpp"
 #include "tools/files/pictures/raster.hpp"
 #include "tools/files/pictures/tiff.hpp"
+#include "tools/files/place/pam.hpp"
 #include "tools/files/place/world_file.hpp"
 #include "tools/files/plain_heights.hpp"
 #include "tools/files/turned_image.hpp"
@@ -106,14 +107,16 @@ ImageFile turnedUpright(const ImageFile& stored, int orientation) {
   return turned(stored, turn);
 }
 
-/// Of the pixels as they are stored. Tags go before a world file beside.
+/// Of the pixels as they are stored. Tags and what GDAL keeps go before a world file beside.
 Result<Georeference> placeOf(const Raster& raster, const std::string& path, Notes& notes) {
   Georeference place;
   if (raster.is_tiff()) {
     auto tags = readGeoreference(raster.file.path(), notes);
-    if (!tags.ok() || tags->geotransform) return tags;
+    if (!tags.ok()) return tags;
     place = std::move(*tags);
   }
+  takePam(path, place);
+  if (place.geotransform) return place;
   const auto transform = readWorldFile(path);
   if (!transform.ok()) return transform.status();
   place.geotransform = *transform;

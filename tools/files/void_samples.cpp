@@ -52,6 +52,14 @@ std::optional<double> freeValue(std::span<const T> samples, const std::vector<ui
   return std::is_signed_v<T> ? double{Limits::min()} + free : double{Limits::max()} - free;
 }
 
+uint64_t countOf(double nodata, const HeightFile& heights) {
+  return visitSamples(heights, [nodata](auto samples) {
+    return static_cast<uint64_t>(std::count_if(
+        samples.begin(), samples.end(),
+        [nodata](auto sample) { return meetsNodata(static_cast<double>(sample), nodata); }));
+  });
+}
+
 std::string textOf(double value, tks_sample sample) {
   return sample == TKS_F32 ? shortest(static_cast<float>(value)) : shortest(value);
 }
@@ -144,11 +152,26 @@ std::optional<Note> noteOnNodata(const HeightFile& heights) {
               ""};
 }
 
+uint64_t nansBesideNodata(const HeightFile& heights) {
+  if (heights.sample != TKS_F32 || !heights.nodata || std::isnan(*heights.nodata)) return 0;
+  return visitSamples(heights, [](auto samples) {
+    return static_cast<uint64_t>(std::count_if(samples.begin(), samples.end(), [](auto sample) {
+      return std::isnan(static_cast<double>(sample));
+    }));
+  });
+}
+
 std::optional<Note> takeOutliers(HeightFile& heights) {
   tks_outliers found{sizeof found, 0, 0, 0};
   const tks_heights described = asHeights(heights);
   if (tks_find_outliers(&described, &found) != TKS_OK || found.count == 0) return std::nullopt;
   const std::string value = textOf(found.value, heights.sample);
+  if (found.is_fill == 0 && countOf(found.value, heights) < found.count) {
+    return Note{counted(found.count, "sample lies", "samples lie") +
+                    " far from all others, the farthest at " + value +
+                    ": if they are void, only a mask can say so",
+                "--nodata"};
+  }
   if (found.is_fill == 0) {
     return Note{counted(found.count, "sample lies", "samples lie") + " far from all others, at " +
                     value + ": if void, give --nodata " + value,

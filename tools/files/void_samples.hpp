@@ -33,6 +33,9 @@ Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& n
 /// A note if the nodata value is none that the samples can have, so that no sample meets it.
 std::optional<Note> noteOnNodata(const HeightFile& heights);
 
+/// NaNs among floats whose nodata value is a number: streams know one value for voids.
+uint64_t nansBesideNodata(const HeightFile& heights);
+
 /// Without a nodata value, a number that files write where they have no height gives it
 /// (tks_find_outliers), with a note. Other outliers only have a note.
 std::optional<Note> takeOutliers(HeightFile& heights);

@@ -12,8 +12,8 @@
 namespace tetrakis::tools {
 
 /// grid_indices: of the mesh's vertices. Places beyond the texture get its border. Where the stream
-/// does not say how the two lie to each other (a geotransform is missing, or their CRSs differ) the
-/// coordinates stay: the texture covers the heights from the first sample to the last.
+/// does not say how the two lie to each other (tools/files/place/texture_place.hpp) the texture
+/// covers the heights from the first sample to the last.
 void drapeTexture(const tks_info& info, std::span<const uint32_t> grid_indices, MeshFile& mesh);
 
 }  // namespace tetrakis::tools

@@ -11,8 +11,8 @@
 
 #include "base/status.hpp"
 #include "tetrakis/tetrakis.hpp"
+#include "tools/files/place/raster_place.hpp"
 #include "tools/tiles/geographic_tile.hpp"
-#include "tools/tiles/raster_place.hpp"
 
 namespace tetrakis::tools {
 

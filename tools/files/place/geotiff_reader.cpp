@@ -134,6 +134,13 @@ std::optional<double> nodataIn(const std::string& text, Notes& notes) {
   return nodata;
 }
 
+/// GDAL escapes a description once more than XML does.
+std::string unescaped(const std::string& text) {
+  pugi::xml_document document;
+  const bool sound = document.load_string(("<text>" + text + "</text>").c_str());
+  return sound ? document.child("text").text().get() : text;
+}
+
 /// <GDALMetadata><Item sample="0" role="ROLE">value</Item></GDALMetadata>
 void setGdalMetadata(HeightFile& heights, const std::string& xml, Notes& notes) {
   pugi::xml_document document;
@@ -152,7 +159,7 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml, Notes& notes) 
       notes.push_back(
           {"its offset " + quoted(text) + " is none and is not used: give --offset", "--offset"});
     if (role == "unittype") heights.unit = canonicalUnit(text);
-    if (role == "description") heights.description = text;
+    if (role == "description") heights.description = unescaped(text);
   }
 }
 

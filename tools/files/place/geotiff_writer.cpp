@@ -27,6 +27,15 @@ bool setPlace(TIFF* tiff, const Georeference& place, const GeoKeys& keys) {
   return writeGeoKeys(tiff, keys);
 }
 
+/// GDAL escapes a description once more than XML does.
+std::string escaped(const std::string& text) {
+  pugi::xml_document document;
+  document.append_child(pugi::node_pcdata).set_value(text.c_str());
+  std::ostringstream xml;
+  document.save(xml, "", pugi::format_raw | pugi::format_no_declaration);
+  return xml.str();
+}
+
 /// A unit that the keys state needs no item.
 bool setGdalTags(TIFF* tiff, const HeightFile& heights, const GeoKeys& keys) {
   pugi::xml_document document;
@@ -42,7 +51,7 @@ bool setGdalTags(TIFF* tiff, const HeightFile& heights, const GeoKeys& keys) {
   if (heights.scale != 1) add("SCALE", "scale", shortest(heights.scale));
   const bool stated = statesHeights(keys) && heightUnit(keys) == heights.unit;
   if (!heights.unit.empty() && !stated) add("UNITTYPE", "unittype", heights.unit);
-  if (!heights.description.empty()) add("DESCRIPTION", "description", heights.description);
+  if (!heights.description.empty()) add("DESCRIPTION", "description", escaped(heights.description));
   std::ostringstream xml;
   document.save(xml, "  ", pugi::format_indent | pugi::format_no_declaration);
   if (!root.first_child().empty() && !setTag(tiff, kGdalMetadataTag, xml.str())) return false;

@@ -222,7 +222,7 @@ def encode(
             Integers with a mask and without `nodata` are given a nodata value that no sample has.
             nodata="auto" takes as such what files write where they have no height, if all other
             samples lie closer together than to it: -9999 and other rows of nines, -32768, -32767,
-            -2147483648 and floats beyond 1e30.
+            -2147483648 and floats from 1e10 on.
         texture: (rows, columns) grey, or (rows, columns, channels) of 1 to 4 channels (grey, grey
             and alpha, RGB, RGBA), of uint8 or uint16. Without `texture_alpha` the last of 2 or 4
             channels is a further colour, such as near infrared.

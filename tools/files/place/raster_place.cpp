@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/tiles/raster_place.hpp"
+#include "tools/files/place/raster_place.hpp"
 
 #include <cmath>
 #include <optional>

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/files/place/pam.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <pugixml.hpp>
+#include <string_view>
+
+#include "base/length_unit.hpp"
+#include "tools/files/place/given_crs.hpp"
+#include "tools/files/place/ground_spacing.hpp"
+#include "tools/files/place/proj_objects.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+/// The number at the front of a text, which then begins behind it and the comma.
+std::optional<double> takeNumber(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n+,"), text.size()));
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<size_t>(end - text.data()));
+  return value;
+}
+
+std::optional<double> numberIn(const pugi::xml_node& node) {
+  std::string_view text = node.text().get();
+  return takeNumber(text);
+}
+
+std::optional<GeoTransform> transformIn(const pugi::xml_node& node) {
+  std::string_view text = node.text().get();
+  GeoTransform transform;
+  for (double& number : transform) {
+    const std::optional<double> next = takeNumber(text);
+    if (!next) return std::nullopt;
+    number = *next;
+  }
+  return isSound(transform) ? std::optional(transform) : std::nullopt;
+}
+
+/// "EPSG:code" for WKT that has one.
+std::string shortCrs(const std::string& wkt) {
+  const ProjContext context = quietContext();
+  const ProjObject crs = context ? findCrs(context.get(), wkt) : nullptr;
+  const char* authority = crs ? proj_get_id_auth_name(crs.get(), 0) : nullptr;
+  const char* code = crs ? proj_get_id_code(crs.get(), 0) : nullptr;
+  if (authority == nullptr || code == nullptr || std::string_view(authority) != "EPSG") return wkt;
+  return std::string("EPSG:") + code;
+}
+
+/// The dataset in the file beside a picture; empty if there is none.
+pugi::xml_document documentBeside(const std::string& picture) {
+  pugi::xml_document document;
+  if (picture != "-" && !document.load_file((picture + ".aux.xml").c_str())) document.reset();
+  return document;
+}
+
+void takePlace(const pugi::xml_node& dataset, Georeference& place) {
+  if (const auto transform = transformIn(dataset.child("GeoTransform")))
+    place.geotransform = transform;
+  for (const pugi::xml_node item : dataset.child("Metadata").children("MDI")) {
+    if (std::string_view(item.attribute("key").value()) != "AREA_OR_POINT") continue;
+    const bool point = std::string_view(item.text().get()) == "Point";
+    place.registration = point ? TKS_REGISTRATION_POINT : TKS_REGISTRATION_AREA;
+  }
+}
+
+void takeBand(const pugi::xml_node& band, HeightFile& heights) {
+  if (const auto nodata = numberIn(band.child("NoDataValue"))) heights.nodata = nodata;
+  const auto scale = numberIn(band.child("Scale")), offset = numberIn(band.child("Offset"));
+  if (scale && std::isfinite(*scale) && *scale != 0) heights.scale = *scale;
+  if (offset && std::isfinite(*offset)) heights.offset = *offset;
+  const std::string unit = band.child("UnitType").text().get();
+  if (!unit.empty()) heights.unit = canonicalUnit(unit);
+  const std::string description = band.child("Description").text().get();
+  if (!description.empty()) heights.description = description;
+}
+
+}  // namespace
+
+void takePam(const std::string& picture, Georeference& place) {
+  const pugi::xml_document document = documentBeside(picture);
+  const pugi::xml_node dataset = document.child("PAMDataset");
+  takePlace(dataset, place);
+  const std::string wkt = dataset.child("SRS").text().get();
+  if (wkt.empty()) return;
+  place.crs = shortCrs(wkt);
+  place.geo_keys.clear();
+}
+
+void takePam(const std::string& picture, HeightFile& heights) {
+  const pugi::xml_document document = documentBeside(picture);
+  const pugi::xml_node dataset = document.child("PAMDataset");
+  if (!dataset) return;
+  takePlace(dataset, heights);
+  const std::string wkt = dataset.child("SRS").text().get();
+  if (!wkt.empty()) giveCrs(heights, shortCrs(wkt));
+  if (dataset.child("GeoTransform")) setGroundSpacing(heights);
+  for (const pugi::xml_node band : dataset.children("PAMRasterBand"))
+    if (band.attribute("band").as_int() == 1) takeBand(band, heights);
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What GDAL keeps in a file of its own, FILE.aux.xml, because the format of FILE has no room for it
+// (GDAL's Persistent Auxiliary Metadata): the place of a PNG, a JPEG or a baseline TIFF, the nodata
+// value of its samples. As in GDAL it goes before what FILE says.
+#pragma once
+
+#include <string>
+
+#include "tools/files/files.hpp"
+
+namespace tetrakis::tools {
+
+/// Takes the place that lies beside a picture, as far as there is one.
+void takePam(const std::string& picture, Georeference& place);
+
+/// Takes what lies beside heights, of the first band: place, unit, scale, offset, description, and
+/// the nodata value.
+void takePam(const std::string& picture, HeightFile& heights);
+
+}  // namespace tetrakis::tools
