@@ -50,7 +50,7 @@ namespace tetrakis::inline api {
 /// holds none.
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
 
-/// What decodedHeights() returns, without the corrections: heights between steps.
+/// The heights in steps, with their corrections of steps and without those of samples.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 
 /// Decodes what a view shows of the heights, which the stream holds. Keeps what the decoder

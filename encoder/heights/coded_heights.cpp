@@ -67,12 +67,12 @@ EncodedTrack withLayer(EncodedTrack coefficients, const AmongThem& layer) {
 /// The account of such a track of coefficients behind the opening.
 std::vector<RatePoint> accountBehind(const QuantisedHeights& heights, const HeightLayers& layers,
                                      const std::vector<RatePoint>& coefficients) {
-  const uint64_t opening = layers.layers.openingBytes();
+  const uint64_t opening = layers.stated.openingBytes();
   std::vector<RatePoint> points;
   if (opening > 0) {
     const RatePoint& first = coefficients.front();
     const HeightSteps& steps = heights.steps;
-    const size_t told = layers.layers.late_mask ? steps.liftedCount() : steps.validCount();
+    const size_t told = layers.stated.late_mask ? steps.liftedCount() : steps.validCount();
     const auto voids = static_cast<double>(steps.steps.size() - told);
     const double unknown =
         first.distortion + heights.left + voids * heights.validityWorth() + squaresOf(layers.flat);
@@ -88,7 +88,7 @@ std::vector<RatePoint> accountBehind(const QuantisedHeights& heights, const Heig
 /// The coefficients, with what lies among them, behind the layers that open the track.
 EncodedTrack behindOpening(const QuantisedHeights& heights, const HeightLayers& layers,
                            const EncodedTrack& coefficients) {
-  std::vector<uint8_t> codeword = layers.layers.late_mask ? heights.late.lifted : heights.validity;
+  std::vector<uint8_t> codeword = layers.stated.late_mask ? heights.late.lifted : heights.validity;
   for (const std::span<const uint8_t> layer :
        {std::span(layers.flat.codeword), std::span(coefficients.codeword)})
     codeword.insert(codeword.end(), layer.begin(), layer.end());
@@ -137,17 +137,17 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
 HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
                           const PriorityMap* priorities) {
   HeightLayers layers{
-      .layers = heights.layers,
+      .stated = heights.layers,
       .wavelet = choice.wavelet,
       .priorities = priorities != nullptr ? headerOf(*priorities) : PriorityHeader(),
       .flat = std::move(choice.flat)};
-  layers.layers.flat_bytes = layers.flat.codeword.size();
-  layers.layers.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
+  layers.stated.flat_bytes = layers.flat.codeword.size();
+  layers.stated.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
   if (heights.late.none()) return layers;
-  layers.layers.bridge = 0;
-  layers.layers.late_mask = true;
-  layers.layers.lifted_bytes = heights.late.lifted.size();
-  layers.layers.validity_bytes = heights.late.validity.size();
+  layers.stated.bridge = 0;
+  layers.stated.late_mask = true;
+  layers.stated.lifted_bytes = heights.late.lifted.size();
+  layers.stated.validity_bytes = heights.late.validity.size();
   return layers;
 }
 
@@ -164,7 +164,7 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
                         int region_log2) {
   assert(!coefficients.empty() && (region_log2 == 0) == (coefficients.size() == 1));
   const QuantisedHeights& heights = *quantised;
-  GeometryLayers described = layers.layers;
+  GeometryLayers described = layers.stated;
   std::vector<AmongThem> among;
   double shown_void = 0;
   if (described.late_mask) {
@@ -199,8 +199,8 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
   return followedBy(std::move(coded), std::move(described), corrections, 0);
 }
 
-CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
-                         const HeightTarget& target, const CoefficientOptions& options) {
+CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
+                        const HeightTarget& target, const CoefficientOptions& options) {
   const HeightSteps& steps = quantised->steps;
   FlatChoice choice =
       chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
@@ -217,7 +217,12 @@ CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
   CodedHeights coded =
       joinLayers(std::move(quantised), layers, std::move(coefficients), options.region_log2);
   coded.accounts = std::move(accounts);
-  return target.tried ? coded : withRounding(std::move(coded));
+  return coded;
+}
+
+CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
+                         const HeightTarget& target, const CoefficientOptions& options) {
+  return withRounding(tryHeights(std::move(quantised), target, options));
 }
 
 CodedHeights withRounding(CodedHeights coded) {
@@ -240,8 +245,8 @@ std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> 
       encodeDrawnHeights({steps.steps, extentOf(*quantised->samples), steps.valid});
   if (!track) return {};
   HeightLayers layers = layersAround(*quantised, {}, nullptr);
-  layers.layers = quantised->layers;
-  layers.layers.bridge = 0;
+  layers.stated = quantised->layers;
+  layers.stated.bridge = 0;
   std::vector<EncodedTrack> tracks;
   tracks.push_back(*std::move(track));
   CodedHeights drawn = joinLayers(std::move(quantised), layers, std::move(tracks), 0);

@@ -27,7 +27,7 @@ struct CodedHeights {
   /// The first holds the codewords of validity and flat areas, coefficients with a table and a late
   /// mask among them, corrections; others coefficients alone, or corrections.
   std::vector<EncodedTrack> tracks;
-  uint64_t closing = 0;                ///< bytes of corrections in the first track
+  uint64_t correction_bytes = 0;       ///< bytes of corrections in the first track
   double left = 0;                     ///< QuantisedHeights::left, or what stored samples leave
   double shown_void = 0;               ///< squared error, in steps, of a void shown as ground
   FlatLayer flat = {};                 ///< beside which the coefficients were coded
@@ -47,14 +47,14 @@ struct CodedHeights {
            !layers.late_mask;
   }
   CodedTracks accounted() const {
-    return {Component::kGeometry, tracks, layers.openingBytes(), closing,
+    return {Component::kGeometry, tracks, layers.openingBytes(), correction_bytes,
             static_cast<size_t>(correctionTracks(header, layers))};
   }
 };
 
 /// The layers around coefficients, and how these are coded.
 struct HeightLayers {
-  GeometryLayers layers;
+  GeometryLayers stated;    ///< what the header says of them
   MaskRoom mask_room = {};  ///< of a late mask
   WaveletHeader wavelet;
   PriorityHeader priorities;
@@ -89,7 +89,6 @@ struct HeightTarget {
   uint64_t bytes = UINT64_MAX;        ///< a budget for them and the opening
   double mean_square = 0;             ///< > 0: the error that is wanted, in squared steps
   uint64_t before_mask = UINT64_MAX;  ///< bytes of coefficients that may precede a late mask
-  bool tried = false;  ///< one of several attempts: withRounding() follows for the best
 
   HeightTarget(Purpose of) : purpose(of) {}
 };
@@ -98,6 +97,10 @@ struct HeightTarget {
 /// areas that pay, and the layers that the heights come with.
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
                          const HeightTarget& target, const CoefficientOptions& options);
+
+/// The same as one of several attempts: withRounding() follows for the best.
+CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
+                        const HeightTarget& target, const CoefficientOptions& options);
 
 /// The attempt with the byte from which on decoders round, which takes time to find. coded: an
 /// attempt.

@@ -59,7 +59,7 @@ CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
   layers.coefficient_bytes = before - layers.besideCoefficients();
   heights.layers = std::move(layers);
   heights.tracks = withCorrections(std::move(heights.tracks), corrections, corrected_to);
-  heights.closing = heights.tracks.front().codeword.size() - before;
+  heights.correction_bytes = heights.tracks.front().codeword.size() - before;
   return heights;
 }
 

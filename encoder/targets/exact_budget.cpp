@@ -281,7 +281,7 @@ Ending endingOf(const EncodeInputs& inputs, const Selection& selection,
 
 /// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones,
 /// or as good in fewer bytes: where all has room, but the hidden colours of a cut-out are not kept.
-/// few: as above; of these only the end counts. ways: of many values.
+/// few: heights of few values, of which only the end counts. ways: of many values.
 std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const Candidates& lossy,
                                                std::optional<HeightsCandidate> few,
                                                std::vector<HeightsCandidate> ways) {

@@ -54,8 +54,8 @@ std::vector<RatePoint> drawnOf(const std::vector<RatePoint>& nodes) {
   return drawn;
 }
 
-/// Errors as if those of both components were seen as large as they are at first, and added.
-PairErrors unseen(const ComponentCurve& heights, const ComponentCurve& texture) {
+/// Without pictures: squared errors of each component relative to its first, which add.
+PairErrors relativeErrors(const ComponentCurve& heights, const ComponentCurve& texture) {
   const auto first = [](const ComponentCurve& curve) {
     const double square = curve.points[curve.opened].distortion;
     return std::vector<double>{square > 0 ? square : 1};
@@ -74,7 +74,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
   const Nodes nodes = {nodesOf(heights, ratio, budget), nodesOf(texture, ratio, budget)};
   PairNodes squares = {squaresAt(nodes.heights), squaresAt(nodes.textures)};
   const bool exact = squares.heights.front() <= 0 || squares.textures.front() <= 0;
-  if (exact) return unseen(heights.curve, texture.curve);
+  if (exact) return relativeErrors(heights.curve, texture.curve);
   DecodedNodes decoded(inputs, heights, texture);
   std::vector<double> errors = modelledErrors(inputs, decoded, nodes);
   if (!errors.empty() && inputs.options.picture_error != nullptr) {
@@ -84,7 +84,7 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
     if (!drawn.empty())
       errors = correctedErrors({nodes.heights.size(), nodes.textures.size(), errors}, drawn);
   }
-  if (errors.empty() || !(errors.front() > 0)) return unseen(heights.curve, texture.curve);
+  if (errors.empty() || !(errors.front() > 0)) return relativeErrors(heights.curve, texture.curve);
   return {std::move(squares), std::move(errors)};
 }
 

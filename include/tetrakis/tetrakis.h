@@ -87,13 +87,15 @@ typedef enum tks_registration {
  * the outer corner of the first sample and (0.5, 0.5) its middle, lie at
  *     x (easting, longitude)  = geotransform[0] + c * geotransform[1] + r * geotransform[2]
  *     y (northing, latitude)  = geotransform[3] + c * geotransform[4] + r * geotransform[5]
- * whatever the registration. Its numbers must lie within +-2^512, else TKS_USAGE. */
+ * whatever the registration. Its numbers must lie within +-2^512, else TKS_USAGE.
+ *
+ * Texts have at most 65 535 bytes each. */
 typedef struct tks_heights {
   size_t size; /* sizeof(tks_heights) */
-  uint32_t width, height;
+  uint32_t width, height;         /* from 1 to 2^20 */
   tks_sample sample;
   const void* data;
-  double scale, offset;           /* 1 and 0 when samples are heights */
+  double scale, offset;           /* 1 and 0 when samples are heights; finite, scale not 0 */
   double step;                    /* quantisation step in samples; 0: chosen (exact if possible) */
   double spacing_x, spacing_y;    /* metres per sample; 0: unknown, which pictures take for 30 */
   const char* unit;               /* UTF-8, NULL: unknown; e.g. "m" */
@@ -113,7 +115,7 @@ typedef struct tks_heights {
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
  * With `opaque` the last of 2 or 4 is a further colour, such as near infrared, which pictures and
  * meshes leave out. A texture covers the same footprint as the height field. sample: TKS_U8 or
- * TKS_U16. Sizes from 1 x 1.
+ * TKS_U16. Sizes from 1 x 1 to 32 768 x 32 768.
  *
  * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of
  * the colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their
@@ -154,7 +156,8 @@ typedef struct tks_camera {
   double eye[3], target[3], up[3]; /* up: not along the line of sight */
   double fov_y;                    /* degrees from lower to upper edge, above 0, below 180 */
   uint32_t width, height;          /* pixels, 1 to 8192 */
-  double weight;                   /* of its picture beside others, not negative, one above 0 */
+  double weight;                   /* of its picture beside others; not negative, 0: it does not
+                                      count; one of them is above 0 */
 } tks_camera;
 
 /* How far a picture of decoded samples is from that of the original ones. heights: samples as in
@@ -189,7 +192,7 @@ typedef struct tks_encode_options {
   uint32_t regions;  /* side of the regions by which windows can be decoded, in samples of either
                         component: a power of two from 16 to 2^20; 1: none, which tks_info calls 0;
                         0: chosen, none up to 1025 x 1025 heights, 2048² texels */
-  int index;         /* tks_index: whether to write the byte ranges of every packet in front */
+  int index;         /* a tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
   void* user;
@@ -215,7 +218,9 @@ typedef struct tks_buffer {
 void tks_free_buffer(tks_buffer* buffer);
 
 /* Encodes heights (NULL: texture only), image (NULL: geometry only), or both.
- * message, if not NULL, receives one sentence of at most message_size - 1 characters on failure. */
+ * message, if not NULL, receives one sentence of at most message_size - 1 characters on failure:
+ * TKS_USAGE for whatever breaks the rules above or cannot be promised, TKS_NO_MEMORY, or
+ * TKS_MISMATCH, a fault of the encoder. `out` is empty then. */
 tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size);
@@ -304,7 +309,7 @@ typedef struct tks_info {
   uint32_t format_version, profile, level;
   uint64_t header_bytes;   /* bytes before the first packet */
   uint64_t stream_bytes;   /* what the encoder wrote, header included */
-  uint64_t available_bytes;/* what tks_open was given */
+  uint64_t available_bytes;/* bytes that are there, up to the first missing one */
   uint64_t packets;        /* packets begun in the available bytes */
   uint64_t geometry_bytes, texture_bytes; /* payload available of either component */
   int has_heights, has_texture;
@@ -362,7 +367,8 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
  * filtered; level 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A
  * level takes no inverse transform of the finer ones, and reads the stream only up to the last byte
  * that concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed
- * above level 0, and meshes are made of level 0 only. TKS_USAGE beyond the coarsest levels (those
+ * above level 0. Calls that make meshes need level 0 of the heights to be set, and choose the level
+ * that their triangles can show themselves. TKS_USAGE beyond the coarsest levels (those
  * of a missing part: 0); the levels are then as before. */
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 
@@ -475,7 +481,7 @@ typedef struct tks_screen_camera {
   uint32_t width, height; /* of its picture, in pixels: 1 to 32768 */
   double clip[16];        /* that of tks_view_mesh: columns, rows and heights to clip coordinates,
                              whose y points up in the picture */
-  double weight;          /* of its picture beside those of other cameras; 0: 1 */
+  double weight;          /* of its picture beside others; not negative; 0 counts as 1 here */
 } tks_screen_camera;
 
 /* What a mesh will be drawn for. */

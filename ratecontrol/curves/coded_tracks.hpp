@@ -14,9 +14,9 @@ namespace tetrakis::inline curves {
 struct CodedTracks {
   Component component = Component::kGeometry;
   std::span<const EncodedTrack> tracks;  ///< at least one; they outlive this
-  /// Bytes of the first track that come before, and behind, everything else.
-  uint64_t opening = 0, closing = 0;
-  size_t closing_tracks = 0;  ///< the last ones, which come behind everything else
+  uint64_t opening = 0;           ///< bytes of the first track that come before everything else
+  uint64_t correction_bytes = 0;  ///< those that come behind everything else
+  size_t correction_tracks = 0;   ///< the last ones, which do so as well
 };
 
 /// All codewords, in the order of the tracks, which they refer to.

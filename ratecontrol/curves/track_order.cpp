@@ -68,18 +68,20 @@ void sortPieces(std::span<Piece> pieces, TrackOrder order) {
 
 /// All pieces in their order.
 std::vector<Piece> orderedPieces(const CodedTracks& coded, TrackOrder order) {
-  const auto& [component, tracks, opening_bytes, closing_bytes, closing_tracks] = coded;
-  const size_t before_closing = tracks.size() - closing_tracks;
+  const auto& [component, tracks, opening_bytes, correction_bytes, correction_tracks] = coded;
+  const size_t before_corrections = tracks.size() - correction_tracks;
   const std::span<const RatePoint> base = tracks.front().points;
   std::vector<Piece> pieces;
-  const size_t opening = opening_bytes > 0 ? 1 : 0, closing = closing_bytes > 0 ? 1 : 0;
-  assert(base.size() > opening + closing);
+  const size_t opening = opening_bytes > 0 ? 1 : 0, corrections = correction_bytes > 0 ? 1 : 0;
+  assert(base.size() > opening + corrections);
   if (opening > 0) pieces.push_back(pieceBetween(base[0], base[1], component, 0));
-  appendHull(base.subspan(opening, base.size() - opening - closing), component, 0, pieces);
-  for (size_t i = 1; i < before_closing; ++i) appendHull(tracks[i].points, component, i, pieces);
+  appendHull(base.subspan(opening, base.size() - opening - corrections), component, 0, pieces);
+  for (size_t i = 1; i < before_corrections; ++i)
+    appendHull(tracks[i].points, component, i, pieces);
   sortPieces(std::span(pieces).subspan(opening), order);
-  if (closing > 0) pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));
-  for (size_t i = before_closing; i < tracks.size(); ++i) {
+  if (corrections > 0)
+    pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));
+  for (size_t i = before_corrections; i < tracks.size(); ++i) {
     const std::vector<RatePoint>& points = tracks[i].points;
     if (points.size() > 1) pieces.push_back(pieceBetween(points[0], points[1], component, i));
   }

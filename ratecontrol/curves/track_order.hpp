@@ -26,7 +26,7 @@ struct OrderedTracks {
   std::vector<RatePoint> points;
 };
 
-/// The opening comes first and the closing last, whatever their slopes.
+/// The opening comes first and corrections last, whatever their slopes.
 OrderedTracks orderTracks(const CodedTracks& coded, TrackOrder by);
 
 }  // namespace tetrakis::inline curves

@@ -85,7 +85,6 @@ class QuadtreeLevel {
       : node_count_(node_count), first_(first_vertex), end_(first_vertex) {}
 
   LevelForm form() const { return form_; }
-  uint32_t nodeCount() const { return node_count_; }
   uint32_t vertexCount() const { return end_ - first_; }
 
   /// Adds a vertex, in ascending order of (node, vertex); only before gather().

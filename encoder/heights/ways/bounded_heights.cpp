@@ -57,10 +57,8 @@ CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
                            .late = quantised.late,
                            .shown_by = quantised.shown_by};
   if (!rounded.steps.exact) rounded.left = rounded.squaresOf(rounded.steps);
-  HeightTarget target(Purpose::kLossless);
-  target.tried = true;
-  return codeHeights(std::make_shared<const QuantisedHeights>(std::move(rounded)), target,
-                     bound.options);
+  return tryHeights(std::make_shared<const QuantisedHeights>(std::move(rounded)),
+                    Purpose::kLossless, bound.options);
 }
 
 /// Floats whose step is not given, rounded to the widest step that the bound allows; nothing if

@@ -52,7 +52,7 @@ double worthOf(const CodedHeights& corrected) {
                                                             corrected.header, corrected.layers));
   for (size_t i = 0; i < coefficients; ++i) cut += corrected.tracks[i].codeword.size();
   return exactWorth(static_cast<double>(bytesOf(corrected.tracks)),
-                    static_cast<double>(cut - corrected.closing));
+                    static_cast<double>(cut - corrected.correction_bytes));
 }
 
 /// Codes heights to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
