@@ -49,6 +49,15 @@ StreamHeader relativeCorrections(tks_sample sample, RelativeSteps relative) {
   return header;
 }
 
+/// From facets: differences of all sizes, samples that are no numbers.
+StreamHeader facetCorrections(double step, uint8_t unit) {
+  StreamHeader header = heightsHeader(30, 20, TKS_F32, 12);
+  header.geometry->step = step;
+  header.layers.corrections = CorrectionKind::kFacets;
+  header.layers.facet_unit = unit;
+  return header;
+}
+
 /// Behind coefficients of noise.
 VectorCase correctionsOfNoise(const std::string& name, const std::string& purpose,
                               StreamHeader header, uint32_t seed) {
@@ -262,7 +271,13 @@ std::vector<VectorCase> correctionCases() {
       correctionsOfNoise("noise_relative_i32_30x20", "relative steps beyond the type",
                          relativeCorrections(TKS_I32, {0x1p1000, 4}), 93),
       correctionsOfNoise("noise_relative_tiny_30x20", "the smallest relative steps",
-                         relativeCorrections(TKS_F32, {0x1p-1074, 2}), 94)};
+                         relativeCorrections(TKS_F32, {0x1p-1074, 2}), 94),
+      correctionsOfNoise("noise_facets_30x20", "facets of floats of all sizes",
+                         facetCorrections(0.75, 100), 110),
+      correctionsOfNoise("noise_facets_least_30x20", "facets in the smallest unit",
+                         facetCorrections(1e-41, 1), 112),
+      correctionsOfNoise("noise_facets_most_30x20", "facets in the largest unit",
+                         facetCorrections(1e30, 254), 114)};
 }
 
 /// base + q · step for few q, of which some are the declared nodata value.

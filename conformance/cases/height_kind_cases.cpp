@@ -61,6 +61,10 @@ std::vector<VectorCase> facetCases() {
     vector_case.facets = spacing;
     return vector_case;
   };
+  const auto scaled = [](int exponent, VectorCase vector_case) {
+    vector_case.exponent = exponent;
+    return vector_case;
+  };
   const auto ground = [](uint32_t width, uint32_t height) {
     return Recipe{Pattern::kRidges, width, height, 1, TKS_F32, 3};
   };
@@ -72,6 +76,9 @@ std::vector<VectorCase> facetCases() {
                                          "regions",
                                          ground(64, 75), inRegions(lossless(), 16))),
                 samples::VoidShape::kCoast, -9999),
+      scaled(-148, faceted(8.2, heightsCase("facets_denormal_50x40",
+                                            "corrections from facets: floats without an exponent",
+                                            ground(50, 40), lossless()))),
       faceted(31.4, heightsCase("facets_row_700x1", "corrections from facets: lines between points",
                                 ground(700, 1), lossless())),
   };

@@ -62,9 +62,9 @@ class FacetUnit {
     if (shift <= 0) return {ordered(size << -shift, exponent_ + shift, negative), negative, 0};
     const uint64_t mantissa = (size + (uint64_t{1} << (shift - 1))) >> shift;
     const auto off = static_cast<int64_t>(size - (mantissa << shift));
-    const auto place = static_cast<size_t>(std::abs(off)) * 2 * kFloatPlaces >> shift;
+    const uint64_t place = static_cast<uint64_t>(std::abs(off)) * 2 * kFloatPlaces >> shift;
     return {ordered(mantissa, exponent_ + shift, negative), (off < 0) != negative,
-            std::min(place, kFloatPlaces - 1)};
+            std::min(static_cast<size_t>(place), kFloatPlaces - 1)};
   }
 
  private:
