@@ -101,9 +101,11 @@ std::string placeNote(const std::string& texture, const HeightFile& heights,
   if (!place.texelsOver({0, 0, heights.width, heights.height}))
     return quoted(texture) + " lies beside the ground of the heights, which get its border";
   if (!place.isOwn()) return "";
+  const char* const who =
+      texels.crs == heights.crs ? "the encoder's cameras see" : "cameras and web pages see";
   return quoted(texture) +
-         " covers other ground than the heights: `decode` and `tiles` put it where it lies, but "
-         "cameras and viewers see it stretched over them; gdalwarp can cut it to their ground";
+         " covers other ground than the heights: meshes have it where it lies, but " + who +
+         " it stretched over them; gdalwarp can cut it to their ground";
 }
 
 Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
