@@ -50,6 +50,9 @@ struct QuantisedHeights {
   /// Samples that count in the error; at least 1.
   double counted() const;
 
+  /// So few samples that estimates of them are often wrong, and all ways to code them can be tried.
+  bool isSmall() const { return extentOf(*samples).samples() <= 1 << 14; }
+
   /// What a sample costs whose validity is not yet known rightly, in squared steps: as much as a
   /// height that is off by a quarter of their range.
   double validityWorth() const;

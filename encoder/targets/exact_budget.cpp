@@ -48,7 +48,10 @@ std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const C
     if (way && bytesOf(way->tracks) < room) ways.push_back(candidateOf(*std::move(way)));
   };
   if (neighbours.relative_step > 0) add(codeRelative(lossy, neighbours.relative_step, threads));
-  if (neighbours.facets) add(codeFacets(lossy, *neighbours.facets, room, threads));
+  if (neighbours.facets) {
+    std::optional<CodedHeights> way = codeFacets(lossy, *neighbours.facets, room, threads);
+    add(way ? std::move(way) : codeFacets(inputs, *neighbours.facets));
+  }
   if (canBeRestored(lossy)) add(codeRestored(inputs, lossy));
   return ways;
 }

@@ -144,7 +144,8 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
   }
   takePam(path, heights);
   if (nodata) heights.nodata = nodata;
-  if (const auto note = noteOnNodata(heights)) notes.push_back(*note);
+  const bool none = nodata && std::isnan(*nodata);  // says that all samples are heights
+  if (const auto note = noteOnNodata(heights); note && !none) notes.push_back(*note);
   const bool wide = raster->shape.sample == PictureSample::kDouble;
   auto data = readSamples(*raster, wide ? PictureSample::kDouble : storedAs(*sample));
   if (!data.ok()) return data.status();

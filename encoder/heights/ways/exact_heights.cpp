@@ -31,7 +31,8 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   if (error < relativeStepOf(**heights)) return codeLosslessHeights(lossless, *heights);
   if (const std::optional<FacetShare> facets = facetsOf(**heights)) {
     const double all = chooseFacetCut(steps, plane.extent(), *facets, 0).bytes;
-    if (all < static_cast<double>(lossy_bytes)) return codeLosslessHeights(lossless, *heights);
+    if ((*heights)->isSmall() || all < static_cast<double>(lossy_bytes))
+      return codeLosslessHeights(lossless, *heights);
   }
   if (error > kMostSteps * steps.step) return nullptr;
   const double bytes = typicalCost(steps.lifting(plane.extent()), steps.range_bits, 0).bits / 8;

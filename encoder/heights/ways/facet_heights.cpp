@@ -59,8 +59,8 @@ std::optional<FacetShare> facetsOf(const CodedHeights& lossy, uint64_t room) {
   constexpr double kPerhaps = 1.25;  // of what the estimate says
   if (lossy.quantised->restored() || lossy.header.direct() || lossy.hasCorrections()) return {};
   const std::optional<FacetShare> facets = facetsOf(*lossy.quantised);
-  const bool fits =
-      facets && cutOf(lossy, *facets, 0).bytes <= kPerhaps * static_cast<double>(room);
+  if (!facets || lossy.quantised->isSmall()) return facets;
+  const bool fits = cutOf(lossy, *facets, 0).bytes <= kPerhaps * static_cast<double>(room);
   return fits ? facets : std::nullopt;
 }
 

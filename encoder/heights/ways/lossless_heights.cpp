@@ -75,11 +75,11 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
 }
 
 /// Whether the steps need not be tried: by the estimate, their coefficients alone clearly take more
-/// bytes. Of few bits a sample it is often too much by a fifth.
+/// bytes. Of few bits a sample it is often too much by a fifth, of few samples by more.
 bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
   constexpr double kClearly = 1.25;
   const HeightSteps& steps = quantised.steps;
-  if (!steps.table.empty()) return false;
+  if (!steps.table.empty() || quantised.isSmall()) return false;
   const PlaneView<const int32_t> plane = steps.lifting(extentOf(*quantised.samples));
   const double estimated = typicalCost(plane, steps.range_bits, 0).bits / 8;
   return estimated > kClearly * static_cast<double>(bytes);
