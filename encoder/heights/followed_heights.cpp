@@ -63,4 +63,13 @@ CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
   return heights;
 }
 
+CodedHeights restoredBy(CodedHeights heights, GeometryLayers layers,
+                        const PartCodewords& corrections, double left) {
+  assert(left > 0);
+  for (RatePoint& point : heights.tracks.front().points) point.distortion += left;
+  CodedHeights restored = followedBy(std::move(heights), std::move(layers), corrections, 0);
+  restored.left = left;
+  return restored;
+}
+
 }  // namespace tetrakis::inline heights

@@ -14,4 +14,9 @@ namespace tetrakis::inline heights {
 CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
                         const PartCodewords& corrections, double corrected_to);
 
+/// The same with corrections that restore every sample. left: the squared error, in steps, that
+/// coefficients alone leave at least, above 0: steps that seem exact may lack the last bits.
+CodedHeights restoredBy(CodedHeights heights, GeometryLayers layers,
+                        const PartCodewords& corrections, double left);
+
 }  // namespace tetrakis::inline heights

@@ -45,6 +45,43 @@ TEST(FacetHeights, TakeFewBitsASample) {
   }
 }
 
+/// The floats of these facets times `relief`, above an elevation, right of a column.
+Raster raised(double elevation, double relief, uint32_t from_column = 0) {
+  Raster raster = samples::facets(kWidth, kHeight, 20.7);
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+    const uint32_t x = i % kWidth;
+    const double facet = samples::facetAt(x, i / kWidth, 20.7, 91);
+    const auto sample = static_cast<float>(elevation * (x >= from_column) + relief * facet);
+    std::memcpy(raster.data.data() + size_t{4} * i, &sample, sizeof sample);
+  }
+  return raster;
+}
+
+/// Of few metres far above the sea, floats are multiples of a step of 20 bits or fewer.
+TEST(FacetHeights, ElevationDoesNotMatter) {
+  const Raster low = raised(0, 0.08);
+  const size_t bytes = encode(&low, nullptr, lossless()).size();
+  for (const double elevation : {450.0, 4000.0}) {
+    const Raster heights = raised(elevation, 0.08);
+    const Bytes stream = encode(&heights, nullptr, lossless());
+    EXPECT_TRUE(Stream(stream).heights() == heights.data);
+    EXPECT_LT(stream.size(), bytes + bytes / 4) << elevation;
+  }
+}
+
+/// The steps of lossy heights show the plateau and nothing beside it.
+TEST(FacetHeights, BudgetsWithRoomEndExact) {
+  for (const Raster& heights :
+       {raised(0, 1), raised(450, 0.08), raised(100, 1e-8, 70), raised(100, 1e-12, 70)}) {
+    const size_t least = encode(&heights, nullptr, lossless()).size();
+    for (const size_t bytes : {least + least / 8, 2 * least, 100 * least}) {
+      const Bytes stream = encode(&heights, nullptr, budget(bytes));
+      EXPECT_LE(stream.size(), bytes);
+      EXPECT_TRUE(Stream(stream).heights() == heights.data) << bytes << " for " << least;
+    }
+  }
+}
+
 TEST(FacetHeights, OneRowOrColumnIsOfLines) {
   for (const bool across : {true, false}) {
     const Raster heights = samples::facets(across ? 2000 : 1, across ? 1 : 2000, 50.3);

@@ -2,6 +2,8 @@
 #include "codec/geometry/facets/facet_share.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -31,10 +33,9 @@ class BandReader {
       for (uint32_t column = 0; column < columns; ++column) {
         const size_t i = (size_t{y} + row) * width_ + x + column;
         if (!valid_[i]) continue;
-        const int64_t sample = unit_.multiplesOf(samples_[i]);
         band.look(column, 0);
-        if (y == 0 || row >= kBefore) count(samples_[i], band.waysTo(sample) != 0);
-        band.put(column, sample);
+        if (y == 0 || row >= kBefore) count(samples_[i], isNear(band, samples_[i]));
+        band.put(column, unit_.multiplesOf(samples_[i]));
       }
     }
   }
@@ -48,6 +49,16 @@ class BandReader {
 
  private:
   static constexpr uint32_t kBefore = 2;
+
+  /// Whether a prediction leads to the sample, or to one of two floats on either side.
+  bool isNear(FacetRows& band, float sample) const {
+    while (band.more()) {
+      const uint32_t predicted = unit_.nearest(band.next().multiples).order;
+      const auto rest = static_cast<int32_t>(orderOf(sample) - predicted);
+      if (rest >= -2 && rest <= 2) return true;
+    }
+    return false;
+  }
 
   void count(float sample, bool near) {
     ++seen_;
@@ -63,14 +74,21 @@ class BandReader {
   int64_t exponents_ = 0;
 };
 
+/// A size that all samples but a few outliers have at most.
 float largestOf(const tks_heights& heights, Mask valid) {
+  constexpr uint64_t kFew = 256;  // one in so many
   const auto* samples = static_cast<const float*>(heights.data);
-  float largest = 0;
+  std::array<uint64_t, 256> counts{};  // by exponent field
+  uint64_t all = 0;
   for (size_t i = 0; i < size_t{heights.width} * heights.height; ++i) {
-    const float size = std::abs(samples[i]);
-    if (valid[i] && std::isfinite(size)) largest = std::max(largest, size);
+    if (!valid[i] || !std::isfinite(samples[i])) continue;
+    ++counts[std::bit_cast<uint32_t>(samples[i]) >> 23 & 0xff];
+    ++all;
   }
-  return largest;
+  size_t field = counts.size() - 1;
+  for (uint64_t beyond = counts[field]; field > 0 && beyond * kFew <= all; beyond += counts[field])
+    --field;
+  return std::bit_cast<float>(static_cast<uint32_t>(field << 23));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <cassert>
 
-#include "codec/geometry/coding_choice/facet_cut.hpp"
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
@@ -29,11 +28,8 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   const bool few = !steps.table.empty() || drawingMayFit(plane, lossy_bytes);
   if (few) return codeLosslessHeights(lossless, *heights);
   if (error < relativeStepOf(**heights)) return codeLosslessHeights(lossless, *heights);
-  if (const std::optional<FacetShare> facets = facetsOf(**heights)) {
-    const double all = chooseFacetCut(steps, plane.extent(), *facets, 0).bytes;
-    if ((*heights)->isSmall() || all < static_cast<double>(lossy_bytes))
-      return codeLosslessHeights(lossless, *heights);
-  }
+  if (const auto facets = facetsOf(**heights); facets && mayFit(*facets, **heights, lossy_bytes))
+    return codeLosslessHeights(lossless, *heights);
   if (error > kMostSteps * steps.step) return nullptr;
   const double bytes = typicalCost(steps.lifting(plane.extent()), steps.range_bits, 0).bits / 8;
   if (bytes > kClearly * static_cast<double>(lossy_bytes)) return nullptr;

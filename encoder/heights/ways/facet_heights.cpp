@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/heights/ways/facet_heights.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -23,9 +24,7 @@ CodedHeights followedByFacets(CodedHeights cut, int unit, uint32_t threads) {
   GeometryLayers layers = cut.layers;
   layers.corrections = CorrectionKind::kFacets;
   layers.facet_unit = static_cast<uint8_t>(unit);
-  CodedHeights followed = followedBy(std::move(cut), std::move(layers), codewords, 0);
-  followed.left = QuantisedHeights::kInexact;
-  return followed;
+  return restoredBy(std::move(cut), std::move(layers), codewords, QuantisedHeights::kInexact);
 }
 
 FacetCut cutOf(const CodedHeights& lossy, const FacetShare& facets, double room) {
@@ -35,33 +34,54 @@ FacetCut cutOf(const CodedHeights& lossy, const FacetShare& facets, double room)
 
 }  // namespace
 
+/// Where steps are far coarser than floats are, or few values have a table, these say more of most
+/// samples.
 std::optional<FacetShare> facetsOf(const QuantisedHeights& heights) {
-  constexpr double kMostBeyond = 0.75;
-  constexpr int kFewBits = 20;  // of exact steps, which say more of their neighbours
+  constexpr double kMostBeyond = 0.75, kMostBesideTable = 0.25;
+  constexpr double kCoarse = 8;
   const HeightSteps& steps = heights.steps;
-  if (heights.samples->sample != TKS_F32 || heights.samples->step > 0 || !steps.table.empty())
-    return {};
-  if (steps.exact && steps.range_bits <= kFewBits) return {};
+  if (heights.samples->sample != TKS_F32 || heights.samples->step > 0) return {};
   const FacetShare facets = findFacets(*heights.samples, steps.valid);
-  if (facets.beyond > kMostBeyond) return {};
+  const bool table = !steps.table.empty();
+  if (steps.exact && !table && steps.step > kCoarse * facets.spacing) return {};
+  if (facets.beyond > (table ? kMostBesideTable : kMostBeyond)) return {};
   return facets;
 }
 
+bool mayFit(const FacetShare& facets, const QuantisedHeights& heights, uint64_t bytes) {
+  constexpr double kBeyond = 1;  // bytes of a sample that no prediction comes near, at least
+  return facets.beyond * heights.counted() * kBeyond <= static_cast<double>(bytes);
+}
+
+/// Estimates of smooth surfaces are too large. So finer cuts are tried while they cost little.
 std::optional<CodedHeights> codeFacets(const EncodeInputs& inputs, const FacetShare& facets) {
+  constexpr double kFiner = 1. / 16, kLittle = 1.05, kFinest = 1. / 16;
+  constexpr uint64_t kMostTried = 1 << 20;  // samples
   const std::shared_ptr<const QuantisedHeights> fine = quantiseForFacets(inputs);
   if (!fine) return {};
-  const FacetCut cut = chooseFacetCut(fine->steps, extentOf(*fine->samples), facets, 0);
-  return followedByFacets(codeUpTo(inputs, fine, cut.mean_square), facets.unit,
-                          inputs.options.threads);
+  const Extent extent = extentOf(*fine->samples);
+  const auto coded = [&](double mean_square) {
+    return followedByFacets(codeUpTo(inputs, fine, mean_square), facets.unit,
+                            inputs.options.threads);
+  };
+  double mean_square = chooseFacetCut(fine->steps, extent, facets, 0).mean_square;
+  CodedHeights best = coded(mean_square);
+  uint64_t least = bytesOf(best.tracks);
+  while (extent.samples() <= kMostTried && (mean_square *= kFiner) > kFinest) {
+    CodedHeights next = coded(mean_square);
+    const uint64_t bytes = bytesOf(next.tracks);
+    if (static_cast<double>(bytes) > kLittle * static_cast<double>(least)) break;
+    least = std::min(least, bytes);
+    best = std::move(next);
+  }
+  return best;
 }
 
 std::optional<FacetShare> facetsOf(const CodedHeights& lossy, uint64_t room) {
-  constexpr double kPerhaps = 1.25;  // of what the estimate says
-  if (lossy.quantised->restored() || lossy.header.direct() || lossy.hasCorrections()) return {};
-  const std::optional<FacetShare> facets = facetsOf(*lossy.quantised);
-  if (!facets || lossy.quantised->isSmall()) return facets;
-  const bool fits = cutOf(lossy, *facets, 0).bytes <= kPerhaps * static_cast<double>(room);
-  return fits ? facets : std::nullopt;
+  const QuantisedHeights& quantised = *lossy.quantised;
+  if (quantised.restored() || lossy.header.direct() || lossy.hasCorrections()) return {};
+  const std::optional<FacetShare> facets = facetsOf(quantised);
+  return facets && mayFit(*facets, quantised, room) ? facets : std::nullopt;
 }
 
 std::optional<CodedHeights> codeFacets(const CodedHeights& lossy, const FacetShare& facets,

@@ -12,8 +12,11 @@
 
 namespace tetrakis::inline ways {
 
-/// The facets of heights, if they hold enough of the samples; nothing where steps say these well.
+/// The facets of heights, if they hold enough of the samples.
 std::optional<FacetShare> facetsOf(const QuantisedHeights& heights);
+
+/// Whether heights of these facets may take no more than so many bytes.
+bool mayFit(const FacetShare& facets, const QuantisedHeights& heights, uint64_t bytes);
 
 /// Heights to the last bit, in any number of tracks; nothing if no steps come near them. facets:
 /// of their samples.

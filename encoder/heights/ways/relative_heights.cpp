@@ -46,9 +46,8 @@ CodedHeights followedByCorrections(CodedHeights cut, double relative_step, uint3
   GeometryLayers layers = cut.layers;
   layers.corrections = CorrectionKind::kRelative;
   layers.relative = corrections.relative;
-  CodedHeights followed = followedBy(std::move(cut), std::move(layers), corrections.codewords, 0);
-  followed.left = QuantisedHeights::kInexact;
-  return followed;
+  return restoredBy(std::move(cut), std::move(layers), corrections.codewords,
+                    QuantisedHeights::kInexact);
 }
 
 }  // namespace

@@ -40,10 +40,8 @@ CodedHeights codeRestored(const EncodeInputs& inputs, const CodedHeights& lossy)
   GeometryLayers layers = lossy.layers;
   layers.corrections = CorrectionKind::kSamples;
   CodedHeights heights = lossy;
-  for (RatePoint& point : heights.tracks.front().points) point.distortion += quantised->left;
   heights.quantised = quantised;
-  heights.left = quantised->left;
-  return followedBy(std::move(heights), std::move(layers), quantised->corrections, 0);
+  return restoredBy(std::move(heights), std::move(layers), quantised->corrections, quantised->left);
 }
 
 }  // namespace tetrakis::inline ways
