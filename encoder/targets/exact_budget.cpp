@@ -225,7 +225,8 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
 }
 
 /// Ways of heights to the last bit in less than the budget whose prefixes are as good as those of
-/// the lossy heights, which have a curve. Coefficients of a cut are those of the lossy heights.
+/// the lossy heights, which have a curve. Coefficients of a cut are those of the
+/// lossy heights, unless only the lossless way fits.
 std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy,
                                         const ByNeighbours& neighbours) {
   std::vector<HeightsCandidate> ways;

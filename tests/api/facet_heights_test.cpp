@@ -22,16 +22,6 @@ Bytes firstOf(const Bytes& stream, size_t bytes) {
   return {stream.begin(), stream.begin() + static_cast<ptrdiff_t>(bytes)};
 }
 
-double rmseOf(const Raster& truth, const std::vector<std::byte>& decoded) {
-  double squares = 0;
-  const size_t count = decoded.size() / 4;
-  for (size_t i = 0; i < count; ++i) {
-    const double error = sampleAt(truth.data, TKS_F32, i) - sampleAt(decoded, TKS_F32, i);
-    squares += error * error;
-  }
-  return std::sqrt(squares / static_cast<double>(count));
-}
-
 /// Few samples lie beside edges, and only these have all digits of a float.
 TEST(FacetHeights, TakeFewBitsASample) {
   for (const double spacing : {9.3, 20.7, 60.1}) {

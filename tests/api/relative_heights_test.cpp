@@ -36,16 +36,6 @@ std::string nameOf(OffsetKind kind) {
   return kNames[static_cast<size_t>(kind)];
 }
 
-double rmseOf(const Raster& truth, const std::vector<std::byte>& decoded) {
-  double squares = 0;
-  const size_t count = decoded.size() / 4;
-  for (size_t i = 0; i < count; ++i) {
-    const double error = sampleAt(truth.data, TKS_F32, i) - sampleAt(decoded, TKS_F32, i);
-    squares += error * error;
-  }
-  return std::sqrt(squares / static_cast<double>(count));
-}
-
 /// Beside whole steps, offsets cost what floats round: two bits a sample; offsets of squares, which
 /// are 1 in 64 samples, half a bit.
 TEST(RelativeHeights, TakeLittleMoreThanWholeSteps) {

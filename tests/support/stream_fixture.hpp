@@ -171,6 +171,11 @@ inline double squaredError(const samples::Raster& raster, const std::vector<std:
   return sum;
 }
 
+inline double rmseOf(const samples::Raster& raster, const std::vector<std::byte>& decoded) {
+  const auto count = static_cast<double>(decoded.size() / tks_sample_bytes(raster.sample));
+  return std::sqrt(squaredError(raster, decoded) / count);
+}
+
 /// Largest distance from the raster, in sample units.
 inline double largestError(const samples::Raster& raster, const std::vector<std::byte>& decoded) {
   double largest = 0;

@@ -23,15 +23,14 @@ double correctionBytes(const HeightSteps& steps, double samples, const FacetShar
 
 }  // namespace
 
-FacetCut chooseFacetCut(const HeightSteps& steps, Extent extent, const FacetShare& facets,
-                        double room) {
+double chooseFacetCut(const HeightSteps& steps, Extent extent, const FacetShare& facets,
+                      double room) {
   constexpr double kFinest = 2, kHalfOctave = 0.5;
   constexpr double kForPrefixes = 1.1, kWithRoom = 1.25;
   const PlaneView<const int32_t> plane = steps.lifting(extent);
   const TypicalPlane lossy(plane, steps.range_bits, Purpose::kLossy);
   const auto samples = static_cast<double>(markedIn(extent, plane.valid));
-  double least = std::numeric_limits<double>::infinity();
-  FacetCut finest;
+  double least = std::numeric_limits<double>::infinity(), finest = 0;
   for (double log2 = steps.range_bits; log2 >= kFinest; log2 -= kHalfOctave) {
     const PlaneCost cost = lossy.cost(std::exp2(log2));
     const double squares = cost.squares / samples;
@@ -39,7 +38,7 @@ FacetCut chooseFacetCut(const HeightSteps& steps, Extent extent, const FacetShar
         cost.bits / 8 + correctionBytes(steps, samples, facets, std::sqrt(squares));
     if (bytes > std::max(kForPrefixes * least, std::min(kWithRoom * least, room))) break;
     least = std::min(least, bytes);
-    finest = {squares, bytes};
+    finest = squares;
   }
   return finest;
 }

@@ -10,14 +10,10 @@
 
 namespace tetrakis::inline coding_choice {
 
-struct FacetCut {
-  double mean_square = 0;  ///< squared error of a sample, in steps, that it leaves
-  double bytes = 0;        ///< of it and of what follows, mostly within a tenth
-};
-
-/// A cut by typical parts of the heights. For the sake of prefixes it is the finest one that takes,
-/// in all, a tenth more bytes than the best, or a quarter more where there is room for that.
-FacetCut chooseFacetCut(const HeightSteps& steps, Extent extent, const FacetShare& facets,
-                        double room);
+/// The mean squared error, in steps, that the cut leaves, by typical parts of the heights. For the
+/// sake of prefixes it is the finest cut that takes, in all, a tenth more bytes than the best, or a
+/// quarter more where there is room for that. room: bytes.
+double chooseFacetCut(const HeightSteps& steps, Extent extent, const FacetShare& facets,
+                      double room);
 
 }  // namespace tetrakis::inline coding_choice

@@ -36,8 +36,8 @@ namespace tetrakis::inline facets {
 /// What decoded heights say of a sample.
 struct ForetoldSample {
   int32_t step;  ///< with the forecast error
-  size_t level;  ///< of by how much forecasts nearby have missed
-  float sample;  ///< that of the step
+  size_t level;  ///< by how much forecasts nearby have missed (levelOf())
+  float sample;  ///< what the step stands for
 
   /// forecast: which has looked at the sample. height: in whole steps.
   ForetoldSample(int32_t height, const ErrorForecast& forecast, const GeometryHeader& header)

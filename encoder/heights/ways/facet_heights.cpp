@@ -27,11 +27,6 @@ CodedHeights followedByFacets(CodedHeights cut, int unit, uint32_t threads) {
   return restoredBy(std::move(cut), std::move(layers), codewords, QuantisedHeights::kInexact);
 }
 
-FacetCut cutOf(const CodedHeights& lossy, const FacetShare& facets, double room) {
-  const QuantisedHeights& quantised = *lossy.quantised;
-  return chooseFacetCut(quantised.steps, extentOf(*quantised.samples), facets, room);
-}
-
 }  // namespace
 
 /// Where steps are far coarser than floats are, or few values have a table, these say more of most
@@ -53,7 +48,8 @@ bool mayFit(const FacetShare& facets, const QuantisedHeights& heights, uint64_t 
   return facets.beyond * heights.counted() * kBeyond <= static_cast<double>(bytes);
 }
 
-/// Estimates of smooth surfaces are too large. So finer cuts are tried while they cost little.
+/// The estimate takes smooth surfaces for dearer than they are. So finer cuts are tried while they
+/// cost little.
 std::optional<CodedHeights> codeFacets(const EncodeInputs& inputs, const FacetShare& facets) {
   constexpr double kFiner = 1. / 16, kLittle = 1.05, kFinest = 1. / 16;
   constexpr uint64_t kMostTried = 1 << 20;  // samples
@@ -64,7 +60,7 @@ std::optional<CodedHeights> codeFacets(const EncodeInputs& inputs, const FacetSh
     return followedByFacets(codeUpTo(inputs, fine, mean_square), facets.unit,
                             inputs.options.threads);
   };
-  double mean_square = chooseFacetCut(fine->steps, extent, facets, 0).mean_square;
+  double mean_square = chooseFacetCut(fine->steps, extent, facets, 0);
   CodedHeights best = coded(mean_square);
   uint64_t least = bytesOf(best.tracks);
   while (extent.samples() <= kMostTried && (mean_square *= kFiner) > kFinest) {
@@ -86,9 +82,11 @@ std::optional<FacetShare> facetsOf(const CodedHeights& lossy, uint64_t room) {
 
 std::optional<CodedHeights> codeFacets(const CodedHeights& lossy, const FacetShare& facets,
                                        uint64_t room, uint32_t threads) {
-  constexpr double kSurely = 0.9;
+  constexpr double kSurely = 0.9;  // the estimate is rarely off by more
+  const HeightSteps& steps = lossy.quantised->steps;
+  const Extent extent = extentOf(*lossy.quantised->samples);
   for (const double most : {kSurely * static_cast<double>(room), 0.}) {
-    const double mean_square = cutOf(lossy, facets, most).mean_square;
+    const double mean_square = chooseFacetCut(steps, extent, facets, most);
     std::optional<CodedHeights> cut = cutAt(lossy, mean_square * lossy.counted());
     if (!cut) continue;
     CodedHeights coded = followedByFacets(*std::move(cut), facets.unit, threads);

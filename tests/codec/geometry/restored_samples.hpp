@@ -2,9 +2,13 @@
 // Samples, and decoded heights from which corrections restore them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "codec/geometry/steps/height_samples.hpp"
@@ -80,6 +84,29 @@ inline samples::Raster floatsOf(uint32_t width, uint32_t height,
     }
   }
   return raster;
+}
+
+/// Of each prefix: samples are restored one after the other; the others stay as they were. raster:
+/// floats, which the codeword restores. near: with voids. restore: what decoders make of a prefix.
+inline void expectPrefixesRestoreTheFirst(
+    const samples::Raster& raster, const DecodedHeights& near, const GeometryHeader& header,
+    std::span<const uint8_t> codeword,
+    const std::function<DecodedHeights(std::span<const uint8_t> prefix)>& restore) {
+  const std::vector<std::byte> before = samplesOf(near, header);
+  size_t known = 0;
+  for (size_t n = 0; n <= codeword.size(); ++n) {
+    const std::vector<std::byte> out = samplesOf(restore(codeword.first(n)), header);
+    size_t changed = 0;
+    for (size_t i = 0; i < kSamples; ++i) {
+      const bool same = std::memcmp(&out[4 * i], &before[4 * i], 4) == 0;
+      if (!near.geometry.valid[i] || same) continue;
+      changed = i + 1;
+      ASSERT_EQ(std::memcmp(&out[4 * i], &raster.data[4 * i], 4), 0) << n << " bytes, " << i;
+    }
+    ASSERT_GE(changed, known) << n;
+    known = changed;
+  }
+  EXPECT_GT(known, kSamples - 10);
 }
 
 }  // namespace tetrakis::test

@@ -49,8 +49,6 @@ class TexturePlace {
   std::optional<tks_window> texelsOver(const tks_window& samples) const;
 
  private:
-  bool isElsewhere(const PlacedRaster& heights) const;
-
   uint32_t width_, height_;  ///< of the texture
   std::function<std::array<double, 2>(double, double)> texel_at_;
   bool own_ = false;
