@@ -76,6 +76,23 @@ TEST_F(Vectors, ReferenceDecoderPasses) {
   }
 }
 
+/// The encoder is free to choose another way, and then a vector no longer tests what it is for.
+TEST_F(Vectors, OfFacetsHaveThem) {
+  const auto vectors = readManifest(kVectors);
+  ASSERT_TRUE(vectors.ok());
+  size_t seen = 0;
+  for (const Vector& vector : *vectors) {
+    if (!vector.name.starts_with("facets_")) continue;
+    const auto stream = readFile(std::string(kVectors) + "/" + vector.file);
+    ASSERT_TRUE(stream.ok());
+    const auto header = readHeader(*stream);
+    ASSERT_TRUE(header.ok());
+    EXPECT_EQ(header->header.layers.corrections, CorrectionKind::kFacets) << vector.name;
+    ++seen;
+  }
+  EXPECT_EQ(seen, 4u);
+}
+
 /// Every stream on disk is listed, in the manifest and in the README, and small.
 TEST_F(Vectors, ManifestIsComplete) {
   const auto vectors = readManifest(kVectors);
