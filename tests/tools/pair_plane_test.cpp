@@ -108,7 +108,7 @@ TEST(PairPlane, ExactPairsEndTheHull) {
 }
 
 /// Tracks that are decoded once, and textures that are drawn at once, give what each stream of two
-/// prefixes gives by itself.
+/// prefixes gives by itself, but for the rounding of a graphics card's driver.
 TEST(PairPlane, PairsAreStreamsOfTheirPrefixes) {
   SynthOptions options;
   options.size = 65;
@@ -136,7 +136,7 @@ TEST(PairPlane, PairsAreStreamsOfTheirPrefixes) {
       const std::vector<uint8_t> cut = tracks->cut({plane->heights[h], plane->textures[t]});
       const Result<Measurement> seen = comparer->measure(cut, 0);
       ASSERT_TRUE(seen.ok());
-      EXPECT_EQ(plane->at(h, t), *seen->screen_psnr) << h << ", " << t;
+      EXPECT_NEAR(plane->at(h, t), *seen->screen_psnr, 0.01) << h << ", " << t;
     }
 }
 

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "tools/render/texture_pyramid.hpp"
 
@@ -195,6 +197,16 @@ TEST_F(Rendering, SeveralCamerasGiveWhatSingleOnesGive) {
     EXPECT_EQ((*pictures)[i].rgba, draw(mesh, (*cameras)[i]).rgba);
 }
 
+/// Pictures of two programs need not agree to the bit: a driver of a graphics card rounds the
+/// coordinates of a fragment as suits the program.
+void expectAlike(const Picture& a, const Picture& b) {
+  ASSERT_EQ(a.rgba.size(), b.rgba.size());
+  int most = 0;
+  for (size_t i = 0; i < a.rgba.size(); ++i)
+    most = std::max(most, std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
+  EXPECT_LE(most, 2);
+}
+
 /// Several textures are drawn at once, unless one of them has holes.
 TEST_F(Rendering, EachTextureGivesWhatItGivesAlone) {
   const Result<std::vector<Camera>> cameras = presetCameras("all", {{-1, 0, -1}, {1, 0.5, 1}});
@@ -218,8 +230,10 @@ TEST_F(Rendering, EachTextureGivesWhatItGivesAlone) {
     for (size_t i = 0; i < count; ++i) {
       mesh.texture = &images[i];
       ASSERT_EQ(drawn[i].size(), cameras->size());
-      for (size_t c = 0; c < cameras->size(); ++c)
-        EXPECT_EQ(drawn[i][c].rgba, draw(mesh, (*cameras)[c]).rgba) << i << " of " << count;
+      for (size_t c = 0; c < cameras->size(); ++c) {
+        SCOPED_TRACE(std::to_string(i) + " of " + std::to_string(count));
+        expectAlike(drawn[i][c], draw(mesh, (*cameras)[c]));
+      }
     }
   }
 }
