@@ -12,7 +12,7 @@
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/pieces.hpp"
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "wavelet/pyramid.hpp"
 

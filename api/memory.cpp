@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "bitstream/stream/correction_tracks.hpp"
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 #include "codec/geometry/values/value_table.hpp"
 #include "codec/lines/shown_lines.hpp"
 #include "codec/mesh/budget_mesh.hpp"

@@ -7,14 +7,14 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "encoder/heights/lines_to_code.hpp"
 #include "encoder/heights/quantised_heights.hpp"
-#include "encoder/heights/repeated_lines.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
 #include "encoder/selection/selection.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/meet_target.hpp"
 #include "encoder/textures/coded_texture.hpp"
-#include "encoder/textures/repeated_texels.hpp"
+#include "encoder/textures/texel_lines_to_code.hpp"
 #include "encoder/views/camera_checks.hpp"
 #include "encoder/views/map_worth.hpp"
 #include "encoder/views/view_priorities.hpp"

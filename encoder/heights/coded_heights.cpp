@@ -131,7 +131,7 @@ std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            CoefficientOptions options) {
   const HeightSteps& steps = heights.steps;
   options.share = steps.liftedShare();
-  return encodeGeometry(steps.lifting(extentOf(*heights.samples)), wavelet, options);
+  return encodeCoefficients(steps.lifting(extentOf(*heights.samples)), wavelet, options);
 }
 
 HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,

@@ -12,7 +12,7 @@
 
 #include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/coding_choice/flat_choice.hpp"
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "ratecontrol/curves/coded_tracks.hpp"
 #include "wavelet/choice/filter_choice.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "bitstream/stream/packet.hpp"
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 #include "encoder/heights/coded_heights.hpp"
 
 namespace tetrakis::inline heights {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 
 namespace tetrakis::inline heights {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/textures/coded_texture.hpp"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "bitstream/stream/header.hpp"
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 #include "conformance/samples/header_seal.hpp"
 #include "tests/support/indexed_terrain.hpp"
 #include "texture_wavelet/texture_decoder.hpp"

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/geometry_decoder.hpp"
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_decoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "ratecontrol/curves/track_order.hpp"
 #include "tests/support/random_planes.hpp"
@@ -123,7 +123,7 @@ Coded encode(const PlaneView<const int32_t>& heights, const WaveletSpec& spec, i
       static_cast<uint8_t>(fraction_bits > 0 ? 0 : spec.first_doubled);
   coded.header.regions.side_log2 = static_cast<uint8_t>(region_log2);
   const std::vector<EncodedTrack> tracks =
-      encodeGeometry(heights, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
+      encodeCoefficients(heights, coded.header.wavelet, {UINT64_MAX, region_log2, 2});
   coded.header.planes = static_cast<uint8_t>(tracks.front().planes);
   for (const EncodedTrack& track : tracks) {
     coded.codewords.push_back(track.codeword);
@@ -141,8 +141,8 @@ Window randomWindow(Random& random, const Size& size) {
 
 void expectWindows(Random& random, const Coded& coded, const Size& size,
                    const std::vector<uint8_t>& valid) {
-  const DecodedGeometry whole = decodeGeometry(coded.header, coded.spans(), valid);
-  const DecodedGeometry again = decodeGeometry(coded.header, coded.spans(), valid, {}, {5});
+  const DecodedGeometry whole = decodeCoefficients(coded.header, coded.spans(), valid);
+  const DecodedGeometry again = decodeCoefficients(coded.header, coded.spans(), valid, {}, {5});
   ASSERT_EQ(whole.heights, again.heights);
   ASSERT_EQ(whole.significant, again.significant);
   ASSERT_EQ(whole.quiet_levels, again.quiet_levels);
@@ -151,7 +151,7 @@ void expectWindows(Random& random, const Coded& coded, const Size& size,
         i == 0 ? Window{0, 0, size.width, size.height} : randomWindow(random, size);
     const auto threads = static_cast<uint32_t>(1 + i % 3);
     const DecodedGeometry part =
-        decodeGeometry(coded.header, coded.spans(), valid, {0, window}, {threads});
+        decodeCoefficients(coded.header, coded.spans(), valid, {0, window}, {threads});
     ASSERT_EQ(part.fraction_bits, whole.fraction_bits);
     ASSERT_EQ(part.heights,
               cut(std::span<const int32_t>(whole.heights), size.extent(), {0, window}))
@@ -237,7 +237,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const WaveletHeader wavelet{{1, 1, 1}, 0, 10};
   for (const uint64_t limit : {UINT64_MAX, uint64_t{6000}}) {
-    const auto one = encodeGeometry({heights, size.extent()}, wavelet, {limit, 5, 1});
+    const auto one = encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, 1});
     uint64_t bytes = 0;
     for (const EncodedTrack& track : one) bytes += track.codeword.size();
     EXPECT_EQ(one.front().complete, limit == UINT64_MAX);
@@ -246,7 +246,7 @@ TEST(Tracks, AreTheSameForAllThreadsAndStopTogether) {
       EXPECT_LT(bytes, 20000u);
     }
     for (const uint32_t threads : {2u, 5u}) {
-      const auto many = encodeGeometry({heights, size.extent()}, wavelet, {limit, 5, threads});
+      const auto many = encodeCoefficients({heights, size.extent()}, wavelet, {limit, 5, threads});
       ASSERT_EQ(one.size(), many.size());
       for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].codeword, many[i].codeword);
     }
@@ -260,7 +260,7 @@ TEST(Tracks, AreOrderedBySlope) {
   const Size size{150, 130};
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const auto tracks =
-      encodeGeometry({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
+      encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
   const OrderedTracks order = orderTracks({Component::kGeometry, tracks}, TrackOrder::kSlopes);
   std::vector<uint64_t> sent(tracks.size());
   ASSERT_EQ(order.points.size(), order.packets.size() + 1);
@@ -287,7 +287,7 @@ TEST(Tracks, KeepTogether) {
   const Size size{150, 130};
   const Plane heights = randomPlane(random, size.count(), -300, 300);
   const auto tracks =
-      encodeGeometry({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
+      encodeCoefficients({heights, size.extent()}, {{1, 1, 1}, 0, 10}, {UINT64_MAX, 5, 1});
   const CodedTracks coded{Component::kGeometry, tracks};
   const auto changes = [&](TrackOrder by) {
     const OrderedTracks order = orderTracks(coded, by);

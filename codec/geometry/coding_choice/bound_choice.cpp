@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/typical_parts.hpp"
 
@@ -56,7 +56,7 @@ class PartTrial {
   Mask lifted() const { return steps_.lifting(header_.extent()).valid; }
   EncodedTrack coded(const std::vector<int32_t>& steps, const WaveletHeader& wavelet) const {
     const CoefficientOptions options{.share = steps_.liftedShare()};
-    return encodeGeometry({steps, header_.extent(), lifted()}, wavelet, options).front();
+    return encodeCoefficients({steps, header_.extent(), lifted()}, wavelet, options).front();
   }
 
   HeightSteps steps_;

@@ -10,9 +10,9 @@
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
+#include "codec/geometry/coefficients_decoder.hpp"
 #include "codec/geometry/corrections/correction_parts.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
-#include "codec/geometry/geometry_decoder.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
 
 namespace tetrakis::inline coding_choice {

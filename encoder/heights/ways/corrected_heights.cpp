@@ -9,7 +9,7 @@
 #include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/coding_choice/exact_cut.hpp"
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 #include "encoder/heights/followed_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/cut_heights.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 #include "encoder/heights/followed_heights.hpp"
 
 namespace tetrakis::inline ways {

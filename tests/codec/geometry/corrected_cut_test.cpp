@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::test {
@@ -31,7 +31,7 @@ class CorrectedCuts : public testing::Test {
     header_.width = kExtent.width;
     header_.height = kExtent.height;
     header_.wavelet = chooseWavelet(plane, steps_.range_bits, Purpose::kLossy);
-    track_ = encodeGeometry(plane, header_.wavelet, {}).front();
+    track_ = encodeCoefficients(plane, header_.wavelet, {}).front();
     header_.planes = static_cast<uint8_t>(track_.planes);
   }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 
@@ -46,7 +46,7 @@ struct Grid {
     header.width = kExtent.width;
     header.height = kExtent.height;
     header.wavelet = chooseWavelet(plane(), kRangeBits, purpose);
-    EncodedTrack track = encodeGeometry(plane(), header.wavelet, {}).front();
+    EncodedTrack track = encodeCoefficients(plane(), header.wavelet, {}).front();
     header.planes = static_cast<uint8_t>(track.planes);
     return track;
   }

@@ -7,8 +7,8 @@
 #include <bit>
 #include <cmath>
 
-#include "codec/geometry/geometry_decoder.hpp"
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_decoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
@@ -35,7 +35,7 @@ Coded encode(const Plane& heights, const Size& size, const WaveletHeader& wavele
   coded.header.width = size.width;
   coded.header.height = size.height;
   coded.header.wavelet = wavelet;
-  coded.track = encodeGeometry({heights, size.extent(), valid}, wavelet, {limit}).front();
+  coded.track = encodeCoefficients({heights, size.extent(), valid}, wavelet, {limit}).front();
   coded.header.planes = static_cast<uint8_t>(coded.track.planes);
   return coded;
 }
@@ -46,7 +46,7 @@ Coded encode(const Plane& heights, const Size& size, int bits, Purpose purpose) 
 }
 
 DecodedGeometry decode(const Coded& coded, std::vector<uint8_t> valid = {}) {
-  return decodeGeometry(coded.header, {coded.track.codeword}, std::move(valid));
+  return decodeCoefficients(coded.header, {coded.track.codeword}, std::move(valid));
 }
 
 Plane waves(const Size& size, double amplitude) {
@@ -151,8 +151,8 @@ TEST(GeometryTrack, StatedDistortionIsCloseToTheRealOne) {
     const auto& points = coded.track.points;
     for (size_t i = 5; i + 1 < points.size(); i += 9) {
       if (points[i].distortion < 100.0 * static_cast<double>(heights.size())) break;
-      const auto decoded =
-          decodeGeometry(coded.header, {std::span(coded.track.codeword).first(points[i].bytes)});
+      const auto decoded = decodeCoefficients(
+          coded.header, {std::span(coded.track.codeword).first(points[i].bytes)});
       double squares = 0;
       for (size_t k = 0; k < heights.size(); ++k) {
         squares += std::pow(std::ldexp(decoded.heights[k], -decoded.fraction_bits) - heights[k], 2);
@@ -226,7 +226,7 @@ TEST(GeometryTrack, AnyBytesAndHeadersDecode) {
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
     std::vector<uint8_t> valid;
     if (run % 2 == 0) valid = validity(VoidShape::kSpeckle, header.width, header.height);
-    const DecodedGeometry decoded = decodeGeometry(header, {bytes}, valid);
+    const DecodedGeometry decoded = decodeCoefficients(header, {bytes}, valid);
     EXPECT_EQ(decoded.heights.size(), size_t{header.width} * header.height);
     EXPECT_EQ(decoded.significant.size(), decoded.heights.size());
   }

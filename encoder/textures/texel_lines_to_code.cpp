@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/textures/repeated_texels.hpp"
+#include "encoder/textures/texel_lines_to_code.hpp"
 
 #include "encoder/inputs/repeated_lines.hpp"
 

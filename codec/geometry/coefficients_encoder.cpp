@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/geometry_encoder.hpp"
+#include "codec/geometry/coefficients_encoder.hpp"
 
 #include <array>
 #include <cassert>
@@ -45,9 +45,9 @@ std::vector<int32_t> transformed(const PlaneView<const int32_t>& heights,
 
 }  // namespace
 
-std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
-                                         const WaveletHeader& wavelet,
-                                         const CoefficientOptions& options) {
+std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
+                                             const WaveletHeader& wavelet,
+                                             const CoefficientOptions& options) {
   static const FlatAreas kNone;
   static const PriorityMap kAlike;
   const FlatAreas& flat = options.flat == nullptr ? kNone : *options.flat;

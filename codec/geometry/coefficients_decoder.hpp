@@ -33,8 +33,8 @@ struct KnownSamples {
 /// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). known: of
 /// the whole plane. Safe on any bytes and on any header that readHeader() accepts. The memory is
 /// that of earlier calls with the same header, known samples and view, which is no window.
-DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
-                               KnownSamples known = {}, const View& view = {},
-                               const DecodeContext<TrackMemory>& context = {});
+DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords& codewords,
+                                   KnownSamples known = {}, const View& view = {},
+                                   const DecodeContext<TrackMemory>& context = {});
 
 }  // namespace tetrakis::inline geometry

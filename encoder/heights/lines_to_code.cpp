@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/repeated_lines.hpp"
+#include "encoder/heights/lines_to_code.hpp"
 
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/inputs/repeated_lines.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/geometry_decoder.hpp"
+#include "codec/geometry/coefficients_decoder.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -103,9 +103,9 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
 
 }  // namespace
 
-DecodedGeometry decodeGeometry(const GeometryHeader& header, const Codewords& codewords,
-                               KnownSamples known, const View& view,
-                               const DecodeContext<TrackMemory>& context) {
+DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords& codewords,
+                                   KnownSamples known, const View& view,
+                                   const DecodeContext<TrackMemory>& context) {
   std::vector<uint8_t>& valid = known.valid;
   std::vector<int32_t> area_heights(known.flat.values.begin(), known.flat.values.end());
   const HeldSamples flat{known.flat.numbers, area_heights};

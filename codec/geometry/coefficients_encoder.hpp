@@ -29,8 +29,8 @@ struct CoefficientOptions {
 /// Codes heights in steps, with the mask of the samples that are lifted. Returns one track for each
 /// of regionsOf(). wavelet: from chooseWavelet(). Distortion is in squared units of the heights,
 /// summed over the samples that are lifted and multiplied by the share.
-std::vector<EncodedTrack> encodeGeometry(const PlaneView<const int32_t>& heights,
-                                         const WaveletHeader& wavelet,
-                                         const CoefficientOptions& options);
+std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& heights,
+                                             const WaveletHeader& wavelet,
+                                             const CoefficientOptions& options);
 
 }  // namespace tetrakis::inline geometry

@@ -9,7 +9,7 @@
 
 #include "base/view.hpp"
 #include "bitstream/stream/geometry_header.hpp"
-#include "codec/geometry/geometry_decoder.hpp"
+#include "codec/geometry/coefficients_decoder.hpp"
 
 namespace tetrakis::inline geometry {
 

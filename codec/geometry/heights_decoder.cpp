@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/height_layers.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -179,8 +179,8 @@ DecodedGeometry decodeSteps(const GeometryHeader& header, const GeometryLayers& 
   FlatAreas& flat = growing ? memory->flat : of_this_call;
   if (flat.empty())
     flat = flatAreasOf(taken, header, layers, layers.late_mask ? *bridged : Mask(valid));
-  return decodeGeometry(header, coefficients, {std::move(valid), flat.held(), bridged}, view,
-                        {context.threads, growing ? &memory->tracks : nullptr});
+  return decodeCoefficients(header, coefficients, {std::move(valid), flat.held(), bridged}, view,
+                            {context.threads, growing ? &memory->tracks : nullptr});
 }
 
 /// Decodes a view of the coded lines, with everything that the codewords hold for it.
