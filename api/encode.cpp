@@ -103,8 +103,9 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
 /// Streams for windows hold all that there is: a texture beside heights within a largest error is
 /// cut where it is as good as these.
 Status checkWindows(const tks_encode_options& o, bool has_texture) {
-  const bool whole = o.lossless != 0 || (o.max_error > 0 && !has_texture);
-  if (o.index != TKS_INDEX_WINDOWS || whole) return {};
+  if (o.index != TKS_INDEX_WINDOWS) return {};
+  if (o.regions == 1) return misuse("A stream that is laid out for windows needs regions.");
+  if (o.lossless != 0 || (o.max_error > 0 && !has_texture)) return {};
   return misuse(
       "Only a lossless stream, or heights alone within a largest error, are laid out for windows: "
       "a shorter stream would lack whole regions.");

@@ -48,6 +48,8 @@ std::string canonicalUnit(std::string_view unit) {
   });
   for (const OtherName& other : kOtherNames)
     if (plain == other.name) return std::string(other.ours);
+  for (const NamedLength& length : kLengths)
+    if (plain == length.name) return plain;
   return std::string(unit);
 }
 

@@ -18,8 +18,8 @@ constexpr int kWindowRegionLog2 = 8;
 /// 0: one region.
 int wantedLog2(const tks_encode_options& options, bool large) {
   if (options.regions > 1) return std::countr_zero(options.regions);
-  if (options.regions == 1 || !large) return 0;
-  return options.index == TKS_INDEX_WINDOWS ? kWindowRegionLog2 : kRegionLog2;
+  if (options.index == TKS_INDEX_WINDOWS) return kWindowRegionLog2;
+  return options.regions == 1 || !large ? 0 : kRegionLog2;
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ struct RegionChoice {
   bool windows = false;  ///< the stream is made to be read by windows of it
 };
 
-/// large: planes of that size are coded in regions unless the caller says otherwise.
+/// large: planes of that size are coded in regions unless the caller says otherwise; for windows
+/// all are.
 RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large);
 
 }  // namespace tetrakis::inline inputs

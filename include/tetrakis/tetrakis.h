@@ -191,7 +191,8 @@ typedef struct tks_encode_options {
   uint32_t threads;  /* 0 or 1: one thread; the bytes never depend on it */
   uint32_t regions;  /* side of the regions by which windows can be decoded, in samples of either
                         component: a power of two from 16 to 2^20; 1: none, which tks_info calls 0;
-                        0: chosen, none up to 1025 x 1025 heights, 2048² texels */
+                        0: chosen, none up to 1025 x 1025 heights, 2048² texels, or for windows
+                        256 wherever that makes several */
   int index;         /* a tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;

@@ -64,6 +64,20 @@ TEST_F(CliTest, WhatIsGuessedOfTheGroundIsTold) {
     EXPECT_EQ(cli(std::string("-q decode -f bare.tks ") + output).err, "");
   }
   EXPECT_EQ(cli("decode bare.tks --height h.tif").err, "");
+  ASSERT_EQ(cli("-q encode bare.tif --unit degC --spacing 30 --lossless -o warm.tks").code, 0);
+  EXPECT_EQ(cli("decode warm.tks --mesh warm.glb").err,
+            "note: the unit of the heights, 'degC', is no length and counts as metres\n");
+}
+
+/// Mip levels end before ground does whose side is no multiple of their spacing.
+TEST_F(CliTest, SmallLandscapesCoverTheGround) {
+  ASSERT_TRUE(tools::writeHeights(path("h.tif"), hills(100)).ok());
+  ASSERT_EQ(cli("-q encode h.tif --lossless -o h.tks").code, 0);
+  for (const char* size : {"unity:33", "unity:65", "unity:129"}) {
+    const Outcome run = cli(std::string("decode h.tks -f --json --height u.raw --size ") + size);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NEAR(nlohmann::json::parse(run.out)["width"], 99 * 30, 1e-9) << size;
+  }
 }
 
 TEST_F(CliTest, OptionsForEnginesThatDoNotGoTogetherAreRefused) {

@@ -128,6 +128,20 @@ TEST_F(CliPlace, SampleTerrainsLieInTheAlps) {
   }
 }
 
+TEST_F(CliPlace, AuthoritiesAreWrittenInEitherCase) {
+  ASSERT_EQ(cli("synth --size 17 -o s").code, 0);
+  const auto crsOf = [this](const std::string& given) {
+    EXPECT_EQ(
+        cli("encode s/height.tif --crs " + given + " --lossless -f -o s.tks").err.find("PROJ"),
+        std::string::npos);
+    return Json::parse(cli("info --json s.tks").out)["heights"]["crs"];
+  };
+  EXPECT_EQ(crsOf("epsg:25832"), "EPSG:25832");
+  EXPECT_EQ(cli("-q tiles s.tks -o t").code, 0);
+  EXPECT_EQ(crsOf("esri:102014"), "ESRI:102014");
+  EXPECT_EQ(crsOf("urn:ogc:def:crs:EPSG::25832"), "urn:ogc:def:crs:EPSG::25832");
+}
+
 TEST_F(CliPlace, WorldFilesAreReadAndWritten) {
   const std::string world = "10.5\n0\n0\n-10.25\n400005.25\n5300034.875\n";
   const tools::GeoTransform wanted{400000, 10.5, 0, 5300040, 0, -10.25};

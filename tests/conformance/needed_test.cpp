@@ -132,11 +132,18 @@ TEST(NeededRanges, LieTogetherWhereTheIndexIsForWindows) {
   EXPECT_EQ(stream.info().index, TKS_INDEX_WINDOWS);
   EXPECT_EQ(Stream(strewn).info().index, TKS_INDEX_PACKETS);
   EXPECT_EQ(Stream(encode(&heights, nullptr, lossless())).info().index, TKS_INDEX_NONE);
+  tks_encode_options by_default = forWindows();
+  by_default.regions = 0;
+  const samples::Raster larger = ridges(600, 530, TKS_I16);
+  EXPECT_EQ(Stream(encode(&larger, nullptr, by_default)).info().regions, 256u);
   tks_encode_options cut = budget(9000);
   cut.index = TKS_INDEX_WINDOWS;
   tks_buffer none = {};
   const tks_heights source = heights.heights();
   EXPECT_EQ(tks_encode(&source, nullptr, &cut, &none, nullptr, 0), TKS_USAGE);
+  tks_encode_options one_region = forWindows();
+  one_region.regions = 1;
+  EXPECT_EQ(tks_encode(&source, nullptr, &one_region, &none, nullptr, 0), TKS_USAGE);
 }
 
 /// Heights within a largest error are whole, too; beside them a texture would be cut.

@@ -68,6 +68,20 @@ TEST(EngineHeights, PlanesStayPlanesInTheirRange) {
   }
 }
 
+/// A coarse level ends before the ground does: what is there lies where it lay, and the rest is
+/// level.
+TEST(EngineHeights, ACoarseLevelCoversTheGround) {
+  std::vector<float> ground;
+  for (int i = 0; i < 5 * 5; ++i) ground.push_back(static_cast<float>(i % 5));
+  const auto out = engineHeights({ground, 5, 5, 8, 8, 1, {}, 0.8, 0.8}, {Engine::kUnity, 33});
+  ASSERT_TRUE(out.ok());
+  EXPECT_DOUBLE_EQ(out->width, 4.8 * 8);
+  EXPECT_DOUBLE_EQ(out->length, 4.8 * 8);
+  for (int i = 7; i <= 20; ++i)  // the cubic needs a sample on either side
+    EXPECT_NEAR(out->samples[i], 65535 * i * 4.8 / 32 / 4, 1) << i;
+  for (int i = 27; i < 33; ++i) EXPECT_EQ(out->samples[i], 65535) << i;
+}
+
 TEST(EngineHeights, VoidsLieAtTheBottomAndFlatGroundIsZero) {
   const float none = std::numeric_limits<float>::quiet_NaN();
   const EngineHeights out = heightsOf({5, 9, none, 9}, 2, {Engine::kUnity, 33});

@@ -29,6 +29,8 @@ TEST(Units, SurveyFeetAreNotFeet) {
   EXPECT_EQ(lengthName(1200.0 / 3937), "us-ft");
   EXPECT_EQ(lengthName(0.3048), "ft");
   EXPECT_EQ(lengthName(0.3), "");
+  EXPECT_EQ(canonicalUnit("FT"), "ft");
+  EXPECT_EQ(canonicalUnit("M"), "m");
   EXPECT_EQ(canonicalUnit("K"), "K");
 }
 

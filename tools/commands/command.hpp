@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "base/status.hpp"
+#include "tools/files/file_bytes.hpp"
 #include "tools/files/positive.hpp"
 #include "tools/files/stream.hpp"
 #include "tools/files/units.hpp"
@@ -43,6 +44,16 @@ void addView(CLI::App& app, CommandLine& line);
 /// A line on standard error, unless it is empty or -q is given.
 inline void tellNote(const std::string& text, bool quiet) {
   if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
+}
+
+/// What is to be said where heights count as metres beside the ground; "" if their unit is a
+/// length.
+inline std::string guessedUnitNote(const tks_info& info) {
+  if (!info.has_heights) return "";
+  if (*info.unit == '\0')
+    return "the stream does not tell the unit of its heights, which counts as metres";
+  if (metresPerUnit(info.unit)) return "";
+  return "the unit of the heights, " + quoted(info.unit) + ", is no length and counts as metres";
 }
 
 /// What is to be said of a mesh that has more triangles than were asked for (0: any number); "" of

@@ -78,8 +78,7 @@ class Decoding {
   void tellGuesses() const {
     const tks_info& info = decoder_.info();
     if (!info.has_heights || !(mesh_ || normals_ || engine_)) return;
-    if (*info.unit == '\0')
-      tellNote("the stream does not tell the unit of its heights, which counts as metres", quiet_);
+    tellNote(guessedUnitNote(info), quiet_);
     if (info.spacing_x <= 0 && info.spacing_y <= 0)
       tellNote("the stream does not tell the spacing of its samples, which counts as " +
                    shortest(kUnknownSpacing) + " m",

@@ -89,6 +89,7 @@ Status makeTiles(const TilesArguments& arguments, bool quiet) {
                         [&progress](double done) { Progress::report(&progress, done); });
   if (!written.ok()) return written.status();
   if (const Status status = folder->commit(); !status.ok()) return status;
+  tellNote(guessedUnitNote(stream->decoder.info()), quiet);
   if (!quiet) {
     const std::string pictures =
         written->pictures == 0 ? "" : std::to_string(written->pictures) + " of imagery, ";

@@ -2,6 +2,7 @@
 #include "tools/commands/engine_output.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "tools/report/scene.hpp"
@@ -33,7 +34,7 @@ Result<EngineHeights> decodeEngineHeights(Decoder& decoder, const EngineSize& si
                                           uint64_t copies) {
   const tks_info& info = decoder.info();
   if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
-  const uint32_t longest = std::max(info.width, info.height);
+  const uint32_t width = info.width, height = info.height, longest = std::max(width, height);
   uint32_t level = 0;
   while (level < info.coarsest_level && (longest - 1) >> (level + 1) >= size.side - 1) ++level;
   if (const Status set = decoder.setLevels(level, 0); !set.ok()) return set;
@@ -45,9 +46,13 @@ Result<EngineHeights> decodeEngineHeights(Decoder& decoder, const EngineSize& si
   const Result<std::vector<float>> surface = decoder.surface();
   if (!surface) return surface.status();
   if (const Status set = decoder.setLevels(0, 0); !set.ok()) return set;
-  return engineHeights({*surface, frame.width, frame.height, frame.spacing_x, frame.spacing_y,
-                        frame.metres_per_unit, frame.axes},
-                       size);
+  const auto beyond = [level](uint32_t whole, uint32_t coarse) {
+    return std::ldexp(whole - 1.0, -static_cast<int>(level)) - (coarse - 1.0);
+  };
+  return engineHeights(
+      {*surface, frame.width, frame.height, frame.spacing_x, frame.spacing_y, frame.metres_per_unit,
+       frame.axes, beyond(width, frame.width), beyond(height, frame.height)},
+      size);
 }
 
 Json engineJson(const EngineHeights& heights) {

@@ -37,10 +37,11 @@ struct Taps {
   std::array<double, 4> weight;
 };
 
-std::vector<Taps> tapsOf(uint32_t side, uint32_t samples) {
+/// beyond: of EngineGround.
+std::vector<Taps> tapsOf(uint32_t side, uint32_t samples, double beyond) {
   std::vector<Taps> taps(side);
   for (uint32_t i = 0; i < side; ++i) {
-    const double place = double(i) * (samples - 1) / (side - 1);
+    const double place = std::min(i * (samples - 1 + beyond) / (side - 1), samples - 1.0);
     const double first = std::min(std::floor(place), samples - 2.0), t = place - first;
     for (size_t k = 0; k < 4; ++k)
       taps[i].at[k] = static_cast<size_t>(std::clamp(first + double(k) - 1, 0.0, samples - 1.0));
@@ -63,7 +64,8 @@ std::vector<uint16_t> resampled(const EngineGround& ground, uint32_t side, const
                                 const std::array<double, 2>& range) {
   const auto [low, high] = range;
   const double unit = high > low ? 65535 / (high - low) : 0;
-  std::vector<Taps> columns = tapsOf(side, ground.width), rows = tapsOf(side, ground.height);
+  std::vector<Taps> columns = tapsOf(side, ground.width, ground.beyond_x);
+  std::vector<Taps> rows = tapsOf(side, ground.height, ground.beyond_y);
   if (turn.columns_back) std::reverse(columns.begin(), columns.end());
   if (turn.rows_back) std::reverse(rows.begin(), rows.end());
   std::vector<uint16_t> samples;
@@ -134,8 +136,8 @@ Result<EngineHeights> engineHeights(const EngineGround& ground, const EngineSize
     return Status(TKS_USAGE, "all samples are void: there is no height to write");
   out.lowest = low * ground.metres_per_unit;
   out.highest = high * ground.metres_per_unit;
-  out.width = (ground.width - 1) * ground.spacing_x;
-  out.length = (ground.height - 1) * ground.spacing_y;
+  out.width = (ground.width - 1 + ground.beyond_x) * ground.spacing_x;
+  out.length = (ground.height - 1 + ground.beyond_y) * ground.spacing_y;
   const QuarterTurn turn(ground.axes);
   if (turn.transposed) std::swap(out.width, out.length);
   out.samples = resampled(ground, size.side, turn, {low, high});

@@ -38,18 +38,21 @@ struct EngineGround {
   double spacing_x = 0, spacing_y = 0;  ///< metres
   double metres_per_unit = 1;           ///< of the heights
   GroundAxes axes{};
+  /// How far the ground goes on behind the last samples of a coarse level, in samples, 0 to 1.
+  double beyond_x = 0, beyond_y = 0;
 };
 
 struct EngineHeights {
   EngineSize size;
   std::vector<uint16_t> samples;   ///< 0 the lowest height, 65535 the highest
   double lowest = 0, highest = 0;  ///< metres
-  double width = 0, length = 0;    ///< metres from the first sample to the last
+  double width = 0, length = 0;    ///< metres from corner to corner
   size_t voids = 0;                ///< samples of the ground without a height: the lowest
   bool askew = false;              ///< rows run neither north and south nor east and west
 };
 
-/// The ground from corner to corner by cubic interpolation (Keys 1981), within its range. Engines
+/// The ground from corner to corner by cubic interpolation (Keys 1981), within its range; it is
+/// level beyond the last samples. Engines
 /// know no geotransform: the first row becomes the northern one, and its first sample the western
 /// one, or those that are nearest to that where the ground lies askew. TKS_USAGE if all is void.
 Result<EngineHeights> engineHeights(const EngineGround& ground, const EngineSize& size);

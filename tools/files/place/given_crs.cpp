@@ -4,11 +4,12 @@
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/geo_keys.hpp"
 #include "tools/files/place/ground_spacing.hpp"
+#include "tools/files/place/proj_objects.hpp"
 
 namespace tetrakis::tools {
 
 void giveCrs(HeightFile& heights, const std::string& crs) {
-  heights.crs = crs;
+  heights.crs = withUpperCaseAuthority(crs);
   heights.geo_keys.clear();
   if (crsUnit(crs, CrsAxis::kVertical)) heights.vertical_datum.clear();
   setGroundSpacing(heights);

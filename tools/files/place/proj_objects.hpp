@@ -16,6 +16,9 @@ struct ReleaseProj {
 using ProjContext = std::unique_ptr<PJ_CONTEXT, ReleaseProj>;
 using ProjObject = std::unique_ptr<PJ, ReleaseProj>;
 
+/// "EPSG:4326" for "epsg:4326", as pyproj and PostGIS may write it; other texts as they are.
+std::string withUpperCaseAuthority(std::string text);
+
 /// One that prints nothing.
 ProjContext quietContext();
 
