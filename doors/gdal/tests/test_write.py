@@ -101,6 +101,8 @@ def test_blocksize_and_index(tmp_path):
     assert copy_size(tmp_path, heights, "INDEX=WINDOWS", "BLOCKSIZE=32") > plain
     refused(lambda: copy(heights, tmp_path / "b.tks", "INDEX=WINDOWS", "BYTES=4000"), "lossless")
     refused(lambda: copy(heights, tmp_path / "b.tks", "INDEX=MAYBE"), "INDEX=MAYBE")
+    unregioned = ("INDEX=WINDOWS", "BLOCKSIZE=NONE")
+    refused(lambda: copy(heights, tmp_path / "b.tks", *unregioned), *unregioned)
     for side in ("8", "100", "2097152", "-64", "x"):
         option = "BLOCKSIZE=" + side
         refused(lambda option=option: copy(heights, tmp_path / "b.tks", option), option)
