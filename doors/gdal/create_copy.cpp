@@ -70,18 +70,30 @@ std::optional<double> boundOf(const std::string& name, const Parts& parts, doubl
   return left * parts.scale();
 }
 
+/// A picture alone. Nothing after a reported error.
+std::optional<Parts> readPicture(const std::string& name, GDALDataset& source,
+                                 const CopySettings& settings) {
+  if (settings.max_z_error > 0) {
+    reportFailure(TKS_USAGE, name,
+                  CPLSPrintf("MAX_Z_ERROR needs heights, and the source was taken for a texture, "
+                             "since it has %d bands; for heights choose one (gdal_translate -b 1).",
+                             source.GetRasterCount()));
+    return std::nullopt;
+  }
+  Parts parts;
+  parts.texture = copyPicture(name, source);
+  return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
+}
+
 /// Nothing after a reported error.
 std::optional<Parts> readParts(const std::string& name, GDALDataset& source, bool strict,
                                const CopySettings& settings, const ProgressPart& progress) {
+  if (settings.texture.empty() && isPicture(source)) return readPicture(name, source, settings);
   Parts parts;
-  if (settings.texture.empty() && isPicture(source)) {
-    parts.texture = copyTexture(source);
-    return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
-  }
   parts.heights = copyHeights(name, source, strict, progress);
   if (!parts.heights) return std::nullopt;
   if (settings.texture.empty()) return parts;
-  parts.texture = copyTexture(name, settings.texture);
+  parts.texture = copyTexture(name, settings.texture, source);
   return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
 }
 
@@ -119,8 +131,9 @@ void discard(const std::string& name) {
 bool write(const std::string& name, const tks_buffer& stream) {
   VSILFILE* const file = VSIFOpenExL(name.c_str(), "wb", TRUE);
   if (file == nullptr) {
+    const std::string why = VSIGetLastErrorMsg();
     reportFailure(TKS_IO, name,
-                  std::string("The file cannot be written (") + VSIGetLastErrorMsg() + ").");
+                  "The file cannot be written" + (why.empty() ? "." : " (" + why + ")."));
     return false;
   }
   const bool written = VSIFWriteL(stream.data, 1, stream.size, file) == stream.size;
