@@ -143,35 +143,38 @@ bool write(const std::string& name, const tks_buffer& stream) {
   return false;
 }
 
-/// The stream knows the heights as they came to it: what rounding them took before is added here.
-void tellRounding(GDALPamDataset& copy, double rounding) {
-  copy.SetMetadataItem("COMPRESSION_REVERSIBILITY", "LOSSY", "IMAGE_STRUCTURE");
-  if (const char* const promised = copy.GetMetadataItem("MAX_ERROR", "TKS"))
-    copy.SetMetadataItem("MAX_ERROR", CPLSPrintf("%.17g", CPLAtof(promised) + rounding), "TKS");
+/// What the stream has no room for of the dataset and its bands, masks being nodata values by now.
+void cloneInfo(GDALPamDataset& copy, GDALDataset& source, bool heights) {
+  copy.CloneInfo(&source, GCIF_METADATA | GCIF_GCPS | GCIF_ONLY_IF_MISSING);
+  int flags = GCIF_PAM_DEFAULT & ~GCIF_MASK;
+  int has_nodata = FALSE;
+  copy.GetRasterBand(1)->GetNoDataValue(&has_nodata);
+  // What the stream declares is what its samples hold.
+  if (has_nodata) flags &= ~GCIF_NODATA;
+  // The stream has these of heights, and says which band of a texture has which colour.
+  flags &= heights ? ~(GCIF_SCALEOFFSET | GCIF_UNITTYPE) : ~GCIF_COLORINTERP;
+  int number = 1;
+  for (const int band : textureBands(source)) {
+    auto* const of_copy = static_cast<GDALPamRasterBand*>(copy.GetRasterBand(number++));
+    of_copy->CloneInfo(source.GetRasterBand(band), flags);
+  }
 }
 
 /// What the stream has no room for goes into name.aux.xml; so does a reference system that comes
 /// back as another (one with an epoch). `rounding`: of the heights, in their unit.
 GDALDataset* openCopy(const std::string& name, GDALDataset& source, double rounding) {
+  VSIUnlink((name + ".aux.xml").c_str());  // of a file that was there before
   GDALOpenInfo info(name.c_str(), GA_ReadOnly);
-  auto* const copy = static_cast<GDALPamDataset*>(Dataset::Open(&info));
+  auto* const copy = static_cast<Dataset*>(Dataset::Open(&info));
   if (copy == nullptr) return nullptr;
-  // Masks are nodata values by now, and what the stream declares is what its samples hold.
-  int flags = GCIF_PAM_DEFAULT & ~(GCIF_GEOTRANSFORM | GCIF_PROJECTION | GCIF_MASK);
-  int has_nodata = FALSE;
-  copy->GetRasterBand(1)->GetNoDataValue(&has_nodata);
-  if (has_nodata) flags &= ~GCIF_NODATA;
-  const std::vector<int> bands = textureBands(source);
-  if (!std::is_sorted(bands.begin(), bands.end()))  // what is said of one would be of another
-    flags &= ~(GCIF_BAND_METADATA | GCIF_BAND_DESCRIPTION);
-  copy->CloneInfo(&source, flags);
+  cloneInfo(*copy, source, copy->isHeights());
   const OGRSpatialReference* const wanted = source.GetSpatialRef();
   const OGRSpatialReference* const got = copy->GetSpatialRef();
   const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT",
                                  nullptr};
   if (wanted != nullptr && (got == nullptr || !got->IsSame(wanted, options)))
     copy->GDALPamDataset::SetSpatialRef(wanted);
-  if (rounding > 0) tellRounding(*copy, rounding);
+  if (rounding > 0) copy->tellRounding(rounding);
   return copy;
 }
 
