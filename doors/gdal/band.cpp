@@ -63,16 +63,35 @@ class Band final : public GDALPamRasterBand {
     if (success != nullptr) *success = found || facts_.nodata;
     return found ? pam : facts_.nodata.value_or(pam);
   }
+  CPLErr DeleteNoDataValue() override {
+    int kept = FALSE;
+    GDALPamRasterBand::GetNoDataValue(&kept);
+    if (!kept && facts_.nodata) return refuseToTakeOff("nodata value");
+    return GDALPamRasterBand::DeleteNoDataValue();
+  }
   double GetScale(int* success) override {
-    if (success != nullptr) *success = facts_.scale != 1 || facts_.offset != 0;
-    return facts_.scale;
+    if (success != nullptr) *success = scaling().isAny();
+    return scaling().scale;
   }
   double GetOffset(int* success) override {
-    if (success != nullptr) *success = facts_.scale != 1 || facts_.offset != 0;
-    return facts_.offset;
+    if (success != nullptr) *success = scaling().isAny();
+    return scaling().offset;
   }
-  const char* GetUnitType() override { return facts_.unit.c_str(); }
-  GDALColorInterp GetColorInterpretation() override { return facts_.colour; }
+  CPLErr SetScale(double scale) override { return keepScaling({scale, scaling().offset}); }
+  CPLErr SetOffset(double offset) override { return keepScaling({scaling().scale, offset}); }
+  const char* GetUnitType() override {
+    const char* const pam = GDALPamRasterBand::GetUnitType();
+    return pam != nullptr && *pam != '\0' ? pam : facts_.unit.c_str();
+  }
+  CPLErr SetUnitType(const char* unit) override {
+    const bool none = unit == nullptr || *unit == '\0';
+    if (none && !facts_.unit.empty()) return refuseToTakeOff("unit");
+    return GDALPamRasterBand::SetUnitType(unit);
+  }
+  GDALColorInterp GetColorInterpretation() override {
+    const GDALColorInterp pam = GDALPamRasterBand::GetColorInterpretation();
+    return pam != GCI_Undefined ? pam : facts_.colour;
+  }
 
   int GetOverviewCount() override { return static_cast<int>(dataset().overviews().size()); }
   GDALRasterBand* GetOverview(int i) override {
@@ -121,6 +140,25 @@ class Band final : public GDALPamRasterBand {
 
  private:
   Dataset& dataset() const { return static_cast<Dataset&>(*poDS); }
+
+  /// GDAL keeps no scale of 1 and no offset of 0 beside a file, so that both together say nothing.
+  Scaling keptScaling() { return {GDALPamRasterBand::GetScale(), GDALPamRasterBand::GetOffset()}; }
+  Scaling scaling() { return keptScaling().isAny() ? keptScaling() : facts_.scaling; }
+
+  /// Another one would precede, but none would leave that of the stream.
+  CPLErr refuseToTakeOff(const char* what) {
+    CPLError(CE_Failure, CPLE_NotSupported,
+             "%s: The stream has a %s, which cannot be taken off beside it; make a copy without.",
+             dataset().source().name().c_str(), what);
+    return CE_Failure;
+  }
+
+  /// Both, since one that is kept stands for both.
+  CPLErr keepScaling(const Scaling& wanted) {
+    if (facts_.scaling.isAny() && !wanted.isAny()) return refuseToTakeOff("scale or offset");
+    const CPLErr kept = GDALPamRasterBand::SetScale(wanted.scale);
+    return kept == CE_None ? GDALPamRasterBand::SetOffset(wanted.offset) : kept;
+  }
 
   /// Rows of blocks of this width of which a quarter of the cache holds all bands; at least 1.
   int rowsOfStrip(int width) const {

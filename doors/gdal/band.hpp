@@ -9,10 +9,17 @@
 
 namespace tetrakis::gdal {
 
-/// What a band says beside its samples.
+/// From pixels to what they stand for: pixel * scale + offset.
+struct Scaling {
+  double scale = 1, offset = 0;
+
+  bool isAny() const { return scale != 1 || offset != 0; }
+};
+
+/// What the stream says of a band beside its samples. What is kept beside the stream precedes.
 struct BandFacts {
   std::optional<double> nodata;
-  double scale = 1, offset = 0;
+  Scaling scaling;
   std::string unit;
   GDALColorInterp colour = GCI_GrayIndex;
 };

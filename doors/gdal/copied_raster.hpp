@@ -65,10 +65,12 @@ std::string whyNoTexture(GDALDataset& dataset);
 /// Whether it becomes a texture without heights: colours, or anything with alpha.
 bool isPicture(GDALDataset& dataset);
 
-/// `file` is opened. Null after a reported error.
-std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file);
-/// A picture. Null after a reported error.
-std::unique_ptr<CopiedTexture> copyTexture(GDALDataset& dataset);
+/// `file` is opened; warnings tell where it lies beside the heights, and what of it is not kept.
+/// Null after a reported error.
+std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file,
+                                           GDALDataset& heights);
+/// Of what isPicture(). Null after a reported error.
+std::unique_ptr<CopiedTexture> copyPicture(const std::string& name, GDALDataset& dataset);
 
 struct Place {
   double geotransform[6];

@@ -7,6 +7,7 @@
 
 #include "doors/gdal/copied_raster.hpp"
 #include "doors/gdal/source.hpp"
+#include "doors/gdal/texture_place.hpp"
 
 namespace tetrakis::gdal {
 namespace {
@@ -52,6 +53,34 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
     std::fill_n(alpha + i, sample, shown ? std::byte{255} : std::byte{0});
   }
   return true;
+}
+
+std::unique_ptr<CopiedTexture> copyTexels(GDALDataset& dataset) {
+  auto copy = std::make_unique<CopiedTexture>();
+  tks_image& image = copy->image;
+  image.size = sizeof image;
+  image.width = static_cast<uint32_t>(dataset.GetRasterXSize());
+  image.height = static_cast<uint32_t>(dataset.GetRasterYSize());
+  image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + addsAlpha(dataset));
+  image.sample = dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
+  image.opaque = !addsAlpha(dataset) && !hasAlpha(dataset);
+  if (!readTexels(dataset, *copy)) return nullptr;
+  if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
+    copy->crs = crsTexts(*system);
+  const Place place = placeOf(dataset);
+  std::copy_n(place.geotransform, 6, image.geotransform);
+  image.has_geotransform = place.has_geotransform;
+  image.registration = place.registration;
+  image.crs = copy->crs.crs.c_str();
+  image.data = copy->texels.data();
+  return copy;
+}
+
+/// A value that GDAL hides, of which an image has none.
+bool hasNodata(GDALDataset& dataset) {
+  for (GDALRasterBand* const band : dataset.GetBands())
+    if ((band->GetMaskFlags() & GMF_NODATA) != 0) return true;
+  return false;
 }
 
 }  // namespace
@@ -102,7 +131,8 @@ bool isPicture(GDALDataset& dataset) {
   return dataset.GetRasterCount() > 1 && whyNoTexture(dataset).empty();
 }
 
-std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file) {
+std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::string& file,
+                                           GDALDataset& heights) {
   const std::unique_ptr<GDALDataset, DatasetCloser> dataset(
       GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
   if (!dataset) return nullptr;
@@ -110,28 +140,23 @@ std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::s
     reportFailure(TKS_USAGE, name, "TEXTURE=" + file + ": " + why);
     return nullptr;
   }
-  return copyTexture(*dataset);
+  const auto warn = [&](const char* what) {
+    CPLError(CE_Warning, CPLE_AppDefined, "%s: TEXTURE=%s %s.", name.c_str(), file.c_str(), what);
+  };
+  if (hasNodata(*dataset)) warn("has a nodata value, which is not applied and not kept");
+  if (liesBeside(*dataset, heights))
+    warn("lies beside the ground of the heights, which get its border");
+  return copyTexels(*dataset);
 }
 
-std::unique_ptr<CopiedTexture> copyTexture(GDALDataset& dataset) {
-  auto copy = std::make_unique<CopiedTexture>();
-  tks_image& image = copy->image;
-  image.size = sizeof image;
-  image.width = static_cast<uint32_t>(dataset.GetRasterXSize());
-  image.height = static_cast<uint32_t>(dataset.GetRasterYSize());
-  image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + addsAlpha(dataset));
-  image.sample = dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
-  image.opaque = !addsAlpha(dataset) && !hasAlpha(dataset);
-  if (!readTexels(dataset, *copy)) return nullptr;
-  if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
-    copy->crs = crsTexts(*system);
-  const Place place = placeOf(dataset);
-  std::copy_n(place.geotransform, 6, image.geotransform);
-  image.has_geotransform = place.has_geotransform;
-  image.registration = place.registration;
-  image.crs = copy->crs.crs.c_str();
-  image.data = copy->texels.data();
-  return copy;
+std::unique_ptr<CopiedTexture> copyPicture(const std::string& name, GDALDataset& dataset) {
+  if (dataset.GetRasterCount() == 2 && !hasAlpha(dataset)) {
+    CPLError(CE_Warning, CPLE_AppDefined,
+             "%s: The two bands were taken for a texture, grey and a further colour; for heights "
+             "choose one (gdal_translate -b 1).",
+             name.c_str());
+  }
+  return copyTexels(dataset);
 }
 
 }  // namespace tetrakis::gdal

@@ -70,18 +70,30 @@ std::optional<double> boundOf(const std::string& name, const Parts& parts, doubl
   return left * parts.scale();
 }
 
+/// A picture alone. Nothing after a reported error.
+std::optional<Parts> readPicture(const std::string& name, GDALDataset& source,
+                                 const CopySettings& settings) {
+  if (settings.max_z_error > 0) {
+    reportFailure(TKS_USAGE, name,
+                  CPLSPrintf("MAX_Z_ERROR needs heights, and the source was taken for a texture, "
+                             "since it has %d bands; for heights choose one (gdal_translate -b 1).",
+                             source.GetRasterCount()));
+    return std::nullopt;
+  }
+  Parts parts;
+  parts.texture = copyPicture(name, source);
+  return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
+}
+
 /// Nothing after a reported error.
 std::optional<Parts> readParts(const std::string& name, GDALDataset& source, bool strict,
                                const CopySettings& settings, const ProgressPart& progress) {
+  if (settings.texture.empty() && isPicture(source)) return readPicture(name, source, settings);
   Parts parts;
-  if (settings.texture.empty() && isPicture(source)) {
-    parts.texture = copyTexture(source);
-    return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
-  }
   parts.heights = copyHeights(name, source, strict, progress);
   if (!parts.heights) return std::nullopt;
   if (settings.texture.empty()) return parts;
-  parts.texture = copyTexture(name, settings.texture);
+  parts.texture = copyTexture(name, settings.texture, source);
   return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
 }
 
@@ -119,8 +131,9 @@ void discard(const std::string& name) {
 bool write(const std::string& name, const tks_buffer& stream) {
   VSILFILE* const file = VSIFOpenExL(name.c_str(), "wb", TRUE);
   if (file == nullptr) {
+    const std::string why = VSIGetLastErrorMsg();
     reportFailure(TKS_IO, name,
-                  std::string("The file cannot be written (") + VSIGetLastErrorMsg() + ").");
+                  "The file cannot be written" + (why.empty() ? "." : " (" + why + ")."));
     return false;
   }
   const bool written = VSIFWriteL(stream.data, 1, stream.size, file) == stream.size;
@@ -130,35 +143,38 @@ bool write(const std::string& name, const tks_buffer& stream) {
   return false;
 }
 
-/// The stream knows the heights as they came to it: what rounding them took before is added here.
-void tellRounding(GDALPamDataset& copy, double rounding) {
-  copy.SetMetadataItem("COMPRESSION_REVERSIBILITY", "LOSSY", "IMAGE_STRUCTURE");
-  if (const char* const promised = copy.GetMetadataItem("MAX_ERROR", "TKS"))
-    copy.SetMetadataItem("MAX_ERROR", CPLSPrintf("%.17g", CPLAtof(promised) + rounding), "TKS");
+/// What the stream has no room for of the dataset and its bands, masks being nodata values by now.
+void cloneInfo(GDALPamDataset& copy, GDALDataset& source, bool heights) {
+  copy.CloneInfo(&source, GCIF_METADATA | GCIF_GCPS | GCIF_ONLY_IF_MISSING);
+  int flags = GCIF_PAM_DEFAULT & ~GCIF_MASK;
+  int has_nodata = FALSE;
+  copy.GetRasterBand(1)->GetNoDataValue(&has_nodata);
+  // What the stream declares is what its samples hold.
+  if (has_nodata) flags &= ~GCIF_NODATA;
+  // The stream has these of heights, and says which band of a texture has which colour.
+  flags &= heights ? ~(GCIF_SCALEOFFSET | GCIF_UNITTYPE) : ~GCIF_COLORINTERP;
+  int number = 1;
+  for (const int band : textureBands(source)) {
+    auto* const of_copy = static_cast<GDALPamRasterBand*>(copy.GetRasterBand(number++));
+    of_copy->CloneInfo(source.GetRasterBand(band), flags);
+  }
 }
 
 /// What the stream has no room for goes into name.aux.xml; so does a reference system that comes
 /// back as another (one with an epoch). `rounding`: of the heights, in their unit.
 GDALDataset* openCopy(const std::string& name, GDALDataset& source, double rounding) {
+  VSIUnlink((name + ".aux.xml").c_str());  // of a file that was there before
   GDALOpenInfo info(name.c_str(), GA_ReadOnly);
-  auto* const copy = static_cast<GDALPamDataset*>(Dataset::Open(&info));
+  auto* const copy = static_cast<Dataset*>(Dataset::Open(&info));
   if (copy == nullptr) return nullptr;
-  // Masks are nodata values by now, and what the stream declares is what its samples hold.
-  int flags = GCIF_PAM_DEFAULT & ~(GCIF_GEOTRANSFORM | GCIF_PROJECTION | GCIF_MASK);
-  int has_nodata = FALSE;
-  copy->GetRasterBand(1)->GetNoDataValue(&has_nodata);
-  if (has_nodata) flags &= ~GCIF_NODATA;
-  const std::vector<int> bands = textureBands(source);
-  if (!std::is_sorted(bands.begin(), bands.end()))  // what is said of one would be of another
-    flags &= ~(GCIF_BAND_METADATA | GCIF_BAND_DESCRIPTION);
-  copy->CloneInfo(&source, flags);
+  cloneInfo(*copy, source, copy->isHeights());
   const OGRSpatialReference* const wanted = source.GetSpatialRef();
   const OGRSpatialReference* const got = copy->GetSpatialRef();
   const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT",
                                  nullptr};
   if (wanted != nullptr && (got == nullptr || !got->IsSame(wanted, options)))
     copy->GDALPamDataset::SetSpatialRef(wanted);
-  if (rounding > 0) tellRounding(*copy, rounding);
+  if (rounding > 0) copy->tellRounding(rounding);
   return copy;
 }
 

@@ -5,13 +5,13 @@
 #include <cstring>
 #include <limits>
 #include <new>
-#include <string_view>
 #include <utility>
 
 #include "doors/gdal/band.hpp"
 #include "doors/gdal/overview.hpp"
 #include "doors/gdal/pixels.hpp"
 #include "doors/gdal/settings.hpp"
+#include "doors/gdal/subdataset_name.hpp"
 
 namespace tetrakis::gdal {
 
@@ -34,36 +34,23 @@ std::optional<double> voidValueOf(const tks_info& info) {
   return std::nullopt;
 }
 
-struct Name {
-  std::string file, part;  ///< part: "" where the name says none
-};
+/// What a copy has kept beside of its rounding, by the checksum of the stream that it is of.
+constexpr char kRoundingDomain[] = "TKS_ROUNDING";
 
-/// TKS:"file":part, also without the quotes.
-std::optional<Name> subdatasetName(const char* text) {
-  constexpr std::string_view kPrefix = "TKS:";
-  if (!STARTS_WITH_CI(text, kPrefix.data())) return std::nullopt;
-  const std::string rest = text + kPrefix.size();
-  const size_t colon = rest.rfind(':');
-  if (colon == std::string::npos) return std::nullopt;
-  Name name{rest.substr(0, colon), rest.substr(colon + 1)};
-  if (name.file.size() >= 2 && name.file.front() == '"' && name.file.back() == '"')
-    name.file = name.file.substr(1, name.file.size() - 2);
-  return name;
+/// The component that is asked for, or that there is; nothing after a reported error.
+std::optional<tks_part> partOf(const std::optional<SubdatasetName>& named, const Source& source) {
+  const tks_info& info = source.info();
+  const tks_part there = info.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
+  const tks_part part = named ? named->part : there;
+  if (part == TKS_PART_HEIGHTS ? info.has_heights : info.has_texture) return part;
+  reportFailure(TKS_USAGE, source.name(), std::string("The stream has no ") + partName(part) + ".");
+  return std::nullopt;
 }
 
-/// The component that the name means, or that there is; nothing after a reported error.
-std::optional<tks_part> partOf(const Name& name, const tks_info& info) {
-  if (!name.part.empty() && name.part != "heights" && name.part != "texture") {
-    reportFailure(TKS_USAGE, name.file,
-                  "A subdataset is heights or texture, not '" + name.part + "'.");
-    return std::nullopt;
-  }
-  const bool texture = name.part == "texture" || (name.part.empty() && !info.has_heights);
-  if (texture ? info.has_texture : info.has_heights)
-    return texture ? TKS_PART_TEXTURE : TKS_PART_HEIGHTS;
-  reportFailure(TKS_USAGE, name.file,
-                texture ? "The stream has no texture." : "The stream has no heights.");
-  return std::nullopt;
+bool isStream(const GDALOpenInfo& info) {
+  constexpr GByte kMagic[] = {'T', 'K', 'S', 0x1A};
+  return info.nHeaderBytes >= static_cast<int>(sizeof kMagic) &&
+         std::memcmp(info.pabyHeader, kMagic, sizeof kMagic) == 0;
 }
 
 /// Of a texture that has none: it reaches from the middle of the first sample of the heights to
@@ -78,43 +65,45 @@ std::array<double, 6> drapedTransform(const tks_info& info) {
 }  // namespace
 
 int Dataset::Identify(GDALOpenInfo* info) {
-  constexpr GByte kMagic[] = {'T', 'K', 'S', 0x1A};
-  if (subdatasetName(info->pszFilename)) return TRUE;
-  return info->nHeaderBytes >= static_cast<int>(sizeof kMagic) &&
-         std::memcmp(info->pabyHeader, kMagic, sizeof kMagic) == 0;
+  return isStream(*info) || isSubdatasetName(info->pszFilename);
 }
 
 GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   if (!Identify(info)) return nullptr;
-  const std::optional<Name> part = subdatasetName(info->pszFilename);
-  const Name name = part.value_or(Name{info->pszFilename, ""});
+  std::optional<SubdatasetName> named;
+  if (!isStream(*info)) {
+    named = subdatasetName(info->pszFilename);
+    if (!named) return nullptr;
+  }
+  const std::string file = named ? named->file : info->pszFilename;
   if (info->eAccess == GA_Update) {
     CPLError(CE_Failure, CPLE_NotSupported,
              "%s: A stream cannot be changed in place; open it read-only and make a copy.",
-             name.file.c_str());
+             file.c_str());
     return nullptr;
   }
-  const std::optional<OpenSettings> settings = openSettings(name.file, info->papszOpenOptions);
+  const std::optional<OpenSettings> settings = openSettings(file, info->papszOpenOptions);
   if (!settings) return nullptr;
-  const std::shared_ptr<Source> source = Source::open(name.file, *settings);
+  const std::shared_ptr<Source> source = Source::open(file, *settings);
   if (!source) return nullptr;
   const tks_info& facts = source->info();
-  const std::optional<tks_part> component = partOf(name, facts);
-  if (!component) return nullptr;
-  source->choose(*component);
-  const bool heights = *component == TKS_PART_HEIGHTS;
+  const std::optional<tks_part> part = partOf(named, *source);
+  if (!part) return nullptr;
+  source->choose(*part);
+  const bool heights = *part == TKS_PART_HEIGHTS;
   const std::optional<double> voids = heights ? voidValueOf(facts) : std::nullopt;
   std::unique_ptr<Dataset> dataset(new Dataset(source, voids, 0));
-  dataset->takeFacts(facts, heights);
+  dataset->takeFacts();
   dataset->takePlace(facts, heights);
   dataset->addOverviews();
-  if (!part && facts.has_heights && facts.has_texture) dataset->listSubdatasets();
+  if (!named && facts.has_heights && facts.has_texture) dataset->listSubdatasets();
   dataset->SetDescription(info->pszFilename);
-  if (part) {
-    dataset->SetPhysicalFilename(name.file.c_str());
-    dataset->SetSubdatasetName(name.part.c_str());
+  if (named) {
+    dataset->SetPhysicalFilename(file.c_str());
+    // What the file's own name opens has one place beside it, whichever name it is opened by.
+    if (!heights && facts.has_heights) dataset->SetSubdatasetName(partName(*part));
   }
-  dataset->TryLoadXML(part ? nullptr : info->GetSiblingFiles());
+  dataset->loadBeside(named ? nullptr : info->GetSiblingFiles());
   // What is beside a file is about all of it, so statistics of a prefix are not kept.
   if (settings->bytes) dataset->nPamFlags |= GPF_NOSAVE;
   return dataset.release();
@@ -126,14 +115,12 @@ Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_valu
   nRasterYSize = static_cast<int>(source_->height(level));
   if (level > 0) nPamFlags |= GPF_NOSAVE;
   const tks_info& info = source_->info();
-  const bool heights = source_->part() == TKS_PART_HEIGHTS;
   for (uint32_t channel = 0; channel < source_->channels(); ++channel) {
     BandFacts facts;
     facts.colour = colourOf(source_->channels(), channel, source_->hasAlpha());
-    if (heights) {
+    if (isHeights()) {
       if (info.has_nodata) facts.nodata = info.nodata;
-      facts.scale = info.scale;
-      facts.offset = info.offset;
+      facts.scaling = {info.scale, info.offset};
       facts.unit = info.unit;
     }
     SetBand(static_cast<int>(channel) + 1,
@@ -143,22 +130,65 @@ Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_valu
     GDALDataset::SetMetadataItem("INTERLEAVE", "PIXEL", "IMAGE_STRUCTURE");
 }
 
-void Dataset::takeFacts(const tks_info& info, bool heights) {
+void Dataset::takeFacts() {
+  const tks_info& info = source_->info();
   const bool exact = info.lossless && source_->complete();
   GDALDataset::SetMetadataItem("COMPRESSION_REVERSIBILITY", exact ? "LOSSLESS" : "LOSSY",
                                "IMAGE_STRUCTURE");
-  const tks_registration registration = heights ? info.registration : info.texture_registration;
-  if (registration == TKS_REGISTRATION_AREA)
-    GDALDataset::SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_AREA);
-  if (registration == TKS_REGISTRATION_POINT)
-    GDALDataset::SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_POINT);
-  if (!heights) return;
+  const auto registration = isHeights() ? info.registration : info.texture_registration;
+  if (registration == TKS_REGISTRATION_AREA) texts_.registration = GDALMD_AOP_AREA;
+  if (registration == TKS_REGISTRATION_POINT) texts_.registration = GDALMD_AOP_POINT;
+  if (!texts_.registration.empty())
+    GDALDataset::SetMetadataItem(GDALMD_AREA_OR_POINT, texts_.registration.c_str());
+  if (!isHeights()) return;
   if (*info.vertical_datum != '\0')
     GDALDataset::SetMetadataItem("VERTICAL_DATUM", info.vertical_datum, "TKS");
   if (info.max_error >= 0 && source_->complete()) {
     GDALDataset::SetMetadataItem("MAX_ERROR", CPLSPrintf("%.17g", info.max_error), "TKS");
   }
+  texts_.description = info.description;
   GetRasterBand(1)->GDALRasterBand::SetDescription(info.description);
+}
+
+void Dataset::loadBeside(char** siblings) {
+  std::vector<CPLStringList> own;
+  for (const char* const domain : kOwnDomains) own.emplace_back(CSLDuplicate(GetMetadata(domain)));
+  CPLStringList of_bands(CSLDuplicate(GetRasterBand(1)->GetMetadata("IMAGE_STRUCTURE")));
+  TryLoadXML(siblings);
+  for (size_t i = 0; i < own.size(); ++i)
+    if (GetMetadata(kOwnDomains[i]) != nullptr)
+      GDALDataset::SetMetadata(own[i].List(), kOwnDomains[i]);
+  for (auto&& band : GetBands())
+    if (band->GetMetadata("IMAGE_STRUCTURE") != nullptr)
+      band->GDALRasterBand::SetMetadata(of_bands.List(), "IMAGE_STRUCTURE");
+  // GDAL empties it where the file says nothing.
+  GDALRasterBand& first = *GetRasterBand(1);
+  if (*first.GetDescription() == '\0')
+    first.GDALRasterBand::SetDescription(texts_.description.c_str());
+  takeRounding();
+}
+
+void Dataset::takeRounding() {
+  const char* const kept = GetMetadataItem(source_->checksum().c_str(), kRoundingDomain);
+  if (kept == nullptr || !isHeights()) return;
+  GDALDataset::SetMetadataItem("COMPRESSION_REVERSIBILITY", "LOSSY", "IMAGE_STRUCTURE");
+  const char* const promised = GetMetadataItem("MAX_ERROR", "TKS");
+  if (promised == nullptr) return;
+  const std::string error = CPLSPrintf("%.17g", CPLAtof(promised) + CPLAtof(kept));
+  GDALDataset::SetMetadataItem("MAX_ERROR", error.c_str(), "TKS");
+}
+
+void Dataset::tellRounding(double rounding) {
+  const std::string text = CPLSPrintf("%.17g", rounding);
+  SetMetadataItem(source_->checksum().c_str(), text.c_str(), kRoundingDomain);
+  takeRounding();
+}
+
+CPLXMLNode* Dataset::SerializeToXML(const char* path) {
+  CPLXMLNode* const tree = withoutStreamTexts(GDALPamDataset::SerializeToXML(path), texts_);
+  if (*GetSubdatasetName() == '\0') return withSubdatasets(tree, BuildPamFilename());
+  // For null GDAL would remove the file, and with it what belongs to others.
+  return tree != nullptr ? tree : CPLCreateXMLNode(nullptr, CXT_Element, "PAMDataset");
 }
 
 void Dataset::takePlace(const tks_info& info, bool heights) {
@@ -193,13 +223,12 @@ void Dataset::addOverviews() {
 
 void Dataset::listSubdatasets() {
   const tks_info& info = source_->info();
-  const char* const file = source_->name().c_str();
-  const auto add = [this](const char* key, const char* value) {
-    GDALDataset::SetMetadataItem(key, value, "SUBDATASETS");
+  const auto add = [this](const std::string& key, const std::string& value) {
+    GDALDataset::SetMetadataItem(key.c_str(), value.c_str(), "SUBDATASETS");
   };
-  add("SUBDATASET_1_NAME", CPLSPrintf("TKS:\"%s\":heights", file));
+  add("SUBDATASET_1_NAME", nameOf({source_->name(), TKS_PART_HEIGHTS}));
   add("SUBDATASET_1_DESC", CPLSPrintf("[%ux%u] heights", info.height, info.width));
-  add("SUBDATASET_2_NAME", CPLSPrintf("TKS:\"%s\":texture", file));
+  add("SUBDATASET_2_NAME", nameOf({source_->name(), TKS_PART_TEXTURE}));
   add("SUBDATASET_2_DESC", CPLSPrintf("[%ux%ux%u] texture", info.texture_channels,
                                       info.texture_height, info.texture_width));
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gdal_pam.h>
+#include "doors/gdal/aux_xml.hpp"
 #include "doors/gdal/crs.hpp"
 #include "doors/gdal/source.hpp"
 
@@ -16,7 +17,10 @@ namespace tetrakis::gdal {
 
 class Dataset final : public GDALPamDataset {
  public:
-  /// What `name` is: a file, or TKS:"file":heights or :texture. Null after a reported error.
+  /// What is kept beside is written while SerializeToXML is still this class's.
+  ~Dataset() override { FlushCache(true); }
+
+  /// What `name` is: a file, or a subdataset of one. Null after a reported error.
   static GDALDataset* Open(GDALOpenInfo* info);
   static int Identify(GDALOpenInfo* info);
 
@@ -24,15 +28,21 @@ class Dataset final : public GDALPamDataset {
   const OGRSpatialReference* GetSpatialRef() const override;
   char** GetFileList() override;
 
+  /// Rounding has taken so much of the heights before they came into this stream, in their unit:
+  /// the stream does not know, so it is kept beside.
+  void tellRounding(double rounding);
+
   /// Pixels of this raster, channels interleaved. False after a reported error.
   bool read(const tks_window& window, std::vector<std::byte>& out);
   /// Whether small parts take much less time than all.
   bool readsWindows() const { return level_ <= 1 && source_->regionSide() != 0; }
   uint32_t level() const { return level_; }
   const Source& source() const { return *source_; }
+  bool isHeights() const { return source_->part() == TKS_PART_HEIGHTS; }
   const std::vector<std::unique_ptr<Dataset>>& overviews() const { return overviews_; }
 
  protected:
+  CPLXMLNode* SerializeToXML(const char* path) override;
   CPLErr IBuildOverviews(const char* resampling, int count, const int* factors, int bands,
                          const int* band_list, GDALProgressFunc progress, void* user,
                          CSLConstList options) override;
@@ -41,7 +51,11 @@ class Dataset final : public GDALPamDataset {
   Dataset(std::shared_ptr<Source> source, std::optional<double> void_value, uint32_t level);
 
   void takePlace(const tks_info& info, bool heights);
-  void takeFacts(const tks_info& info, bool heights);
+  void takeFacts();
+  /// Takes what a file beside the stream says, but for what only the stream can know.
+  void loadBeside(char** siblings);
+  /// Counts in what a copy has kept beside of its rounding.
+  void takeRounding();
   void addOverviews();
   void listSubdatasets();
 
@@ -50,6 +64,7 @@ class Dataset final : public GDALPamDataset {
   uint32_t level_;  ///< 0: the raster itself; else its overview of that number
   std::optional<std::array<double, 6>> transform_;
   SpatialReference crs_;
+  StreamTexts texts_;
   std::vector<std::unique_ptr<Dataset>> overviews_;
 };
 

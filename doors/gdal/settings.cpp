@@ -25,8 +25,7 @@ const char* const kCreationOptions =
     "<Option name='MAX_Z_ERROR' type='float' default='0' description='Largest error of any pixel, "
     "in pixel values, guaranteed; 0 is lossless'/>"
     "<Option name='BYTES' type='string' description='Size of the file: the best that fits (k, M "
-    "and "
-    "G are powers of 1024)'/>"
+    "and G are powers of 1024)'/>"
     "<Option name='PSNR' type='float' description='Quality of heights and texture, in dB'/>"
     "<Option name='TEXTURE' type='string' description='Dataset with an image over the same ground, "
     "of 1 to 4 bands of Byte or UInt16'/>"
@@ -34,14 +33,32 @@ const char* const kCreationOptions =
     "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
     "<Option name='INDEX' type='string-select' default='NO' description='Write the byte ranges of "
     "all packets into the header; WINDOWS, for lossless files and MAX_Z_ERROR: also lay each "
-    "region out in one "
-    "piece, for windows over a network'><Value>NO</Value><Value>YES</Value>"
+    "region out in one piece, for windows over a network; regions are of 256, of more than 1025 x "
+    "1025 heights or 2048 x 2048 texels, unless BLOCKSIZE is "
+    "given'><Value>NO</Value><Value>YES</Value>"
     "<Value>WINDOWS</Value></Option>"
     "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
     "ALL_CPUS' default='1'/>"
     "</CreationOptionList>";
 
 namespace {
+
+std::optional<uint32_t> threadsOf(const char* text) {
+  if (EQUAL(text, "ALL_CPUS")) return static_cast<uint32_t>(CPLGetNumCPUs());
+  uint32_t number = 0;
+  const char* const end = text + std::strlen(text);
+  const auto [stop, error] = std::from_chars(text, end, number);
+  const bool whole = error == std::errc() && stop == end && number >= 1 && number <= 1024;
+  return whole ? std::optional(number) : std::nullopt;
+}
+
+/// Of a setting that is for all of GDAL, whose drivers differ in what they take.
+uint32_t threadsOfAll() {
+  const char* const given = CPLGetConfigOption("GDAL_NUM_THREADS", "1");
+  const std::optional<uint32_t> number = threadsOf(given);
+  if (!number) CPLDebug("TKS", "GDAL_NUM_THREADS=%s counts as 1 thread.", given);
+  return number.value_or(1);
+}
 
 /// The options of one call, whose first mistake is reported.
 class Options {
@@ -96,13 +113,9 @@ class Options {
   }
 
   uint32_t threads() {
-    const char* const given =
-        CSLFetchNameValueDef(options_, "NUM_THREADS", CPLGetConfigOption("GDAL_NUM_THREADS", "1"));
-    if (EQUAL(given, "ALL_CPUS")) return static_cast<uint32_t>(CPLGetNumCPUs());
-    uint32_t number = 0;
-    const char* const end = given + std::strlen(given);
-    const auto [stop, error] = std::from_chars(given, end, number);
-    if (error == std::errc() && stop == end && number >= 1 && number <= 1024) return number;
+    const char* const given = text("NUM_THREADS");
+    if (given == nullptr) return threadsOfAll();
+    if (const std::optional<uint32_t> number = threadsOf(given)) return *number;
     refuse(std::string("NUM_THREADS=") + given + " is neither a number of threads nor ALL_CPUS.");
     return 1;
   }
@@ -118,11 +131,13 @@ class Options {
   bool good_ = true;
 };
 
+constexpr uint32_t kNoRegions = 1;  ///< of tks_encode_options
+
 /// What BLOCKSIZE says of regions.
 uint32_t regions(Options& options) {
   const char* const given = options.text("BLOCKSIZE");
   if (given == nullptr) return 0;
-  if (EQUAL(given, "NONE")) return 1;
+  if (EQUAL(given, "NONE")) return kNoRegions;
   const uint64_t side = options.count("BLOCKSIZE", "side of blocks");
   if (side >= 16 && side <= uint64_t{1} << 20 && (side & (side - 1)) == 0)
     return static_cast<uint32_t>(side);
@@ -169,6 +184,8 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   encode.lossless = !targets[1] && !targets[2] && settings.max_z_error == 0;
   encode.regions = regions(given);
   encode.index = indexKind(given);
+  if (encode.index == TKS_INDEX_WINDOWS && encode.regions == kNoRegions)
+    given.refuse("INDEX=WINDOWS lays out regions, and BLOCKSIZE=NONE says that there are none.");
   encode.threads = given.threads();
   if (const char* const texture = given.text("TEXTURE")) settings.texture = texture;
   return given.good() ? std::optional(settings) : std::nullopt;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <cpl_error.h>
+#include <cpl_string.h>
 
 namespace tetrakis::gdal {
 namespace {
@@ -212,6 +213,13 @@ bool Source::load(uint32_t level, const tks_window* window) {
   // Who has read most of it will read the rest. The whole stream decodes to the same.
   if (bytes_.known() + cost > end_ - end_ / 4) return reopen(end_);
   return loadRanges(*ranges);
+}
+
+std::string Source::checksum() const {
+  // The last four bytes of the header (docs/FORMAT.md, section 2).
+  constexpr size_t kBytes = 4;
+  const auto bytes = bytes_.at(info_.header_bytes - kBytes).first(kBytes);
+  return CPLSPrintf("%02X%02X%02X%02X", bytes[3], bytes[2], bytes[1], bytes[0]);
 }
 
 uint32_t Source::width(uint32_t level) const {

@@ -37,6 +37,8 @@ class Source {
   const tks_info& info() const { return info_; }
   /// Whether all of the stream is there to be read.
   bool complete() const { return end_ == info_.stream_bytes; }
+  /// That of the header, in hexadecimal digits: it tells this stream from others.
+  std::string checksum() const;
 
   /// Everything below concerns this component; the heights at first.
   void choose(tks_part part) { part_ = part; }

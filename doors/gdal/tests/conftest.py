@@ -127,6 +127,16 @@ def refused(call, *words):
     return message
 
 
+def warnings_of(call):
+    """What the call returns, and what it warns of."""
+    heard = []
+    gdal.PushErrorHandler(lambda *error: heard.append(error[2]))
+    try:
+        return call(), heard
+    finally:
+        gdal.PopErrorHandler()
+
+
 RGB = (gdal.GCI_RedBand, gdal.GCI_GreenBand, gdal.GCI_BlueBand)
 
 

@@ -62,6 +62,14 @@ def test_num_threads(stream):
     refused(lambda: opened(stream, "NUM_THREADS=none"), "NUM_THREADS=none")
 
 
+@pytest.mark.parametrize("threads", ["0", "-1", "some", "", "99999999999"])
+def test_a_setting_of_threads_that_other_drivers_take(stream, tmp_path, threads):
+    """It is for all of GDAL, so that it closes no file."""
+    with _Options({"GDAL_NUM_THREADS": threads}):
+        np.testing.assert_array_equal(opened(stream).ReadAsArray(), terrain(dtype="i2"))
+        copy(terrain(20, 30), tmp_path / "a.tks")
+
+
 @pytest.mark.parametrize("vector", VECTORS, ids=lambda path: path.stem)
 def test_vectors_read_or_are_refused(vector, tmp_path):
     """Streams of every kind, and damaged ones: as a whole, cut, and with a byte that is wrong."""

@@ -46,7 +46,10 @@ def test_subdatasets(placed, texture):
     colours = [image.GetRasterBand(i).GetColorInterpretation() for i in range(1, 5)]
     assert colours == [gdal.GCI_RedBand, gdal.GCI_GreenBand, gdal.GCI_BlueBand, gdal.GCI_AlphaBand]
     assert image.GetRasterBand(1).GetMaskFlags() == gdal.GMF_ALPHA + gdal.GMF_PER_DATASET
-    refused(lambda: gdal.Open(f'TKS:"{placed}":water'), "heights or texture", "'water'")
+    assert gdal.Open(f'TKS:"{placed}":Texture').RasterCount == 4
+    forms = ('TKS:"FILE":heights', 'TKS:"FILE":texture')
+    for wrong in (f'TKS:"{placed}":water', f"TKS:{placed}", "TKS:/vsicurl/http://host:8765/a.tks"):
+        refused(lambda wrong=wrong: gdal.Open(wrong), wrong, *forms)
 
 
 def test_a_texture_without_a_place_lies_as_on_meshes(tmp_path):

@@ -20,6 +20,7 @@ from conftest import (
     samples,
     system,
     terrain,
+    warnings_of,
 )
 
 
@@ -101,6 +102,8 @@ def test_blocksize_and_index(tmp_path):
     assert copy_size(tmp_path, heights, "INDEX=WINDOWS", "BLOCKSIZE=32") > plain
     refused(lambda: copy(heights, tmp_path / "b.tks", "INDEX=WINDOWS", "BYTES=4000"), "lossless")
     refused(lambda: copy(heights, tmp_path / "b.tks", "INDEX=MAYBE"), "INDEX=MAYBE")
+    unregioned = ("INDEX=WINDOWS", "BLOCKSIZE=NONE")
+    refused(lambda: copy(heights, tmp_path / "b.tks", *unregioned), *unregioned)
     for side in ("8", "100", "2097152", "-64", "x"):
         option = "BLOCKSIZE=" + side
         refused(lambda option=option: copy(heights, tmp_path / "b.tks", option), option)
@@ -186,7 +189,8 @@ def test_an_image_alone_is_a_texture(tmp_path):
     copy(memory(layers, colours=grey), name, "BYTES=1500")
     assert name.stat().st_size <= 1500
     picture = memory(np.zeros((3, 8, 9), np.uint8), colours=RGB)
-    refused(lambda: copy(picture, tmp_path / "b.tks", "MAX_Z_ERROR=1"), "needs heights")
+    bounded = refused(lambda: copy(picture, tmp_path / "b.tks", "MAX_Z_ERROR=1"), "MAX_Z_ERROR")
+    assert "taken for a texture" in bounded and "3 bands" in bounded
     for layers in (np.zeros((5, 8, 9), np.uint8), np.zeros((3, 8, 9), np.float32)):
         refused(lambda: copy(memory(layers), tmp_path / "b.tks"), "band")
     assert not (tmp_path / "b.tks").exists()
@@ -213,6 +217,56 @@ def test_near_infrared_is_no_alpha(tmp_path):
     del masked
     refused(lambda: copy(terrain(20, 25), tmp_path / "b.tks", "TEXTURE=" + name), "no mask")
     refused(lambda: copy(gdal.Open(name), tmp_path / "c.tks"), "one band", "no mask")
+
+
+def test_two_bands_are_taken_for_a_texture_with_a_warning(tmp_path):
+    """They may be heights, unless one is alpha."""
+    for colour, warns in ((gdal.GCI_Undefined, True), (gdal.GCI_AlphaBand, False)):
+        colours = (gdal.GCI_GrayIndex, colour)
+        layers = memory(np.stack([terrain(20, 30, "u2")] * 2), colours=colours)
+        heard = warnings_of(lambda layers=layers: copy(layers, tmp_path / "a.tks"))[1]
+        assert ["taken for a texture" in text for text in heard] == [True] * warns
+
+
+def place_of_texture(crs, left):
+    """A texture of 40 x 40 over 400 m."""
+    return {"transform": (left, 10, 0, 5000000, 0, -10), "crs": crs}
+
+
+@pytest.mark.parametrize(
+    "place, beside",
+    [
+        ({}, False),
+        (place_of_texture("EPSG:32632", 500000), False),
+        (place_of_texture("EPSG:32632", 500350), False),
+        (place_of_texture("EPSG:32632", 500450), True),
+        (place_of_texture("EPSG:32632", 499500), True),
+        ({"transform": (500450, 10, 0, 5000000, 0, -10)}, True),
+        # 9 degrees east, 45.152 degrees north
+        ({"transform": (9.001, 1e-5, 0, 45.152, 0, -1e-5), "crs": "EPSG:4326"}, False),
+        ({"transform": (9.1, 1e-5, 0, 45.152, 0, -1e-5), "crs": "EPSG:4326"}, True),
+    ],
+)
+def test_a_texture_beside_the_ground(tmp_path, place, beside):
+    heights = memory(terrain(40, 40), **place_of_texture("EPSG:32632+5773", 500000))
+    image = str(tmp_path / "image.tif")
+    layers = np.stack([terrain(40, 40, "u1")] * 3)
+    gdal.GetDriverByName("GTiff").CreateCopy(image, memory(layers, colours=RGB, **place))
+    name = tmp_path / "a.tks"
+    heard = warnings_of(lambda: copy(heights, name, "TEXTURE=" + image))[1]
+    assert ["lies beside the ground" in text for text in heard] == [True] * beside, heard
+
+
+def test_nodata_of_a_texture(tmp_path):
+    """Beside heights there is no place for it; a picture alone keeps it beside the stream."""
+    image = str(tmp_path / "image.tif")
+    layers = memory(np.stack([terrain(20, 30, "u1")] * 3), colours=RGB, nodata=7)
+    gdal.GetDriverByName("GTiff").CreateCopy(image, layers)
+    heard = warnings_of(lambda: copy(terrain(20, 30), tmp_path / "a.tks", "TEXTURE=" + image))[1]
+    assert len(heard) == 1 and "not applied and not kept" in heard[0], heard
+    heard = warnings_of(lambda: copy(layers, tmp_path / "b.tks"))[1]
+    assert heard == []
+    assert first_band(gdal.Open(str(tmp_path / "b.tks"))).GetNoDataValue() == 7
 
 
 def test_texture_with_a_mask(tmp_path):
@@ -299,12 +353,7 @@ def test_reference_system_that_cannot_be_parsed(tmp_path, monkeypatch):
     end = start + size
     data[end : end + 4] = zlib.crc32(data[:end]).to_bytes(4, "little")
     name.write_bytes(data)
-    heard = []
-    gdal.PushErrorHandler(lambda *error: heard.append(error[2]))
-    try:
-        dataset = gdal.Open(str(name))
-    finally:
-        gdal.PopErrorHandler()
+    dataset, heard = warnings_of(lambda: gdal.Open(str(name)))
     assert dataset.GetSpatialRef() is None and any("HUMBUG" in text for text in heard)
     np.testing.assert_array_equal(dataset.ReadAsArray(), terrain(20, 30))
 
@@ -349,12 +398,8 @@ def test_nan_without_nodata_stays_undeclared(tmp_path, dtype):
 
 def test_a_scale_of_0_is_none(tmp_path):
     heights = terrain(20, 30, "i2")
-    heard = []
-    gdal.PushErrorHandler(lambda *error: heard.append(error[2]))
-    try:
-        dataset = copy(memory(heights, scale=0, offset=7), tmp_path / "a.tks")
-    finally:
-        gdal.PopErrorHandler()
+    source = memory(heights, scale=0, offset=7)
+    dataset, heard = warnings_of(lambda: copy(source, tmp_path / "a.tks"))
     assert [text for text in heard if "scale of 0 is none" in text]
     np.testing.assert_array_equal(dataset.ReadAsArray(), heights)
     assert (dataset.GetRasterBand(1).GetScale(), dataset.GetRasterBand(1).GetOffset()) == (1, 7)
@@ -500,7 +545,8 @@ def test_sources_that_are_no_heights(tmp_path):
 
 def test_unwritable_targets(tmp_path):
     for name in (tmp_path / "nowhere/a.tks", "/proc/a.tks", "/vsicurl/http://localhost:1/a.tks"):
-        refused(lambda name=name: copy(terrain(20, 30), name), "cannot be written")
+        message = refused(lambda name=name: copy(terrain(20, 30), name), "cannot be written")
+        assert "()" not in message
     (tmp_path / "folder.tks").mkdir()
     with pytest.raises(RuntimeError):
         copy(terrain(20, 30), tmp_path / "folder.tks")

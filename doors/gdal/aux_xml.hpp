@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// GDAL's file beside a stream (name.aux.xml) holds what the stream does not say. GDAL would write
+// all that a dataset says into it, and what is there precedes: it would outlive a stream that is
+// replaced, and name the file as it was called before it was moved.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include <cpl_minixml.h>
+
+namespace tetrakis::gdal {
+
+/// Domains of metadata in which only the stream speaks.
+inline constexpr std::array kOwnDomains = {"IMAGE_STRUCTURE", "SUBDATASETS", "TKS"};
+
+/// What a stream says in places where others may say something else.
+struct StreamTexts {
+  std::string registration;  ///< AREA_OR_POINT
+  std::string description;   ///< of the first band
+};
+
+/// Drops what the stream says from what is to be written. Null if nothing else is left.
+CPLXMLNode* withoutStreamTexts(CPLXMLNode* tree, const StreamTexts& stream);
+
+/// Adds what the file holds of subdatasets, which GDAL 3.6 drops when it writes the whole. `tree`
+/// may be null, and so may be what is returned.
+CPLXMLNode* withSubdatasets(CPLXMLNode* tree, const char* file);
+
+}  // namespace tetrakis::gdal
