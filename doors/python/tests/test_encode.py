@@ -158,6 +158,15 @@ def test_place_comes_back(stream):
         assert opened.info.texture_registration == "point"
 
 
+def test_codes_of_epsg_come_back_in_capitals(heights, texture):
+    codes = dict(crs="epsg:32611+5773", vertical_datum="Epsg:5773", texture_crs="epsg:32612")
+    with tetrakis.open(tetrakis.encode(heights, texture, psnr=30, **codes)) as stream:
+        info = stream.info
+        assert info.crs == "EPSG:32611+5773"
+        assert info.vertical_datum == "EPSG:5773"
+        assert info.texture_crs == "EPSG:32612"
+
+
 def test_scale_and_text_come_back(heights):
     stream = tetrakis.encode(
         terrain(dtype="i2") // 2,

@@ -223,6 +223,27 @@ def test_textures_with_a_place_of_their_own_meet_the_mesh(heights, texture):
     np.testing.assert_allclose(mesh.uv, np.stack([u, v], 1), rtol=1e-5)
 
 
+@pytest.mark.parametrize(
+    "crs, texture_crs, known",
+    [
+        ("EPSG:32611", "epsg:32611", True),
+        ("esri:54030", "ESRI:54030", True),
+        ("EPSG:32611+5773", "EPSG:32611", True),
+        ("EPSG:32611", "EPSG:32612", False),
+        ("my grid", "My Grid", False),
+    ],
+)
+def test_textures_lie_by_their_place_where_the_crs_is_the_same(crs, texture_crs, known):
+    """The texture covers the western half of the heights."""
+    place = dict(geotransform=(0, 1, 0, 0, 0, -1), texture_geotransform=(0, 0.5, 0, 0, 0, -1))
+    stream = tetrakis.encode(
+        terrain(40, 40), photograph(40, 40), psnr=30, crs=crs, texture_crs=texture_crs, **place
+    )
+    mesh = tetrakis.open(stream).mesh(50)
+    u = (mesh.vertices[:, 0] + 0.5) / 20 if known else mesh.vertices[:, 0] / 39
+    np.testing.assert_allclose(mesh.uv[:, 0], u, rtol=1e-5)
+
+
 def test_views_are_parts_of_the_mesh(stream):
     opened = tetrakis.open(stream)
     everything = [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1]]

@@ -82,7 +82,7 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         spacing_x=values.real(spacing_x or 0, "spacing"),
         spacing_y=values.real(spacing_y or 0, "spacing"),
         unit=values.text(place["unit"], "unit"),
-        vertical_datum=values.text(place["vertical_datum"], "vertical_datum"),
+        vertical_datum=values.crs(place["vertical_datum"], "vertical_datum"),
         crs=values.crs(place["crs"], "crs"),
         has_nodata=nodata is not None,
         nodata=values.real(0 if nodata is None else nodata, "nodata"),
@@ -238,11 +238,11 @@ def encode(
         unit: of heights, such as "m". vertical_datum: such as "EPSG:5703".
         spacing: metres from one sample to the next, one number or (x, y).
         step: quantisation step in sample units; chosen unless given.
-        crs: "EPSG:32611" (also "EPSG:32611+5773"), WKT, or a name. It is kept as it is given and
-            not looked up: GDAL warns of a CRS that it cannot parse, and opens the raster without
-            one. geotransform: six numbers in the order of GDAL and in units of the CRS.
-            registration: "area" or "point". texture_...: likewise for a texture whose place is not
-            that of the heights, or that comes without heights.
+        crs: "EPSG:32611" (also "EPSG:32611+5773"), WKT, or a name. It is kept as it is given (but
+            for "epsg:", which becomes "EPSG:") and not looked up: GDAL warns of a CRS that it
+            cannot parse, and opens the raster without one. geotransform: six numbers in the order
+            of GDAL and in units of the CRS. registration: "area" or "point". texture_...: likewise
+            for a texture whose place is not that of the heights, or that comes without heights.
         description, geo_keys: as tks_heights in tetrakis.h has them.
 
     How it is coded

@@ -6,7 +6,7 @@ from __future__ import annotations
 import builtins
 import ctypes
 import os
-from typing import Any, BinaryIO, NamedTuple, Optional, Tuple, Union
+from typing import Any, BinaryIO, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,8 @@ from . import _library as c
 from . import _values as values
 from ._decoder import Decoder
 from ._errors import TksUsageError
-from ._info import GeoTransform, Info
+from ._ground import mesh_place, mesh_uv
+from ._info import Info
 
 BytesLike = Union[builtins.bytes, bytearray, memoryview]
 Source = Union[str, "os.PathLike[str]", BytesLike, BinaryIO]
@@ -29,7 +30,12 @@ class Mesh(NamedTuple):
     triangles: NDArray[Any]
     """uint32 (m, 3): places in `vertices`, counter-clockwise seen from above."""
     uv: NDArray[Any]
-    """float32 (n, 2): place in the texture; (0, 0) is where its first row and column begin."""
+    """float32 (n, 2): place in the texture; (0, 0) is where its first row and column begin, (1, 1)
+    where its last ones end. Where heights and texture have geotransforms in one CRS, these say so,
+    and what lies outside the texture is below 0 or above 1 (the command line shows the texture's
+    border there). CRSs are compared as text, codes without their vertical part and in any case.
+    Where they differ, or a geotransform is missing, the texture covers the heights from the first
+    sample to the last."""
 
 
 def open(
@@ -260,11 +266,11 @@ class Stream:
             places, heights, corners = decoder.mesh(count, matrix)
         rows, columns = np.divmod(places.astype(np.int64), (info.shape or (0, 0))[1])
         transform = info.geotransform if coordinates == "crs" else None
-        x, y, mirrored = _ground(info, columns, rows, transform)
+        x, y, mirrored = mesh_place(info, columns, rows, transform)
         vertices = np.stack([x, y, heights.astype(np.float64)], axis=1)
         if mirrored:
             corners = np.ascontiguousarray(corners[:, ::-1])
-        return Mesh(vertices, corners, _uv(info, columns, rows))
+        return Mesh(vertices, corners, mesh_uv(info, columns, rows))
 
     def verify(self) -> None:
         """Checks the syntax of the whole stream. Raises :class:`TksTruncatedError` if it is a
@@ -303,38 +309,3 @@ def _matrix(view: ArrayLike) -> NDArray[Any]:
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
         raise TksUsageError("A view is a 4 x 4 matrix of finite numbers.")
     return matrix
-
-
-def _at(transform: GeoTransform, columns: Any, rows: Any) -> Tuple[Any, Any]:
-    t = transform
-    return t[0] + columns * t[1] + rows * t[2], t[3] + columns * t[4] + rows * t[5]
-
-
-def _ground(
-    info: Info, columns: NDArray[Any], rows: NDArray[Any], transform: Optional[GeoTransform]
-) -> Tuple[NDArray[Any], NDArray[Any], bool]:
-    """x, y, and whether they lie as in a mirror: rows usually run against y."""
-    t = info.geotransform
-    mirrored = t is not None and t[1] * t[5] - t[2] * t[4] > 0
-    if transform is None:
-        spacing_x, spacing_y = info.spacing or (1.0, 1.0)
-        y = rows * spacing_y
-        return columns * spacing_x, y if mirrored else 0.0 - y, mirrored
-    return (*_at(transform, columns + 0.5, rows + 0.5), mirrored)
-
-
-def _uv(info: Info, columns: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
-    """By both geotransforms where heights and texture have one in the same CRS. Otherwise the first
-    and last samples lie on the texture's borders, as in the meshes of the command line."""
-    height, width = info.shape or (0, 0)
-    u, v = columns / (width - 1), rows / (height - 1)
-    ground, t = info.geotransform, info.texture_geotransform
-    if ground and t and info.texture_shape and info.texture_crs == info.crs:
-        determinant = t[1] * t[5] - t[2] * t[4]
-        if determinant != 0:
-            x, y = _at(ground, columns + 0.5, rows + 0.5)
-            x, y = x - t[0], y - t[3]
-            u = (x * t[5] - y * t[2]) / determinant / info.texture_shape[1]
-            v = (y * t[1] - x * t[4]) / determinant / info.texture_shape[0]
-    uv: NDArray[Any] = np.stack([u, v], axis=1).astype(np.float32)
-    return uv

@@ -54,11 +54,14 @@ def text(value: Optional[str], what: str) -> Optional[bytes]:
 
 
 def crs(value: Optional[str], what: str) -> Optional[bytes]:
-    """A name or WKT is whatever its readers know; a code that is none is a mistake."""
-    code = value[5:] if isinstance(value, str) and value[:5].upper() == "EPSG:" else None
-    if code is not None and not re.fullmatch(r"[0-9]+(\+[0-9]+)?", code):
+    """A name or WKT is whatever its readers know; a code that is none is a mistake. Not all readers
+    know EPSG in lower case."""
+    if not isinstance(value, str) or value[:5].upper() != "EPSG:":
+        return text(value, what)
+    code = value[5:]
+    if not re.fullmatch(r"[0-9]+(\+[0-9]+)?", code):
         raise TksUsageError(f"{what} {value!r} has no code of EPSG behind the colon.")
-    return text(value, what)
+    return text("EPSG:" + code, what)
 
 
 def choice(value: Any, choices: Sequence[Any], what: str) -> int:
