@@ -91,9 +91,12 @@ def test_numcodecs_configuration(codec):
     decoded = lossy.decode(lossy.encode(chunk))
     assert np.abs(decoded - chunk).max() <= 0.25
     assert (decoded[3:9, 5:9] == -9999).all()
-    for wrong in (np.zeros((3, 4, 5), "f4"), np.zeros(9, "f4"), np.zeros((4, 4))):
-        with pytest.raises(tetrakis.TksUsageError):
-            codec().encode(wrong)
+    layers = [((3, 4, 5), "f4"), ((3, 4, 3), "f4"), ((3, 4, 5), "u1"), ((2, 3, 4, 3), "u1")]
+    for shape, dtype in [*layers, (9, "f4")]:
+        with pytest.raises(tetrakis.TksUsageError, match="choose chunks of one layer"):
+            codec().encode(np.zeros(shape, dtype))
+    with pytest.raises(tetrakis.TksUsageError, match="A chunk of type float64"):
+        codec().encode(np.zeros((4, 4)))
 
 
 def test_numcodecs_finds_the_codec_by_its_entry_point(codec):

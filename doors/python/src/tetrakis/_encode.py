@@ -109,7 +109,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
     """The struct, and the texels that it points to: they must live as long."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.getmaskarray(array).any():
         raise TksUsageError("A texture has no masked texels: give an alpha of 0 as last channel.")
-    data = values.samples(np.asarray(array), "A texture", (np.dtype("u1"), np.dtype("u2")))
+    data = values.samples(np.asarray(array), "A texture", values.TEXELS)
     if data.ndim == 2:
         data = data[..., np.newaxis]
     if data.ndim != 3 or not 1 <= data.shape[2] <= 4:

@@ -16,6 +16,7 @@ from ._errors import TksUsageError
 
 # In the order of tks_sample.
 SAMPLES = tuple(np.dtype(name) for name in ("u1", "i1", "u2", "i2", "u4", "i4", "f4"))
+TEXELS = (np.dtype("u1"), np.dtype("u2"))
 
 # (x, y, width, height) in samples, or the slices (rows, columns) that would cut it from an array.
 WindowLike = Union[Tuple[int, int, int, int], Tuple[slice, slice], slice]
