@@ -27,8 +27,13 @@ def test_tks_functions(heights, texture):
     assert tetrakis.tks_decode(stream, level=1).shape == (23, 30)
     out = np.empty_like(heights)
     assert tetrakis.tks_decode(stream, out=out) is out
-    with pytest.raises(tetrakis.TksUsageError):
-        tetrakis.tks_encode(heights, 40, psnr=30)
+    assert tetrakis.tks_encode(heights, threads=2) == stream
+    for twice in (dict(psnr=30), dict(numthreads=2, threads=2)):
+        with pytest.raises(tetrakis.TksUsageError, match="give one"):
+            tetrakis.tks_encode(heights, 40, **twice)
+    for no_bytes in (5, "TKS", None):
+        with pytest.raises(tetrakis.TksUsageError, match="bytes"):
+            tetrakis.tks_check(no_bytes)
 
 
 def test_tks_encode_into_a_buffer(heights):
@@ -36,9 +41,10 @@ def test_tks_encode_into_a_buffer(heights):
     room = bytearray(len(stream) + 10)
     written = tetrakis.tks_encode(heights, out=room)
     assert written == stream and room.startswith(stream)
-    for small in (bytearray(len(stream) - 1), bytes(len(stream))):
+    by_columns = np.zeros((len(stream), 2), order="F")
+    for wrong in (bytearray(len(stream) - 1), bytes(len(stream)), by_columns, "text"):
         with pytest.raises(tetrakis.TksUsageError, match="out must"):
-            tetrakis.tks_encode(heights, out=small)
+            tetrakis.tks_encode(heights, out=wrong)
 
 
 @pytest.fixture

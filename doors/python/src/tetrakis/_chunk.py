@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _values as values
 from ._errors import TksUsageError
-from ._stream import BytesLike
+from ._source import BytesLike
 from ._tks import tks_decode, tks_encode
 
 
@@ -39,7 +39,7 @@ def layer(chunk: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> bytes:
+def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> BytesLike:
     check_type(chunk.dtype)
     array = layer(chunk)
     if array.ndim != 2 and not _is_texture(array):

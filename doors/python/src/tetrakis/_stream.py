@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-import os
-from typing import Any, BinaryIO, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +16,7 @@ from ._decoder import Decoder
 from ._errors import TksUsageError
 from ._ground import mesh_place, mesh_uv
 from ._info import Info
-
-BytesLike = Union[builtins.bytes, bytearray, memoryview]
-Source = Union[str, "os.PathLike[str]", BytesLike, BinaryIO]
+from ._source import BytesLike, Source, first_bytes
 
 
 class Mesh(NamedTuple):
@@ -66,48 +63,16 @@ def open(
         max_memory=values.unsigned(max_memory, "max_memory", 64),
     )
     threads = values.unsigned(threads, "threads")
-    return Stream(_read(source, bytes), limits, threads)
+    return Stream(first_bytes(source, bytes), limits, threads)
 
 
 def truncate(stream: BytesLike, bytes: int) -> builtins.bytes:
     """The first `bytes` bytes of a stream (all of it, if it has no more), which are a stream too:
     about the best that so few bytes can hold. Raises :class:`TksTruncatedError` if they do not hold
     the header; the sentence says how many do."""
-    cut = _read(stream, bytes)
+    cut = first_bytes(stream, bytes)
     with Decoder(cut, c.Limits(size=ctypes.sizeof(c.Limits), max_samples=2**63, max_texels=2**63)):
         return cut
-
-
-def _read(source: Any, limit: Optional[int]) -> builtins.bytes:
-    """Up to `limit` bytes. What could change under the decoder is copied."""
-    count = -1 if limit is None else values.unsigned(limit, "bytes", 63)
-    if isinstance(source, (str, os.PathLike)):
-        with builtins.open(source, "rb") as file:
-            return file.read(count)
-    if hasattr(source, "read"):
-        return _read_file(source, count)
-    if isinstance(source, builtins.bytes):
-        return source if count < 0 else source[:count]
-    try:
-        data = memoryview(source).tobytes()
-    except TypeError:
-        kind = type(source).__name__
-        raise TksUsageError(f"A stream is a path, bytes or a file, not {kind}.") from None
-    return data if count < 0 else data[:count]
-
-
-def _read_file(source: Any, count: int) -> builtins.bytes:
-    """Files without a buffer may give less than they are asked for."""
-    parts = []
-    while count != 0:
-        part = source.read(count)
-        if not isinstance(part, builtins.bytes):
-            raise TksUsageError("The file must be open for reading bytes (mode 'rb').")
-        if not part:
-            break
-        parts.append(part)
-        count -= len(part) if count > 0 else 0
-    return b"".join(parts)
 
 
 class Stream:
@@ -183,6 +148,7 @@ class Stream:
             or NaN without one.
         out: an array in C order to write to, of the right shape and type.
         """
+        masked = values.flag(masked, "masked")
         with self._decoder(level, 0, bytes) as decoder:
             info = decoder.info()
             part = values.window(window, info.shape or (0, 0))
@@ -258,7 +224,7 @@ class Stream:
         if triangles is not None and count == 0:
             raise TksUsageError("A mesh takes one triangle or more; None means all samples.")
         values.choice(coordinates, ("local", "crs"), "coordinates")
-        matrix = None if view is None else _matrix(view)
+        matrix = None if view is None else values.matrix(view)
         with self._decoder(0, 0, bytes) as decoder:
             info = decoder.info()
             if coordinates == "crs" and info.shape and info.geotransform is None:
@@ -302,10 +268,3 @@ def _masked(samples: NDArray[Any], valid: NDArray[Any], info: Info) -> np.ma.Mas
         kept = np.array([info.nodata]).astype(samples.dtype)[0]
         fill = kept if kept == info.nodata else None
     return np.ma.MaskedArray(samples, mask=~valid, fill_value=fill)
-
-
-def _matrix(view: ArrayLike) -> NDArray[Any]:
-    matrix = np.asarray(view, np.float64)
-    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
-        raise TksUsageError("A view is a 4 x 4 matrix of finite numbers.")
-    return matrix

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import builtins
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _values as values
 from ._encode import encode
 from ._errors import TksUsageError
-from ._stream import BytesLike, open
+from ._source import BytesLike, octets
+from ._stream import open
 from ._version import __version__
 
 # The first bytes of every stream.
@@ -26,7 +27,7 @@ def tks_version() -> str:
 
 def tks_check(data: BytesLike) -> bool:
     """Whether the bytes begin as a stream does."""
-    return builtins.bytes(memoryview(data)[: len(SIGNATURE)]) == SIGNATURE
+    return octets(data)[: len(SIGNATURE)] == SIGNATURE
 
 
 def tks_encode(
@@ -37,25 +38,34 @@ def tks_encode(
     numthreads: Optional[int] = None,
     out: Any = None,
     **options: Any,
-) -> builtins.bytes:
+) -> Union[builtins.bytes, memoryview]:
     """Codes (rows, columns) as heights and (rows, columns, channels) as a texture.
 
     level: PSNR in dB; without it and without a target among the options: lossless.
     options: those of :func:`tetrakis.encode`.
     out: a writable buffer that takes the stream; the result is then a memoryview of its beginning.
     """
-    array = data if isinstance(data, np.ma.MaskedArray) else np.asarray(data)
-    if level is not None:
-        if options.get("psnr") is not None:
-            raise TksUsageError("level is the PSNR: give one of them.")
-        options["psnr"] = level
+    array = data if isinstance(data, np.ma.MaskedArray) else values.array(data, "data")
+    for name, value, ours in (("level", level, "psnr"), ("numthreads", numthreads, "threads")):
+        if value is None:
+            continue
+        if options.get(ours) is not None:
+            raise TksUsageError(f"{name} is the same as {ours}: give one of them.")
+        options[ours] = value
     heights, texture = (None, array) if array.ndim == 3 else (array, None)
-    stream = encode(heights, texture, threads=numthreads or 1, **options)
-    if out is None:
-        return stream
-    room = memoryview(out).cast("B")
+    stream = encode(heights, texture, **options)
+    return stream if out is None else _written(stream, out)
+
+
+def _written(stream: builtins.bytes, out: Any) -> memoryview:
+    try:
+        room = memoryview(out).cast("B")
+    except (TypeError, ValueError):
+        room = memoryview(b"")
     if room.readonly or len(room) < len(stream):
-        raise TksUsageError(f"out must be writable and hold {len(stream)} bytes.")
+        raise TksUsageError(
+            f"out must be a writable buffer in C order that holds {len(stream)} bytes."
+        )
     room[: len(stream)] = stream
     return room[: len(stream)]
 
@@ -72,7 +82,7 @@ def tks_decode(
 ) -> NDArray[Any]:
     """The heights, (rows, columns); of a stream without heights the texture. Arguments are those of
     :meth:`tetrakis.Stream.heights`."""
-    with open(data, threads=numthreads or 1) as stream:
+    with open(data, threads=1 if numthreads is None else numthreads) as stream:
         if stream.info.shape is not None:
             return stream.heights(level, window, masked=masked, out=out)
         return stream.texture(level, window, out=out)
