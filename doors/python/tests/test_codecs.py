@@ -41,10 +41,22 @@ def test_tks_encode_into_a_buffer(heights):
     room = bytearray(len(stream) + 10)
     written = tetrakis.tks_encode(heights, out=room)
     assert written == stream and room.startswith(stream)
+    assert tetrakis.tks_encode(heights, out=len(stream)) == stream
     by_columns = np.zeros((len(stream), 2), order="F")
-    for wrong in (bytearray(len(stream) - 1), bytes(len(stream)), by_columns, "text"):
+    for wrong in (bytearray(len(stream) - 1), bytes(len(stream)), len(stream) - 1, -1, by_columns,
+                  "text"):  # fmt: skip
         with pytest.raises(tetrakis.TksUsageError, match="out must"):
             tetrakis.tks_encode(heights, out=wrong)
+
+
+def test_tks_decode_into_so_many_bytes(heights):
+    stream = tetrakis.tks_encode(heights)
+    np.testing.assert_array_equal(tetrakis.tks_decode(stream, out=heights.nbytes), heights)
+    quarter = tetrakis.tks_decode(stream, level=1, out=heights.nbytes)
+    np.testing.assert_array_equal(quarter, tetrakis.tks_decode(stream, level=1))
+    for wrong in (heights.nbytes - 1, -1):
+        with pytest.raises(tetrakis.TksUsageError, match="out must"):
+            tetrakis.tks_decode(stream, out=wrong)
 
 
 @pytest.fixture

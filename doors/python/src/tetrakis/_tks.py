@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import builtins
+import numbers
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -43,7 +44,8 @@ def tks_encode(
 
     level: PSNR in dB; without it and without a target among the options: lossless.
     options: those of :func:`tetrakis.encode`.
-    out: a writable buffer that takes the stream; the result is then a memoryview of its beginning.
+    out: how many bytes the stream may take at most, or a writable buffer that takes it; the result
+        is then a memoryview of its beginning.
     """
     array = data if isinstance(data, np.ma.MaskedArray) else values.array(data, "data")
     for name, value, ours in (("level", level, "psnr"), ("numthreads", numthreads, "threads")):
@@ -57,17 +59,27 @@ def tks_encode(
     return stream if out is None else _written(stream, out)
 
 
-def _written(stream: builtins.bytes, out: Any) -> memoryview:
+def _written(stream: builtins.bytes, out: Any) -> Union[builtins.bytes, memoryview]:
+    if isinstance(out, numbers.Integral):
+        _check_room(len(stream), values.unsigned(out, "out", 63))
+        return stream
     try:
         room = memoryview(out).cast("B")
     except (TypeError, ValueError):
         room = memoryview(b"")
-    if room.readonly or len(room) < len(stream):
+    if room.readonly:
         raise TksUsageError(
-            f"out must be a writable buffer in C order that holds {len(stream)} bytes."
+            "out must be a number of bytes or a writable buffer in C order, "
+            f"not {values.told(out)}."
         )
+    _check_room(len(stream), len(room))
     room[: len(stream)] = stream
     return room[: len(stream)]
+
+
+def _check_room(needed: int, given: int) -> None:
+    if needed > given:
+        raise TksUsageError(f"out must have {needed} bytes or more, not {given}.")
 
 
 def tks_decode(
@@ -78,10 +90,15 @@ def tks_decode(
     window: Optional[values.WindowLike] = None,
     masked: bool = False,
     numthreads: Optional[int] = None,
-    out: Optional[NDArray[Any]] = None,
+    out: Union[NDArray[Any], int, None] = None,
 ) -> NDArray[Any]:
     """The heights, (rows, columns); of a stream without heights the texture. Arguments are those of
-    :meth:`tetrakis.Stream.heights`."""
+    :meth:`tetrakis.Stream.heights`; out may also be how many bytes the array may take at most."""
+    if isinstance(out, numbers.Integral):
+        most = values.unsigned(out, "out", 63)
+        array = tks_decode(data, level=level, window=window, masked=masked, numthreads=numthreads)
+        _check_room(array.nbytes, most)
+        return array
     with open(data, threads=1 if numthreads is None else numthreads) as stream:
         if stream.info.shape is not None:
             return stream.heights(level, window, masked=masked, out=out)
