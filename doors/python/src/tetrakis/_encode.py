@@ -241,7 +241,9 @@ def encode(
 
     What the samples are, kept in every prefix
         unit: of heights, such as "m". vertical_datum: such as "EPSG:5703".
-        spacing: metres from one sample to the next, one number or (x, y).
+        spacing: metres from one sample to the next, one number or (x, y). It does not follow from
+            a geotransform here, since this package knows no CRS; exports of the command line, which
+            does, derive a missing one.
         step: quantisation step in sample units; chosen unless given.
         crs: "EPSG:32611" (also "EPSG:32611+5773"), WKT, or a name. It is kept as it is given (but
             for "epsg:", which becomes "EPSG:") and not looked up: GDAL warns of a CRS that it

@@ -206,7 +206,8 @@ class Stream:
         *,
         coordinates: str = "local",
     ) -> Mesh:
-        """The best mesh of at most `triangles` triangles; without a number, all samples.
+        """The best mesh of at most `triangles` triangles, or the coarsest one where that has more
+        (2 for most grids, a few for some, many for long ones). Without a number, all samples.
 
         view: a 4 x 4 matrix that takes (column, row, height, 1) to clip coordinates: only what a
             camera with it may see.
