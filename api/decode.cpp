@@ -184,6 +184,8 @@ Status checkLevel(const char* what, uint32_t level, int coarsest) {
 
 Status setLevels(tks_decoder& decoder, uint32_t heights, uint32_t texture) {
   const StreamHeader& header = decoder.parsed.header;
+  if (heights > 0 && !header.geometry) return noHeights();
+  if (texture > 0 && !header.texture) return noTexture();
   Status status = checkLevel("The heights", heights, coarsestLevelOf(header.geometry));
   if (status.ok()) status = checkLevel("The texels", texture, coarsestLevelOf(header.texture));
   if (!status.ok()) return status;

@@ -256,12 +256,19 @@ TEST(MipLevels, RefusesWhatThereIsNot) {
   EXPECT_EQ(tks_set_levels(stream.get(), 5, 0), TKS_USAGE);
   EXPECT_STREQ(tks_message(stream.get()), "The heights have no level 5; their coarsest is 4.");
   EXPECT_EQ(tks_set_levels(stream.get(), 0, 1), TKS_USAGE);
+  EXPECT_STREQ(tks_message(stream.get()), "The stream holds no texture.");
   EXPECT_TRUE(sameBytes(stream.heights(), heights.data));
   ASSERT_EQ(tks_set_levels(stream.get(), 1, 0), TKS_OK);
   tks_mesh mesh;
   EXPECT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, 100, &mesh), TKS_USAGE);
   std::vector<std::byte> whole(33 * 20 * 2);
   EXPECT_EQ(tks_decode_heights(stream.get(), whole.data(), whole.size()), TKS_USAGE);
+  const Raster image = make({Pattern::kRidges, 33, 20, 1, TKS_U8, 3});
+  const Bytes texels = encode(nullptr, &image, lossless());
+  Stream picture(texels);
+  EXPECT_EQ(tks_set_levels(picture.get(), 1, 0), TKS_USAGE);
+  EXPECT_STREQ(tks_message(picture.get()), "The stream holds no heights.");
+  EXPECT_EQ(tks_set_levels(picture.get(), 0, 1), TKS_OK);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include "tests/cli/cli_fixture.hpp"
 
+#include "tetrakis/tetrakis.hpp"
+
 namespace tetrakis::test {
 namespace {
 
@@ -30,6 +32,22 @@ class CliPlace : public CliTest {
     for (uint32_t i = 0; i < side * side; ++i) appendSample(file, static_cast<uint16_t>(i / side));
     ASSERT_TRUE(tools::writeHeights(path(name), file).ok());
   }
+  /// As another encoder than the command line would.
+  void writeStream(const tools::HeightFile& file, const std::string& name) {
+    const tks_heights heights = tools::asHeights(file);
+    tks_encode_options options = makeEncodeOptions();
+    options.lossless = 1;
+    const auto stream = tetrakis::encode(&heights, nullptr, options);
+    ASSERT_TRUE(stream.ok()) << stream.status().message();
+    ASSERT_TRUE(tools::writeBytes(path(name), std::as_bytes(stream->bytes())).ok());
+  }
+};
+
+/// A CRS, a place, and the metres between samples there.
+struct Placed {
+  const char* crs;
+  tools::GeoTransform place;
+  double x, y;
 };
 
 TEST_F(CliPlace, TilesLieWhereTheirNamesSay) {
@@ -223,6 +241,44 @@ TEST_F(CliPlace, DegreesOfAWorldFileBecomeMetres) {
   const Json info = Json::parse(cli("info --json s.tks").out)["heights"];
   EXPECT_NEAR(info["spacing_x"], 0.01 * 55800.0, 0.01);
   EXPECT_NEAR(info["spacing_y"], 0.02 * 111412.2, 0.01);
+}
+
+TEST_F(CliPlace, ASpacingThatTheStreamLacksFollowsFromItsPlace) {
+  tools::HeightFile file = hills(17);
+  file.spacing_x = file.spacing_y = 0;
+  for (const auto& [crs, place, x, y] :
+       {Placed{"EPSG:32611", {400000, 10, 0, 3800000, 0, -20}, 10, 20},
+        Placed{"EPSG:2263", {900000, 100, 0, 200000, 0, -100}, 30.48006096, 30.48006096},
+        Placed{"EPSG:4326", {7, 0.01, 0, 60.17, 0, -0.02}, 558, 2228.244}}) {
+    SCOPED_TRACE(crs);
+    file.crs = crs;
+    file.geotransform = place;
+    writeStream(file, "s.tks");
+    EXPECT_TRUE(Json::parse(cli("info --json s.tks").out)["heights"]["spacing_x"].is_null());
+    const Outcome engine = cli("decode s.tks -f --height u.r16 --size unreal --json --mesh m.obj");
+    ASSERT_EQ(engine.code, 0) << engine.err;
+    EXPECT_EQ(engine.err.find("spacing"), std::string::npos) << engine.err;
+    const Json ground = Json::parse(engine.out);
+    EXPECT_NEAR(ground["width"], 16 * x, 0.01 * x);
+    EXPECT_NEAR(ground["length"], 16 * y, 0.01 * y);
+    double west = 0, north = 0;
+    std::istringstream mesh(content("m.obj"));
+    for (std::string row; std::getline(mesh, row);) {
+      double east = 0, south = 0;
+      if (std::sscanf(row.c_str(), "v %lf %*f %lf", &east, &south) != 2) continue;
+      west = std::min(west, east);
+      north = std::min(north, south);
+    }
+    EXPECT_NEAR(west, -8 * x, 0.01 * x);
+    EXPECT_NEAR(north, -8 * y, 0.01 * y);
+    const Json line = Json::parse(
+        cliOf({"profile", "s.tks", "--line", "0,0 3,4", "--points", "9", "--json"}).out);
+    EXPECT_EQ(line["distance_unit"], "m");
+    EXPECT_NEAR(line["length"], std::hypot(3 * x, 4 * y), 0.01 * x);
+  }
+  file.crs = "a grid that nobody knows";
+  writeStream(file, "s.tks");
+  EXPECT_NE(cli("decode s.tks -f --mesh m.obj").err.find("counts as 30 m"), std::string::npos);
 }
 
 TEST_F(CliPlace, BrokenWorldFilesAreRefusedWithOneSentence) {

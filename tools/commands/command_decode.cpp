@@ -15,6 +15,7 @@
 #include "tools/commands/decoded_texture.hpp"
 #include "tools/commands/engine_output.hpp"
 #include "tools/files/file_bytes.hpp"
+#include "tools/files/place/ground_spacing.hpp"
 #include "tools/files/plain_heights.hpp"
 #include "tools/files/text.hpp"
 #include "tools/files/turned_image.hpp"
@@ -79,7 +80,7 @@ class Decoding {
     const tks_info& info = decoder_.info();
     if (!info.has_heights || !(mesh_ || normals_ || engine_)) return;
     tellNote(guessedUnitNote(info), quiet_);
-    if (info.spacing_x <= 0 && info.spacing_y <= 0)
+    if (spacingOf(info) == std::array<double, 2>{})
       tellNote("the stream does not tell the spacing of its samples, which counts as " +
                    shortest(kUnknownSpacing) + " m",
                quiet_);

@@ -39,8 +39,8 @@ Json number(double value) {
   return std::strtod(digits(value).c_str(), nullptr);
 }
 
-const char* distanceUnit(const tks_info& info) {
-  return info.spacing_x > 0 && info.spacing_y > 0 ? "m" : "samples";
+const char* distanceUnit(const GroundLine& line) {
+  return line.metres ? "m" : "samples";
 }
 
 const char* reasonOf(const GroundGap& gap) {
@@ -74,7 +74,7 @@ Json profileJson(const GroundLine& line, const BestProfile& profile, const tks_i
   });
   for (const GroundGap& gap : line.gaps)
     gaps.push_back({{"from", number(gap.from)}, {"to", number(gap.to)}, {"why", reasonOf(gap)}});
-  return {{"length", number(line.length)},  {"distance_unit", distanceUnit(info)},
+  return {{"length", number(line.length)},  {"distance_unit", distanceUnit(line)},
           {"unit", textOrNull(info.unit)},  {"samples", line.samples()},
           {"algorithm", profile.algorithm}, {"rmse", number(profile.rmse)},
           {"points", std::move(points)},    {"gaps", std::move(gaps)}};
@@ -97,7 +97,7 @@ std::string summary(const GroundLine& line, const BestProfile& profile, const tk
   const std::string unit = info.unit[0] != '\0' ? std::string(" ") + info.unit : "";
   return counted(points, "point", "points") + " for " +
          counted(line.samples(), "sample", "samples") + " along " + fewDigits(line.length) + ' ' +
-         distanceUnit(info) + ", off by " + fewDigits(profile.rmse) + unit + " (RMSE, " +
+         distanceUnit(line) + ", off by " + fewDigits(profile.rmse) + unit + " (RMSE, " +
          profile.algorithm + ")";
 }
 
@@ -119,7 +119,7 @@ Status profile(const ProfileArguments& arguments, bool quiet) {
                                  ": gaps leave " + std::to_string(line->pieces.size()) +
                                  " pieces of the line, and each keeps its ends");
   const BestProfile best = bestProfile(*line, arguments.points);
-  tellNote(gapsNote(line->gaps, distanceUnit(decoder.info())), quiet);
+  tellNote(gapsNote(line->gaps, distanceUnit(*line)), quiet);
   tellNote(summary(*line, best, decoder.info()), quiet);
   return print(arguments.json ? dump(profileJson(*line, best, decoder.info()))
                               : csvOf(*line, best));

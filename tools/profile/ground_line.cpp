@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "tools/files/place/ground_spacing.hpp"
 #include "tools/files/sample_types.hpp"
 
 namespace tetrakis::tools {
@@ -262,7 +263,9 @@ Result<GroundPath> pathOver(const tks_info& info, std::vector<LinePoint> points,
     return Status(TKS_USAGE, "the stream has no heights, so there is no profile");
   GroundPath path;
   path.points = std::move(points);
-  if (info.spacing_x > 0 && info.spacing_y > 0) path.spacing = {info.spacing_x, info.spacing_y};
+  const std::array<double, 2> spacing = spacingOf(info);
+  path.metres = spacing[0] > 0 && spacing[1] > 0;
+  if (path.metres) path.spacing = spacing;
   if (!geographic) return path;
   if (!info.has_geotransform)
     return Status(TKS_USAGE, "the stream does not say where it lies, as --geo needs");
@@ -290,6 +293,7 @@ Result<GroundLine> groundUnder(const GroundPath& path, Decoder& decoder) {
   if (!heights.ok()) return heights.status();
   const Ground ground(*heights, window);
   GroundLine line = LineSampler(ground).walk(legs);
+  line.metres = path.metres;
   if (line.pieces.empty()) return Status(TKS_USAGE, "the line meets no ground but voids");
   return line;
 }

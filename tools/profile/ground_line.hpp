@@ -26,6 +26,7 @@ struct GroundPath {
   std::vector<LinePoint> points;
   GeoTransform place = {0, 1, 0, 0, 0, 1};  ///< as it stands: columns and rows
   std::array<double, 2> spacing = {1, 1};   ///< what a column and a row count in distances
+  bool metres = false;                      ///< distances are metres, else samples
 };
 
 /// The path with all that the stream tells. geographic: the points are in the coordinates of its
@@ -46,6 +47,7 @@ struct GroundGap {
 
 struct GroundLine {
   double length = 0;
+  bool metres = false;                            ///< of the path
   std::vector<std::vector<GroundSample>> pieces;  ///< none is empty; gaps lie between them
   std::vector<GroundGap> gaps;
   size_t samples() const;

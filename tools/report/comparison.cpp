@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "tools/files/place/ground_spacing.hpp"
 #include "tools/files/plain_heights.hpp"
 #include "tools/files/stream.hpp"
 #include "tools/report/viewed_mesh.hpp"
@@ -105,8 +106,9 @@ HeightFile asEncoded(const HeightFile& heights, const tks_info& header) {
   HeightFile result = heights;
   result.scale = header.scale;
   result.offset = header.offset;
-  result.spacing_x = header.spacing_x;
-  result.spacing_y = header.spacing_y;
+  const auto [spacing_x, spacing_y] = spacingOf(header);
+  result.spacing_x = spacing_x;
+  result.spacing_y = spacing_y;
   result.unit = header.unit;
   if (header.has_nodata) result.nodata = header.nodata;
   return result;

@@ -13,6 +13,8 @@
 #include "base/length_unit.hpp"
 #include "ground/vec3.hpp"
 
+#include "tools/files/place/ground_spacing.hpp"
+
 namespace tetrakis::tools {
 namespace {
 
@@ -92,8 +94,9 @@ PlacedFrame frameOf(const HeightFile& heights) {
 }
 
 PlacedFrame frameOf(const tks_info& info) {
-  PlacedFrame frame = knownFrame({info.width, info.height, info.spacing_x, info.spacing_y,
-                                  metresPerUnit(info.unit).value_or(1)});
+  const auto [spacing_x, spacing_y] = spacingOf(info);
+  PlacedFrame frame = knownFrame(
+      {info.width, info.height, spacing_x, spacing_y, metresPerUnit(info.unit).value_or(1)});
   if (info.has_geotransform)
     frame.axes = groundAxes(std::to_array(info.geotransform), info.width, info.height, info.crs);
   return frame;

@@ -27,8 +27,13 @@ def test_tks_functions(heights, texture):
     assert tetrakis.tks_decode(stream, level=1).shape == (23, 30)
     out = np.empty_like(heights)
     assert tetrakis.tks_decode(stream, out=out) is out
-    with pytest.raises(tetrakis.TksUsageError):
-        tetrakis.tks_encode(heights, 40, psnr=30)
+    assert tetrakis.tks_encode(heights, threads=2) == stream
+    for twice in (dict(psnr=30), dict(numthreads=2, threads=2)):
+        with pytest.raises(tetrakis.TksUsageError, match="give one"):
+            tetrakis.tks_encode(heights, 40, **twice)
+    for no_bytes in (5, "TKS", None):
+        with pytest.raises(tetrakis.TksUsageError, match="bytes"):
+            tetrakis.tks_check(no_bytes)
 
 
 def test_tks_encode_into_a_buffer(heights):
@@ -36,9 +41,22 @@ def test_tks_encode_into_a_buffer(heights):
     room = bytearray(len(stream) + 10)
     written = tetrakis.tks_encode(heights, out=room)
     assert written == stream and room.startswith(stream)
-    for small in (bytearray(len(stream) - 1), bytes(len(stream))):
+    assert tetrakis.tks_encode(heights, out=len(stream)) == stream
+    by_columns = np.zeros((len(stream), 2), order="F")
+    for wrong in (bytearray(len(stream) - 1), bytes(len(stream)), len(stream) - 1, -1, by_columns,
+                  "text"):  # fmt: skip
         with pytest.raises(tetrakis.TksUsageError, match="out must"):
-            tetrakis.tks_encode(heights, out=small)
+            tetrakis.tks_encode(heights, out=wrong)
+
+
+def test_tks_decode_into_so_many_bytes(heights):
+    stream = tetrakis.tks_encode(heights)
+    np.testing.assert_array_equal(tetrakis.tks_decode(stream, out=heights.nbytes), heights)
+    quarter = tetrakis.tks_decode(stream, level=1, out=heights.nbytes)
+    np.testing.assert_array_equal(quarter, tetrakis.tks_decode(stream, level=1))
+    for wrong in (heights.nbytes - 1, -1):
+        with pytest.raises(tetrakis.TksUsageError, match="out must"):
+            tetrakis.tks_decode(stream, out=wrong)
 
 
 @pytest.fixture
@@ -91,9 +109,12 @@ def test_numcodecs_configuration(codec):
     decoded = lossy.decode(lossy.encode(chunk))
     assert np.abs(decoded - chunk).max() <= 0.25
     assert (decoded[3:9, 5:9] == -9999).all()
-    for wrong in (np.zeros((3, 4, 5), "f4"), np.zeros(9, "f4"), np.zeros((4, 4))):
-        with pytest.raises(tetrakis.TksUsageError):
-            codec().encode(wrong)
+    layers = [((3, 4, 5), "f4"), ((3, 4, 3), "f4"), ((3, 4, 5), "u1"), ((2, 3, 4, 3), "u1")]
+    for shape, dtype in [*layers, (9, "f4")]:
+        with pytest.raises(tetrakis.TksUsageError, match="choose chunks of one layer"):
+            codec().encode(np.zeros(shape, dtype))
+    with pytest.raises(tetrakis.TksUsageError, match="A chunk of type float64"):
+        codec().encode(np.zeros((4, 4)))
 
 
 def test_numcodecs_finds_the_codec_by_its_entry_point(codec):

@@ -135,6 +135,9 @@ def test_masked_integers_get_a_nodata_that_is_free():
         tetrakis.encode(full)
     with pytest.raises(tetrakis.TksUsageError, match="cannot become the nodata"):
         tetrakis.encode(full, nodata=-1)
+    for no_integer in (float("nan"), float("inf"), 0.5):
+        with pytest.raises(tetrakis.TksUsageError, match="cannot become the nodata"):
+            tetrakis.encode(full, nodata=no_integer)
     assert tetrakis.encode(np.ma.MaskedArray(values)) == tetrakis.encode(values)
 
 
@@ -156,6 +159,15 @@ def test_place_comes_back(stream):
         assert opened.info.texture_geotransform == rotated
         assert opened.info.texture_crs == "my grid"
         assert opened.info.texture_registration == "point"
+
+
+def test_codes_of_epsg_come_back_in_capitals(heights, texture):
+    codes = dict(crs="epsg:32611+5773", vertical_datum="Epsg:5773", texture_crs="epsg:32612")
+    with tetrakis.open(tetrakis.encode(heights, texture, psnr=30, **codes)) as stream:
+        info = stream.info
+        assert info.crs == "EPSG:32611+5773"
+        assert info.vertical_datum == "EPSG:5773"
+        assert info.texture_crs == "EPSG:32612"
 
 
 def test_scale_and_text_come_back(heights):
@@ -216,10 +228,27 @@ REFUSED = [
     (dict(heights=np.zeros((4, 4), "f4"), index="windows", bytes=900), "lossless"),
     (dict(heights=np.zeros((4, 4), "f4"), geotransform=(1, 2)), "6 numbers"),
     (dict(heights=np.zeros((4, 4), "f4"), geotransform=(1, 2, 3, 4, 5, 1e200)), "."),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=5), "takes 6 numbers"),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=(0, 0, 0, 0, 0, 0)), "one point"),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=(4e5, 0, 0, 3.8e6, 0, -10)), "one line"),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=(0, 0.1, 0.2, 0, 0.3, 0.6)), "one line"),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=(0, 1e-200, 0, 0, 1e-200, 0)), "one line"),
+    (dict(texture=np.zeros((4, 4), "u1"), texture_geotransform=[0] * 6), "one line or one point"),
+    (dict(heights=np.zeros((4, 4), "f4"), geotransform=(0, np.nan, 0, 0, 0, 1)), "six numbers"),
     (dict(heights=np.zeros((4, 4), "f4"), spacing=(1, 2, 3)), "one number or two"),
+    (dict(heights=np.zeros((4, 4), "f4"), spacing=[[1], [2, 3]]), "spacing must be a number"),
+    (dict(heights=np.zeros((4, 4), "f4"), spacing=(None, 3)), "spacing must be a number"),
     (dict(heights=np.zeros((4, 4), "f4"), registration="pixel"), "one of"),
+    (dict(heights=np.zeros((4, 4), "f4"), registration=np.array(["area", "point"])), "one of"),
     (dict(heights=np.zeros((4, 4), "f4"), weights="none"), "one of"),
     (dict(heights=np.zeros((4, 4), "f4"), nodata="x"), "number"),
+    (dict(heights=np.zeros((4, 4), "f4"), nodata=10**400), "number, not 1000"),
+    (dict(heights=np.zeros((4, 4), "f4"), psnr="40"), "number, not '40'"),
+    (dict(heights=np.zeros((4, 4), "f4"), step=np.ones(2)), "step must be a number"),
+    (dict(heights=np.zeros((4, 4), "f4"), bytes=10**5000), "a value of type int"),
+    (dict(heights=np.zeros((4, 4), "f4"), progress=5), "progress must be a function"),
+    (dict(heights=[[1, 2], [3]]), "Heights must be an array"),
+    (dict(texture=np.zeros((4, 4, 2), "u1"), texture_alpha=np.ones(2)), "texture_alpha must be"),
 ]
 
 

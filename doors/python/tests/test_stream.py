@@ -141,6 +141,7 @@ def test_windows_of_levels(heights, texture):
     [
         (0, 0, 60, 1), (59, 0, 1, 1), (0, 0, 0, 5), (-1, 0, 2, 2), (2**32, 0, 1, 1), (1, 2, 3),
         (0.5, 0, 1, 1), 7, np.s_[5:5, :], np.s_[::2, :], (2**32 - 1, 2**32 - 1, 2, 2),
+        np.s_[0.5:3], np.s_[:, "a":], np.s_[::0], np.s_[:: np.ones(2)],
     ],
 )  # fmt: skip
 def test_windows_outside_are_refused(stream, window):
@@ -223,6 +224,27 @@ def test_textures_with_a_place_of_their_own_meet_the_mesh(heights, texture):
     np.testing.assert_allclose(mesh.uv, np.stack([u, v], 1), rtol=1e-5)
 
 
+@pytest.mark.parametrize(
+    "crs, texture_crs, known",
+    [
+        ("EPSG:32611", "epsg:32611", True),
+        ("esri:54030", "ESRI:54030", True),
+        ("EPSG:32611+5773", "EPSG:32611", True),
+        ("EPSG:32611", "EPSG:32612", False),
+        ("my grid", "My Grid", False),
+    ],
+)
+def test_textures_lie_by_their_place_where_the_crs_is_the_same(crs, texture_crs, known):
+    """The texture covers the western half of the heights."""
+    place = dict(geotransform=(0, 1, 0, 0, 0, -1), texture_geotransform=(0, 0.5, 0, 0, 0, -1))
+    stream = tetrakis.encode(
+        terrain(40, 40), photograph(40, 40), psnr=30, crs=crs, texture_crs=texture_crs, **place
+    )
+    mesh = tetrakis.open(stream).mesh(50)
+    u = (mesh.vertices[:, 0] + 0.5) / 20 if known else mesh.vertices[:, 0] / 39
+    np.testing.assert_allclose(mesh.uv[:, 0], u, rtol=1e-5)
+
+
 def test_views_are_parts_of_the_mesh(stream):
     opened = tetrakis.open(stream)
     everything = [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1]]
@@ -233,8 +255,12 @@ def test_views_are_parts_of_the_mesh(stream):
     assert 0 < len(seen.triangles) < len(whole.triangles)
     places = {tuple(vertex) for vertex in whole.vertices}
     assert all(tuple(vertex) in places for vertex in seen.vertices)
-    for wrong in (np.full((4, 4), np.nan), np.eye(3)):
+    ragged, text = [[1], [2, 3]], np.full((4, 4), "1")
+    for wrong in (np.full((4, 4), np.nan), np.eye(3), 1j * np.eye(4), text):
         with pytest.raises(tetrakis.TksUsageError, match="4 x 4"):
+            opened.mesh(400, wrong)
+    for wrong in ("top", ragged):
+        with pytest.raises(tetrakis.TksUsageError, match="view"):
             opened.mesh(400, wrong)
 
 
@@ -257,7 +283,7 @@ def test_missing_parts_are_refused(heights, texture):
     for read in (image.heights, image.surface, image.validity, image.mesh, bare.texture):
         with pytest.raises(tetrakis.TksUsageError, match="holds no"):
             read()
-        with pytest.raises(tetrakis.TksUsageError):
+        with pytest.raises(tetrakis.TksUsageError, match="holds no"):
             read(3, (0, 0, 1, 1)) if read != image.mesh else read(3, coordinates="crs")
 
 
@@ -286,6 +312,8 @@ def test_sources_that_are_none(tmp_path, stream):
             tetrakis.open(source)
     with pytest.raises(FileNotFoundError):
         tetrakis.open(tmp_path / "absent.tks")
+    with pytest.raises(tetrakis.TksUsageError, match="no path"):
+        tetrakis.open("a\0b")
     assert tetrakis.open(np.frombuffer(stream, "u1")).info.available_bytes == len(stream)
 
 

@@ -26,6 +26,14 @@ GridUnit gridUnitOf(const std::string& crs) {
   return {false, unit ? unit->metres : 0};
 }
 
+std::array<double, 2> spacingOf(const tks_info& info) {
+  const std::array<double, 2> stated{info.spacing_x, info.spacing_y};
+  if (stated[0] > 0 || stated[1] > 0 || !info.has_geotransform) return stated;
+  return groundSpacing(std::to_array(info.geotransform), info.width, info.height,
+                       gridUnitOf(info.crs))
+      .value_or(stated);
+}
+
 void setGroundSpacing(HeightFile& heights) {
   if (!heights.geotransform) return;
   const auto spacing =

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "tetrakis/tetrakis.h"
+
 #include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
@@ -24,6 +26,10 @@ std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& transform
 
 /// Unknown for a CRS that PROJ does not know (crs_units.hpp), or whose angles are no degrees.
 GridUnit gridUnitOf(const std::string& crs);
+
+/// Of heights, as the stream states it, or else from their place and CRS as far as these tell: not
+/// every encoder knows what a CRS means. 0: unknown.
+std::array<double, 2> spacingOf(const tks_info& info);
 
 /// Sets the spacing of heights from their place and CRS, as far as these tell.
 void setGroundSpacing(HeightFile& heights);

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _values as values
 from ._errors import TksUsageError
-from ._stream import BytesLike
+from ._source import BytesLike
 from ._tks import tks_decode, tks_encode
 
 
@@ -39,14 +39,21 @@ def layer(chunk: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> bytes:
+def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> BytesLike:
+    check_type(chunk.dtype)
     array = layer(chunk)
-    if array.ndim not in (2, 3):
+    if array.ndim != 2 and not _is_texture(array):
         raise TksUsageError(
-            f"A chunk of shape {chunk.shape} is neither (rows, columns) nor (rows, columns, "
-            "channels): choose chunks of one layer."
+            f"A chunk of shape {chunk.shape} and type {chunk.dtype} is neither heights, (rows, "
+            "columns), nor a texture, (rows, columns, 1 to 4 channels) of uint8 or uint16: choose "
+            "chunks of one layer."
         )
     return tks_encode(array, **options)
+
+
+def _is_texture(array: NDArray[Any]) -> bool:
+    texels = array.dtype.newbyteorder("=") in values.TEXELS
+    return array.ndim == 3 and 1 <= array.shape[2] <= 4 and texels
 
 
 def from_stream(stream: BytesLike) -> NDArray[Any]:

@@ -33,6 +33,17 @@ def _unused_value(valid: NDArray[Any], fill_value: Any) -> int:
     return int(used[gaps[0]]) + 1
 
 
+def _nodata(given: Union[float, str, None]) -> Tuple[Optional[float], bool]:
+    """The value, and whether to look for it."""
+    if given is None:
+        return None, False
+    if not isinstance(given, str):
+        return values.real(given, "nodata"), False
+    if given != "auto":
+        raise TksUsageError(f'nodata takes a number or "auto", not {values.told(given)}.')
+    return None, True
+
+
 def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArray[Any], Any]:
     """Heights whose masked samples are voids, and the nodata value to declare. Those of floats are
     NaN, which come back as whatever nodata is declared."""
@@ -47,28 +58,20 @@ def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArra
     if nodata is None:
         nodata = _unused_value(data[~mask], heights.fill_value)
     limits = np.iinfo(data.dtype)
-    if nodata != int(nodata) or not limits.min <= nodata <= limits.max:
+    if not float(nodata).is_integer() or not limits.min <= nodata <= limits.max:
         raise TksUsageError(f"Masked samples of {data.dtype} cannot become the nodata {nodata}.")
     return np.where(mask, data.dtype.type(int(nodata)), data), nodata
 
 
 def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
     """The struct, and the samples that it points to: they must live as long."""
-    nodata = place["nodata"]
-    searched = isinstance(nodata, str)
-    if searched:
-        if nodata != "auto":
-            raise TksUsageError(f'nodata takes a number or "auto", not {nodata!r}.')
-        nodata = None
+    nodata, searched = _nodata(place["nodata"])
     if isinstance(array, np.ma.MaskedArray):
         array, nodata = _filled(array, nodata)
-    data = values.samples(np.asarray(array), "Heights")
+    data = values.samples(values.array(array, "Heights"), "Heights")
     if data.ndim != 2:
         raise TksUsageError(f"Heights are (rows, columns), not an array of shape {data.shape}.")
-    spacing = place["spacing"]
-    if np.shape(spacing) not in ((), (2,)):
-        raise TksUsageError(f"spacing takes one number or two, (x, y), not {spacing!r}.")
-    spacing_x, spacing_y = spacing if np.ndim(spacing) else (spacing, spacing)
+    spacing_x, spacing_y = values.spacing(place["spacing"])
     transform, has_transform = values.geotransform(place["geotransform"], "geotransform")
     struct = c.Heights(
         size=ctypes.sizeof(c.Heights),
@@ -78,14 +81,14 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         data=data.ctypes.data,
         scale=values.real(place["scale"], "scale"),
         offset=values.real(place["offset"], "offset"),
-        step=values.real(place["step"] or 0, "step"),
-        spacing_x=values.real(spacing_x or 0, "spacing"),
-        spacing_y=values.real(spacing_y or 0, "spacing"),
+        step=values.real(0 if place["step"] is None else place["step"], "step"),
+        spacing_x=spacing_x,
+        spacing_y=spacing_y,
         unit=values.text(place["unit"], "unit"),
-        vertical_datum=values.text(place["vertical_datum"], "vertical_datum"),
+        vertical_datum=values.crs(place["vertical_datum"], "vertical_datum"),
         crs=values.crs(place["crs"], "crs"),
         has_nodata=nodata is not None,
-        nodata=values.real(0 if nodata is None else nodata, "nodata"),
+        nodata=0 if nodata is None else nodata,
         geotransform=transform,
         has_geotransform=has_transform,
         registration=values.choice(place["registration"], c.REGISTRATIONS, "registration"),
@@ -109,7 +112,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
     """The struct, and the texels that it points to: they must live as long."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.getmaskarray(array).any():
         raise TksUsageError("A texture has no masked texels: give an alpha of 0 as last channel.")
-    data = values.samples(np.asarray(array), "A texture", (np.dtype("u1"), np.dtype("u2")))
+    data = values.samples(values.array(array, "A texture"), "A texture", values.TEXELS)
     if data.ndim == 2:
         data = data[..., np.newaxis]
     if data.ndim != 3 or not 1 <= data.shape[2] <= 4:
@@ -130,7 +133,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
         registration=values.choice(place["registration"], c.REGISTRATIONS, "texture_registration"),
         crs=values.crs(place["crs"], "texture_crs"),
         geo_keys=values.text(place["geo_keys"], "texture_geo_keys"),
-        opaque=not place["alpha"],
+        opaque=not values.flag(place["alpha"], "texture_alpha"),
     ), data
 
 
@@ -156,6 +159,8 @@ def _watched(progress: Optional[Progress], raised: List[BaseException]) -> Any:
     """A C callback. An exception cannot cross C: it is kept in `raised` and stops the encoder."""
     if progress is None:
         return c.PROGRESS()
+    if not callable(progress):
+        raise TksUsageError(f"progress must be a function, not {values.told(progress)}.")
 
     def call(_user: Any, done: float) -> int:
         try:
@@ -236,13 +241,15 @@ def encode(
 
     What the samples are, kept in every prefix
         unit: of heights, such as "m". vertical_datum: such as "EPSG:5703".
-        spacing: metres from one sample to the next, one number or (x, y).
+        spacing: metres from one sample to the next, one number or (x, y). It does not follow from
+            a geotransform here, since this package knows no CRS; exports of the command line, which
+            does, derive a missing one.
         step: quantisation step in sample units; chosen unless given.
-        crs: "EPSG:32611" (also "EPSG:32611+5773"), WKT, or a name. It is kept as it is given and
-            not looked up: GDAL warns of a CRS that it cannot parse, and opens the raster without
-            one. geotransform: six numbers in the order of GDAL and in units of the CRS.
-            registration: "area" or "point". texture_...: likewise for a texture whose place is not
-            that of the heights, or that comes without heights.
+        crs: "EPSG:32611" (also "EPSG:32611+5773"), WKT, or a name. It is kept as it is given (but
+            for "epsg:", which becomes "EPSG:") and not looked up: GDAL warns of a CRS that it
+            cannot parse, and opens the raster without one. geotransform: six numbers in the order
+            of GDAL and in units of the CRS. registration: "area" or "point". texture_...: likewise
+            for a texture whose place is not that of the heights, or that comes without heights.
         description, geo_keys: as tks_heights in tetrakis.h has them.
 
     How it is coded
@@ -268,6 +275,8 @@ def encode(
         weights=values.choice(weights, c.WEIGHTS, "weights"),
         progress=_watched(progress, raised),
     )
+    if lossless is not None:
+        lossless = values.flag(lossless, "lossless")
     target = dict(bytes=bytes, psnr=psnr, max_error=max_error, lossless=lossless)
     _set_target(options, target)
     place = dict(

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-import os
-from typing import Any, BinaryIO, NamedTuple, Optional, Tuple, Union
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,10 +14,9 @@ from . import _library as c
 from . import _values as values
 from ._decoder import Decoder
 from ._errors import TksUsageError
-from ._info import GeoTransform, Info
-
-BytesLike = Union[builtins.bytes, bytearray, memoryview]
-Source = Union[str, "os.PathLike[str]", BytesLike, BinaryIO]
+from ._ground import mesh_place, mesh_uv
+from ._info import Info
+from ._source import BytesLike, Source, first_bytes
 
 
 class Mesh(NamedTuple):
@@ -29,7 +27,12 @@ class Mesh(NamedTuple):
     triangles: NDArray[Any]
     """uint32 (m, 3): places in `vertices`, counter-clockwise seen from above."""
     uv: NDArray[Any]
-    """float32 (n, 2): place in the texture; (0, 0) is where its first row and column begin."""
+    """float32 (n, 2): place in the texture; (0, 0) is where its first row and column begin, (1, 1)
+    where its last ones end. Where heights and texture have geotransforms in one CRS, these say so,
+    and what lies outside the texture is below 0 or above 1 (the command line shows the texture's
+    border there). CRSs are compared as text, codes without their vertical part and in any case.
+    Where they differ, or a geotransform is missing, the texture covers the heights from the first
+    sample to the last."""
 
 
 def open(
@@ -60,48 +63,16 @@ def open(
         max_memory=values.unsigned(max_memory, "max_memory", 64),
     )
     threads = values.unsigned(threads, "threads")
-    return Stream(_read(source, bytes), limits, threads)
+    return Stream(first_bytes(source, bytes), limits, threads)
 
 
 def truncate(stream: BytesLike, bytes: int) -> builtins.bytes:
     """The first `bytes` bytes of a stream (all of it, if it has no more), which are a stream too:
     about the best that so few bytes can hold. Raises :class:`TksTruncatedError` if they do not hold
     the header; the sentence says how many do."""
-    cut = _read(stream, bytes)
+    cut = first_bytes(stream, bytes)
     with Decoder(cut, c.Limits(size=ctypes.sizeof(c.Limits), max_samples=2**63, max_texels=2**63)):
         return cut
-
-
-def _read(source: Any, limit: Optional[int]) -> builtins.bytes:
-    """Up to `limit` bytes. What could change under the decoder is copied."""
-    count = -1 if limit is None else values.unsigned(limit, "bytes", 63)
-    if isinstance(source, (str, os.PathLike)):
-        with builtins.open(source, "rb") as file:
-            return file.read(count)
-    if hasattr(source, "read"):
-        return _read_file(source, count)
-    if isinstance(source, builtins.bytes):
-        return source if count < 0 else source[:count]
-    try:
-        data = memoryview(source).tobytes()
-    except TypeError:
-        kind = type(source).__name__
-        raise TksUsageError(f"A stream is a path, bytes or a file, not {kind}.") from None
-    return data if count < 0 else data[:count]
-
-
-def _read_file(source: Any, count: int) -> builtins.bytes:
-    """Files without a buffer may give less than they are asked for."""
-    parts = []
-    while count != 0:
-        part = source.read(count)
-        if not isinstance(part, builtins.bytes):
-            raise TksUsageError("The file must be open for reading bytes (mode 'rb').")
-        if not part:
-            break
-        parts.append(part)
-        count -= len(part) if count > 0 else 0
-    return b"".join(parts)
 
 
 class Stream:
@@ -177,6 +148,7 @@ class Stream:
             or NaN without one.
         out: an array in C order to write to, of the right shape and type.
         """
+        masked = values.flag(masked, "masked")
         with self._decoder(level, 0, bytes) as decoder:
             info = decoder.info()
             part = values.window(window, info.shape or (0, 0))
@@ -234,7 +206,8 @@ class Stream:
         *,
         coordinates: str = "local",
     ) -> Mesh:
-        """The best mesh of at most `triangles` triangles; without a number, all samples.
+        """The best mesh of at most `triangles` triangles, or the coarsest one where that has more
+        (2 for most grids, a few for some, many for long ones). Without a number, all samples.
 
         view: a 4 x 4 matrix that takes (column, row, height, 1) to clip coordinates: only what a
             camera with it may see.
@@ -252,7 +225,7 @@ class Stream:
         if triangles is not None and count == 0:
             raise TksUsageError("A mesh takes one triangle or more; None means all samples.")
         values.choice(coordinates, ("local", "crs"), "coordinates")
-        matrix = None if view is None else _matrix(view)
+        matrix = None if view is None else values.matrix(view)
         with self._decoder(0, 0, bytes) as decoder:
             info = decoder.info()
             if coordinates == "crs" and info.shape and info.geotransform is None:
@@ -260,11 +233,11 @@ class Stream:
             places, heights, corners = decoder.mesh(count, matrix)
         rows, columns = np.divmod(places.astype(np.int64), (info.shape or (0, 0))[1])
         transform = info.geotransform if coordinates == "crs" else None
-        x, y, mirrored = _ground(info, columns, rows, transform)
+        x, y, mirrored = mesh_place(info, columns, rows, transform)
         vertices = np.stack([x, y, heights.astype(np.float64)], axis=1)
         if mirrored:
             corners = np.ascontiguousarray(corners[:, ::-1])
-        return Mesh(vertices, corners, _uv(info, columns, rows))
+        return Mesh(vertices, corners, mesh_uv(info, columns, rows))
 
     def verify(self) -> None:
         """Checks the syntax of the whole stream. Raises :class:`TksTruncatedError` if it is a
@@ -296,45 +269,3 @@ def _masked(samples: NDArray[Any], valid: NDArray[Any], info: Info) -> np.ma.Mas
         kept = np.array([info.nodata]).astype(samples.dtype)[0]
         fill = kept if kept == info.nodata else None
     return np.ma.MaskedArray(samples, mask=~valid, fill_value=fill)
-
-
-def _matrix(view: ArrayLike) -> NDArray[Any]:
-    matrix = np.asarray(view, np.float64)
-    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
-        raise TksUsageError("A view is a 4 x 4 matrix of finite numbers.")
-    return matrix
-
-
-def _at(transform: GeoTransform, columns: Any, rows: Any) -> Tuple[Any, Any]:
-    t = transform
-    return t[0] + columns * t[1] + rows * t[2], t[3] + columns * t[4] + rows * t[5]
-
-
-def _ground(
-    info: Info, columns: NDArray[Any], rows: NDArray[Any], transform: Optional[GeoTransform]
-) -> Tuple[NDArray[Any], NDArray[Any], bool]:
-    """x, y, and whether they lie as in a mirror: rows usually run against y."""
-    t = info.geotransform
-    mirrored = t is not None and t[1] * t[5] - t[2] * t[4] > 0
-    if transform is None:
-        spacing_x, spacing_y = info.spacing or (1.0, 1.0)
-        y = rows * spacing_y
-        return columns * spacing_x, y if mirrored else 0.0 - y, mirrored
-    return (*_at(transform, columns + 0.5, rows + 0.5), mirrored)
-
-
-def _uv(info: Info, columns: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
-    """By both geotransforms where heights and texture have one in the same CRS. Otherwise the first
-    and last samples lie on the texture's borders, as in the meshes of the command line."""
-    height, width = info.shape or (0, 0)
-    u, v = columns / (width - 1), rows / (height - 1)
-    ground, t = info.geotransform, info.texture_geotransform
-    if ground and t and info.texture_shape and info.texture_crs == info.crs:
-        determinant = t[1] * t[5] - t[2] * t[4]
-        if determinant != 0:
-            x, y = _at(ground, columns + 0.5, rows + 0.5)
-            x, y = x - t[0], y - t[3]
-            u = (x * t[5] - y * t[2]) / determinant / info.texture_shape[1]
-            v = (y * t[1] - x * t[4]) / determinant / info.texture_shape[0]
-    uv: NDArray[Any] = np.stack([u, v], axis=1).astype(np.float32)
-    return uv

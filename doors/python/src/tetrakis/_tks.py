@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import builtins
-from typing import Any, Optional
+import numbers
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _values as values
 from ._encode import encode
 from ._errors import TksUsageError
-from ._stream import BytesLike, open
+from ._source import BytesLike, octets
+from ._stream import open
 from ._version import __version__
 
 # The first bytes of every stream.
@@ -26,7 +28,7 @@ def tks_version() -> str:
 
 def tks_check(data: BytesLike) -> bool:
     """Whether the bytes begin as a stream does."""
-    return builtins.bytes(memoryview(data)[: len(SIGNATURE)]) == SIGNATURE
+    return octets(data)[: len(SIGNATURE)] == SIGNATURE
 
 
 def tks_encode(
@@ -37,27 +39,47 @@ def tks_encode(
     numthreads: Optional[int] = None,
     out: Any = None,
     **options: Any,
-) -> builtins.bytes:
+) -> Union[builtins.bytes, memoryview]:
     """Codes (rows, columns) as heights and (rows, columns, channels) as a texture.
 
     level: PSNR in dB; without it and without a target among the options: lossless.
     options: those of :func:`tetrakis.encode`.
-    out: a writable buffer that takes the stream; the result is then a memoryview of its beginning.
+    out: how many bytes the stream may take at most, or a writable buffer that takes it; the result
+        is then a memoryview of its beginning.
     """
-    array = data if isinstance(data, np.ma.MaskedArray) else np.asarray(data)
-    if level is not None:
-        if options.get("psnr") is not None:
-            raise TksUsageError("level is the PSNR: give one of them.")
-        options["psnr"] = level
+    array = data if isinstance(data, np.ma.MaskedArray) else values.array(data, "data")
+    for name, value, ours in (("level", level, "psnr"), ("numthreads", numthreads, "threads")):
+        if value is None:
+            continue
+        if options.get(ours) is not None:
+            raise TksUsageError(f"{name} is the same as {ours}: give one of them.")
+        options[ours] = value
     heights, texture = (None, array) if array.ndim == 3 else (array, None)
-    stream = encode(heights, texture, threads=numthreads or 1, **options)
-    if out is None:
+    stream = encode(heights, texture, **options)
+    return stream if out is None else _written(stream, out)
+
+
+def _written(stream: builtins.bytes, out: Any) -> Union[builtins.bytes, memoryview]:
+    if isinstance(out, numbers.Integral):
+        _check_room(len(stream), values.unsigned(out, "out", 63))
         return stream
-    room = memoryview(out).cast("B")
-    if room.readonly or len(room) < len(stream):
-        raise TksUsageError(f"out must be writable and hold {len(stream)} bytes.")
+    try:
+        room = memoryview(out).cast("B")
+    except (TypeError, ValueError):
+        room = memoryview(b"")
+    if room.readonly:
+        raise TksUsageError(
+            "out must be a number of bytes or a writable buffer in C order, "
+            f"not {values.told(out)}."
+        )
+    _check_room(len(stream), len(room))
     room[: len(stream)] = stream
     return room[: len(stream)]
+
+
+def _check_room(needed: int, given: int) -> None:
+    if needed > given:
+        raise TksUsageError(f"out must have {needed} bytes or more, not {given}.")
 
 
 def tks_decode(
@@ -68,11 +90,16 @@ def tks_decode(
     window: Optional[values.WindowLike] = None,
     masked: bool = False,
     numthreads: Optional[int] = None,
-    out: Optional[NDArray[Any]] = None,
+    out: Union[NDArray[Any], int, None] = None,
 ) -> NDArray[Any]:
     """The heights, (rows, columns); of a stream without heights the texture. Arguments are those of
-    :meth:`tetrakis.Stream.heights`."""
-    with open(data, threads=numthreads or 1) as stream:
+    :meth:`tetrakis.Stream.heights`; out may also be how many bytes the array may take at most."""
+    if isinstance(out, numbers.Integral):
+        most = values.unsigned(out, "out", 63)
+        array = tks_decode(data, level=level, window=window, masked=masked, numthreads=numthreads)
+        _check_room(array.nbytes, most)
+        return array
+    with open(data, threads=1 if numthreads is None else numthreads) as stream:
         if stream.info.shape is not None:
             return stream.heights(level, window, masked=masked, out=out)
         return stream.texture(level, window, out=out)

@@ -4,6 +4,7 @@ here first."""
 
 from __future__ import annotations
 
+import math
 import operator
 import re
 from typing import Any, Optional, Sequence, Tuple, Union
@@ -16,10 +17,21 @@ from ._errors import TksUsageError
 
 # In the order of tks_sample.
 SAMPLES = tuple(np.dtype(name) for name in ("u1", "i1", "u2", "i2", "u4", "i4", "f4"))
+TEXELS = (np.dtype("u1"), np.dtype("u2"))
 
 # (x, y, width, height) in samples, or the slices (rows, columns) that would cut it from an array.
 WindowLike = Union[Tuple[int, int, int, int], Tuple[slice, slice], slice]
 _WINDOW = "A window is (x, y, width, height), or slices of rows and columns."
+
+
+def told(value: Any) -> str:
+    """The value in a sentence: on one line, and short. What cannot even be written is its type."""
+    most = 60
+    try:
+        line = " ".join(repr(value).split())
+    except Exception:  # of integers too long for decimals, say
+        return f"a value of type {type(value).__name__}"
+    return line if len(line) <= most else line[:most] + "…"
 
 
 def unsigned(value: Any, what: str, bits: int = 32) -> int:
@@ -29,55 +41,103 @@ def unsigned(value: Any, what: str, bits: int = 32) -> int:
     try:
         number = operator.index(value)
     except TypeError:
-        raise TksUsageError(f"{what} must be an integer, not {value!r}.") from None
+        raise TksUsageError(f"{what} must be an integer, not {told(value)}.") from None
     if not 0 <= number < 2**bits:
-        raise TksUsageError(f"{what} must lie between 0 and {2**bits - 1}, not {number}.")
+        raise TksUsageError(f"{what} must lie between 0 and {2**bits - 1}, not {told(number)}.")
     return number
 
 
 def real(value: Any, what: str) -> float:
+    """Text is no number, though float() reads it; nor is a masked sample."""
     try:
+        if isinstance(value, (str, bytes)) or value is np.ma.masked:
+            raise TypeError
         return float(value)
-    except (TypeError, ValueError):
-        raise TksUsageError(f"{what} must be a number, not {value!r}.") from None
+    except (TypeError, ValueError, OverflowError):
+        raise TksUsageError(f"{what} must be a number, not {told(value)}.") from None
 
 
 def text(value: Optional[str], what: str) -> Optional[bytes]:
     if value is None:
         return None
     if not isinstance(value, str) or "\0" in value:
-        raise TksUsageError(f"{what} must be text without NUL characters, not {value!r}.")
+        raise TksUsageError(f"{what} must be text without NUL characters, not {told(value)}.")
     try:
         return value.encode()
     except UnicodeEncodeError:
-        raise TksUsageError(f"{what} {value!r} is no text of Unicode.") from None
+        raise TksUsageError(f"{what} {told(value)} is no text of Unicode.") from None
 
 
 def crs(value: Optional[str], what: str) -> Optional[bytes]:
-    """A name or WKT is whatever its readers know; a code that is none is a mistake."""
-    code = value[5:] if isinstance(value, str) and value[:5].upper() == "EPSG:" else None
-    if code is not None and not re.fullmatch(r"[0-9]+(\+[0-9]+)?", code):
-        raise TksUsageError(f"{what} {value!r} has no code of EPSG behind the colon.")
-    return text(value, what)
+    """A name or WKT is whatever its readers know; a code that is none is a mistake. Not all readers
+    know EPSG in lower case."""
+    if not isinstance(value, str) or value[:5].upper() != "EPSG:":
+        return text(value, what)
+    code = value[5:]
+    if not re.fullmatch(r"[0-9]+(\+[0-9]+)?", code):
+        raise TksUsageError(f"{what} {told(value)} has no code of EPSG behind the colon.")
+    return text("EPSG:" + code, what)
 
 
 def choice(value: Any, choices: Sequence[Any], what: str) -> int:
-    if value not in choices:
-        raise TksUsageError(f"{what} must be one of {tuple(choices)}, not {value!r}.")
+    """The place of `value` among the choices; what is no plain value might not even compare."""
+    plain = value is None or isinstance(value, (str, int, np.bool_))
+    if not plain or value not in choices:
+        raise TksUsageError(f"{what} must be one of {tuple(choices)}, not {told(value)}.")
     return choices.index(value)
+
+
+def flag(value: Any, what: str) -> bool:
+    return bool(choice(value, (False, True), what))
+
+
+def spacing(value: Any) -> Tuple[float, float]:
+    """Along x and y; 0 is unknown."""
+    if value is None:
+        return 0.0, 0.0
+    try:
+        given = list(value)
+    except TypeError:
+        given = [value, value]
+    if len(given) != 2:
+        raise TksUsageError(f"spacing takes one number or two, (x, y), not {told(value)}.")
+    return real(given[0], "spacing"), real(given[1], "spacing")
 
 
 def geotransform(values: Optional[Sequence[float]], what: str) -> Tuple[Any, int]:
     """The six numbers, and whether there are any."""
     if values is None:
         return c.GEOTRANSFORM(), 0
-    numbers = [real(value, what) for value in values]
+    try:
+        given = list(values)
+    except TypeError:
+        raise TksUsageError(f"{what} takes 6 numbers, not {told(values)}.") from None
+    numbers = [real(value, what) for value in given]
     if len(numbers) != 6:
         raise TksUsageError(
             f"{what} takes 6 numbers in the order of GDAL, not {len(numbers)}"
             " (of an Affine: transform.to_gdal())."
         )
+    if _is_flat(numbers):
+        raise TksUsageError(f"{what} {tuple(numbers)} puts all samples on one line or one point.")
     return c.GEOTRANSFORM(*numbers), 1
+
+
+def _is_flat(t: Sequence[float]) -> bool:
+    """Rows and columns span no area: the sine of the angle between them is rounding, or there is no
+    angle. Each is divided by its length first: products of tiny ones are 0."""
+    along, down = math.hypot(t[1], t[4]), math.hypot(t[2], t[5])
+    if along == 0 or down == 0:
+        return True
+    return abs(t[1] / along * (t[5] / down) - t[4] / along * (t[2] / down)) < 1e-9
+
+
+def matrix(view: Any) -> NDArray[Any]:
+    """The 16 numbers of a view."""
+    numbers = array(view, "A view")
+    if numbers.shape != (4, 4) or numbers.dtype.kind not in "iuf" or not np.isfinite(numbers).all():
+        raise TksUsageError("A view is a 4 x 4 matrix of finite numbers.")
+    return numbers.astype(np.float64)
 
 
 def window(asked: Optional[WindowLike], shape: Tuple[int, ...]) -> Optional[c.Window]:
@@ -91,15 +151,29 @@ def window(asked: Optional[WindowLike], shape: Tuple[int, ...]) -> Optional[c.Wi
     except TypeError:
         raise TksUsageError(_WINDOW) from None
     if len(asked) == 2 and all(isinstance(part, slice) for part in asked):
-        if any(part.step not in (None, 1) for part in asked):
-            raise TksUsageError("The slices of a window must have step 1; take a level instead.")
-        (top, bottom, _), (left, right, _) = (
-            part.indices(size) for part, size in zip(asked, shape)
-        )
+        (top, bottom), (left, right) = (_bounds(part, size) for part, size in zip(asked, shape))
         asked = (left, top, max(right - left, 0), max(bottom - top, 0))
     if len(asked) != 4:
         raise TksUsageError(_WINDOW)
     return c.Window(*(unsigned(number, "A window's number") for number in asked))
+
+
+def _bounds(part: slice, size: int) -> Tuple[int, int]:
+    try:
+        first, end, step = part.indices(size)
+    except (TypeError, ValueError):
+        raise TksUsageError(f"A window has slices of integers, not {told(part)}.") from None
+    if step != 1:
+        raise TksUsageError("The slices of a window must have step 1; take a level instead.")
+    return first, end
+
+
+def array(values: Any, what: str) -> NDArray[Any]:
+    """Nested lists of different lengths, say, make none."""
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError):
+        raise TksUsageError(f"{what} must be an array, not {told(values)}.") from None
 
 
 def samples(array: NDArray[Any], what: str, allowed: Sequence[np.dtype] = SAMPLES) -> NDArray[Any]:
