@@ -33,10 +33,8 @@ const char* const kCreationOptions =
     "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
     "<Option name='INDEX' type='string-select' default='NO' description='Write the byte ranges of "
     "all packets into the header; WINDOWS, for lossless files and MAX_Z_ERROR: also lay each "
-    "region out in one piece, for windows over a network; regions are of 256, of more than 1025 x "
-    "1025 heights or 2048 x 2048 texels, unless BLOCKSIZE is "
-    "given'><Value>NO</Value><Value>YES</Value>"
-    "<Value>WINDOWS</Value></Option>"
+    "region out in one piece, for windows over a network; regions are of 256, unless BLOCKSIZE is "
+    "given'><Value>NO</Value><Value>YES</Value><Value>WINDOWS</Value></Option>"
     "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
     "ALL_CPUS' default='1'/>"
     "</CreationOptionList>";
