@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
-#include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
 #include "encoder/heights/ways/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/component_curves.hpp"
+#include "encoder/targets/other_exact_heights.hpp"
 #include "encoder/views/errors_of_prefixes.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/needs/target.hpp"
@@ -161,29 +159,11 @@ std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates
   return selection;
 }
 
-/// Heights of few values to the last bit, in less than the budget. Lossy heights know nothing of
-/// drawings or tables of values, and may never come as near; so prefixes may be somewhat worse. A
-/// table has to save half of the budget for that; a drawing, or corrections in the place of one,
-/// have saved enough by what they are.
-std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
-                                          const HeightsCandidate& lossy) {
-  constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
-  constexpr double kAnyError = std::numeric_limits<double>::infinity();
-  if (!lossy.coded) return {};
-  const uint64_t room = std::min(inputs.options.bytes, lossy.bytes());
-  const QuantisedHeights& quantised = *lossy.coded->quantised;
-  const bool few = drawingMayFit(
-      {quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid}, room);
-  const bool generous =
-      static_cast<double>(inputs.options.bytes) >= kGenerous * lossy.coded->counted();
-  if (!few && !generous) return {};
-  HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError, room)};
-  if (!exact.coded) return {};
-  const bool shapes = exact.coded->header.drawn || (few && exact.coded->hasCorrections());
-  if (!shapes && exact.coded->layers.table_bytes == 0) return {};
-  if (shapes ? exact.bytes() > room : 2 * exact.bytes() > inputs.options.bytes) return {};
-  exact.curve = curveOfHeights(inputs, *exact.coded);
-  return exact;
+/// Heights whose shortest stream takes clearly less than the budget.
+std::optional<Selection> shortIfExact(const EncodeInputs& inputs) {
+  HeightsCandidate heights = shortExactHeights(inputs);
+  if (!heights.coded) return {};
+  return selectIfLossless(inputs, {std::move(heights), {}});
 }
 
 /// The way to the last bit, if there is one that takes less than the room; else the lossy component
@@ -326,6 +306,7 @@ std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Can
     std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few, neighbours);
     if (exact) return exact;
   }
+  if (!lossy.texture.coded) return shortIfExact(inputs);
   if (!lossy.errors) return {};
   std::vector<HeightsCandidate> ways;
   if (nearly.heights) ways = exactWays(inputs, lossy.heights, neighbours);
