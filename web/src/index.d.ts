@@ -48,7 +48,7 @@ export interface FrameOptions {
   bytes?: number;
   /** Ends the call with its requests; what is being decoded ends at its next part. */
   signal?: AbortSignal;
-  /** The mesh has at most so many. Default 20000. */
+  /** The mesh has at most so many, from 2 on. Default 20000. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
    * fetched that help it most, if the stream has an index and the server knows ranges. */
@@ -159,8 +159,9 @@ export interface Terrain {
   /** The file ends before the stream does: frames are good, but not complete. */
   readonly truncated: boolean;
   /** Fetches until `bytes` bytes are here, without decoding: the first ones of the stream, or those
-   * that help a view most. Fewer: the file ends, or no other byte helps the view. Resolves to how
-   * many there are. */
+   * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte helps
+   * the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing came,
+   * another call with this view brings nothing either. */
   load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles'>): Promise<number>;
   /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;

@@ -4,9 +4,11 @@ import {abortable} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './frame.js';
+import {checkBytes, checkSides, trianglesOf} from './limits.js';
 import {FIRST_BYTES, FIRST_FRAME, Flow, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
+import {cutOf, plannedView} from './view.js';
 
 export {FIRST_FRAME, TksError, groundScale};
 
@@ -26,17 +28,6 @@ const DEFAULTS = {
 
 /** The numbers of tks_part. */
 const PARTS = {heights: 0, texture: 2};
-
-/** A view as a plan needs it; nothing where there are but 16 numbers. */
-function plannedView(view) {
-  if (!view?.clip) return null;
-  if (view.clip.length !== 16 || !(view.width >= 1) || !(view.height >= 1)) {
-    throw new TksError('usage', 'A view takes clip, 16 numbers, and width and height, the pixels of ' +
-      'its picture.');
-  }
-  const pixels = (side) => Math.min(32768, Math.round(side));
-  return {clip: [...view.clip], width: pixels(view.width), height: pixels(view.height)};
-}
 
 /** Resolves when the promise ends, however it does, or after so many ms. */
 async function within(ms, promise) {
@@ -73,11 +64,11 @@ class Terrain {
 
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
-    const seen = plannedView(view);
+    checkBytes(bytes);
+    const asked = {signal, view: plannedView(view), triangles: trianglesOf(triangles)};
     if (this.#held.bytes < bytes) {
       // One after another: each asks for what the ones before did not.
-      const reading = this.#reading.catch(() => {}).then(() =>
-        this.#read(bytes, {signal, view: seen, triangles}));
+      const reading = this.#reading.catch(() => {}).then(() => this.#read(bytes, asked));
       this.#reading = reading;
       await abortable(this.#reached(bytes, reading), signal);
     }
@@ -154,6 +145,7 @@ class Terrain {
   }
 
   async decode({bytes = Infinity, signal, ...options} = {}) {
+    checkBytes(bytes);
     const {headerBytes = 0, streamBytes = bytes} = this.info ?? {};
     const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
     const {view, triangles} = {...DEFAULTS, ...options};
@@ -162,13 +154,15 @@ class Terrain {
   }
   /** Of the first so many bytes, which are here. */
   async #frame(bytes, {signal, ...options}) {
-    const {view} = {...DEFAULTS, ...options};
-    const cut = view?.clip ? (view.cut ? [...view.clip] : null) : view;
-    return this.#call('decode', {...DEFAULTS, ...options, view: null, cut, bytes}, signal);
+    const asked = {...DEFAULTS, ...options};
+    checkSides(asked);
+    const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
+    return this.#call('decode', {...asked, view: null, triangles, cut, bytes}, signal);
   }
 
   /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
   async *refine({bytes = Infinity, signal, first, after = 0, ...options} = {}) {
+    checkBytes(bytes);
     const {headerBytes, streamBytes} = this.info;
     const limit = Math.min(Math.max(bytes, headerBytes), streamBytes);
     let shown = after, beginning = null;

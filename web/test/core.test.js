@@ -87,6 +87,21 @@ test('a frame is whole: triangles within the budget, indices, normals, RGBA', as
   assert.ok(small.texture.width <= 40 && small.texture.level > 0 && !small.mesh);
 });
 
+test('what is no number, or no number of triangles, is refused', async () => {
+  const terrain = await open(bytes);
+  for (const [options, pattern] of [[{bytes: NaN}, /`bytes` is a number/], [{bytes: '9'}, /`bytes`/],
+    [{triangles: 0}, /`triangles` is a number from 2 on/], [{triangles: 1}, /`triangles`/],
+    [{triangles: NaN}, /`triangles`/], [{texels: NaN}, /`texels`/], [{samples: NaN}, /`samples`/]]) {
+    await rejects(terrain.decode(options), 'usage', pattern);
+    await rejects(terrain.refine(options).next(), 'usage', pattern);
+  }
+  await rejects(terrain.load(), 'usage', /`bytes`/);
+  await rejects(terrain.load(100, {triangles: 0}), 'usage', /`triangles`/);
+  const {mesh} = await terrain.decode({triangles: Infinity});
+  assert.deepEqual((await terrain.decode({triangles: 2 ** 32})).mesh, mesh);
+  assert.ok((await terrain.decode({triangles: 2})).mesh.triangles.length <= 6);
+});
+
 test('a view gives a part of the mesh', async () => {
   const terrain = await open(bytes);
   // The western half: column 0 to 48 becomes -1 to 1; rows likewise; no perspective.
