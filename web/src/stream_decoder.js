@@ -14,6 +14,18 @@ function lastOf(steps) {
   }
 }
 
+/** Parts {place, bytes} as runs {place, parts} without gaps, in the order of the stream. */
+function runsOf(parts) {
+  const runs = [];
+  let end = -1;
+  for (const {place, bytes} of parts.sort((a, b) => a.place - b.place)) {
+    if (place === end) runs.at(-1).parts.push(bytes);
+    else runs.push({place, parts: [bytes]});
+    end = place + bytes.length;
+  }
+  return runs;
+}
+
 /**
  * Decodes one stream from the first so many bytes that came. They live here, so that fewer than
  * before can be decoded anew, and an instance that aborted be replaced.
@@ -50,17 +62,22 @@ export class Decoder {
     }
     return first.subarray(0, length);
   }
+  /** Parts {place, bytes} of the first `size` bytes that came, without the first `open` of them. */
+  #behind(open, size) {
+    return this.#chunks.map(({place, bytes, before}) => {
+      const from = Math.max(open - before, 0);
+      return {place: place + from, bytes: bytes.subarray(from, Math.max(from, size - before))};
+    }).filter(({bytes}) => bytes.length > 0);
+  }
   /** Those behind the ones that were open cost what they tell. */
   #openedTo(size) {
     if (this.#opened && this.#opened.size > size) this.#close();
     this.#instance ??= new Instance(this.module);
     this.#opened ??= new Opened(
       this.#instance, (bytes) => this.#first(Math.min(bytes, size)), this.memory);
-    for (const {place, bytes, before} of this.#chunks) {
-      const from = Math.max(this.#opened.size - before, 0);
-      const part = bytes.subarray(from, Math.max(from, size - before));
-      if (part.length > 0) this.#opened.put(place + from, part);
-    }
+    // The decoder looks through its index each time that it gets bytes.
+    const runs = runsOf(this.#behind(this.#opened.size, size));
+    for (const {place, parts} of runs) this.#opened.put(place, parts);
     this.#opened.setLevels(0, 0);
     return this.#opened;
   }

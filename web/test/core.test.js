@@ -448,6 +448,19 @@ test('a decoder that goes on gives what one that begins anew gives, forth and ba
   }
 });
 
+test('bytes that came in many pieces are given to the decoder at once', async (t) => {
+  const {Decoder} = await import('../src/stream_decoder.js');
+  const {Opened} = await import('../src/opened.js');
+  const module =
+    await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
+  const put = t.mock.method(Opened.prototype, 'put');
+  const whole = new Decoder(module, 2 ** 30), pieces = new Decoder(module, 2 ** 30);
+  whole.append(bytes);
+  for (let at = 0; at < bytes.length; at += 100) pieces.append(bytes.subarray(at, at + 100));
+  assert.deepEqual(pieces.samples(bytes.length, 0), whole.samples(bytes.length, 0));
+  assert.equal(put.mock.callCount(), 2);
+});
+
 test('a module is compiled whatever the server calls it', async () => {
   await writeFile(join(folder, 'decoder.wasm'),
     await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
