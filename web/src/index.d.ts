@@ -20,7 +20,8 @@ export interface OpenOptions {
   signal?: AbortSignal;
   /** Of the requests to a URL, as fetch() takes them. */
   request?: Pick<RequestInit, 'headers' | 'credentials'>;
-  /** false: decode on this thread. A Worker or its URL: where bundlers do not find `tetrakis/worker`. */
+  /** false: decode on this thread. A Worker or its URL: where bundlers do not find
+   * `tetrakis/worker`. A Worker serves one terrain: another is refused it, and dispose() ends it. */
   worker?: boolean | Worker | string | URL;
   /** Where bundlers do not find `tetrakis/tetrakis.wasm`: its URL, bytes, or compiled module. */
   wasm?: string | URL | BufferSource | WebAssembly.Module;

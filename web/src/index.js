@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core of the package: opens streams and refines them. It knows no renderer.
-import {abortable} from './abort.js';
+import {abortable, stoppedBy} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './frame.js';
@@ -95,12 +95,14 @@ class Terrain {
         await this.#fetchNext(bytes - before, signal);
         continue;
       }
-      await this.#fetchPlanned(view, bytes - before, triangles, signal);
+      // A plan counts bytes by integers: there is no infinite number of them.
+      const most = Math.min(bytes, this.info.streamBytes) - before;
+      await this.#fetchPlanned(view, most, triangles, signal);
       if (bytes - this.#held.bytes < this.requestBytes) return;  // not worth another request
     }
   }
   async #call(operation, argument, signal) {
-    await this.#decoder.ready;  // the first bytes are fetched meanwhile
+    await abortable(this.#decoder.ready, signal);  // the first bytes are fetched meanwhile
     return this.#decoder.call(operation, argument, signal);
   }
   /** The first bytes that are missing. */
@@ -121,12 +123,22 @@ class Terrain {
     const {requestBytes} = this;
     const plan = await this.#call('plan', {view, bytes, triangles, requestBytes}, signal);
     this.#flow.request();
-    const answers = requestsFor(plan, this.#source.size).map(([begin, end]) =>
-      ({begin, chunk: this.#source.scattered(begin, end, signal)}));
-    for (const {chunk} of answers) chunk.catch(() => {});  // the first failure is told
-    for (const {begin, chunk} of answers) this.#take(begin, await chunk);
+    const stop = new AbortController();
+    await stoppedBy(signal, stop, () =>
+      this.#takeAll(requestsFor(plan, this.#source.size), stop));
     // A server that has just forgotten ranges sends all from its beginning.
     if (this.#source.sequential) await this.#fetchNext(bytes, signal);
+  }
+  /** Takes ranges [begin, end) as they come. One that fails ends those that are still to come. */
+  async #takeAll(ranges, stop) {
+    const answers = ranges.map(([begin, end]) =>
+      ({begin, chunk: this.#source.scattered(begin, end, stop.signal)}));
+    for (const {chunk} of answers) chunk.catch((error) => stop.abort(error));
+    for (const {begin, chunk} of answers) {
+      const bytes = await chunk.catch(() => null);
+      if (bytes) this.#take(begin, bytes);
+    }
+    stop.signal.throwIfAborted();
   }
   /**
    * Bytes from a place on. Those that are here already are left out. The decoder gets them in front
@@ -197,9 +209,14 @@ class Terrain {
   }
 
   /** Which bytes a window of the heights or of the texture takes, as [begin, end). */
-  async needed({part = 'heights', window}) {
-    const request = {part: PARTS[part], window};
-    return (await this.#call('needed', request)).map(({begin, end}) => [begin, end]);
+  async needed({part = 'heights', window} = {}) {
+    const {x, y, width, height} = window ?? {};
+    if (!(part in PARTS) || ![x, y, width, height].every((number) => number >= 0)) {
+      throw new TksError('usage', 'needed() takes `part`, "heights" or "texture", and `window`: ' +
+        '{x, y, width, height}.');
+    }
+    const ranges = await this.#call('needed', {part: PARTS[part], window});
+    return ranges.map(({begin, end}) => [begin, end]);
   }
 
   /** Reads the header, which may be longer than the first request: the second brings a picture. */

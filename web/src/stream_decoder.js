@@ -3,8 +3,11 @@
 // well.
 import {TksError} from './error.js';
 import {partsOf} from './frame.js';
-import {Instance} from './instance.js';
+import {Instance, failureOf} from './instance.js';
 import {Opened} from './opened.js';
+
+export const EXHAUSTED =
+  'The decoder ran out of memory. Ask for fewer texels, samples or triangles.';
 
 /** What steps return at their end. */
 function lastOf(steps) {
@@ -97,10 +100,8 @@ export class Decoder {
         throw error;
       }
     } catch (error) {
-      if (error instanceof TksError) throw error;
-      this.#opened = this.#instance = null;
-      throw new TksError('memory', 'The decoder ran out of memory. Ask for fewer texels, samples ' +
-        'or triangles.', {cause: error});
+      if (!(error instanceof TksError)) this.#opened = this.#instance = null;
+      throw failureOf(error, EXHAUSTED);
     }
   }
   /** What `use` gives, called with the first `bytes` bytes that came, opened. */

@@ -185,6 +185,26 @@ test('servers without ranges, or that forget them, and files cut short', async (
   });
 });
 
+test('a request of a plan that fails: others are kept, and those still to come end', async () => {
+  const load = (terrain) => terrain.load(Infinity, {view: CORNER});
+  await served({}, async (url, server) => {
+    const terrain = await open(url, {requestBytes: 128}), {bytes: before} = terrain.loaded;
+    const asked = server.requests.length;
+    server.faults.fail = [asked + 1, 150];
+    await assert.rejects(load(terrain), {code: 'io', message: /answered 500/});
+    assert.ok(server.requests.length > asked + 1);
+    assert.ok(terrain.loaded.bytes > before, 'bytes behind the failing ones are here');
+    terrain.dispose();
+  });
+  await served({}, async (url, server) => {
+    const terrain = await open(url, {requestBytes: 128}), asked = server.requests.length;
+    Object.assign(server.faults, {fail: [asked + 2, 100], stall: 10});
+    await assert.rejects(load(terrain), {code: 'io', message: /answered 500/});
+    assert.equal(await server.requests[asked].ended, false);
+    terrain.dispose();
+  });
+});
+
 test('a view that is none is refused', async () => {
   const terrain = await open(bytes);
   for (const view of [{...CORNER, width: 0}, {...CORNER, clip: [1]}, [1, 2, 3], {}]) {
