@@ -6,6 +6,7 @@ import {abortable} from './abort.js';
 import {Cutter} from './cut.js';
 import {TksError} from './error.js';
 import {open} from './index.js';
+import {boxOf} from './place.js';
 
 const TILE = 256;
 const MOST_ZOOM = 22;
@@ -20,10 +21,18 @@ function placesOf({z, x, y}) {
   };
 }
 
-/** RGBA of a height of `metres`: steps of 1/256 m from -32768 m to 32768 m. */
-function terrarium(metres) {
-  const steps = Math.min(Math.max(Math.round((metres + 32768) * 256), 0), 2 ** 24 - 1);
-  return [(steps >> 16) & 255, (steps >> 8) & 255, steps & 255, 255];
+/** RGBA of heights in metres: steps of 1/256 m from -32768 m to 32768 m. Voids are 0. */
+function terrarium(heights) {
+  const rgba = new Uint8ClampedArray(4 * heights.length);
+  for (let i = 0; i < heights.length; ++i) {
+    const above = ((heights[i] || 0) + 32768) * 256;
+    const steps = Math.min(Math.max(Math.round(above), 0), 2 ** 24 - 1);
+    rgba[4 * i] = steps >> 16;
+    rgba[4 * i + 1] = (steps >> 8) & 255;
+    rgba[4 * i + 2] = steps & 255;
+    rgba[4 * i + 3] = 255;
+  }
+  return rgba;
 }
 
 /** One stream on the map. Made by TksProtocol.add(). */
@@ -47,7 +56,7 @@ class TksMapSource {
     const source = {
       tiles: [`tks://${this.#name}/${part}/{z}/{x}/{y}`],
       tileSize: TILE,
-      bounds: this.#cutter.place(part).bounds,
+      bounds: boxOf(this.#cutter.place(part).bounds),
       // Where a pixel of a tile is no larger than a sample.
       maxzoom: Math.min(MOST_ZOOM, this.#cutter.finest(part, 360 / TILE)),
     };
@@ -61,10 +70,7 @@ class TksMapSource {
     const {longitudes, latitudes} = placesOf(tile);
     if (!this.#cutter.reaches(part, longitudes, latitudes)) return null;
     if (part === 'texture') return this.#cutter.texels(longitudes, latitudes);
-    const heights = await this.#cutter.heights(longitudes, latitudes);
-    const rgba = new Uint8ClampedArray(4 * heights.length);
-    heights.forEach((metres, i) => rgba.set(terrarium(metres || 0), 4 * i));
-    return rgba;
+    return terrarium(await this.#cutter.heights(longitudes, latitudes));
   }
 
   /** Fetches on, fourfold each time, and lets the map take its tiles anew. */
