@@ -127,6 +127,75 @@ test('bounds that are none are refused', async () => {
   await assert.rejects(protocol.add('y', lost), {code: 'unsupported', message: /does not reach/});
 });
 
+/** A map that draws when it is told to, with these sources. */
+class Drawing {
+  #heard = {idle: new Set(), remove: new Set()};
+  refreshed = 0;
+  constructor(sources, draws = true) {
+    Object.assign(this, {sources, draws});
+  }
+  getStyle() {
+    return {sources: this.sources};
+  }
+  refreshTiles() {
+    ++this.refreshed;
+  }
+  on(name, heard) {
+    this.#heard[name].add(heard);
+  }
+  once(name, heard) {
+    this.on(name, heard);
+  }
+  off(name, heard) {
+    this.#heard[name].delete(heard);
+  }
+  fire(name) {
+    for (const heard of this.#heard[name]) heard();
+  }
+  triggerRepaint() {
+    if (this.draws) setTimeout(() => this.fire('idle'));
+  }
+}
+
+test('refining ends, whether the map is idle, without the source, or removed', async () => {
+  const input = await readFile(new URL('regions_joint_index_40x33_50x47.tks', vectors));
+  const protocol = new TksProtocol(), bounds = [8, 46, 8.1, 46.07];
+  for (const [name, draws] of [['idle', true], ['without', true], ['removed', false]]) {
+    const source = await protocol.add(name, input, {bounds});
+    const map = new Drawing(name === 'without' ? {} : {dem: source.heights}, draws);
+    const refining = source.refine(map);
+    if (name === 'removed') setTimeout(() => map.fire('remove'), 50);
+    const late = new Promise((_, reject) => setTimeout(reject, 3000, new Error(name)).unref());
+    await Promise.race([refining, late]);
+    assert.equal(map.refreshed, name === 'without' ? 0 : 1);
+    assert.ok(source.terrain.loaded.bytes === input.length, name);
+    protocol.remove(name);
+  }
+});
+
+test('a name is taken from the beginning; who removes it ends its opening', async (t) => {
+  const input = await readFile(new URL('regions_joint_index_40x33_50x47.tks', vectors));
+  const protocol = new TksProtocol(), bounds = [8, 46, 8.1, 46.07];
+  const first = protocol.add('alps', input, {bounds});
+  await assert.rejects(protocol.add('alps', input, {bounds}), {code: 'usage', message: /taken/});
+  const source = await first, dispose = t.mock.method(source.terrain, 'dispose');
+  protocol.remove('alps');
+  assert.equal(dispose.mock.callCount(), 1);
+  const removed = protocol.add('alps', input, {bounds});
+  protocol.remove('alps');
+  await assert.rejects(removed, {code: 'usage', message: /"alps" was removed while/});
+  await assert.rejects(protocol.add('alps', input), /does not say where it lies/);
+  await protocol.add('alps', input, {bounds});
+});
+
+test('tiles of a part that a stream lacks are refused', async () => {
+  const input = await readFile(new URL('geometry_budget_129x97.tks', vectors));
+  const protocol = new TksProtocol();
+  await protocol.add('bare', input, {bounds: [8, 46, 8.1, 46.07]});
+  await assert.rejects(protocol.tile({url: 'tks://bare/texture/3/4/2'}, new AbortController()),
+    {code: 'usage', message: 'This stream has no texture.'});
+});
+
 test('few places of a tile are projected, and the others lie where they would', async () => {
   const terrain =
     await open(await readFile(new URL('placed_joint_20x15_40x31.tks', vectors)));
