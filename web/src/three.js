@@ -82,11 +82,12 @@ export class TksTerrain extends Mesh {
   #eye = new Vector3();
   #wanted = 0;
   #texels = Infinity;
+  #map = null;  // of its own
   #served = '';  // the view for which all is here
   #glidesSince = -Infinity;
   #updated = [-Infinity, -Infinity];  // when update() was called last, and before that
 
-  /** `terrain`: of open(). It is disposed with this object. */
+  /** `terrain`: of open(). It is disposed with this object, as its material is. */
   constructor(terrain, {
     triangles = 20000, bytes = Infinity, pixelError = 1, glideTime = 300, material,
   } = {}) {
@@ -143,7 +144,8 @@ export class TksTerrain extends Mesh {
   }
 
   setMap(texture) {
-    this.material.map?.dispose();
+    this.#map?.dispose();
+    this.#map = texture;
     if (!this.material.map) this.material.needsUpdate = true;
     this.material.map = texture;
   }
@@ -266,10 +268,19 @@ export class TksTerrain extends Mesh {
   dispose() {
     this.#stop.abort();
     this.geometry.dispose();
-    this.material.map?.dispose();
+    this.#map?.dispose();
     this.material.dispose();
     this.terrain.dispose();
   }
+}
+
+/** A material of a terrain's own, which carries its texture. */
+function copyOf(material) {
+  const copy = material.clone();
+  // clone() leaves out how shaders are changed.
+  copy.onBeforeCompile = material.onBeforeCompile;
+  copy.customProgramCacheKey = material.customProgramCacheKey;
+  return copy;
 }
 
 export class TksLoader extends Loader {
@@ -284,7 +295,7 @@ export class TksLoader extends Loader {
     this.#decoderOptions = options;
     return this;
   }
-  /** Those of TksTerrain: triangles, bytes, pixelError, material. */
+  /** Those of TksTerrain. Each terrain gets a copy of the material. */
   setTerrainOptions(options) {
     this.#terrainOptions = options;
     return this;
@@ -332,7 +343,8 @@ export class TksLoader extends Loader {
     const options = {...this.#decoderOptions, request, signal: this.#stop.signal};
     if (this.#spare) [options.decoder, this.#spare] = [this.#spare, null];
     const terrain = await open(input, options);
-    const object = new TksTerrain(terrain, this.#terrainOptions);
+    const {material, ...others} = this.#terrainOptions;
+    const object = new TksTerrain(terrain, {...others, material: material && copyOf(material)});
     try {
       await object.begin();
       return object;
