@@ -98,7 +98,8 @@ test('a decoder that was preloaded is taken once; dispose() ends one that was no
 });
 
 test('terrains of one loader have materials of their own, as the one that was given', async () => {
-  const material = new MeshBasicMaterial({color: 0x123456}), stream = await bytesOf('rgb_50x37.tks');
+  const material = new MeshBasicMaterial({color: 0x123456});
+  const stream = await bytesOf('rgb_50x37.tks');
   material.onBeforeCompile = () => {};
   let disposed = 0;
   material.addEventListener('dispose', () => ++disposed);
