@@ -47,7 +47,8 @@ export interface View {
 export interface FrameOptions {
   /** Use no more than the first bytes that came: of the stream, or for views. Default: all. */
   bytes?: number;
-  /** Ends the call with its requests; what is being decoded ends at its next part. */
+  /** Ends the call with its requests, and rejects it with its reason; what is being decoded ends at
+   * its next part. */
   signal?: AbortSignal;
   /** The mesh has at most so many, from 2 on. Default 20000. */
   triangles?: number;
