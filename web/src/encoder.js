@@ -8,6 +8,8 @@ export const EXHAUSTED = 'The encoder ran out of memory: a page has 4 GB at most
 const REGISTRATIONS = ['unknown', 'area', 'point'];
 const WEIGHTS = ['psnr', 'visual'];
 const INDEXES = [false, true, 'windows'];
+/** The module counts by integers of 64 and of 32 bits. */
+const MOST_BYTES = 2 ** 53, MOST_TRIANGLES = 2 ** 32 - 1;
 
 function oneOf(names, name, what) {
   const number = names.indexOf(name ?? names[0]);
@@ -90,7 +92,8 @@ function fieldsOf({heights, texture, ...options}) {
   }
   return {
     ...(heights ? heightsFields(heights) : {}), ...(texture ? textureFields(texture) : {}),
-    bytes, psnr, maxError, lossless: Number(lossless), triangles, regions,
+    bytes: Math.min(bytes, MOST_BYTES), psnr, maxError, lossless: Number(lossless),
+    triangles: Math.min(triangles, MOST_TRIANGLES), regions,
     index: oneOf(INDEXES, options.index, 'index'), weights: oneOf(WEIGHTS, options.weights, 'weights'),
   };
 }

@@ -66,6 +66,13 @@ test('a spacing of null is unknown, as none at all', async () => {
   assert.deepEqual(unknown, none);
 });
 
+test('enormous limits are none', async () => {
+  const {heights} = terrainOf(16);
+  assert.deepEqual(await encode({heights, bytes: 1e300}), await encode({heights, bytes: 1e9}));
+  assert.deepEqual(await encode({heights, triangles: 2 ** 32}),
+    await encode({heights, triangles: 2 ** 32 - 1}));
+});
+
 test('an ImageData is a texture', async () => {
   const data = new Uint8ClampedArray(4 * 30).fill(255);
   const {info} = await open(await encode({texture: {data, width: 6, height: 5}}));
