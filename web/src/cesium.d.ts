@@ -6,7 +6,8 @@ import type {
 import type {OpenOptions, Terrain} from './index.js';
 
 export interface TksTerrainProviderOptions extends OpenOptions {
-  /** Where the stream lies: west, south, east, north in degrees. Default: where it says. */
+  /** Where the stream lies: west, south, east, north in degrees, across 180° as
+   * [170, -10, -170, 10]. Default: where it says. */
   bounds?: [number, number, number, number];
   /** Metres that are added to heights: Cesium's count from the ellipsoid, those of most streams
    * from the sea, which lies between 107 m below the ellipsoid and 86 m above it. Default 0. */

@@ -8,6 +8,7 @@ import {
 
 import {Cutter} from './cut.js';
 import {TksError, open} from './index.js';
+import {boxOf, spansOf} from './place.js';
 
 /** Heights of a tile along a side; its outer ones are those of its neighbours. */
 const SIDE = 65;
@@ -40,19 +41,21 @@ class Shared {
     this.credit = typeof credit === 'string' ? new Credit(credit) : credit;
   }
   rectangle(part) {
-    return Rectangle.fromDegrees(...this.cutter.place(part).bounds);
+    return Rectangle.fromDegrees(...boxOf(this.cutter.place(part).bounds));
   }
   /** All tiles down to where they are as fine as the samples. */
   availability() {
-    const [west, south, east, north] = this.cutter.place('heights').bounds;
+    const {bounds} = this.cutter.place('heights'), [, south, , north] = bounds;
     const finest = Math.min(MOST_LEVEL, this.cutter.finest('heights', LEVEL_0 / (SIDE - 1)));
     const all = new TileAvailability(this.tilingScheme, finest);
     all.addAvailableTileRange(0, 0, 0, 1, 0);
     for (let level = 1; level <= finest; ++level) {
       const tile = (degrees, most) =>
         Math.min(Math.max(Math.floor((degrees * 2 ** level) / LEVEL_0), 0), most * 2 ** level - 1);
-      all.addAvailableTileRange(level, tile(west + 180, 2), tile(90 - north, 1),
-        tile(east + 180, 2), tile(90 - south, 1));
+      for (const [west, east] of spansOf(bounds)) {
+        all.addAvailableTileRange(level, tile(west + 180, 2), tile(90 - north, 1),
+          tile(east + 180, 2), tile(90 - south, 1));
+      }
     }
     return all;
   }

@@ -20,18 +20,35 @@ export async function compileAt(url) {
     : WebAssembly.compile(await answer.arrayBuffer());
 }
 
-/** One of `assets`, or what the caller says: a URL, bytes, or a module. */
-export async function compile(assets, wasm) {
-  if (wasm instanceof WebAssembly.Module) return wasm;
-  if (wasm && typeof wasm !== 'string' && !(wasm instanceof URL)) return WebAssembly.compile(wasm);
-  const load = hasVectors() ? assets.full : assets.plain, key = wasm ? String(wasm) : load;
+function unloadable(error) {
+  return new TksError('io', `The WebAssembly module cannot be loaded (${error.message}). ` +
+    'Bundlers may need {wasm: URL}.', {cause: error});
+}
+
+function compileOnce(assets, url) {
+  const load = hasVectors() ? assets.full : assets.plain, key = url ? String(url) : load;
   if (!compiled.has(key)) {
-    const promise = (wasm ? compileAt(wasm) : load()).catch((error) => {
+    const promise = (url ? compileAt(url) : load()).catch((error) => {
       compiled.delete(key);
-      throw new TksError('io', `The WebAssembly module cannot be loaded (${error.message}). ` +
-        'Bundlers may need {wasm: URL}.', {cause: error});
+      throw error;
     });
     compiled.set(key, promise);
   }
   return compiled.get(key);
+}
+
+async function compileAny(assets, wasm) {
+  if (wasm instanceof WebAssembly.Module) return wasm;
+  const isAddress = !wasm || typeof wasm === 'string' || wasm instanceof URL;
+  return isAddress ? compileOnce(assets, wasm) : WebAssembly.compile(wasm);
+}
+
+/** One of `assets`, or what the caller says: a URL, bytes, or a module. It has to have `call`. */
+export async function compile(assets, wasm, call) {
+  const module = await compileAny(assets, wasm).catch((error) => {
+    throw unloadable(error);
+  });
+  if (WebAssembly.Module.exports(module).some(({name}) => name === call)) return module;
+  throw new TksError('usage', `The WebAssembly module has no ${call}(): it is another one than ` +
+    'this version of the package needs here.');
 }

@@ -3,35 +3,53 @@
 // level that suits their distance, for renderers that ask for tiles.
 import {groundScale} from './index.js';
 import {GROWTH} from './pace.js';
-import {placeOf} from './place.js';
+import {placeOf, turnsTo} from './place.js';
+import {Scan} from './scan.js';
 
-/** The four samples around sample (x, y), with their weights. Beyond the outer ones these count. */
-function neighbours(x, y, {width, height}) {
-  x = Math.min(Math.max(x, 0), width - 1);
-  y = Math.min(Math.max(y, 0), height - 1);
-  const left = Math.floor(x), above = Math.floor(y);
-  const right = Math.min(left + 1, width - 1), below = Math.min(above + 1, height - 1);
-  const u = x - left, v = y - above;
-  return {
-    indices: [above, below].flatMap((row) => [row * width + left, row * width + right]),
-    weights: [(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v],
-  };
-}
+/** Of columns and rows that are interpolated, in samples. */
+const TOLERANCE = 0.02;
 
-/** Height at a place: of the samples around that are no voids; NaN where all are. */
-function heightAt(data, {indices, weights}) {
+/** Height at (x, y): of the samples around that are no voids; NaN where all are. */
+function heightAt({data, width, height}, x, y) {
+  const left = Math.floor(x), above = Math.floor(y), u = x - left, v = y - above;
+  const across = left + 1 < width ? 1 : 0, i = above * width + left;
+  const j = above + 1 < height ? i + width : i;
   let sum = 0, weight = 0;
-  indices.forEach((index, i) => {
-    if (Number.isNaN(data[index])) return;
-    sum += weights[i] * data[index];
-    weight += weights[i];
-  });
+  const nw = data[i], ne = data[i + across], sw = data[j], se = data[j + across];
+  if (nw === nw) [sum, weight] = [(1 - u) * (1 - v) * nw, (1 - u) * (1 - v)];
+  if (ne === ne) sum += u * (1 - v) * ne, weight += u * (1 - v);
+  if (sw === sw) sum += (1 - u) * v * sw, weight += (1 - u) * v;
+  if (se === se) sum += u * v * se, weight += u * v;
   return sum / weight;
 }
 
-function texelAt(data, {indices, weights}) {
-  return [0, 1, 2, 3].map((channel) =>
-    indices.reduce((sum, index, i) => sum + weights[i] * data[4 * index + channel], 0));
+/** Writes the four channels at (x, y) to out[at] and on. */
+function putTexel({data, width, height}, x, y, out, at) {
+  const left = Math.floor(x), above = Math.floor(y), u = x - left, v = y - above;
+  const across = left + 1 < width ? 4 : 0, i = 4 * (above * width + left);
+  const j = above + 1 < height ? i + 4 * width : i;
+  for (let c = 0; c < 4; ++c) {
+    out[at + c] = (1 - v) * ((1 - u) * data[i + c] + u * data[i + across + c]) +
+      v * ((1 - u) * data[j + c] + u * data[j + across + c]);
+  }
+}
+
+const within = (value, most) => Math.min(Math.max(value, 0), most);
+
+/** How far behind its bounds, which are those of some places on its border, a part may reach. */
+const MARGIN = 0.01;
+
+/** Calls put(i, column, row) for the places of a grid that lie on a part, or near it. */
+function scanPlace({bounds, pixels}, {longitudes, latitudes}, tolerance, put) {
+  const [west, south, east, north] = bounds;
+  const across = MARGIN * (east - west), along = MARGIN * (north - south);
+  for (const turn of turnsTo(bounds, longitudes)) {
+    const scan = new Scan(pixels, longitudes.map((l) => l + turn), tolerance, put);
+    latitudes.forEach((latitude, j) => {
+      if (latitude < south - along || latitude > north + along) return;
+      scan.row(latitude, j * longitudes.length, west - across, east + across);
+    });
+  }
 }
 
 /** Tiles of one stream. `terrain`: of open(); `bounds`: as those of placeOf(). */
@@ -59,8 +77,8 @@ export class Cutter {
   }
   /** Whether a grid and a part have ground in common. */
   reaches(part, longitudes, latitudes) {
-    const [west, south, east, north] = this.#places[part].bounds;
-    return longitudes.at(-1) >= west && longitudes[0] <= east && latitudes[0] >= south &&
+    const {bounds} = this.#places[part], [, south, , north] = bounds;
+    return turnsTo(bounds, longitudes).length > 0 && latitudes[0] >= south &&
       latitudes.at(-1) <= north;
   }
 
@@ -81,35 +99,34 @@ export class Cutter {
     return this.#rasters.get(key);
   }
 
-  /** Calls put(i, raster, samples around) for the places of a grid that lie on the part. */
+  /** Calls put(i, raster, x, y), at sample (x, y) of a mip level, for places on the part. */
   async #each(part, longitudes, latitudes, put) {
-    const place = this.#places[part], {info} = this.#terrain;
+    const {info} = this.#terrain, place = this.#places[part];
     const step = (longitudes.at(-1) - longitudes[0]) / (longitudes.length - 1);
     const coarsest = part === 'texture' ? info.textureCoarsestLevel : info.coarsestLevel;
-    const level = Math.min(coarsest, this.finest(part, step));
-    const raster = await this.#raster(part, level), columns = longitudes.length;
-    for (let i = 0; i < columns * latitudes.length; ++i) {
-      const [column, row] =
-        place.pixels(longitudes[i % columns], latitudes[Math.floor(i / columns)]);
-      if (!(column >= 0 && row >= 0 && column <= place.width && row <= place.height)) continue;
-      // Sample (x, y) of a mip level lies on sample (x 2^level, y 2^level), not on a cell of them.
-      const at = neighbours((column - 0.5) / 2 ** level, (row - 0.5) / 2 ** level, raster);
-      put(i, raster.data, at);
-    }
+    const level = Math.min(coarsest, this.finest(part, step)), side = 2 ** level;
+    const raster = await this.#raster(part, level);
+    // Sample (x, y) of a mip level lies on sample (x 2^level, y 2^level), not on a cell of them.
+    const putPlace = (i, column, row) => {
+      if (!(column >= 0 && row >= 0 && column <= place.width && row <= place.height)) return;
+      put(i, raster, within((column - 0.5) / side, raster.width - 1),
+        within((row - 0.5) / side, raster.height - 1));
+    };
+    scanPlace(place, {longitudes, latitudes}, TOLERANCE * side, putPlace);
   }
   /** Metres at a grid, row by row; NaN in voids and outside. Longitudes grow, latitudes fall. */
   async heights(longitudes, latitudes) {
     const heights = new Float32Array(longitudes.length * latitudes.length).fill(NaN);
     const metres = groundScale(this.#terrain.info).height;
     await this.#each('heights', longitudes, latitudes,
-      (i, data, at) => (heights[i] = metres * heightAt(data, at)));
+      (i, raster, x, y) => (heights[i] = metres * heightAt(raster, x, y)));
     return heights;
   }
   /** RGBA likewise; transparent outside. */
   async texels(longitudes, latitudes) {
     const rgba = new Uint8ClampedArray(4 * longitudes.length * latitudes.length);
     await this.#each('texture', longitudes, latitudes,
-      (i, data, at) => rgba.set(texelAt(data, at), 4 * i));
+      (i, raster, x, y) => putTexel(raster, x, y, rgba, 4 * i));
     return rgba;
   }
 

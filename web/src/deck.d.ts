@@ -4,7 +4,8 @@ import type {LoaderWithParser} from '@loaders.gl/loader-utils';
 import type {Frame, OpenOptions, Raster} from './index.js';
 
 export interface PlaceOptions {
-  /** Where the stream lies: west, south, east, north in degrees. Default: where it says. */
+  /** Where the stream lies: west, south, east, north in degrees, across 180° as
+   * [170, -10, -170, 10]. Default: where it says. */
   bounds?: [number, number, number, number];
   /** Longitude and latitude that positions count from: the `getPosition` of a SimpleMeshLayer.
    * Float32 degrees are up to 1.7 m coarse far from it. Default [0, 0], as TerrainLayer wants. */
@@ -19,7 +20,8 @@ export interface TksLoaderOptions {
     bytes?: number;
     /** Longest side of the texture, by the mip levels of the stream. Default 4096. */
     texels?: number;
-    decoder?: Pick<OpenOptions, 'worker' | 'wasm' | 'memory'>;
+    /** A Worker itself would serve one mesh alone. */
+    decoder?: Pick<OpenOptions, 'wasm' | 'memory'> & {worker?: boolean | string | URL};
   };
   /** Of TerrainLayer, whose `bounds` hold where `tks` has none. */
   terrain?: {bounds?: [number, number, number, number] | null};

@@ -3,7 +3,7 @@
 // as longitude, latitude and metres, with `_instanced: false`.
 import {TksError, groundScale, open} from './index.js';
 import {FIRST_BYTES, GROWTH} from './pace.js';
-import {isPlaced, placeOf} from './place.js';
+import {isPlaced, placeOf, turnsTo} from './place.js';
 
 const TRIANGLES = 4;  // glTF's mode
 
@@ -14,7 +14,9 @@ function placedBy(info, bounds, [longitude, latitude]) {
   return (column, row) => {
     // A sample is the middle of its pixel.
     const degrees = ground.degrees(column + 0.5, row + 0.5);
-    const [u, v] = texture?.pixels(...degrees) ?? [0, 0];
+    // Both may count longitudes another way: from 0 to 360, or from -180 to 180.
+    const [turn = 0] = texture ? turnsTo(texture.bounds, [degrees[0]]) : [];
+    const [u, v] = texture?.pixels(degrees[0] + turn, degrees[1]) ?? [0, 0];
     return {
       x: degrees[0] - longitude, y: degrees[1] - latitude,
       u: u / (texture?.width ?? 1), v: v / (texture?.height ?? 1),

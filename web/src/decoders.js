@@ -5,6 +5,7 @@ import {abortable} from './abort.js';
 import {compile} from './compile.js';
 import {TksError} from './error.js';
 import {Operations} from './operations.js';
+import {threadOf} from './thread.js';
 
 /** What one decoding may take. */
 const MEMORY = 2 ** 30;
@@ -73,22 +74,12 @@ class LocalDecoder {
   }
 }
 
-function workerOf(worker) {
-  if (worker === false) return null;
-  if (typeof worker === 'string' || worker instanceof URL) return new Worker(worker, {type: 'module'});
-  if (worker !== undefined && worker !== true) return worker;
-  try {
-    return assets.worker();
-  } catch {
-    return null;  // pages may not start workers of another origin
-  }
-}
-
-/** A decoder whose thread starts while its module is fetched: `ready` resolves when both are there. */
+/** A decoder whose thread starts while its module is fetched: `ready` resolves with both. */
 export function startDecoder({worker, wasm, memory = MEMORY} = {}) {
-  const thread = workerOf(worker);
+  const thread = threadOf(worker, assets);
   const decoder = thread ? new RemoteDecoder(thread) : new LocalDecoder();
-  decoder.ready = compile(assets, wasm).then((module) => decoder.start(module, memory));
+  decoder.ready = compile(assets, wasm, 'web_open')
+    .then((module) => decoder.start(module, memory));
   decoder.ready.catch(() => {});
   return decoder;
 }

@@ -5,18 +5,9 @@ import {abortable} from './abort.js';
 import {compile} from './compile.js';
 import {encodeWith} from './encoder.js';
 import {TksError} from './error.js';
+import {threadOf} from './thread.js';
 
 export {TksError};
-
-function workerOf(worker) {
-  if (worker === false) return null;
-  if (typeof worker === 'string' || worker instanceof URL) return new Worker(worker, {type: 'module'});
-  try {
-    return assets.worker();
-  } catch {
-    return null;  // pages may not start workers of another origin
-  }
-}
 
 function encodeIn(worker, module, input, progress) {
   return new Promise((resolve, reject) => {
@@ -41,11 +32,11 @@ function encodeIn(worker, module, input, progress) {
 }
 
 export async function encode(
-  {heights, texture, ...targets}, {signal, worker, wasm, progress = () => {}} = {}) {
+  {heights, texture, ...targets} = {}, {signal, worker, wasm, progress = () => {}} = {}) {
   signal?.throwIfAborted();
-  const module = await abortable(compile(assets, wasm), signal);
+  const module = await abortable(compile(assets, wasm, 'web_encode'), signal);
   const input = {heights, texture, ...targets};
-  const thread = workerOf(worker);
+  const thread = threadOf(worker, assets);
   if (!thread) return encodeWith(module, input, progress);
   try {
     return await abortable(encodeIn(thread, module, input, progress), signal);

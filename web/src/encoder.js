@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls the encoder's WebAssembly module. Nothing here waits: it runs in a worker as well.
 import {TksError} from './error.js';
-import {Instance, MESSAGE_BYTES, SAMPLES} from './instance.js';
+import {Instance, MESSAGE_BYTES, SAMPLES, failureOf} from './instance.js';
+
+export const EXHAUSTED = 'The encoder ran out of memory: a page has 4 GB at most.';
 
 const REGISTRATIONS = ['unknown', 'area', 'point'];
 const WEIGHTS = ['psnr', 'visual'];
 const INDEXES = [false, true, 'windows'];
+/** The module counts by integers of 64 and of 32 bits. */
+const MOST_BYTES = 2 ** 53, MOST_TRIANGLES = 2 ** 32 - 1;
 
 function oneOf(names, name, what) {
   const number = names.indexOf(name ?? names[0]);
@@ -44,11 +48,18 @@ function nodataFields(nodata) {
   return {hasNodata: nodata === undefined || nodata === null ? 0 : 1, nodata: nodata ?? 0};
 }
 
+/** Metres between columns and between rows. */
+function spacingsOf(spacing) {
+  const both = Array.isArray(spacing) ? spacing : [spacing, spacing];
+  if (both.length === 2 && both.every((metres) => typeof metres === 'number')) return both;
+  throw new TksError('usage', 'spacing is a number of metres, or two: of columns and of rows.');
+}
+
 function heightsFields(heights) {
-  const {data, width, height, nodata, spacing = 0} = heights;
+  const {data, width, height, nodata} = heights;
   const sample = sampleOf(data, 'heights');
   checkSize(heights, 1, 'heights');
-  const [spacingX, spacingY] = typeof spacing === 'number' ? [spacing, spacing] : spacing;
+  const [spacingX, spacingY] = spacingsOf(heights.spacing ?? 0);
   const {scale = 1, offset = 0, step = 0} = heights;
   return {
     width, height, sample, scale, offset, step, spacingX, spacingY,
@@ -76,11 +87,13 @@ function fieldsOf({heights, texture, ...options}) {
   const {bytes = 0, psnr = 0, maxError = 0, triangles = 0, regions = 0} = options;
   const lossless = options.lossless ?? !(bytes || psnr || maxError);
   for (const [name, value] of Object.entries({bytes, psnr, maxError, triangles, regions})) {
-    if (!(value >= 0)) throw new TksError('usage', `${name} is a number that is not negative.`);
+    if (value >= 0 && value < Infinity) continue;
+    throw new TksError('usage', `${name} is a number that is not negative, and finite.`);
   }
   return {
     ...(heights ? heightsFields(heights) : {}), ...(texture ? textureFields(texture) : {}),
-    bytes, psnr, maxError, lossless: Number(lossless), triangles, regions,
+    bytes: Math.min(bytes, MOST_BYTES), psnr, maxError, lossless: Number(lossless),
+    triangles: Math.min(triangles, MOST_TRIANGLES), regions,
     index: oneOf(INDEXES, options.index, 'index'), weights: oneOf(WEIGHTS, options.weights, 'weights'),
   };
 }
@@ -137,9 +150,6 @@ export function encodeWith(module, input, progress) {
     const [address, size] = instance.view(Uint32Array, out, 2);
     return instance.copy(Uint8Array, address, size);
   } catch (error) {
-    if (thrown) throw thrown.error;
-    if (error instanceof TksError) throw error;
-    throw new TksError('memory', 'The encoder ran out of memory: a page has 4 GB at most.',
-      {cause: error});
+    throw thrown ? thrown.error : failureOf(error, EXHAUSTED);
   }
 }

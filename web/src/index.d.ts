@@ -20,7 +20,8 @@ export interface OpenOptions {
   signal?: AbortSignal;
   /** Of the requests to a URL, as fetch() takes them. */
   request?: Pick<RequestInit, 'headers' | 'credentials'>;
-  /** false: decode on this thread. A Worker or its URL: where bundlers do not find `tetrakis/worker`. */
+  /** false: decode on this thread. A Worker or its URL: where bundlers do not find
+   * `tetrakis/worker`. A Worker serves one terrain: another is refused it, and dispose() ends it. */
   worker?: boolean | Worker | string | URL;
   /** Where bundlers do not find `tetrakis/tetrakis.wasm`: its URL, bytes, or compiled module. */
   wasm?: string | URL | BufferSource | WebAssembly.Module;
@@ -46,9 +47,10 @@ export interface View {
 export interface FrameOptions {
   /** Use no more than the first bytes that came: of the stream, or for views. Default: all. */
   bytes?: number;
-  /** Ends the call with its requests; what is being decoded ends at its next part. */
+  /** Ends the call with its requests, and rejects it with its reason; what is being decoded ends at
+   * its next part. */
   signal?: AbortSignal;
-  /** The mesh has at most so many. Default 20000. */
+  /** The mesh has at most so many, from 2 on. Default 20000. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
    * fetched that help it most, if the stream has an index and the server knows ranges. */
@@ -159,8 +161,9 @@ export interface Terrain {
   /** The file ends before the stream does: frames are good, but not complete. */
   readonly truncated: boolean;
   /** Fetches until `bytes` bytes are here, without decoding: the first ones of the stream, or those
-   * that help a view most. Fewer: the file ends, or no other byte helps the view. Resolves to how
-   * many there are. */
+   * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte helps
+   * the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing came,
+   * another call with this view brings nothing either. */
   load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles'>): Promise<number>;
   /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core of the package: opens streams and refines them. It knows no renderer.
-import {abortable} from './abort.js';
+import {abortable, stoppedBy} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './frame.js';
+import {checkBytes, checkSides, trianglesOf} from './limits.js';
 import {FIRST_BYTES, FIRST_FRAME, Flow, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
+import {cutOf, plannedView} from './view.js';
 
 export {FIRST_FRAME, TksError, groundScale};
 
@@ -26,17 +28,6 @@ const DEFAULTS = {
 
 /** The numbers of tks_part. */
 const PARTS = {heights: 0, texture: 2};
-
-/** A view as a plan needs it; nothing where there are but 16 numbers. */
-function plannedView(view) {
-  if (!view?.clip) return null;
-  if (view.clip.length !== 16 || !(view.width >= 1) || !(view.height >= 1)) {
-    throw new TksError('usage', 'A view takes clip, 16 numbers, and width and height, the pixels of ' +
-      'its picture.');
-  }
-  const pixels = (side) => Math.min(32768, Math.round(side));
-  return {clip: [...view.clip], width: pixels(view.width), height: pixels(view.height)};
-}
 
 /** Resolves when the promise ends, however it does, or after so many ms. */
 async function within(ms, promise) {
@@ -73,11 +64,11 @@ class Terrain {
 
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
-    const seen = plannedView(view);
+    checkBytes(bytes);
+    const asked = {signal, view: plannedView(view), triangles: trianglesOf(triangles)};
     if (this.#held.bytes < bytes) {
       // One after another: each asks for what the ones before did not.
-      const reading = this.#reading.catch(() => {}).then(() =>
-        this.#read(bytes, {signal, view: seen, triangles}));
+      const reading = this.#reading.catch(() => {}).then(() => this.#read(bytes, asked));
       this.#reading = reading;
       await abortable(this.#reached(bytes, reading), signal);
     }
@@ -104,12 +95,14 @@ class Terrain {
         await this.#fetchNext(bytes - before, signal);
         continue;
       }
-      await this.#fetchPlanned(view, bytes - before, triangles, signal);
+      // A plan counts bytes by integers: there is no infinite number of them.
+      const most = Math.min(bytes, this.info.streamBytes) - before;
+      await this.#fetchPlanned(view, most, triangles, signal);
       if (bytes - this.#held.bytes < this.requestBytes) return;  // not worth another request
     }
   }
   async #call(operation, argument, signal) {
-    await this.#decoder.ready;  // the first bytes are fetched meanwhile
+    await abortable(this.#decoder.ready, signal);  // the first bytes are fetched meanwhile
     return this.#decoder.call(operation, argument, signal);
   }
   /** The first bytes that are missing. */
@@ -130,12 +123,22 @@ class Terrain {
     const {requestBytes} = this;
     const plan = await this.#call('plan', {view, bytes, triangles, requestBytes}, signal);
     this.#flow.request();
-    const answers = requestsFor(plan, this.#source.size).map(([begin, end]) =>
-      ({begin, chunk: this.#source.scattered(begin, end, signal)}));
-    for (const {chunk} of answers) chunk.catch(() => {});  // the first failure is told
-    for (const {begin, chunk} of answers) this.#take(begin, await chunk);
+    const stop = new AbortController();
+    await stoppedBy(signal, stop, () =>
+      this.#takeAll(requestsFor(plan, this.#source.size), stop));
     // A server that has just forgotten ranges sends all from its beginning.
     if (this.#source.sequential) await this.#fetchNext(bytes, signal);
+  }
+  /** Takes ranges [begin, end) as they come. One that fails ends those that are still to come. */
+  async #takeAll(ranges, stop) {
+    const answers = ranges.map(([begin, end]) =>
+      ({begin, chunk: this.#source.scattered(begin, end, stop.signal)}));
+    for (const {chunk} of answers) chunk.catch((error) => stop.abort(error));
+    for (const {begin, chunk} of answers) {
+      const bytes = await chunk.catch(() => null);
+      if (bytes) this.#take(begin, bytes);
+    }
+    stop.signal.throwIfAborted();
   }
   /**
    * Bytes from a place on. Those that are here already are left out. The decoder gets them in front
@@ -154,6 +157,7 @@ class Terrain {
   }
 
   async decode({bytes = Infinity, signal, ...options} = {}) {
+    checkBytes(bytes);
     const {headerBytes = 0, streamBytes = bytes} = this.info ?? {};
     const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
     const {view, triangles} = {...DEFAULTS, ...options};
@@ -162,13 +166,15 @@ class Terrain {
   }
   /** Of the first so many bytes, which are here. */
   async #frame(bytes, {signal, ...options}) {
-    const {view} = {...DEFAULTS, ...options};
-    const cut = view?.clip ? (view.cut ? [...view.clip] : null) : view;
-    return this.#call('decode', {...DEFAULTS, ...options, view: null, cut, bytes}, signal);
+    const asked = {...DEFAULTS, ...options};
+    checkSides(asked);
+    const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
+    return this.#call('decode', {...asked, view: null, triangles, cut, bytes}, signal);
   }
 
   /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
   async *refine({bytes = Infinity, signal, first, after = 0, ...options} = {}) {
+    checkBytes(bytes);
     const {headerBytes, streamBytes} = this.info;
     const limit = Math.min(Math.max(bytes, headerBytes), streamBytes);
     let shown = after, beginning = null;
@@ -203,9 +209,14 @@ class Terrain {
   }
 
   /** Which bytes a window of the heights or of the texture takes, as [begin, end). */
-  async needed({part = 'heights', window}) {
-    const request = {part: PARTS[part], window};
-    return (await this.#call('needed', request)).map(({begin, end}) => [begin, end]);
+  async needed({part = 'heights', window} = {}) {
+    const {x, y, width, height} = window ?? {};
+    if (!(part in PARTS) || ![x, y, width, height].every((number) => number >= 0)) {
+      throw new TksError('usage', 'needed() takes `part`, "heights" or "texture", and `window`: ' +
+        '{x, y, width, height}.');
+    }
+    const ranges = await this.#call('needed', {part: PARTS[part], window});
+    return ranges.map(({begin, end}) => [begin, end]);
   }
 
   /** Reads the header, which may be longer than the first request: the second brings a picture. */

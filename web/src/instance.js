@@ -24,6 +24,18 @@ function importsOf(module, given) {
   return imports;
 }
 
+/**
+ * What is told of an error in a call of a module. Modules trap where memory runs out, and engines
+ * throw a RangeError where they have none to give: `exhausted` is the sentence for that.
+ */
+export function failureOf(error, exhausted) {
+  if (error instanceof TksError) return error;
+  const isMemory = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+  return isMemory ? new TksError('memory', exhausted, {cause: error})
+    : new TksError('usage', `The WebAssembly module cannot be called so (${error.message}).`,
+      {cause: error});
+}
+
 /** An instance with the few operations on its memory that codecs need. */
 export class Instance {
   /** given: functions that the module imports. */

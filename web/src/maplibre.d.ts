@@ -11,7 +11,8 @@ export interface TksMapSource {
   readonly heights: RasterDEMSourceSpecification | null;
   readonly texture: RasterSourceSpecification | null;
   readonly terrain: Terrain;
-  /** Fetches on, fourfold each time up to `bytes`, and refreshes the tiles of the map's sources. */
+  /** Fetches on, fourfold each time up to `bytes`, and refreshes the tiles of the sources of this
+   * stream that the map has already. Ends when the map is removed. */
   refine(map: Map, options?: {bytes?: number; signal?: AbortSignal}): Promise<void>;
   /** RGBA of 256 x 256 pixels; null where the stream does not reach. */
   render(part: 'heights' | 'texture', tile: {z: number; x: number; y: number}):
@@ -23,8 +24,10 @@ export class TksProtocol {
   /** For maplibregl.addProtocol('tks', protocol.tile). */
   readonly tile: (request: RequestParameters, stop: AbortController) =>
     Promise<GetResourceResponse<ImageBitmap | ArrayBuffer>>;
-  /** `bounds`: west, south, east, north in degrees, for streams that do not say where they lie. */
+  /** `bounds`: west, south, east, north in degrees, for streams that do not say where they lie;
+   * across 180° as [170, -10, -170, 10]. The name is taken from the beginning of the call. */
   add(name: string, input: Input, options?: OpenOptions & {bounds?: [number, number, number, number]}):
     Promise<TksMapSource>;
+  /** Disposes the stream, or ends its opening. */
   remove(name: string): void;
 }

@@ -6,6 +6,7 @@ import {abortable} from './abort.js';
 import {Cutter} from './cut.js';
 import {TksError} from './error.js';
 import {open} from './index.js';
+import {boxOf} from './place.js';
 
 const TILE = 256;
 const MOST_ZOOM = 22;
@@ -20,11 +21,25 @@ function placesOf({z, x, y}) {
   };
 }
 
-/** RGBA of a height of `metres`: steps of 1/256 m from -32768 m to 32768 m. */
-function terrarium(metres) {
-  const steps = Math.min(Math.max(Math.round((metres + 32768) * 256), 0), 2 ** 24 - 1);
-  return [(steps >> 16) & 255, (steps >> 8) & 255, steps & 255, 255];
+/** RGBA of heights in metres: steps of 1/256 m from -32768 m to 32768 m. Voids are 0. */
+function terrarium(heights) {
+  const rgba = new Uint8ClampedArray(4 * heights.length);
+  for (let i = 0; i < heights.length; ++i) {
+    const above = ((heights[i] || 0) + 32768) * 256;
+    const steps = Math.min(Math.max(Math.round(above), 0), 2 ** 24 - 1);
+    rgba[4 * i] = steps >> 16;
+    rgba[4 * i + 1] = (steps >> 8) & 255;
+    rgba[4 * i + 2] = steps & 255;
+    rgba[4 * i + 3] = 255;
+  }
+  return rgba;
 }
+
+/** Resolves when the map has drawn all that it has, in a picture that nothing else may bring. */
+const drawn = (map) => new Promise((resolve) => {
+  map.once('idle', resolve);
+  map.triggerRepaint();
+});
 
 /** One stream on the map. Made by TksProtocol.add(). */
 class TksMapSource {
@@ -47,7 +62,7 @@ class TksMapSource {
     const source = {
       tiles: [`tks://${this.#name}/${part}/{z}/{x}/{y}`],
       tileSize: TILE,
-      bounds: this.#cutter.place(part).bounds,
+      bounds: boxOf(this.#cutter.place(part).bounds),
       // Where a pixel of a tile is no larger than a sample.
       maxzoom: Math.min(MOST_ZOOM, this.#cutter.finest(part, 360 / TILE)),
     };
@@ -59,21 +74,32 @@ class TksMapSource {
   /** RGBA of a tile, or null where the stream does not reach. */
   async render(part, tile) {
     const {longitudes, latitudes} = placesOf(tile);
+    if (!this.#cutter.place(part)) throw new TksError('usage', `This stream has no ${part}.`);
     if (!this.#cutter.reaches(part, longitudes, latitudes)) return null;
     if (part === 'texture') return this.#cutter.texels(longitudes, latitudes);
-    const heights = await this.#cutter.heights(longitudes, latitudes);
-    const rgba = new Uint8ClampedArray(4 * heights.length);
-    heights.forEach((metres, i) => rgba.set(terrarium(metres || 0), 4 * i));
-    return rgba;
+    return terrarium(await this.#cutter.heights(longitudes, latitudes));
   }
 
+  /** Has the map take its tiles of this stream anew; false: it has none. */
+  #refresh(map) {
+    const ours = Object.entries(map.getStyle()?.sources ?? {})
+      .filter(([, {tiles}]) => tiles?.[0].startsWith(`tks://${this.#name}/`));
+    for (const [id] of ours) map.refreshTiles(id);
+    return ours.length > 0;
+  }
   /** Fetches on, fourfold each time, and lets the map take its tiles anew. */
   async refine(map, {bytes = Infinity, signal} = {}) {
-    for await (const _ of this.#cutter.refine({bytes, signal})) {
-      for (const [id, source] of Object.entries(map.getStyle()?.sources ?? {})) {
-        if (source.tiles?.[0].startsWith(`tks://${this.#name}/`)) map.refreshTiles(id);
+    const gone = new AbortController(), leave = () => gone.abort();
+    const either = signal ? AbortSignal.any([signal, gone.signal]) : gone.signal;
+    map.on('remove', leave);
+    try {
+      for await (const _ of this.#cutter.refine({bytes, signal: either})) {
+        if (this.#refresh(map)) await abortable(drawn(map), either);
       }
-      await abortable(new Promise((resolve) => map.once('idle', resolve)), signal);
+    } catch (error) {
+      if (error !== gone.signal.reason) throw error;  // nobody sees a map that was removed
+    } finally {
+      map.off('remove', leave);
     }
   }
 
@@ -82,34 +108,48 @@ class TksMapSource {
   }
 }
 
+async function openedSource(name, input, {bounds, ...options}) {
+  const terrain = await open(input, options);
+  try {
+    return new TksMapSource(name, terrain, bounds);
+  } catch (error) {
+    terrain.dispose();
+    throw error;
+  }
+}
+
 /** Give `protocol.tile` to maplibregl.addProtocol('tks', protocol.tile). */
 export class TksProtocol {
-  #sources = new Map();
+  #sources = new Map();  // of a name: {stop, source}
 
   /** Opens a stream under a name, which is part of the addresses of its tiles. */
-  async add(name, input, {bounds, ...options} = {}) {
+  async add(name, input, {bounds, signal, ...options} = {}) {
     if (!/^[\w.-]+$/.test(name) || this.#sources.has(name)) {
       throw new TksError('usage', `"${name}" is taken, or no name of letters, digits and "._-".`);
     }
-    const terrain = await open(input, options);
+    // Taken from now on, though there is a source only once the stream is open.
+    const entry = {stop: new AbortController(), source: null};
+    this.#sources.set(name, entry);
+    const either = signal ? AbortSignal.any([signal, entry.stop.signal]) : entry.stop.signal;
     try {
-      const source = new TksMapSource(name, terrain, bounds);
-      this.#sources.set(name, source);
-      return source;
+      entry.source = await openedSource(name, input, {bounds, ...options, signal: either});
+      return entry.source;
     } catch (error) {
-      terrain.dispose();
+      if (this.#sources.get(name) === entry) this.#sources.delete(name);
       throw error;
     }
   }
   remove(name) {
-    this.#sources.get(name)?.dispose();
+    const entry = this.#sources.get(name);
     this.#sources.delete(name);
+    entry?.stop.abort(new TksError('usage', `"${name}" was removed while it was opened.`));
+    entry?.source?.dispose();
   }
 
   tile = async ({url}, {signal}) => {
     const [, name, part, z, x, y] =
       /^tks:\/\/([^/]+)\/(heights|texture)\/(\d+)\/(\d+)\/(\d+)/.exec(url) ?? [];
-    const source = this.#sources.get(name);
+    const source = this.#sources.get(name)?.source;
     if (!source) throw new TksError('usage', `No stream is added for ${url}.`);
     const tile = {z: Number(z), x: Number(x), y: Number(y)};
     const rgba = await abortable(source.render(part, tile), signal);

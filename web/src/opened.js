@@ -40,14 +40,19 @@ export class Opened {
       return instance.view(Uint32Array, out, 1)[0] || first.length;  // below 2^21
     });
   }
-  /** More bytes, from this place of the stream on. */
-  put(place, bytes) {
-    const {instance} = this;
-    instance.with(bytes.length, (address) => {
-      instance.view(Uint8Array, address, bytes.length).set(bytes);
-      this.check(instance.calls.web_put(this.decoder, place, address, bytes.length));
+  /** More bytes, in parts one behind the other, from this place of the stream on. */
+  put(place, parts) {
+    const {instance} = this, size = parts.reduce((sum, {length}) => sum + length, 0);
+    instance.with(size, (address) => {
+      const all = instance.view(Uint8Array, address, size);
+      let at = 0;
+      for (const part of parts) {
+        all.set(part, at);
+        at += part.length;
+      }
+      this.check(instance.calls.web_put(this.decoder, place, address, size));
     });
-    this.size += bytes.length;
+    this.size += size;
   }
   /** Ranges {begin, end, gain} of a call that writes their count and their address. */
   #ranges(call) {

@@ -6,6 +6,10 @@ import {TksError} from './error.js';
 
 const RADIANS = Math.PI / 180;
 const MERCATOR_RADIUS = 6378137;
+/** Once around the Earth, in degrees. */
+const TURN = 360;
+/** A millimetre or so, by which places that end at 180° miss it. */
+const NEAR = 1e-8;
 
 const degrees = {
   forward: (longitude, latitude) => [longitude, latitude],
@@ -92,6 +96,20 @@ export function gridOf(transform, {forward, inverse}) {
   };
 }
 
+const isAscending = ([west, south, east, north]) =>
+  west < east && east - west <= TURN && Math.abs(west) <= TURN &&
+  -90 <= south && south < north && north <= 90;
+
+/** `bounds` as callers give them: west lies east of `east` where they go across 180°. */
+function checkedBounds(bounds) {
+  let [west, south, east, north] = Array.from(bounds);
+  if (west > east && east + TURN - west < TURN / 2) east += TURN;
+  const checked = [west, south, east, north];
+  if (bounds.length === 4 && checked.every(Number.isFinite) && isAscending(checked)) return checked;
+  throw new TksError('usage', '`bounds` are [west, south, east, north] in degrees, of a place ' +
+    'with an area; across 180° as [170, -10, -170, 10].');
+}
+
 /** A geotransform for `width` x `height` samples between degrees. */
 function transformOfBounds([west, south, east, north], width, height) {
   return [west, (east - west) / width, 0, north, 0, (south - north) / height];
@@ -99,7 +117,7 @@ function transformOfBounds([west, south, east, north], width, height) {
 
 /** West, south, east and north of a raster, by walking along its border. */
 export function boundsOf(degrees, width, height) {
-  const bounds = [180, 90, -180, -90], STEPS = 16;
+  const bounds = [Infinity, Infinity, -Infinity, -Infinity], STEPS = 16;
   for (let i = 0; i < 4 * STEPS; ++i) {
     const side = Math.floor(i / STEPS), share = (i % STEPS) / STEPS;
     const [longitude, latitude] = degrees(...[
@@ -114,13 +132,57 @@ export function boundsOf(degrees, width, height) {
   return bounds;
 }
 
+/** The parts of a place, [west, east] within -180 to 180 each: two where it goes across 180°. */
+export function spansOf([west, , east]) {
+  if (east - west >= TURN - NEAR) return [[-180, 180]];
+  return east <= 180 + NEAR ? [[Math.max(west, -180), Math.min(east, 180)]]
+    : [[west, 180], [-180, east - TURN]];
+}
+
+/** West, south, east and north of what holds all spans, as maps know it. */
+export function boxOf(bounds) {
+  const [, south, , north] = bounds, spans = spansOf(bounds);
+  const [[west, east]] = spans.length > 1 ? [[-180, 180]] : spans;
+  return [west, south, east, north];
+}
+
+/** The turns, in degrees, by which some of the longitudes, which grow, come between the bounds. */
+export function turnsTo([west, , east], longitudes) {
+  const turns = [];
+  let turn = TURN * Math.ceil((west - longitudes.at(-1)) / TURN);
+  for (; longitudes[0] + turn <= east; turn += TURN) turns.push(turn);
+  return turns;
+}
+
+/**
+ * A grid whose longitudes begin between -180 and 180, with its bounds. Across 180° they go on, to
+ * 190 and further: only so a place is one piece.
+ */
+function turnedGrid({pixels, degrees}, width, height) {
+  const [west, south, east, north] = boundsOf(degrees, width, height);
+  if (![west, south, east, north].every(Number.isFinite)) {
+    throw new TksError('unsupported', 'The stream states a place that its CRS does not reach. ' +
+      'Give `bounds`: [west, south, east, north] in degrees.');
+  }
+  const turn = TURN * Math.floor((west + TURN / 2 + NEAR) / TURN);
+  return {
+    pixels: (longitude, latitude) => pixels(longitude + turn, latitude),
+    degrees(column, row) {
+      const [longitude, latitude] = degrees(column, row);
+      return [longitude - turn, latitude];
+    },
+    bounds: [west - turn, Math.max(south, -90), east - turn, Math.min(north, 90)],
+  };
+}
+
 /** Whether a stream says where it lies. */
 export const isPlaced = (info) => info.hasGeotransform || info.textureHasGeotransform;
 
 /**
  * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds}.
- * A texture without a place of its own is draped over the heights. `bounds`: west, south, east, north
- * of both parts in degrees, in place of what the stream says.
+ * A texture without a place of its own is draped over the heights. Longitudes of its bounds, and of
+ * what it gives and takes, go on behind 180 where it goes across that. `bounds`: west, south, east,
+ * north of both parts in degrees, in place of what the stream says.
  */
 export function placeOf(info, part, bounds) {
   const isTexture = part === 'texture';
@@ -128,7 +190,7 @@ export function placeOf(info, part, bounds) {
   const height = isTexture ? info.textureHeight : info.height;
   let transform, crs;
   if (bounds) {
-    [transform, crs] = [transformOfBounds(bounds, width, height), 'EPSG:4326'];
+    [transform, crs] = [transformOfBounds(checkedBounds(bounds), width, height), 'EPSG:4326'];
   } else if (isTexture && info.textureHasGeotransform) {
     [transform, crs] = [info.textureGeotransform, info.textureCrs];
   } else if (info.hasGeotransform) {
@@ -137,6 +199,5 @@ export function placeOf(info, part, bounds) {
     throw new TksError('unsupported', 'The stream does not say where it lies. Give `bounds`: ' +
       '[west, south, east, north] in degrees.');
   }
-  const grid = gridOf(transform, projectionOf(crs));
-  return {...grid, width, height, bounds: boundsOf(grid.degrees, width, height)};
+  return {...turnedGrid(gridOf(transform, projectionOf(crs)), width, height), width, height};
 }

@@ -19,7 +19,12 @@ class MemorySource {
   }
   async scattered(begin, end) {
     const part = this.#blob.slice(begin, end);
-    return part instanceof Uint8Array ? part : new Uint8Array(await part.arrayBuffer());
+    if (part instanceof Uint8Array) return part;
+    const bytes = await part.arrayBuffer().catch((error) => {
+      throw new TksError('io', 'This file cannot be read: it has changed or gone since it was ' +
+        `chosen, or may not be read (${error.message}). Open it again.`, {cause: error});
+    });
+    return new Uint8Array(bytes);
   }
   close() {}
 }

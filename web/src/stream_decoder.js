@@ -3,8 +3,11 @@
 // well.
 import {TksError} from './error.js';
 import {partsOf} from './frame.js';
-import {Instance} from './instance.js';
+import {Instance, failureOf} from './instance.js';
 import {Opened} from './opened.js';
+
+export const EXHAUSTED =
+  'The decoder ran out of memory. Ask for fewer texels, samples or triangles.';
 
 /** What steps return at their end. */
 function lastOf(steps) {
@@ -12,6 +15,18 @@ function lastOf(steps) {
     const {done, value} = steps.next();
     if (done) return value;
   }
+}
+
+/** Parts {place, bytes} as runs {place, parts} without gaps, in the order of the stream. */
+function runsOf(parts) {
+  const runs = [];
+  let end = -1;
+  for (const {place, bytes} of parts.sort((a, b) => a.place - b.place)) {
+    if (place === end) runs.at(-1).parts.push(bytes);
+    else runs.push({place, parts: [bytes]});
+    end = place + bytes.length;
+  }
+  return runs;
 }
 
 /**
@@ -50,17 +65,22 @@ export class Decoder {
     }
     return first.subarray(0, length);
   }
+  /** Parts {place, bytes} of the first `size` bytes that came, without the first `open` of them. */
+  #behind(open, size) {
+    return this.#chunks.map(({place, bytes, before}) => {
+      const from = Math.max(open - before, 0);
+      return {place: place + from, bytes: bytes.subarray(from, Math.max(from, size - before))};
+    }).filter(({bytes}) => bytes.length > 0);
+  }
   /** Those behind the ones that were open cost what they tell. */
   #openedTo(size) {
     if (this.#opened && this.#opened.size > size) this.#close();
     this.#instance ??= new Instance(this.module);
     this.#opened ??= new Opened(
       this.#instance, (bytes) => this.#first(Math.min(bytes, size)), this.memory);
-    for (const {place, bytes, before} of this.#chunks) {
-      const from = Math.max(this.#opened.size - before, 0);
-      const part = bytes.subarray(from, Math.max(from, size - before));
-      if (part.length > 0) this.#opened.put(place + from, part);
-    }
+    // The decoder looks through its index each time that it gets bytes.
+    const runs = runsOf(this.#behind(this.#opened.size, size));
+    for (const {place, parts} of runs) this.#opened.put(place, parts);
     this.#opened.setLevels(0, 0);
     return this.#opened;
   }
@@ -80,10 +100,8 @@ export class Decoder {
         throw error;
       }
     } catch (error) {
-      if (error instanceof TksError) throw error;
-      this.#opened = this.#instance = null;
-      throw new TksError('memory', 'The decoder ran out of memory. Ask for fewer texels, samples ' +
-        'or triangles.', {cause: error});
+      if (!(error instanceof TksError)) this.#opened = this.#instance = null;
+      throw failureOf(error, EXHAUSTED);
     }
   }
   /** What `use` gives, called with the first `bytes` bytes that came, opened. */

@@ -14,7 +14,8 @@ export interface TerrainOptions {
   /** Milliseconds in which the surface moves from one frame to the next, where update() is called
    * for each picture. Default 300; 0: it jumps. */
   glideTime?: number;
-  /** Default: a MeshLambertMaterial, which needs lights. */
+  /** Default: a MeshLambertMaterial, which needs lights. A TksTerrain draws its texture with it and
+   * disposes it, so that it serves no other one; a TksLoader gives each terrain a copy. */
   material?: Material;
 }
 
@@ -39,9 +40,10 @@ export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMa
   show(frame: Frame, options?: {glide?: boolean}): void;
   /** Moves the surface on its way to the frame; update() does so as well. False: it is there. */
   glide(): boolean;
-  /** To be called for each picture: fetches and decodes more where this camera sees the difference.
-   * `viewportHeight` in pixels. Events: `frame`, and `error`, after which nothing more is fetched. Of
-   * a stream with an index it fetches what helps this view most. */
+  /** To be called for each picture: fetches and decodes more where this camera sees the difference,
+   * of a stream with an index what helps this view most. `viewportHeight` in pixels; where it is 0,
+   * or the camera is nowhere, nothing happens. Events: `frame`, and `error`, after which nothing is
+   * fetched. */
   update(camera: Camera, viewportHeight: number): void;
   /** What this camera looks at, for `terrain.decode({view})`. */
   viewOf(camera: Camera, viewportHeight: number): View;
@@ -49,7 +51,7 @@ export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMa
 }
 
 export class TksLoader extends Loader<TksTerrain> {
-  /** Ends what preload() started. */
+  /** Ends what preload() started. A Worker serves one terrain: for more give its address. */
   setDecoderOptions(
     options: Pick<OpenOptions, 'worker' | 'wasm' | 'memory' | 'requestBytes'>): this;
   setTerrainOptions(options: TerrainOptions): this;

@@ -11,6 +11,7 @@ import {drapeOf} from './drape.js';
 import {surfaceUnder} from './glide.js';
 import {groundScale, open} from './index.js';
 import {FIRST_FRAME, GROWTH} from './pace.js';
+import {isDrawable} from './view.js';
 
 export {FIRST_FRAME};
 
@@ -81,11 +82,12 @@ export class TksTerrain extends Mesh {
   #eye = new Vector3();
   #wanted = 0;
   #texels = Infinity;
+  #map = null;  // of its own
   #served = '';  // the view for which all is here
   #glidesSince = -Infinity;
   #updated = [-Infinity, -Infinity];  // when update() was called last, and before that
 
-  /** `terrain`: of open(). It is disposed with this object. */
+  /** `terrain`: of open(). It is disposed with this object, as its material is. */
   constructor(terrain, {
     triangles = 20000, bytes = Infinity, pixelError = 1, glideTime = 300, material,
   } = {}) {
@@ -142,7 +144,8 @@ export class TksTerrain extends Mesh {
   }
 
   setMap(texture) {
-    this.material.map?.dispose();
+    this.#map?.dispose();
+    this.#map = texture;
     if (!this.material.map) this.material.needsUpdate = true;
     this.material.map = texture;
   }
@@ -208,15 +211,18 @@ export class TksTerrain extends Mesh {
 
   /**
    * To be called for each picture: fetches and decodes more where this camera sees the difference.
-   * Of a stream with an index that is what helps this view most, until nothing more does. One
-   * decoding runs at a time. Failures go to the event `error`.
+   * Of a stream with an index that is what helps this view most, until nothing more does. A view
+   * without a picture, as in a hidden tab, waits for one. One decoding runs at a time. Failures go to
+   * the event `error`.
    */
   update(camera, viewportHeight) {
     this.#updated = [performance.now(), this.#updated[0]];
     this.glide();
     if (this.#reading || this.#stop.signal.aborted) return;
     const {info, truncated} = this.terrain, limit = Math.min(this.bytes, info.streamBytes);
-    const view = this.frame && info.hasIndex ? this.viewOf(camera, viewportHeight) : null;
+    const seen = this.viewOf(camera, viewportHeight);
+    if (!isDrawable(seen)) return;
+    const view = this.frame && info.hasIndex ? seen : null;
     const key = view ? view.clip.map((v) => v.toPrecision(6)).join() : '';
     let bytes = this.#firstBytes(), texels = this.#texels;
     if (this.frame) {
@@ -228,14 +234,14 @@ export class TksTerrain extends Mesh {
     } else {
       texels = FIRST_FRAME.texels;
     }
-    this.#reading = this.#read(bytes, texels, view).then((enough) => {
-      if (enough) this.#served = key;
+    this.#reading = this.#read(bytes, texels, view).then((isServed) => {
+      if (isServed) this.#served = key;
     }).finally(() => (this.#reading = null));
   }
-  /** Whether fewer bytes came than were asked for. */
+  /** Whether no byte came: where only fewer came than were asked for, others still help the view. */
   async #read(bytes, texels, view) {
     try {
-      const {triangles} = this, {signal} = this.#stop;
+      const {triangles} = this, {signal} = this.#stop, here = this.terrain.loaded.bytes;
       const have = await this.terrain.load(bytes, {view, triangles, signal});
       if (have !== this.#wanted || texels !== this.#texels || !this.frame) {
         const frame = await this.terrain.decode({bytes: have, texels, triangles, normals: true, signal});
@@ -244,7 +250,7 @@ export class TksTerrain extends Mesh {
       }
       this.#wanted = have === bytes || view ? have : bytes;
       this.#texels = texels;
-      return have < bytes;
+      return have <= here;
     } catch (error) {
       if (this.#stop.signal.aborted) return false;
       this.#stop.abort();
@@ -262,10 +268,19 @@ export class TksTerrain extends Mesh {
   dispose() {
     this.#stop.abort();
     this.geometry.dispose();
-    this.material.map?.dispose();
+    this.#map?.dispose();
     this.material.dispose();
     this.terrain.dispose();
   }
+}
+
+/** A material of a terrain's own, which carries its texture. */
+function copyOf(material) {
+  const copy = material.clone();
+  // clone() leaves out how shaders are changed.
+  copy.onBeforeCompile = material.onBeforeCompile;
+  copy.customProgramCacheKey = material.customProgramCacheKey;
+  return copy;
 }
 
 export class TksLoader extends Loader {
@@ -280,7 +295,7 @@ export class TksLoader extends Loader {
     this.#decoderOptions = options;
     return this;
   }
-  /** Those of TksTerrain: triangles, bytes, pixelError, material. */
+  /** Those of TksTerrain. Each terrain gets a copy of the material. */
   setTerrainOptions(options) {
     this.#terrainOptions = options;
     return this;
@@ -328,7 +343,8 @@ export class TksLoader extends Loader {
     const options = {...this.#decoderOptions, request, signal: this.#stop.signal};
     if (this.#spare) [options.decoder, this.#spare] = [this.#spare, null];
     const terrain = await open(input, options);
-    const object = new TksTerrain(terrain, this.#terrainOptions);
+    const {material, ...others} = this.#terrainOptions;
+    const object = new TksTerrain(terrain, {...others, material: material && copyOf(material)});
     try {
       await object.begin();
       return object;

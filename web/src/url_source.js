@@ -4,6 +4,7 @@
 import {stoppedBy} from './abort.js';
 import {TksError} from './error.js';
 import {gathered, inLarger} from './pieces.js';
+import {Version} from './version.js';
 import {WholeAnswer} from './whole_answer.js';
 
 const MAGIC = [0x54, 0x4b, 0x53, 0x1a];
@@ -31,7 +32,7 @@ export class UrlSource {
   #request;
   #running = new Set();  // an AbortController for each request
   #closed = null;
-  #version = null;
+  #version = new Version();
   #whole = null;
 
   /** `request`: headers and credentials of its requests, as fetch() takes them. */
@@ -124,14 +125,14 @@ export class UrlSource {
   }
   async #answered(begin, end, take, stop) {
     const answer = await this.#fetch(begin, end, stop);
+    if (answer.ok || answer.status === 416) this.#checkVersion(answer);
     if (answer.status === 416) {
       this.size = Math.min(this.size, begin);
       return true;
     }
-    if (!answer.ok) {
+    if (!answer.ok || !answer.body) {  // 204 has no body
       throw this.#error(`: the server answered ${answer.status} ${answer.statusText}`.trimEnd() + '.');
     }
-    this.#checkVersion(answer);
     this.type = answer.headers.get('content-type')?.split(';')[0];
     if (answer.status === 206) {
       await this.#part(answer, {begin, end}, take, stop);
@@ -142,9 +143,7 @@ export class UrlSource {
   }
 
   #checkVersion(answer) {
-    const version = answer.headers.get('etag') ?? answer.headers.get('last-modified');
-    this.#version ??= version;
-    if (version === null || version === this.#version) return;
+    if (this.#version.agrees(answer)) return;
     this.close(new TksError('changed', `${this.#url} has changed on the server since its first ` +
       'bytes were read. Open it again.'));
     throw this.#closed;

@@ -2,7 +2,9 @@
 // Decodes away from the page's thread. The page hands over the compiled module with the first
 // message, so that this file loads nothing.
 import {buffersOf} from './frame.js';
+import {failureOf} from './instance.js';
 import {Operations} from './operations.js';
+import {EXHAUSTED} from './stream_decoder.js';
 
 let operations;
 const running = new Map();  // an AbortController for each call
@@ -13,8 +15,9 @@ async function answer({id, operation, argument}) {
   try {
     const result = await operations.call(operation, argument, stop.signal);
     self.postMessage({id, result}, operation === 'decode' ? buffersOf(result) : []);
-  } catch ({code, message, needed}) {
-    self.postMessage({id, error: {code: code ?? 'memory', message, needed}});
+  } catch (error) {
+    const {code, message, needed} = failureOf(error, EXHAUSTED);
+    self.postMessage({id, error: {code, message, needed}});
   } finally {
     running.delete(id);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core: sources of bytes with the faults that servers have, frames, aborts, limits of memory.
 import assert from 'node:assert/strict';
+import {openAsBlob} from 'node:fs';
 import {readFile, mkdtemp, writeFile, rm} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
@@ -85,6 +86,21 @@ test('a frame is whole: triangles within the budget, indices, normals, RGBA', as
   assert.equal(surface.data.length, info.width * info.height);
   const small = await terrain.decode({texels: 40, mesh: false});
   assert.ok(small.texture.width <= 40 && small.texture.level > 0 && !small.mesh);
+});
+
+test('what is no number, or no number of triangles, is refused', async () => {
+  const terrain = await open(bytes);
+  for (const [options, pattern] of [[{bytes: NaN}, /`bytes` is a number/], [{bytes: '9'}, /`bytes`/],
+    [{triangles: 0}, /`triangles` is a number from 2 on/], [{triangles: 1}, /`triangles`/],
+    [{triangles: NaN}, /`triangles`/], [{texels: NaN}, /`texels`/], [{samples: NaN}, /`samples`/]]) {
+    await rejects(terrain.decode(options), 'usage', pattern);
+    await rejects(terrain.refine(options).next(), 'usage', pattern);
+  }
+  await rejects(terrain.load(), 'usage', /`bytes`/);
+  await rejects(terrain.load(100, {triangles: 0}), 'usage', /`triangles`/);
+  const {mesh} = await terrain.decode({triangles: Infinity});
+  assert.deepEqual((await terrain.decode({triangles: 2 ** 32})).mesh, mesh);
+  assert.ok((await terrain.decode({triangles: 2})).mesh.triangles.length <= 6);
 });
 
 test('a view gives a part of the mesh', async () => {
@@ -176,6 +192,14 @@ test('a worker that answers after it failed is not heard', async () => {
   await rejects(opening, 'io', /gone/);
 });
 
+test('a Worker serves one terrain', async () => {
+  const worker = {postMessage() {}, terminate() {}}, stop = new AbortController();
+  const first = open(bytes, {worker, signal: stop.signal});
+  await rejects(open(bytes, {worker}), 'usage', /This Worker serves another terrain/);
+  stop.abort();
+  await assert.rejects(first, {name: 'AbortError'});
+});
+
 test('what cannot be opened says why', async () => {
   await withServer({}, async ({url}) => {
     await rejects(open(url + 'page.tks'), 'corrupt',
@@ -191,16 +215,56 @@ test('what cannot be opened says why', async () => {
   await rejects(open(new URL(import.meta.url)), 'io', /is a file, which cannot be fetched/);
   await rejects(open(new TextEncoder().encode('PK..')), 'corrupt', /not a Tetrakis stream/);
   await rejects(open(7), 'usage', /URL, bytes or a Blob/);
+  await withServer({empty: true}, ({url}) =>
+    rejects(open(url + 'whole.tks'), 'io', /the server answered 204/));
+  await rejects(open(bytes, {worker: 'w.js'}), 'io', /The worker w\.js cannot be started/);
   const damaged = bytes.slice();
   damaged[4] = 99;
   await rejects(open(damaged), 'unsupported', /version/i);
 });
 
-test('a file that changes between requests is refused', async () => {
-  await withServer({etag: (request) => `"${request}"`}, async ({url}) => {
-    const terrain = await open(url + 'whole.tks');
-    await rejects(terrain.decode(), 'changed', /has changed on the server/);
-    terrain.dispose();
+test('a file that changes between requests is refused, as far as its server tells', async () => {
+  const name = join(folder, 'changing.tks'), longer = new Uint8Array(bytes.length + 1);
+  longer.set(bytes);
+  const date = 'Fri, 27 Nov 2026 00:00:00 GMT', later = 'Fri, 27 Nov 2026 00:00:01 GMT';
+  for (const [first, second, file, isRefused] of [
+    [{etag: '"x"'}, {etag: '"y"'}, bytes, true],
+    [{'last-modified': date}, {'last-modified': later}, bytes, true],
+    [{}, {}, longer, true],
+    [{etag: '"x"'}, {etag: '"x"'}, longer, true],
+    [{etag: '"x"'}, {etag: 'W/"x"'}, bytes, false],
+    [{'last-modified': date}, {etag: '"x"', 'last-modified': date}, bytes, false],
+    [{etag: '"x"', 'last-modified': date}, {etag: '"x"', 'last-modified': later}, bytes, false],
+  ]) {
+    await writeFile(name, bytes);
+    await withServer({headers: first}, async (server) => {
+      const terrain = await open(server.url + 'changing.tks');
+      await writeFile(name, file);
+      server.faults.headers = second;
+      if (isRefused) await rejects(terrain.decode(), 'changed', /has changed on the server/);
+      else assert.ok((await terrain.decode()).complete);
+      terrain.dispose();
+    });
+  }
+});
+
+test('a Blob that changes on the disk is refused', async () => {
+  const name = join(folder, 'chosen.tks');
+  await writeFile(name, bytes);
+  const terrain = await open(await openAsBlob(name));
+  await writeFile(name, bytes.subarray(0, 5000));
+  await rejects(terrain.decode(), 'io', /This file cannot be read: it has changed or gone/);
+});
+
+test('aborting does not wait for a module that never comes', async () => {
+  await writeFile(join(folder, 'decoder.wasm'), bytes);
+  await withServer({stall: 0}, async ({url}) => {
+    const reason = new Error('the user went away');
+    const stop = new AbortController();
+    const opening = open(bytes, {wasm: url + 'decoder.wasm', signal: stop.signal});
+    setTimeout(() => stop.abort(reason), 50);
+    const late = new Promise((_, reject) => setTimeout(reject, 3000, new Error('late')).unref());
+    await assert.rejects(Promise.race([opening, late]), reason);
   });
 });
 
@@ -417,6 +481,22 @@ test('a limit of memory is kept; an instance that aborted is replaced', async ()
   assert.deepEqual(decoder.decode(request), before);
 });
 
+test('only memory that runs out is called so', async () => {
+  const {Decoder} = await import('../src/stream_decoder.js');
+  const wasm = (name) => readFile(new URL(`../dist/${name}.wasm`, import.meta.url));
+  const decoder = new Decoder(await WebAssembly.compile(await wasm('tetrakis')), 2 ** 30);
+  decoder.append(bytes);
+  for (const [error, code] of [[new TypeError('no number'), 'usage'],
+    [new WebAssembly.LinkError('no import'), 'usage'],
+    [new RangeError('allocation failed'), 'memory'],
+    [new WebAssembly.RuntimeError('unreachable'), 'memory']]) {
+    assert.throws(() => decoder.opened(300, () => { throw error; }), {name: 'TksError', code});
+  }
+  await rejects(open(bytes, {wasm: await wasm('tetrakis-encode')}), 'usage', /has no web_open\(\)/);
+  await rejects(open(bytes, {wasm: new Uint8Array(10)}), 'io', /module cannot be loaded/);
+  await rejects((await open(bytes)).needed({}), 'usage', /needed\(\) takes `part`/);
+});
+
 test('a decoder that goes on gives what one that begins anew gives, forth and back', async () => {
   const {Decoder} = await import('../src/stream_decoder.js');
   const module =
@@ -431,6 +511,19 @@ test('a decoder that goes on gives what one that begins anew gives, forth and ba
       triangles: 1000, texels: cut % 2 ? 64 : 4096, samples: cut % 3 ? 64 : 4096};
     assert.deepEqual(growing.decode(request), fresh.decode(request), `${cut} bytes`);
   }
+});
+
+test('bytes that came in many pieces are given to the decoder at once', async (t) => {
+  const {Decoder} = await import('../src/stream_decoder.js');
+  const {Opened} = await import('../src/opened.js');
+  const module =
+    await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url)));
+  const put = t.mock.method(Opened.prototype, 'put');
+  const whole = new Decoder(module, 2 ** 30), pieces = new Decoder(module, 2 ** 30);
+  whole.append(bytes);
+  for (let at = 0; at < bytes.length; at += 100) pieces.append(bytes.subarray(at, at + 100));
+  assert.deepEqual(pieces.samples(bytes.length, 0), whole.samples(bytes.length, 0));
+  assert.equal(put.mock.callCount(), 2);
 });
 
 test('a module is compiled whatever the server calls it', async () => {

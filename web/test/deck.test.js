@@ -6,6 +6,7 @@ import {test} from 'node:test';
 import {load, loadInBatches, selectLoaderSync} from '@loaders.gl/core';
 
 import {TksLoader} from '../src/deck.js';
+import {encode} from '../src/encode.js';
 
 const vectors = new URL('../../conformance/vectors/', import.meta.url);
 const bytesOf = async (name) => {
@@ -54,6 +55,17 @@ test('a stream that says where it lies needs no bounds; origins keep numbers sma
   for (const value of near.header.boundingBox.map(([x, y]) => [x, y]).flat()) {
     assert.ok(value > -1e-5 && value < 0.01);
   }
+});
+
+test('a texture that counts longitudes another way than the heights lies on them', async () => {
+  const placed = (west) => ({width: 72, height: 36, crs: 'EPSG:4326',
+    geotransform: [west, 0.25, 0, 9, 0, -0.5]});
+  const stream = await encode({
+    heights: {...placed(180), data: new Int16Array(72 * 36)},
+    texture: {...placed(-180), data: new Uint8Array(3 * 72 * 36)},
+  });
+  const {attributes} = await load(stream.buffer, [TksLoader]);
+  assert.ok(attributes.TEXCOORD_0.value.every((value) => value >= 0 && value <= 1));
 });
 
 test('of a stream without a place metres are counted from the middle', async () => {

@@ -59,6 +59,20 @@ test('targets are kept: bytes, largest error, dB', async () => {
   assert.ok(info.hasTexture && !info.hasHeights);
 });
 
+test('a spacing of null is unknown, as none at all', async () => {
+  const {heights} = terrainOf(16);
+  const [unknown, none] = await Promise.all([null, undefined].map((spacing) =>
+    encode({heights: {...heights, spacing}})));
+  assert.deepEqual(unknown, none);
+});
+
+test('enormous limits are none', async () => {
+  const {heights} = terrainOf(16);
+  assert.deepEqual(await encode({heights, bytes: 1e300}), await encode({heights, bytes: 1e9}));
+  assert.deepEqual(await encode({heights, triangles: 2 ** 32}),
+    await encode({heights, triangles: 2 ** 32 - 1}));
+});
+
 test('an ImageData is a texture', async () => {
   const data = new Uint8ClampedArray(4 * 30).fill(255);
   const {info} = await open(await encode({texture: {data, width: 6, height: 5}}));
@@ -87,6 +101,8 @@ test('what makes no sense is refused by code and sentence', async () => {
   await refused({}, /./);
   await refused({heights, bytes: 100, psnr: 30}, /./);
   await refused({heights, bytes: -1}, /bytes is a number that is not negative/);
+  await refused({heights, bytes: Infinity}, /bytes is a number .* finite/);
+  await refused({heights: {...heights, spacing: [30]}}, /spacing is a number of metres, or two/);
   await refused({heights: {...heights, data: [1, 2]}}, /an array of Uint8Array/);
   await refused({heights: {...heights, width: 17}}, /17 x 16 samples/);
   await refused({heights: {...heights, geotransform: [1, 2]}}, /six numbers/);

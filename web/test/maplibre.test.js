@@ -5,6 +5,9 @@ import assert from 'node:assert/strict';
 import {readFile} from 'node:fs/promises';
 import {test} from 'node:test';
 
+import {Cutter} from '../src/cut.js';
+import {encode} from '../src/encode.js';
+import {open} from '../src/index.js';
 import {TksProtocol} from '../src/maplibre.js';
 import {boundsOf, gridOf, projectionOf} from '../src/place.js';
 
@@ -76,6 +79,146 @@ test('tiles hold the heights of the surface and its colours', async () => {
   await assert.rejects(protocol.add('alps', input, {bounds}), /taken/);
   protocol.remove('alps');
   await assert.rejects(protocol.add('nowhere', input), /does not say where it lies/);
+});
+
+/** 72 x 36 heights of 5 m a column and a texture, both of this geotransform in degrees. */
+const inDegrees = (geotransform) => encode({
+  heights: {data: Int16Array.from({length: 72 * 36}, (_, i) => 5 * (i % 72)), width: 72, height: 36,
+    crs: 'EPSG:4326', geotransform},
+  texture: {data: new Uint8Array(3 * 72 * 36).fill(99), width: 72, height: 36},
+});
+
+test('a place that goes across 180° has tiles on both sides', async () => {
+  const protocol = new TksProtocol();
+  for (const [west, across, longitudes] of [[0, 360, [-100, -20, 40, 170]],
+    [170, 20, [172, 178, -179, -171]], [-190, 20, [172, 178, -179, -171]],
+    [-180, 360, [-170, 100]]]) {
+    const name = `from${west}`, columns = across / 72;
+    const source = await protocol.add(name, await inDegrees([west, columns, 0, 9, 0, -0.5]));
+    const [first, , last] = source.heights.bounds;
+    assert.deepEqual([first, last], [-180, 180]);
+    for (const longitude of longitudes) {
+      const z = 6, place = ((longitude + 180) / 360) * 2 ** z, x = Math.floor(place);
+      const tile = {z, x, y: 31};  // just north of the equator
+      const heights = await source.render('heights', tile);
+      const pixel = Math.floor((place - x) * 256), at = 4 * (256 * 250 + pixel);
+      const got = heights[at] * 256 + heights[at + 1] + heights[at + 2] / 256 - 32768;
+      const east = ((x + (pixel + 0.5) / 256) / 2 ** z) * 360 - 180;
+      const column = ((east - west + 720) % 360) / columns;
+      assert.ok(Math.abs(got - 5 * (column - 0.5)) < 0.1, `${longitude}: ${got}, ${column}`);
+      assert.equal((await source.render('texture', tile))[at], 99);
+    }
+    protocol.remove(name);
+  }
+});
+
+test('bounds that are none are refused', async () => {
+  const input = await readFile(new URL('regions_joint_index_40x33_50x47.tks', vectors));
+  const protocol = new TksProtocol();
+  for (const bounds of [[9, 46, 8, 47], [8, 47, 9, 46], [NaN, 0, 1, 1], [1, 2, 3], [0, 0, 0, 1],
+    [0, 0, 1, 91], [0, 0, 400, 1], 'abcd', 7]) {
+    await assert.rejects(protocol.add('x', input, {bounds}),
+      {code: 'usage', message: /`bounds` are \[west, south, east, north\]/}, String(bounds));
+  }
+  const source = await protocol.add('x', input, {bounds: [170, -10, -170, 10]});
+  assert.deepEqual(source.heights.bounds.map(Math.round), [-180, -10, 180, 10]);
+  const lost = await encode({heights: {data: new Int16Array(16), width: 4, height: 4,
+    crs: 'EPSG:32632', geotransform: [1e150, 1, 0, 0, 0, -1]}});
+  await assert.rejects(protocol.add('y', lost), {code: 'unsupported', message: /does not reach/});
+});
+
+/** A map that draws when it is told to, with these sources. */
+class Drawing {
+  #heard = {idle: new Set(), remove: new Set()};
+  refreshed = 0;
+  constructor(sources, draws = true) {
+    Object.assign(this, {sources, draws});
+  }
+  getStyle() {
+    return {sources: this.sources};
+  }
+  refreshTiles() {
+    ++this.refreshed;
+  }
+  on(name, heard) {
+    this.#heard[name].add(heard);
+  }
+  once(name, heard) {
+    this.on(name, heard);
+  }
+  off(name, heard) {
+    this.#heard[name].delete(heard);
+  }
+  fire(name) {
+    for (const heard of this.#heard[name]) heard();
+  }
+  triggerRepaint() {
+    if (this.draws) setTimeout(() => this.fire('idle'));
+  }
+}
+
+test('refining ends, whether the map is idle, without the source, or removed', async () => {
+  const input = await readFile(new URL('regions_joint_index_40x33_50x47.tks', vectors));
+  const protocol = new TksProtocol(), bounds = [8, 46, 8.1, 46.07];
+  for (const [name, draws] of [['idle', true], ['without', true], ['removed', false]]) {
+    const source = await protocol.add(name, input, {bounds});
+    const map = new Drawing(name === 'without' ? {} : {dem: source.heights}, draws);
+    const refining = source.refine(map);
+    if (name === 'removed') setTimeout(() => map.fire('remove'), 50);
+    const late = new Promise((_, reject) => setTimeout(reject, 3000, new Error(name)).unref());
+    await Promise.race([refining, late]);
+    assert.equal(map.refreshed, name === 'without' ? 0 : 1);
+    assert.ok(source.terrain.loaded.bytes === input.length, name);
+    protocol.remove(name);
+  }
+});
+
+test('a name is taken from the beginning; who removes it ends its opening', async (t) => {
+  const input = await readFile(new URL('regions_joint_index_40x33_50x47.tks', vectors));
+  const protocol = new TksProtocol(), bounds = [8, 46, 8.1, 46.07];
+  const first = protocol.add('alps', input, {bounds});
+  await assert.rejects(protocol.add('alps', input, {bounds}), {code: 'usage', message: /taken/});
+  const source = await first, dispose = t.mock.method(source.terrain, 'dispose');
+  protocol.remove('alps');
+  assert.equal(dispose.mock.callCount(), 1);
+  const removed = protocol.add('alps', input, {bounds});
+  protocol.remove('alps');
+  await assert.rejects(removed, {code: 'usage', message: /"alps" was removed while/});
+  await assert.rejects(protocol.add('alps', input), /does not say where it lies/);
+  await protocol.add('alps', input, {bounds});
+});
+
+test('tiles of a part that a stream lacks are refused', async () => {
+  const input = await readFile(new URL('geometry_budget_129x97.tks', vectors));
+  const protocol = new TksProtocol();
+  await protocol.add('bare', input, {bounds: [8, 46, 8.1, 46.07]});
+  await assert.rejects(protocol.tile({url: 'tks://bare/texture/3/4/2'}, new AbortController()),
+    {code: 'usage', message: 'This stream has no texture.'});
+});
+
+test('few places of a tile are projected, and the others lie where they would', async () => {
+  const terrain =
+    await open(await readFile(new URL('placed_joint_20x15_40x31.tks', vectors)));
+  const cutter = new Cutter(terrain), place = cutter.place('heights'), {pixels} = place;
+  let projected = 0;
+  place.pixels = (...at) => (++projected, pixels(...at));
+  const [west, south, east, north] = place.bounds;
+  const steps = Array.from({length: 256}, (_, i) => (i + 0.5) / 256);
+  const longitudes = steps.map((step) => west + step * (east - west));
+  const latitudes = steps.map((step) => north - step * (north - south));
+  const heights = await cutter.heights(longitudes, latitudes);
+  assert.ok(projected < 256 * 16, `${projected} of ${256 * 256} places`);
+  let checked = 0;
+  for (let i = 0; i < heights.length; i += 89) {
+    const column = i % 256, row = Math.floor(i / 256);
+    if (column === 255) continue;
+    const alone =
+      await cutter.heights(longitudes.slice(column, column + 2), latitudes.slice(row, row + 1));
+    if (Number.isNaN(alone[0]) || Number.isNaN(heights[i])) continue;
+    assert.ok(Math.abs(alone[0] - heights[i]) < 0.1, `${heights[i]} is not ${alone[0]}`);
+    ++checked;
+  }
+  assert.ok(checked > 500, `${checked} places`);
 });
 
 test('a stream that says where it lies needs no bounds', async () => {

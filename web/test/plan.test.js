@@ -185,10 +185,86 @@ test('servers without ranges, or that forget them, and files cut short', async (
   });
 });
 
+test('a request of a plan that fails: others are kept, and those still to come end', async () => {
+  const load = (terrain) => terrain.load(Infinity, {view: CORNER});
+  await served({}, async (url, server) => {
+    const terrain = await open(url, {requestBytes: 128}), {bytes: before} = terrain.loaded;
+    const asked = server.requests.length;
+    server.faults.fail = [asked + 1, 150];
+    await assert.rejects(load(terrain), {code: 'io', message: /answered 500/});
+    assert.ok(server.requests.length > asked + 1);
+    assert.ok(terrain.loaded.bytes > before, 'bytes behind the failing ones are here');
+    terrain.dispose();
+  });
+  await served({}, async (url, server) => {
+    const terrain = await open(url, {requestBytes: 128}), asked = server.requests.length;
+    Object.assign(server.faults, {fail: [asked + 2, 100], stall: 10});
+    await assert.rejects(load(terrain), {code: 'io', message: /answered 500/});
+    assert.equal(await server.requests[asked].ended, false);
+    terrain.dispose();
+  });
+});
+
 test('a view that is none is refused', async () => {
   const terrain = await open(bytes);
-  for (const view of [{...CORNER, width: 0}, {...CORNER, clip: [1]}]) {
-    await assert.rejects(terrain.decode({view}), /clip, 16 numbers, and width and height/);
+  for (const view of [{...CORNER, width: 0}, {...CORNER, clip: [1]}, [1, 2, 3], {}]) {
+    await assert.rejects(terrain.decode({view}),
+      {code: 'usage', message: /clip, 16 numbers, and width and height/});
+  }
+});
+
+/** Shows a camera to a terrain of three.js until nothing more comes. */
+async function settle(object, camera) {
+  for (let quiet = 0; quiet < 8; ) {
+    const before = object.terrain.loaded.bytes;
+    object.update(camera, 400);
+    await new Promise((resolve) => setTimeout(resolve, 80));
+    quiet = object.terrain.loaded.bytes > before ? 0 : quiet + 1;
+  }
+}
+
+test('a terrain of three.js goes on to what its camera needs, though that stays still', async () => {
+  const terrain = await open(bytes, {requestBytes: 2 ** 14});
+  const object = new TksTerrain(terrain, {triangles: 2000});
+  const camera = new PerspectiveCamera(40, 1.6, 1, 1e6);
+  camera.position.set(0, 4000, 4000);
+  camera.lookAt(0, 0, 0);
+  await settle(object, camera);
+  const {bytes: settled} = terrain.loaded, view = object.viewOf(camera, 400);
+  assert.ok(settled > 0.5 * bytes.length, `${settled} of ${bytes.length}`);
+  assert.equal(await terrain.load(Infinity, {view, triangles: 2000}), settled);
+  assert.equal(object.frame.bytes, settled);
+  object.dispose();
+});
+
+test('a view without a picture waits for one that has one', async () => {
+  const spoils = [(camera) => (camera.aspect = NaN), (camera) => (camera.aspect = Infinity),
+    (camera) => (camera.aspect = 0), (camera) => (camera.position.x = NaN)];
+  for (const stream of [bytes, await encode({...original, bytes: 30000})]) {
+    const object = new TksTerrain(await open(stream));
+    const failures = [], camera = new PerspectiveCamera(40, 1.6, 1, 1e6);
+    let frames = 0;
+    object.addEventListener('error', ({error}) => failures.push(error));
+    object.addEventListener('frame', () => ++frames);
+    await object.begin();
+    const {bytes: before} = object.terrain.loaded;
+    const look = async (height) => {
+      camera.updateProjectionMatrix();
+      object.update(camera, height);
+      await new Promise((resolve) => setTimeout(resolve, 80));
+    };
+    for (const height of [0, undefined, NaN]) await look(height);
+    for (const spoil of spoils) {
+      spoil(camera);
+      await look(400);
+      camera.aspect = 1.6;
+      camera.position.set(0, 1500, 0);
+      camera.lookAt(0, 0, 0);
+    }
+    assert.deepEqual([failures, frames, object.terrain.loaded.bytes], [[], 1, before]);
+    await look(400);
+    assert.ok(object.terrain.loaded.bytes > before && failures.length === 0);
+    object.dispose();
   }
 });
 
@@ -198,12 +274,7 @@ test('a terrain of three.js fetches for its camera, and on when that moves', asy
   const look = async (x, z) => {
     camera.position.set(x, 1500, z);
     camera.lookAt(1.5 * x, 0, 1.5 * z);
-    for (let quiet = 0; quiet < 8; ) {
-      const before = object.terrain.loaded.bytes;
-      object.update(camera, 400);
-      await new Promise((resolve) => setTimeout(resolve, 80));
-      quiet = object.terrain.loaded.bytes > before ? 0 : quiet + 1;
-    }
+    await settle(object, camera);
     return object.terrain.loaded.bytes;
   };
   const first = await look(-2000, -2000);

@@ -23,7 +23,8 @@ async function sendInTwo(response, file, [start, end], [bytes, ms]) {
  * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always),
  * types (content types by the ends of names), overstated (ranges are said to end where they were
  * asked to), most (the bytes of an answer to a range, at most), stall (so many bytes of an answer go
- * out, the others never do), pause ([bytes, ms]: behind so many of a part's bytes the server rests).
+ * out, the others never do), pause ([bytes, ms]: behind so many of a part's bytes the server
+ * rests), empty (204 always), fail ([n, ms]: the n-th request is answered 500 after so long).
  * A request's `ended` resolves to whether all of its answer went out.
  */
 export async function serve(folder, faults = {}) {
@@ -39,6 +40,12 @@ export async function serve(folder, faults = {}) {
       noted.status = 404;
       response.writeHead(404, {'content-type': 'text/html'});
       return response.end('<!doctype html>nothing here');
+    }
+    if (faults.empty) return response.writeHead(204).end();
+    const [failing, ms] = faults.fail ?? [];
+    if (requests.indexOf(noted) + 1 === failing) {
+      await new Promise((resolve) => setTimeout(resolve, ms));
+      return response.writeHead(500).end();
     }
     const send = (start, last) => {
       const {stall = Infinity} = faults, end = Math.min(last, start + stall - 1);

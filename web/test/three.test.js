@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {readFile} from 'node:fs/promises';
 import {test} from 'node:test';
-import {PerspectiveCamera} from 'three';
+import {MeshBasicMaterial, PerspectiveCamera} from 'three';
 
 import {TksLoader} from '../src/three.js';
 import {serve} from './server.js';
@@ -95,6 +95,24 @@ test('a decoder that was preloaded is taken once; dispose() ends one that was no
     .parseAsync(await bytesOf('rgb_50x37.tks'));
   assert.equal(object.material.map.image.width, 50);
   object.dispose();
+});
+
+test('terrains of one loader have materials of their own, as the one that was given', async () => {
+  const material = new MeshBasicMaterial({color: 0x123456});
+  const stream = await bytesOf('rgb_50x37.tks');
+  material.onBeforeCompile = () => {};
+  let disposed = 0;
+  material.addEventListener('dispose', () => ++disposed);
+  const loader = new TksLoader().setTerrainOptions({material});
+  const [first, second] = [await loader.parseAsync(stream), await loader.parseAsync(stream)];
+  assert.notEqual(first.material.map, second.material.map);
+  assert.equal(second.material.color.getHex(), 0x123456);
+  assert.equal(second.material.onBeforeCompile, material.onBeforeCompile);
+  first.material.addEventListener('dispose', () => ++disposed);
+  second.dispose();
+  assert.deepEqual([disposed, material.map], [0, null]);
+  first.dispose();
+  assert.equal(disposed, 1);
 });
 
 test('requests are made as the loader says, and end when it is told so', async () => {

@@ -194,6 +194,48 @@ test('a drop opens', async () => {
   });
 });
 
+test('a bad file leaves what is shown, under its own name, and going on', async () => {
+  const image = {name: 'image.png', mimeType: 'image/png', buffer: Buffer.from('none')};
+  const stream = {name: 'a.tks', mimeType: '', buffer: bytes};
+  await withPage('?tks=whole.tks', async (page) => {
+    const size = await text(page, '#size');
+    for (const [files, pattern] of [[join(folder, 'damaged.tks'), /profile 255/],
+      [[stream, image], /a\.tks is a stream, which is opened alone/],
+      [[image], /image\.png cannot/]]) {
+      await page.locator('#file').setInputFiles(files);
+      await page.getByRole('alert').filter({hasText: pattern}).waitFor();
+      assert.equal(await text(page, '#name'), 'whole.tks');
+      assert.equal(await page.title(), 'whole.tks – Tetrakis');
+      assert.equal(await text(page, '#size'), size);
+      assert.ok(await page.locator('#panel').isVisible());
+    }
+    await page.locator('#bytes').fill('400');
+    await page.waitForFunction(() => Number(document.body.dataset.bytes) < 1000);
+  });
+});
+
+test('in a frame that is not shown the viewer waits, and draws once it is', async () => {
+  await writeFile(join(folder, 'indexed.tks'),
+    await encode({...terrainOf(193), bytes: 90000, index: true, regions: 32}));
+  await writeFile(join(folder, 'host.html'), '<!doctype html><iframe src="index.html?' +
+    'tks=indexed.tks" style="display: none; width: 800px; height: 500px"></iframe>');
+  const server = await serve(folder), page = await browser.newPage();
+  try {
+    await page.goto(server.url + 'host.html');
+    await page.waitForTimeout(1500);
+    const frame = page.frames()[1], body = frame.locator('body');
+    assert.equal(await body.getAttribute('data-state'), 'refining');
+    await page.locator('iframe').evaluate((element) => (element.style.display = 'block'));
+    await ended(frame);
+    assert.equal(await body.getAttribute('data-state'), 'done');
+    assert.ok(Number(await body.getAttribute('data-bytes')) > 80000);
+    assert.ok((await colours(frame)).ground > 0.05);
+  } finally {
+    await page.close();
+    await server.close();
+  }
+});
+
 test('a lost context comes back', async () => {
   await withPage('?tks=whole.tks', async (page) => {
     await page.evaluate(async () => {

@@ -33,6 +33,7 @@ export class Picture {
   #middle = new Vector3();
   #times = 1;
   #resting = 0;
+  #sized = [];  // who waits for a picture with a size
   /** Called when the camera has moved and rests. */
   onrest = () => {};
 
@@ -60,6 +61,8 @@ export class Picture {
 
   /** The page, or what lies over it, has another size. */
   resize() {
+    if (!this.hasSize) return;  // there is no camera for no picture
+    for (const tell of this.#sized.splice(0)) tell();
     this.renderer.setSize(innerWidth, innerHeight, false);
     this.camera.aspect = innerWidth / innerHeight;
     // The middle of the picture is about that of what the panel leaves free.
@@ -67,6 +70,15 @@ export class Picture {
     this.camera.setViewOffset(innerWidth, innerHeight, right, down, innerWidth, innerHeight);
     this.camera.updateProjectionMatrix();
     this.draw();
+  }
+
+  /** False in a frame that is not shown. */
+  get hasSize() {
+    return innerWidth > 0 && innerHeight > 0;
+  }
+  /** Resolves once there is a picture to be drawn. */
+  async sized() {
+    if (!this.hasSize) await new Promise((resolve) => this.#sized.push(resolve));
   }
 
   /** Rows of the picture. */

@@ -41,6 +41,8 @@ let shown = {};
 let begun = null;
 let opening = new AbortController();
 let pumping = false;
+/** What the page calls the terrain that it shows: {name, title, size}. */
+let called = null;
 
 /** Sliders are logarithmic: 0 to 1000 for `least` to `most`. */
 const fromSlider = (slider, least, most) => least * (most / least) ** (slider.value / 1000);
@@ -136,6 +138,7 @@ async function drawFirst(current) {
   const options = frameOptions(triangles);
   if (!info.hasIndex) current.load(wanted.bytes, options).catch(() => {});
   const frame = await (begun ?? current.decode({...options, texels, bytes}));
+  await picture.sized();  // the camera is placed for its size, and for what is seen bytes come
   if (current !== terrain) return;
   begun = null;
   show(frame);
@@ -193,6 +196,12 @@ async function pump() {
   }
 }
 
+function call({name, title, size}) {
+  $('name').textContent = name;
+  document.title = title;
+  $('size').textContent = size;
+}
+
 function fail(error) {
   $('progress').hidden = true;
   tell(error.message);
@@ -200,6 +209,14 @@ function fail(error) {
   if (object?.frame) return;
   $('welcome').hidden = false;
   $('panel').hidden = true;
+}
+
+/** Of what is not opened. What is shown stays, as it is called, and goes on. */
+function failToOpen(error) {
+  if (called) call(called);
+  else $('size').textContent = '';
+  fail(error);
+  if (terrain && !isShown()) pump();
 }
 
 function setWanted() {
@@ -230,10 +247,12 @@ function prepareControls(info) {
     mostTriangles());
   for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
   $('textured-name').textContent = info.hasTexture ? 'Texture' : 'Colours';
+}
+function sizeOf(info) {
   const sizes = [];
   if (info.hasHeights) sizes.push(`${info.width} × ${info.height} heights`);
   if (info.hasTexture) sizes.push(`${info.textureWidth} × ${info.textureHeight} texels`);
-  $('size').textContent = sizes.join(' · ');
+  return sizes.join(' · ');
 }
 
 /** `asked`: {stop, terrain, first} of an open() that is under way already, and its first frame. */
@@ -242,10 +261,9 @@ async function openInput(input, name, asked) {
   opening = asked?.stop ?? new AbortController();
   const {signal} = opening;
   tell('');
-  $('welcome').hidden = $('save').hidden = $('progress').hidden = true;
-  $('name').textContent = name;
-  document.title = `${name} – Tetrakis`;
-  $('size').textContent = 'opening …';
+  $('welcome').hidden = $('progress').hidden = true;
+  const title = `${name} – Tetrakis`;
+  call({name, title, size: 'opening …'});
   document.body.dataset.state = 'busy';
   try {
     const opened = await (asked?.terrain ?? open(input, {...decoder, signal}));
@@ -257,12 +275,13 @@ async function openInput(input, name, asked) {
     object = new TksTerrain(terrain);
     object.material.wireframe = $('wireframe').checked;
     picture.setObject(object);
+    $('save').hidden = true;
     prepareControls(terrain.info);
+    called = {name, title, size: sizeOf(terrain.info)};
+    call(called);
     setWanted();
   } catch (error) {
-    if (signal.aborted) return;
-    $('size').textContent = '';
-    fail(error);
+    if (!signal.aborted) failToOpen(error);
   }
 }
 
@@ -294,9 +313,7 @@ async function openSources(files) {
     await openInput(file, file.name);
     offer(file);
   } catch (error) {
-    if (signal.aborted) return;
-    $('size').textContent = '';
-    fail(error);
+    if (!signal.aborted) failToOpen(error);
   }
 }
 
@@ -308,13 +325,21 @@ function offer(file) {
   $('save').hidden = false;
 }
 
+async function isStream(file) {
+  if (/\.tks$/i.test(file.name)) return true;
+  const first = await file.slice(0, 3).arrayBuffer().catch(() => new ArrayBuffer(0));
+  return new TextDecoder().decode(first) === 'TKS';
+}
 /** A stream, or what can be coded into one. */
 async function openFiles(files) {
-  if (files.length === 0) return;
-  const magic = new TextDecoder().decode(await files[0].slice(0, 3).arrayBuffer());
-  const isStream = magic === 'TKS' || /\.tks$/i.test(files[0].name);
-  if (files.length === 1 && isStream) openInput(files[0], files[0].name);
-  else openSources(files);
+  const streams = [];
+  for (const file of files) if (await isStream(file)) streams.push(file);
+  if (streams.length === 0 && files.length > 0) openSources(files);
+  else if (files.length === 1) openInput(files[0], files[0].name);
+  else if (files.length > 1) {
+    failToOpen(new Error(`${streams[0].name} is a stream, which is opened alone. What can be ` +
+      'dropped together is a GeoTIFF of heights and an image over it.'));
+  }
 }
 
 /** Three numbers of the address. */

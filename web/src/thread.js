@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The worker that a decoder or an encoder works in, as callers say it.
+import {TksError} from './error.js';
+
+/** Workers that callers gave: each answers one decoder, which ends it. */
+const taken = new WeakSet();
+
+function workerAt(url) {
+  try {
+    return new Worker(url, {type: 'module'});
+  } catch (error) {
+    throw new TksError('io', `The worker ${url} cannot be started (${error.message}). Its ` +
+      'address has to be of the origin of the page.', {cause: error});
+  }
+}
+
+/** `worker`: as OpenOptions has it. Nothing: the work stays on this thread. */
+export function threadOf(worker, assets) {
+  if (worker === false) return null;
+  if (typeof worker === 'string' || worker instanceof URL) return workerAt(worker);
+  if (worker === undefined || worker === true) {
+    try {
+      return assets.worker();
+    } catch {
+      return null;  // pages may not start workers of another origin
+    }
+  }
+  if (taken.has(worker)) {
+    throw new TksError('usage', 'This Worker serves another terrain, or did so: give each a ' +
+      'Worker of its own, or the address of one.');
+  }
+  taken.add(worker);
+  return worker;
+}
