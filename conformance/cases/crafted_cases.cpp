@@ -22,12 +22,16 @@ std::vector<VectorCase> wideCases() {
   holed.layers.nodata = 7;
   StreamHeader deep = heightsHeader(2, 300, TKS_I32, 30);
   deep.geometry->wavelet.fraction_bits = 8;
+  StreamHeader smooth = heightsHeader(60, 45, TKS_I32, 30);
+  smooth.geometry->wavelet.filters = {5, 5, 5};
   Bytes mask = noise(60, 2);
   append(mask, noise(2500, 3, 3));
   return {crafted("noise_i32_70x40", "noise: sums wrap at 32 bits, but not above level 3",
                   streamOf(plain, noise(2500, 1, 3))),
           crafted("noise_voids_i32_70x40", "noise: sums are wide where there are voids",
                   streamOf(holed, mask)),
+          crafted("noise_smooth_i32_60x45", "noise: sums of the filter for smooth ground wrap",
+                  streamOf(smooth, noise(2500, 5, 3))),
           crafted("noise_fraction_2x300", "noise: eight fraction bits, levels of one side",
                   streamOf(deep, noise(900, 4, 2)))};
 }

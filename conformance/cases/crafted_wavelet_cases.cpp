@@ -111,6 +111,14 @@ std::vector<VectorCase> roundedCases() {
                       [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 1 << 20; }),
           waveletCase("rounded_always_40x37", "the inverse rounds from the first byte on", flat,
                       [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 0; }),
+          waveletCase("joint_smooth_40x37", "the filter for smooth ground, lifted jointly", flat,
+                      [](WaveletHeader& wavelet) {
+                        wavelet.filters = {5, 5, 5};
+                      }),
+          waveletCase("voids_smooth_40x37", "the filter for smooth ground beside voids", voids,
+                      [](WaveletHeader& wavelet) {
+                        wavelet.filters = {5, 3, 5};
+                      }),
           waveletCase("doubled_0_40x37", "no low band is doubled", flat,
                       [](WaveletHeader& wavelet) { wavelet.first_doubled = 0; }),
           waveletCase("doubled_1_40x37", "levels 1 and 2 are doubled", flat,

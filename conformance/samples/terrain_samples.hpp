@@ -16,6 +16,7 @@ enum class Pattern {
   kFlat,     ///< one value
   kRamp,     ///< a tilted plane
   kRidges,   ///< ridged multifractal: terrain, or the luma of an aerial photograph
+  kHills,    ///< smooth hills: cubics of 32 samples
   kSteps,    ///< terraces with vertical walls
   kChecker,  ///< the highest frequency, full range
   kExtreme   ///< noise over the whole range, half of it at the type's two ends
@@ -103,6 +104,8 @@ inline uint32_t patternValue(const Recipe& r, uint32_t x, uint32_t y, uint32_t c
       return (2 * x + y) * (20000 / extent) + 5000 * channel;
     case Pattern::kRidges:
       return (7 * ridges(x, y, r.seed) + valueNoise(x, y, 3, r.seed + 101 + channel)) / 8;
+    case Pattern::kHills:
+      return valueNoise(x, y, 5, r.seed + channel);
     case Pattern::kSteps:
       return (valueNoise(x, y, 4, r.seed + channel) >> 13) * 8191;
     case Pattern::kChecker:

@@ -14,6 +14,7 @@
 #include "conformance/reference_decoder.hpp"
 #include "conformance/runner.hpp"
 #include "tests/support/reference_status.hpp"
+#include "wavelet/lifting/lifting_filter.hpp"
 
 namespace tetrakis::conformance {
 namespace {
@@ -172,7 +173,7 @@ TEST_F(Vectors, VisitEveryToolOfTheHeader) {
                "texels 2",        "drawn",           "overlay"};
   wanted.insert({"cut-out", "cut-out that hides", "tables of channels", "repeated texels",
                  "bridged cut-out", "bridged overlay", "bridged voids", "late mask"});
-  for (int i = 0; i < 4; ++i) wanted.insert("filter " + std::to_string(i));
+  for (int i = 0; i < kFilters; ++i) wanted.insert("filter " + std::to_string(i));
   for (int i = 1; i <= 4; ++i) wanted.insert("channels " + std::to_string(i));
   for (int i = TKS_U8; i <= TKS_F32; ++i) wanted.insert("heights " + std::to_string(i));
   for (const char* kind : {"0", "1", "2", "3"}) {

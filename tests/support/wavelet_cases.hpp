@@ -25,7 +25,11 @@ inline std::ostream& operator<<(std::ostream& out, const WaveletSpec& spec) {
 namespace test {
 
 inline constexpr std::array<FilterId, kFilters> kAllFilters = {
-    FilterId::kShort, FilterId::kSixTap, FilterId::kOrthogonal, FilterId::kLong, FilterId::kQuiet};
+    FilterId::kShort, FilterId::kSixTap, FilterId::kOrthogonal,
+    FilterId::kLong,  FilterId::kQuiet,  FilterId::kSmooth};
+/// Those that keep the mean, and may be lifted jointly.
+inline constexpr std::array<FilterId, 4> kTwoStepFilters = {FilterId::kShort, FilterId::kSixTap,
+                                                            FilterId::kLong, FilterId::kSmooth};
 
 struct Size {
   uint32_t width, height;

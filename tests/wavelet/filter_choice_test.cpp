@@ -53,6 +53,14 @@ Plane town() {
   });
 }
 
+/// A round hill, and no noise.
+Plane hill() {
+  return planeOf(kSize, [](uint32_t x, uint32_t y) {
+    const double dx = x - 90.0, dy = y - 70.0;
+    return 40000 * std::exp(-(dx * dx + dy * dy) / 3000);
+  });
+}
+
 std::array<uint8_t, 3> all(FilterId id) {
   const auto i = static_cast<uint8_t>(id);
   return {i, i, i};
@@ -67,6 +75,7 @@ TEST(FilterChoice, SuitsThePlane) {
   EXPECT_EQ(choose(oversampled(), Purpose::kLossy)[0], static_cast<uint8_t>(FilterId::kLong));
   EXPECT_NE(choose(drawn(), Purpose::kLossy), all(FilterId::kLong));
   EXPECT_EQ(choose(town(), Purpose::kLossy), all(FilterId::kShort));
+  EXPECT_EQ(choose(hill(), Purpose::kLossy), all(FilterId::kSmooth));
 }
 
 /// Coarse levels of images have the nearly orthogonal filter of little noise, level 2 only where

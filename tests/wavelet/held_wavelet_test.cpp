@@ -89,7 +89,7 @@ TEST(HeldWavelet, IsReversibleBesideVoidsAndWithThreads) {
 
 /// A plane of one height, half of it held, has no coefficient but those of its lowest band.
 TEST(HeldWavelet, LeavesNoDetailInConstants) {
-  for (const FilterId id : {FilterId::kShort, FilterId::kSixTap, FilterId::kLong}) {
+  for (const FilterId id : kTwoStepFilters) {
     for (const Size& size : kMaskedSizes) {
       for (const VoidShape shape : kVoidShapes) {
         const HeldPlane plane(Plane(size.count(), 777), size, shape, {777, 777});

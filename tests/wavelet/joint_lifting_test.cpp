@@ -10,9 +10,6 @@
 namespace tetrakis::test {
 namespace {
 
-constexpr std::array<FilterId, 3> kJointFilters = {FilterId::kShort, FilterId::kSixTap,
-                                                   FilterId::kLong};
-
 WaveletSpec doubledAt(FilterId id, int bits, int first_doubled) {
   WaveletSpec spec = uniform(id, true, bits);
   spec.first_doubled = first_doubled;
@@ -21,7 +18,7 @@ WaveletSpec doubledAt(FilterId id, int bits, int first_doubled) {
 
 TEST(JointLifting, RestoresEverySizeWhereverLowBandsAreDoubled) {
   Random random(21);
-  for (const FilterId id : kJointFilters) {
+  for (const FilterId id : kTwoStepFilters) {
     for (int first = 0; first <= 4; ++first) {
       for (uint32_t height = 1; height <= 19; ++height) {
         for (const uint32_t width : {1u, 2u, 4u, 5u, 6u, 7u, 16u, 33u, 70u}) {
@@ -39,7 +36,7 @@ TEST(JointLifting, RestoresEverySizeWhereverLowBandsAreDoubled) {
 TEST(JointLifting, RestoresTheExtremesOf20Bits) {
   Random random(22);
   const int32_t bound = 1 << 19;
-  for (const FilterId id : kJointFilters) {
+  for (const FilterId id : kTwoStepFilters) {
     for (const Size& size : {Size{64, 64}, Size{255, 131}}) {
       for (int first = 0; first <= 4; ++first) {
         const WaveletSpec spec = doubledAt(id, 20, first);
@@ -57,7 +54,7 @@ TEST(JointLifting, RestoresTheExtremesOf20Bits) {
 /// Lifting is invertible modulo 2^32; only doubling loses a bit.
 TEST(JointLifting, RestoresValuesThatWrapAround) {
   Random random(23);
-  for (const FilterId id : kJointFilters) {
+  for (const FilterId id : kTwoStepFilters) {
     for (const int bits : {8, 20}) {
       const Size size{45, 38};
       const Plane plane = randomPlane(random, size.count(), kLowest, kHighest);
@@ -71,7 +68,7 @@ TEST(JointLifting, ThreadsChangeNothing) {
   Random random(24);
   const Size size{300, 700};
   const Plane plane = randomPlane(random, size.count(), -1000, 1000);
-  for (const FilterId id : kJointFilters) {
+  for (const FilterId id : kTwoStepFilters) {
     const WaveletSpec spec = doubledAt(id, 12, 2);
     Plane one = plane, many = plane;
     forwardWavelet(spec, Pyramid(size.extent()), one, 1);
@@ -104,7 +101,7 @@ TEST(JointLifting, RoundsLessThanRowsAndColumns) {
   Random random(25);
   const Size size{256, 256};
   const Plane plane = randomPlane(random, size.count(), 0, 4000);
-  for (const FilterId id : kJointFilters) {
+  for (const FilterId id : kTwoStepFilters) {
     WaveletSpec separable = uniform(id, true, 21);
     ASSERT_FALSE(separable.joint(1));
     const double joint = noiseOf(uniform(id, true, 16), plane, size);

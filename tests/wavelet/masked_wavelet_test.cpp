@@ -55,7 +55,7 @@ TEST(MaskedWavelet, RestoresValuesThatWrapAround) {
 /// kOrthogonal grow: it is not offered for so many bits.
 TEST(MaskedWavelet, AmplifiesLittle) {
   Random random(3);
-  for (const FilterId id : {FilterId::kShort, FilterId::kSixTap, FilterId::kLong}) {
+  for (const FilterId id : kTwoStepFilters) {
     for (const Size& size : {Size{17, 17}, Size{64, 65}, Size{2, 300}, Size{130, 90}}) {
       for (const VoidShape shape : kVoidShapes) {
         const auto valid = validity(shape, size.width, size.height);
@@ -183,7 +183,7 @@ TEST(MaskedWavelet, ALoneSampleStaysWhatItIs) {
 /// Along one line a constant has no detail but where no coarser vertex is in reach.
 TEST(MaskedWavelet, ConstantLinesHaveDetailsOnlyWhereTheyMust) {
   constexpr int32_t kValue = 5000;
-  for (const FilterId id : {FilterId::kShort, FilterId::kSixTap, FilterId::kLong}) {
+  for (const FilterId id : kTwoStepFilters) {
     const auto reach = static_cast<int64_t>(2 * liftingFilter(id).steps[0].pairs - 1);
     for (const Size& size : {Size{301, 1}, Size{1, 300}}) {
       for (const VoidShape shape : kVoidShapes) {

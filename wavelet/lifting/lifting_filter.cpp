@@ -33,6 +33,11 @@ constexpr std::array<LiftingStep, 4> kOrthogonalSteps = {
 constexpr std::array<LiftingStep, 4> kQuietSteps = {
     {{1, {0}}, {2, {1435, -176}}, {3, {-3653, 706, -186}}, {3, {2218, -254, 116}}}};
 
+/// The interpolation of degree 5 (G. Deslauriers and S. Dubuc, "Symmetric iterative interpolation
+/// processes", 1989): details of surfaces that are locally such polynomials are 0. The others leave
+/// a part of what is quadratic in all details.
+constexpr std::array<LiftingStep, 2> kSmoothSteps = {{{3, {-150, 25, -3}}, {3, {75, -13, 2}}}};
+
 /// Ten taps, close to an ideal half-band filter: terrain models are sampled finely.
 constexpr std::array<LiftingStep, 2> kLongSteps = {
     {{5, {-157, 41, -17, 8, -3}}, {5, {77, -24, 12, -6, 2}}}};
@@ -49,6 +54,8 @@ LiftingFilter liftingFilter(FilterId id) {
       return {12, kOrthogonalSteps};
     case FilterId::kQuiet:
       return {13, kQuietSteps};
+    case FilterId::kSmooth:
+      return {8, kSmoothSteps};
     case FilterId::kLong:
       break;
   }
