@@ -121,6 +121,12 @@ def enlarged(heights, times):
     return ndimage.map_coordinates(heights, [rows, columns], order=1)
 
 
+def splines(heights, times):
+    """Cubic between every so many samples."""
+    rows, columns = np.indices(heights.shape) / times
+    return ndimage.map_coordinates(heights[::times, ::times], [rows, columns], order=3)
+
+
 def beside(heights, other):
     """The left half beside the right half of others."""
     middle_column = heights.shape[1] // 2
@@ -161,6 +167,8 @@ KINDS = {
     "terraces": lambda h: (np.floor(h / 15) * 15).astype(np.int16),
     "smoothed": lambda h: np.round(ndimage.gaussian_filter(h, 6)).astype(np.int16),
     "smoothed_decimetres": lambda h: np.round(ndimage.gaussian_filter(h, 3), 1).astype(np.float32),
+    "smoothed_centimetres": lambda h: np.round(ndimage.gaussian_filter(h, 8), 2).astype(np.float32),
+    "splines": lambda h: np.round(splines(h, 8), 2).astype(np.float32),
     "turned": lambda h: nearest(h, 23, 0.68, 0.68),
     "warped": lambda h: nearest(h, 1.1, 0.82, 1),
     "metres_beside_tens": lambda h: beside(np.round(h), np.round(h / 10) * 10).astype(np.int16),

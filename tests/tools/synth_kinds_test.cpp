@@ -89,7 +89,7 @@ TEST(SynthKinds, MakeTheSameBytesEverywhere) {
                                    0xea646d0c221fbf14u, 0x45a49728f8f1c229u, 0x43987c57ef155ac7u,
                                    0x127a105b6a2645fbu, 0x2421035136751a12u, 0xc8c552b13c885c57u,
                                    0xf563fb7491c34841u, 0xf9011a9faa66495au, 0xbbdaa312fa1911ddu,
-                                   0x59cd26fa64bc6c55u};
+                                   0x59cd26fa64bc6c55u, 0x166395fab91e9920u};
   static_assert(std::size(kDigests) == kSynthKinds.size());
   for (size_t kind = 0; kind < kSynthKinds.size(); ++kind) {
     const SynthTerrain t = synthesize({65, 7, static_cast<SynthKind>(kind)});
@@ -218,6 +218,21 @@ TEST_P(SynthKindsOf, FacetsAreLinearBetweenPoints) {
     straight += std::abs(bend) <= 1e-6 * std::abs(metres[i]) + 1e-6;
   }
   EXPECT_GT(straight, 2 * all / 3);
+}
+
+/// Differences of differences of samples four apart are a small part of the differences.
+TEST_P(SynthKindsOf, SmoothGroundBendsLittle) {
+  const auto bends_of = [](const std::vector<double>& metres) {
+    double bends = 0, steps = 0;
+    for (size_t i = 8; i < metres.size(); ++i) {
+      if (i % kSize < 8) continue;
+      bends += std::abs(metres[i] - 2 * metres[i - 4] + metres[i - 8]);
+      steps += std::abs(metres[i] - metres[i - 4]);
+    }
+    return bends / steps;
+  };
+  const double smooth = bends_of(metresOf(SynthKind::kSmooth, GetParam()));
+  EXPECT_LT(3 * smooth, bends_of(metresOf(SynthKind::kMountains, GetParam())));
 }
 
 }  // namespace

@@ -24,13 +24,14 @@ enum class SynthKind {
   kGeoid,
   kMosaic,
   kTurned,
-  kFacets
+  kFacets,
+  kSmooth
 };
 
 /// Their names, in order.
-inline constexpr std::array<const char*, 13> kSynthKinds = {
-    "mountains", "coast", "lakes", "steps",  "voids",  "plain", "city",
-    "rescaled",  "bands", "geoid", "mosaic", "turned", "facets"};
+inline constexpr std::array<const char*, 14> kSynthKinds = {
+    "mountains", "coast", "lakes", "steps",  "voids",  "plain",  "city",
+    "rescaled",  "bands", "geoid", "mosaic", "turned", "facets", "smooth"};
 
 struct SynthOptions {
   uint32_t size = 513;  ///< samples along a side, at least 2
@@ -39,7 +40,8 @@ struct SynthOptions {
 };
 
 /// heights: size x size samples, 30 m apart (a city's 1 m): TKS_U16 in steps of 0.1 m (a plain's of
-/// 0.01 m, turned ones of 1 m), steps, voids, rescaled, geoid, mosaic and facets TKS_F32 in metres;
+/// 0.01 m, turned ones of 1 m), steps, voids, rescaled, geoid, mosaic, facets and smooth TKS_F32 in
+/// metres;
 /// the sea is 0 and each lake one level.
 /// texture and map: RGB8 of 2 (size - 1) texels a side over the same footprint.
 struct SynthTerrain {

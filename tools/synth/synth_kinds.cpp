@@ -186,6 +186,29 @@ Storage triangulate(const Task& task) {
   return {.sample = TKS_F32, .step = 1, .voids = {}};
 }
 
+/// Means of `reach` samples to either side along rows or columns.
+Grid meansOf(const Grid& grid, int64_t reach, bool along_rows) {
+  return rasterOf<double>(grid.side(), [&](uint32_t x, uint32_t y) {
+    double sum = 0;
+    for (int64_t k = -reach; k <= reach; ++k)
+      sum += along_rows ? grid.clamped(x + k, y) : grid.clamped(x, y + k);
+    return sum / static_cast<double>(2 * reach + 1);
+  });
+}
+
+/// What a wide filter leaves of the mountains, in centimetres: means of means of means.
+Storage smoothen(const Task& task) {
+  constexpr int64_t kReach = 8;
+  constexpr double kCentimetre = 1e-2;
+  Grid& height = task.relief.height;
+  for (int pass = 0; pass < 3; ++pass)
+    height = meansOf(meansOf(height, kReach, true), kReach, false);
+  height = rasterOf<double>(height.side(), [&](uint32_t x, uint32_t y) {
+    return kCentimetre * std::floor(height.at(x, y) / kCentimetre + 0.5);
+  });
+  return {.sample = TKS_F32, .step = 1, .voids = {}};
+}
+
 /// Some metres of relief in all, under the noise of a scanner.
 Storage flatten(const Task& task) {
   Relief& relief = task.relief;
@@ -274,6 +297,8 @@ Storage reshape(Relief& relief, SynthKind kind, uint32_t size, uint64_t seed) {
       return turn(task);
     case SynthKind::kFacets:
       return triangulate(task);
+    case SynthKind::kSmooth:
+      return smoothen(task);
   }
   return {};
 }
