@@ -33,14 +33,13 @@ constexpr std::array<Filters, 6> kLossyChoices = {
 
 /// Filters for the last bit, and by how much the estimate of their bits counts more because of what
 /// prefixes are worth (docs/EXPERIMENTS.md, "Cuts of lossless streams"). The estimate makes
-/// differences of bytes three to four times as large as they are. Smooth ground takes the fewest
-/// bytes as a lossy stream by kSmooth that is cut and corrected.
+/// differences of bytes three to four times as large as they are.
 struct LosslessChoice {
   Filters filters;
   double penalty;
 };
-constexpr std::array<LosslessChoice, 3> kLosslessHeights = {
-    {{{kM, kM, kM}, 1.004}, {{kL, kL, kL}, 1}, {{kS, kS, kS}, 1.02}}};
+constexpr std::array<LosslessChoice, 4> kLosslessHeights = {
+    {{{kM, kM, kM}, 1.004}, {{kL, kL, kL}, 1}, {{kS, kS, kS}, 1.02}, {{kN, kN, kN}, 1.02}}};
 
 /// Coarse levels of images have a filter that is nearly orthogonal, as those of lossy streams are.
 constexpr std::array<LosslessChoice, 4> kLosslessImages = {
@@ -191,6 +190,10 @@ WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSam
 
 WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits) {
   return chooseLossless(typicalPartsOf(planes), bits, kLosslessImages).header;
+}
+
+bool suitsSmoothGround(const WaveletHeader& chosen) {
+  return chosen.filters.front() == kN;
 }
 
 WaveletHeader withShortReach(WaveletHeader chosen) {

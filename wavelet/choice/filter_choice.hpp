@@ -30,6 +30,9 @@ WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSam
 /// Chooses the same filters for all planes of an image that is coded to the last bit.
 WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits);
 
+/// Whether the plane has no roughness, by the filter that was chosen for it.
+bool suitsSmoothGround(const WaveletHeader& chosen);
+
 /// A choice for streams of which windows will be read: the filter of the coarse levels is the
 /// shortest. Each level doubles what its filter reaches, so that they pull in most of the regions
 /// around a window, and hold few of the bytes.

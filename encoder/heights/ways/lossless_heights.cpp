@@ -12,6 +12,7 @@
 #include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
 #include "ratecontrol/needs/candidate.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline ways {
@@ -33,12 +34,13 @@ std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
 /// The best cut to put corrections behind, if any is as good as the whole coefficients. In the mean
 /// of all samples flat areas hide what the free ones would gain; where the areas are holes in
 /// noise, free samples alone lack the surface that the transform would have without areas. Either
-/// hint is worth a trial.
+/// hint is worth a trial. Cuts of smooth ground take down to half of what is estimated.
 std::optional<ExactCut> exactCutFor(const CodedHeights& whole) {
   const HeightSteps& steps = whole.quantised->steps;
+  const uint64_t bytes = bytesOf(whole.tracks) * (suitsSmoothGround(whole.header.wavelet) ? 2 : 1);
   const auto choose = [&](const std::vector<uint8_t>& mask) {
     const PlaneView<const int32_t> plane(steps.steps, extentOf(*whole.quantised->samples), mask);
-    return chooseExactCut(plane, steps.range_bits, bytesOf(whole.tracks));
+    return chooseExactCut(plane, steps.range_bits, bytes);
   };
   if (const std::optional<ExactCut> cut = choose(freeSamples(whole))) return cut;
   if (whole.flat.areas.heights.empty()) return {};
