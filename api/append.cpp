@@ -46,6 +46,27 @@ void replacePackets(tks_decoder& decoder, TakenPackets taken) {
   decoder.packets = std::move(taken);
 }
 
+/// All bytes of the heights' tracks.
+uint64_t bytesOfHeights(const tks_decoder& decoder) {
+  uint64_t bytes = 0;
+  for (const auto& [number, codeword] : decoder.packets.payload.codewords[0])
+    bytes += codeword.size();
+  return bytes;
+}
+
+/// Takes the packets apart that are there now. What was decoded of tracks that go on stays.
+Status retakePackets(tks_decoder& decoder) {
+  if (onlyGrew(decoder)) {
+    const uint64_t before = bytesOfHeights(decoder);
+    const Status status = takeMorePackets(decoder);
+    if (bytesOfHeights(decoder) != before) decoder.heights.reset();
+    return status;
+  }
+  Result<TakenPackets> taken = takePackets(decoder);
+  if (taken.ok()) replacePackets(decoder, *std::move(taken));
+  return taken.status();
+}
+
 /// The stream ends for the decoder where it was.
 Status refuse(tks_decoder& decoder, const Status& status) {
   decoder.refused = status;
@@ -76,7 +97,8 @@ Status check(const tks_decoder& decoder, std::span<const Run> runs) {
   return {};
 }
 
-/// The stream's packets are looked at once, however many runs there are.
+/// Packets are looked at once, however many runs there are; behind the bytes that were there only
+/// those that are new.
 Status put(tks_decoder& decoder, std::span<const Run> runs) {
   if (const Status status = check(decoder, runs); !status.ok()) return status;
   uint64_t more = 0;
@@ -95,12 +117,10 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
   if (decoder.pieces.empty()) decoder.pieces.put(0, decoder.data);
   for (const auto& [place, bytes] : runs) decoder.pieces.put(place, bytes);
   decoder.data = decoder.pieces.from(0);
-  Result<TakenPackets> taken = takePackets(decoder);
-  if (!taken.ok()) {
+  if (const Status status = retakePackets(decoder); !status.ok()) {
     decoder.data = decoder.data.first(front);
-    return refuse(decoder, taken.status());
+    return refuse(decoder, status);
   }
-  replacePackets(decoder, *std::move(taken));
   decoder.remembers = true;
   return {};
 }

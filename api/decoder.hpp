@@ -60,6 +60,12 @@ DecodedHeights decodeHeights(tks_decoder& decoder, const View& view);
 /// Takes the packets apart that are there. TKS_CORRUPT; TKS_LIMIT: they take too much memory.
 Result<TakenPackets> takePackets(const tks_decoder& decoder);
 
+/// Whether what is there of the stream goes on from what was taken apart, and has no gap.
+bool onlyGrew(const tks_decoder& decoder);
+
+/// Takes apart what is new, in time for that, if it onlyGrew(). On an error nothing changes.
+Status takeMorePackets(tks_decoder& decoder);
+
 /// Forgets what was decoded of tracks, and remembers no more of it.
 void forget(tks_decoder& decoder);
 

@@ -119,7 +119,7 @@ struct Arguments {
 };
 
 Status takeHeights(const tks_heights& given, tks_heights& out) {
-  const Status status = takeSized("heights", given, offsetof(tks_heights, step), out);
+  const Status status = takeSized("the heights", given, offsetof(tks_heights, step), out);
   return status.ok() ? checkHeights(out) : status;
 }
 
@@ -129,12 +129,12 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   if (heights == nullptr && image == nullptr)
     return misuse("There is nothing to encode: give heights or a texture.");
   constexpr size_t kTargets = offsetof(tks_encode_options, threads);
-  Status status = takeSized("encoding options", *options, kTargets, out.options);
+  Status status = takeSized("the encoding options", *options, kTargets, out.options);
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
   if (status.ok()) status = checkWindows(out.options, image != nullptr);
   if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
   if (status.ok() && image != nullptr) {
-    status = takeSized("texture", *image, offsetof(tks_image, geotransform), out.image);
+    status = takeSized("the texture", *image, offsetof(tks_image, geotransform), out.image);
     if (status.ok()) status = checkImage(out.image);
   }
   return status;

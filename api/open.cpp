@@ -59,7 +59,7 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   decoder.data = data;
   tks_limits known{};
   if (limits != nullptr) {
-    if (Status status = takeSized("limits", *limits, sizeof limits->size, known); !status.ok())
+    if (Status status = takeSized("the limits", *limits, sizeof limits->size, known); !status.ok())
       return status;
   }
   Result<ParsedHeader> parsed = readHeader(data);
@@ -83,36 +83,60 @@ bool hasGap(const tks_decoder& decoder) {
   return decoder.pieces.missing(rest) != std::vector{rest};
 }
 
+/// The bytes behind the header, up to the first that is missing.
+std::span<const uint8_t> payloadOf(const tks_decoder& decoder) {
+  const std::span<const uint8_t> behind = decoder.data.subspan(decoder.parsed.bytes);
+  return behind.first(
+      static_cast<size_t>(std::min<uint64_t>(behind.size(), decoder.parsed.header.payload_bytes)));
+}
+
+/// The bytes that it takes to take so much apart, if the decoder may take them.
+Result<uint64_t> memoryFor(const tks_decoder& decoder, PayloadCount count) {
+  if (!decoder.pieces.empty()) {
+    count.bytes = decoder.pieces.bytes();
+    count.packets = std::max<uint64_t>(count.packets, decoder.parsed.header.index.size());
+  }
+  const uint64_t bytes = payloadBytes(count, trackCounts(decoder.parsed.header));
+  if (bytes + decoder.pieces.bytes() <= decoder.max_memory) return bytes;
+  return Status(TKS_LIMIT, "Opening the stream takes " + describeBytes(bytes) +
+                               " of memory; the limit (max_memory) is " +
+                               describeBytes(decoder.max_memory) + ".");
+}
+
 }  // namespace
 
 Result<TakenPackets> takePackets(const tks_decoder& decoder) {
   const size_t start = decoder.parsed.bytes;
-  const StreamHeader& header = decoder.parsed.header;
-  const auto available =
-      static_cast<size_t>(std::min<uint64_t>(decoder.data.size() - start, header.payload_bytes));
-  const std::span<const uint8_t> payload = decoder.data.subspan(start, available);
-  const TrackCounts tracks = trackCounts(header);
-  Result<PayloadCount> count = countPackets(payload, start, tracks);
+  const std::span<const uint8_t> payload = payloadOf(decoder);
+  const TrackCounts tracks = trackCounts(decoder.parsed.header);
+  const Result<PayloadCount> count = countPackets(payload, start, tracks);
   if (!count.ok()) return count.status();
-  const uint64_t packets = count->packets;
-  if (!decoder.pieces.empty()) {
-    count->bytes = decoder.pieces.bytes();
-    count->packets = std::max<uint64_t>(packets, header.index.size());
-  }
-  const uint64_t bytes = payloadBytes(*count, tracks);
-  if (bytes + decoder.pieces.bytes() > decoder.max_memory) {
-    return Status(TKS_LIMIT, "Opening the stream takes " + describeBytes(bytes) +
-                                 " of memory; the limit (max_memory) is " +
-                                 describeBytes(decoder.max_memory) + ".");
-  }
-  Result<Demultiplexed> taken = demultiplex(payload, start, tracks, packets);
+  const Result<uint64_t> bytes = memoryFor(decoder, *count);
+  if (!bytes.ok()) return bytes.status();
+  Result<Demultiplexed> taken = demultiplex(payload, start, tracks, count->packets);
   if (!taken.ok()) return taken.status();
   const bool has_gap = hasGap(decoder);
   if (has_gap) {
     const Status status = addScattered(decoder.pieces, decoder.parsed, *taken);
     if (!status.ok()) return status;
   }
-  return TakenPackets{*std::move(taken), bytes, has_gap};
+  return TakenPackets{*std::move(taken), *bytes, has_gap};
+}
+
+bool onlyGrew(const tks_decoder& decoder) {
+  return !decoder.packets.has_gap && !hasGap(decoder);
+}
+
+Status takeMorePackets(tks_decoder& decoder) {
+  const std::span<const uint8_t> payload = payloadOf(decoder);
+  Demultiplexed& taken = decoder.packets.payload;
+  Result<PayloadCount> count = countPackets(payload, decoder.parsed.bytes, taken.counts, taken.end);
+  if (!count.ok()) return count.status();
+  count->packets += taken.heads.size();
+  const Result<uint64_t> bytes = memoryFor(decoder, *count);
+  if (!bytes.ok()) return bytes.status();
+  decoder.packets.bytes = *bytes;
+  return demultiplexMore(payload, decoder.parsed.bytes, taken);
 }
 
 }  // namespace tetrakis::inline api

@@ -56,8 +56,8 @@ tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const t
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
     if (fetch == nullptr) return {TKS_USAGE, "What to fetch at most is missing."};
     tks_fetch limits{};
-    tetrakis::Status status =
-        tetrakis::takeSized("limits of a plan", *fetch, offsetof(tks_fetch, request_bytes), limits);
+    tetrakis::Status status = tetrakis::takeSized("the limits of a plan", *fetch,
+                                                  offsetof(tks_fetch, request_bytes), limits);
     if (!status.ok()) return status;
     if (status = tetrakis::checkPlanMemory(*decoder); !status.ok()) return status;
     const auto sightings = tetrakis::sightingsIn(*decoder, view, limits.triangles);

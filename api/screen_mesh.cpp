@@ -36,7 +36,7 @@ std::vector<ScreenView> viewsOf(const std::vector<tks_screen_camera>& cameras,
 }
 
 Status takeTexture(const tks_image& given, tks_image& out) {
-  Status status = takeSized("texture", given, offsetof(tks_image, geotransform), out);
+  Status status = takeSized("the texture", given, offsetof(tks_image, geotransform), out);
   if (!status.ok()) return status;
   if (out.data == nullptr || out.width == 0 || out.height == 0)
     return {TKS_USAGE, "The texture has no samples."};
@@ -78,7 +78,7 @@ class ScreenMeshCall {
     if (!lattice.ok()) return lattice.status();
     tks_screen screen{};
     if (given != nullptr) {
-      const Status status = takeSized("screen", *given, sizeof given->size, screen);
+      const Status status = takeSized("the screen", *given, sizeof given->size, screen);
       if (!status.ok()) return status;
     }
     const auto cameras = takeCameras(screen.cameras, screen.camera_count);

@@ -113,48 +113,93 @@ bool Demultiplexed::nothingOf(Component component) const {
 
 namespace {
 
-/// Calls visit(head, payload, complete) for every packet begun.
+/// What is there of a packet, and how much of it was there before.
+struct PacketPart {
+  const PacketHead& head;
+  std::span<const uint8_t> bytes;
+  size_t seen;
+  bool begins, complete;
+};
+
+/// The head before a packet's payload, and the bytes that it takes: none if it is cut.
+Status readHead(std::span<const uint8_t> bytes, size_t origin, const TrackCounts& counts,
+                PacketHead& head, size_t& size) {
+  FieldReader reader(bytes, origin);
+  reader.shortestVarint("head", head.head, 0, UINT64_MAX);
+  const TrackCount& count = counts[static_cast<size_t>(head.component())];
+  if (count.named) reader.shortestVarint("region", head.track, 0, UINT32_MAX);
+  reader.u8("quality", head.quality, 0, 255);
+  size = 0;
+  if (reader.starved()) return {};
+  if (!reader.ok()) return reader.status();
+  if (head.length() == 0 || head.track >= count.tracks) {
+    return {TKS_CORRUPT, "Corrupt stream: the packet at byte " + std::to_string(origin) +
+                             " is empty or of a track that the header does not announce."};
+  }
+  size = reader.position();
+  return {};
+}
+
+/// Calls visit(part) for every packet that has begun, from the place on, which moves to the end.
 template <class Visit>
 Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const TrackCounts& counts,
-                     Visit&& visit) {
-  size_t at = 0;
-  while (at < payload.size()) {
-    FieldReader reader(payload.subspan(at), origin + at);
-    PacketHead head;
-    reader.shortestVarint("head", head.head, 0, UINT64_MAX);
-    const TrackCount& count = counts[static_cast<size_t>(head.component())];
-    const uint64_t length = head.length();
-    if (count.named) reader.shortestVarint("region", head.track, 0, UINT32_MAX);
-    reader.u8("quality", head.quality, 0, 255);
-    if (reader.starved()) break;
-    if (!reader.ok()) return reader.status();
-    if (length == 0 || head.track >= count.tracks) {
-      return Status(TKS_CORRUPT, "Corrupt stream: the packet at byte " +
-                                     std::to_string(origin + at) +
-                                     " is empty or of a track that the header does not announce.");
+                     PayloadPlace& place, Visit&& visit) {
+  while (place.at < payload.size()) {
+    const bool begins = !place.open;
+    if (begins) {
+      PacketHead head;
+      size_t size = 0;
+      const Status status =
+          readHead(payload.subspan(place.at), origin + place.at, counts, head, size);
+      if (!status.ok() || size == 0) return status;
+      place = {place.at + size, head, 0};
     }
-    at += reader.position();
-    const bool complete = length <= payload.size() - at;
-    const size_t available = complete ? static_cast<size_t>(length) : payload.size() - at;
-    visit(head, payload.subspan(at, available), complete);
-    assert(available > 0 || at == payload.size());
-    at += available;
+    const uint64_t length = place.open->length();
+    const bool complete = length <= payload.size() - place.at;
+    const size_t available = complete ? static_cast<size_t>(length) : payload.size() - place.at;
+    visit(PacketPart{*place.open, payload.subspan(place.at, available), place.seen, begins,
+                     complete});
+    if (!complete) {
+      place.seen = available;
+      return {};
+    }
+    place = {place.at + available, {}, 0};
   }
   return {};
+}
+
+/// What of a packet belongs to its track now and did not before: of one that counts only when it is
+/// complete, nothing or all.
+std::span<const uint8_t> newBytes(const PacketPart& part) {
+  if (!part.head.whole()) return part.bytes.subspan(part.seen);
+  return part.complete ? part.bytes : std::span<const uint8_t>();
 }
 
 }  // namespace
 
 Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origin,
-                                  const TrackCounts& counts) {
+                                  const TrackCounts& counts, PayloadPlace from) {
   PayloadCount count;
-  const Status status = forEachPacket(payload, origin, counts,
-                                      [&](const PacketHead&, std::span<const uint8_t> bytes, bool) {
-                                        ++count.packets;
-                                        count.bytes += bytes.size();
-                                      });
+  const Status status = forEachPacket(payload, origin, counts, from, [&](const PacketPart& part) {
+    count.packets += part.begins;
+    count.bytes += part.bytes.size() - part.seen;
+  });
   if (!status.ok()) return status;
   return count;
+}
+
+Status demultiplexMore(std::span<const uint8_t> payload, size_t origin, Demultiplexed& out) {
+  return forEachPacket(payload, origin, out.counts, out.end, [&](const PacketPart& part) {
+    const auto component = static_cast<size_t>(part.head.component());
+    assert(part.head.track < out.counts[component].tracks);
+    if (part.begins) out.heads.push_back(part.head);
+    const std::span<const uint8_t> bytes = newBytes(part);
+    if (part.complete || !part.head.whole()) {
+      std::vector<uint8_t>& codeword = out.codewords[component][part.head.track];
+      codeword.insert(codeword.end(), bytes.begin(), bytes.end());
+    }
+    if (part.complete) out.quality[component] = part.head.quality;
+  });
 }
 
 Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
@@ -162,18 +207,7 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
   Demultiplexed out;
   out.counts = counts;
   out.heads.reserve(packets);
-  const Status status =
-      forEachPacket(payload, origin, counts,
-                    [&](const PacketHead& head, std::span<const uint8_t> bytes, bool complete) {
-                      const auto component = static_cast<size_t>(head.component());
-                      assert(head.track < counts[component].tracks);
-                      out.heads.push_back(head);
-                      if (complete || !head.whole()) {
-                        std::vector<uint8_t>& codeword = out.codewords[component][head.track];
-                        codeword.insert(codeword.end(), bytes.begin(), bytes.end());
-                      }
-                      if (complete) out.quality[component] = head.quality;
-                    });
+  const Status status = demultiplexMore(payload, origin, out);
   if (!status.ok()) return status;
   assert(packets == 0 || out.heads.size() <= packets);
   return out;

@@ -93,8 +93,16 @@ struct TrackCount {
 };
 using TrackCounts = std::array<TrackCount, kComponents>;
 
+/// A place in a payload that may grow: before a head, or in a packet whose end is not there yet.
+struct PayloadPlace {
+  size_t at = 0;                   ///< the head's first byte, or that of the packet's payload
+  std::optional<PacketHead> open;  ///< of that packet
+  size_t seen = 0;                 ///< how many bytes of it were there
+};
+
 struct Demultiplexed {
   TrackCounts counts;
+  PayloadPlace end;  ///< of what was taken apart
   /// What is available of the tracks of each component, by number; of the others nothing is.
   std::array<std::map<uint32_t, std::vector<uint8_t>>, kComponents> codewords;
   std::array<std::optional<uint8_t>, kComponents> quality;  ///< of the last complete packet of each
@@ -110,13 +118,18 @@ struct Demultiplexed {
 struct PayloadCount {
   uint64_t packets = 0, bytes = 0;  ///< begun; of all payloads
 };
+/// from: what lies before it is not counted.
 Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origin,
-                                  const TrackCounts& counts);
+                                  const TrackCounts& counts, PayloadPlace from = {});
 
 /// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that
 /// no encoder writes. Allocates in proportion to the payload, whatever `counts` says.
 /// packets: how many there are, if that is known.
 Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
                                   const TrackCounts& counts, uint64_t packets = 0);
+
+/// Goes on where the payload ended before, in time for what is new. On an error some of it was
+/// taken: countPackets() tells of errors first.
+Status demultiplexMore(std::span<const uint8_t> payload, size_t origin, Demultiplexed& out);
 
 }  // namespace tetrakis::inline stream

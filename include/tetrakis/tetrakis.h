@@ -286,7 +286,8 @@ tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
  * come first: the index tells the byte ranges of their packets. The other tracks of a component are
  * decoded once the first one has its masks, and corrections of a region once all coefficients are
  * there that reach into it. info.available_bytes and info.packets count up to the
- * first gap. TKS_USAGE: there is no index, and `offset` lies behind a gap. */
+ * first gap. While there is a gap each call looks at all packets that are there. TKS_USAGE: there
+ * is no index, and `offset` lies behind a gap. */
 tks_status tks_put(tks_decoder* decoder, uint64_t offset, const uint8_t* data, size_t size);
 
 /* Bytes of a stream: `size` of them from `offset` on. */

@@ -225,7 +225,7 @@ TEST(Plan, BadViewsAreRefusedInASentence) {
   refused(view, "The picture of the view");
   view = mapOf(0, 0, 10, 10);
   view.size = 3;
-  refused(view, "the view takes a size of at least");
+  refused(view, "The struct of the view takes a size of at least");
   EXPECT_EQ(tks_plan(stream.get(), nullptr, &fetch, nullptr), TKS_USAGE);
   EXPECT_EQ(tks_plan(stream.get(), nullptr, nullptr, &ranges), TKS_USAGE);
   EXPECT_EQ(tks_plan(nullptr, nullptr, &fetch, &ranges), TKS_USAGE);

@@ -253,15 +253,44 @@ TEST(Header, DrawnTexturesHaveNeitherRegionsNorWeights) {
   EXPECT_FALSE(opens(0, 1));
 }
 
+/// Two packets of heights around a whole one of a texture.
+struct ThreePackets {
+  std::vector<uint8_t> geometry, texture, payload;
+
+  ThreePackets() : geometry(700), texture(300) {
+    for (size_t i = 0; i < geometry.size(); ++i) geometry[i] = static_cast<uint8_t>(i * 7);
+    for (size_t i = 0; i < texture.size(); ++i) texture[i] = static_cast<uint8_t>(i * 11);
+    const std::vector<Packet> packets = {{Component::kGeometry, false, 90, 0, 40, {}},
+                                         {Component::kTexture, true, 80, 0, 300, {}},
+                                         {Component::kGeometry, false, 70, 40, 700, {}}};
+    payload = multiplex(packets, {Codewords{geometry}, Codewords{texture}}, UINT64_MAX);
+  }
+};
+
+TEST(Packets, DemultiplexGoesOnWhereItEnded) {
+  const std::vector<uint8_t> payload = ThreePackets().payload;
+  for (const size_t stride : {1, 2, 37, 500}) {
+    Demultiplexed grown;
+    grown.counts = {{{1, false}, {1, false}}};
+    for (size_t end = 0; end < payload.size();) {
+      end = std::min(end + stride, payload.size());
+      const auto there = std::span(payload).first(end);
+      const auto before = countPackets(there, 0, grown.counts, grown.end);
+      ASSERT_TRUE(before.ok());
+      const size_t begun = grown.heads.size();
+      ASSERT_TRUE(demultiplexMore(there, 0, grown).ok());
+      EXPECT_EQ(grown.heads.size(), begun + before->packets);
+      const Result<Demultiplexed> fresh = demultiplex(there, 0, grown.counts);
+      ASSERT_TRUE(fresh.ok());
+      EXPECT_EQ(grown.heads, fresh->heads) << end;
+      EXPECT_EQ(grown.quality, fresh->quality) << end;
+      EXPECT_EQ(grown.codewords, fresh->codewords) << end;
+    }
+  }
+}
+
 TEST(Packets, DemultiplexUndoesMultiplexAtEveryCut) {
-  std::vector<uint8_t> geometry(700), texture(300);
-  for (size_t i = 0; i < geometry.size(); ++i) geometry[i] = static_cast<uint8_t>(i * 7);
-  for (size_t i = 0; i < texture.size(); ++i) texture[i] = static_cast<uint8_t>(i * 11);
-  const std::vector<Packet> packets = {{Component::kGeometry, false, 90, 0, 40, {}},
-                                       {Component::kTexture, true, 80, 0, 300, {}},
-                                       {Component::kGeometry, false, 70, 40, 700, {}}};
-  const std::vector<uint8_t> payload =
-      multiplex(packets, {Codewords{geometry}, Codewords{texture}}, UINT64_MAX);
+  const auto [geometry, texture, payload] = ThreePackets();
   for (size_t cut = 0; cut <= payload.size(); ++cut) {
     Result<Demultiplexed> out =
         demultiplex(std::span(payload).first(cut), 0, {{{1, false}, {1, false}}});
