@@ -35,16 +35,25 @@ TEST_F(CliReceiver, PlansFollowFromTwoOfThree) {
   EXPECT_EQ(both["limit"], "channel");
   EXPECT_GT(both["triangles"], 100);
   EXPECT_EQ(both["renderer"], 30 * both["triangles"].get<double>());
-  const auto weak = json("plan a.tks --renderer 6ktri/s --fps 20 --seconds 2");
+  ASSERT_EQ(cli("encode height.tif --bytes 20k -q -o h.tks").code, 0);
+  const auto weak = json("plan h.tks --renderer 6ktri/s --fps 20 --seconds 2");
   EXPECT_EQ(weak["triangles"], 300);
   EXPECT_EQ(weak["limit"], "renderer");
   EXPECT_EQ(weak["channel"], 4 * weak["bytes"].get<double>());
-  const auto weaker = json("plan a.tks --renderer 2k/s --fps 20 --channel 1Mbit/s");
+  const auto weaker = json("plan h.tks --renderer 2k/s --fps 20 --channel 1Mbit/s");
   EXPECT_LT(weaker["bytes"], weak["bytes"]);
-  const auto all = json("plan a.tks --renderer 6k/s --fps 20 --channel 1M/s --seconds 100");
+  const auto all = json("plan h.tks --renderer 6k/s --fps 20 --channel 1M/s --seconds 100");
   EXPECT_EQ(all["bytes"], weak["bytes"]);
-  if (!both["screen_psnr"].is_null()) {
-    EXPECT_GT(both["screen_psnr"], weaker["screen_psnr"]);
+}
+
+/// A weak renderer shows a texture as well as a strong one.
+TEST_F(CliReceiver, TexturesAreSentToWeakRenderersToo) {
+  const auto weak = json("plan a.tks --renderer 6k/s --fps 20 --channel 1M/s --seconds 100");
+  const auto early = json("plan a.tks --renderer 6k/s --fps 20 --channel 40k/s --seconds 2");
+  EXPECT_GT(weak["bytes"], 30000);
+  EXPECT_EQ(early["bytes"], 10000);
+  if (!weak["screen_psnr"].is_null()) {
+    EXPECT_GT(weak["screen_psnr"], early["screen_psnr"]);
   }
 }
 

@@ -84,11 +84,23 @@ Result<uint64_t> leastThat(uint64_t low, uint64_t high, double most, const Error
   return high;
 }
 
+/// Where the heights are as good as a mesh of so many triangles shows.
 Result<uint64_t> bytesFor(const Errors& errors, const tks_info& info, uint32_t triangles) {
   const Result<double> mesh = errors.ofMesh(info.available_bytes, triangles);
   if (!mesh.ok()) return mesh.status();
   return leastThat(info.header_bytes, info.available_bytes, *mesh / kMeshShare,
                    [&](uint64_t bytes) { return errors.ofBytes(bytes); });
+}
+
+/// Where the texture ends, which any mesh shows.
+Result<uint64_t> bytesOfTexture(std::span<const uint8_t> stream, const tks_info& info) {
+  if (info.texture_bytes == 0) return info.header_bytes;
+  return leastThat(info.header_bytes, info.available_bytes, 0,
+                   [&](uint64_t bytes) -> Result<double> {
+                     const Result<Decoder> decoder = openDecoder(stream.first(bytes));
+                     if (!decoder) return decoder.status();
+                     return static_cast<double>(info.texture_bytes - decoder->info().texture_bytes);
+                   });
 }
 
 Result<uint32_t> trianglesFor(const Errors& errors, uint64_t bytes) {
@@ -138,10 +150,12 @@ Result<ReceiverPlan> planFor(std::span<const uint8_t> stream, const Receiver& re
       const double most = errors->mostTriangles();
       plan.triangles =
           static_cast<uint32_t>(std::clamp(*receiver.renderer / receiver.fps, 1.0, most));
-      const Result<uint64_t> enough = bytesFor(*errors, info, *plan.triangles);
-      if (!enough.ok()) return enough.status();
-      if (*enough < plan.bytes) {
-        plan.bytes = *enough;
+      const Result<uint64_t> heights = bytesFor(*errors, info, *plan.triangles);
+      if (!heights.ok()) return heights.status();
+      const Result<uint64_t> texture = bytesOfTexture(stream, info);
+      if (!texture.ok()) return texture.status();
+      if (const uint64_t enough = std::max(*heights, *texture); enough < plan.bytes) {
+        plan.bytes = enough;
         plan.limit = "renderer";
       }
     } else {
