@@ -166,6 +166,15 @@ std::optional<Selection> shortIfExact(const EncodeInputs& inputs) {
   return selectIfLossless(inputs, {std::move(heights), {}});
 }
 
+/// A part of exact heights of few values, if that is nearer than as much of the lossy ones.
+std::optional<Selection> nearerPart(const EncodeInputs& inputs, const Candidates& lossy,
+                                    const Selection& selection, const HeightsCandidate& few) {
+  const uint64_t header = headerBytesOf(inputs, selection);
+  if (!few.coded || header >= inputs.options.bytes) return {};
+  if (!isNearer(inputs, few, lossy.heights, inputs.options.bytes - header)) return {};
+  return orderPackets({few, {}});
+}
+
 /// The way to the last bit, if there is one that takes less than the room; else the lossy component
 /// as it stands, if all of it does: it may be exact as well, in more bytes.
 template <class Coded>
@@ -299,14 +308,19 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
 std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
                                            const Selection& selection) {
   assert(inputs.budgeted());
-  std::optional<HeightsCandidate> few = fewValues(inputs, lossy.heights);
+  FewValues of_few = fewValues(inputs, lossy.heights);
+  std::optional<HeightsCandidate> few;
+  if (of_few.fit) few = of_few.heights;
   const ByNeighbours neighbours(lossy.heights, inputs.options.bytes);
   const Nearly nearly = nearlyExact(inputs, selection, neighbours);
   if ((few || nearly.heights) && nearly.texture) {
     std::optional<Selection> exact = losslessIfItFits(inputs, lossy, few, neighbours);
     if (exact) return exact;
   }
-  if (!lossy.texture.coded) return shortIfExact(inputs);
+  if (!lossy.texture.coded) {
+    std::optional<Selection> exact = shortIfExact(inputs);
+    return exact ? std::move(exact) : nearerPart(inputs, lossy, selection, of_few.heights);
+  }
   if (!lossy.errors) return {};
   std::vector<HeightsCandidate> ways;
   if (nearly.heights) ways = exactWays(inputs, lossy.heights, neighbours);

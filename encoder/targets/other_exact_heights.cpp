@@ -5,30 +5,42 @@
 #include <limits>
 
 #include "codec/geometry/drawn_heights/drawing_estimate.hpp"
+#include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/targets/component_curves.hpp"
 
 namespace tetrakis::inline targets {
 
-std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
-                                          const HeightsCandidate& lossy) {
+FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
   constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
   constexpr double kAnyError = std::numeric_limits<double>::infinity();
+  constexpr double kLargePart = 0.7;
   if (!lossy.coded) return {};
+  const auto budget = static_cast<double>(inputs.options.bytes);
   const uint64_t room = std::min(inputs.options.bytes, lossy.bytes());
+  const auto most = static_cast<uint64_t>(budget / kLargePart);
   const QuantisedHeights& quantised = *lossy.coded->quantised;
   const bool few = drawingMayFit(
-      {quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid}, room);
-  const bool generous =
-      static_cast<double>(inputs.options.bytes) >= kGenerous * lossy.coded->counted();
-  if (!few && !generous) return {};
-  HeightsCandidate exact = {exactHeightsFor(inputs, kAnyError, room)};
-  if (!exact.coded) return {};
-  const bool shapes = exact.coded->header.drawn || (few && exact.coded->hasCorrections());
-  if (!shapes && exact.coded->layers.table_bytes == 0) return {};
-  if (shapes ? exact.bytes() > room : 2 * exact.bytes() > inputs.options.bytes) return {};
-  exact.curve = curveOfHeights(inputs, *exact.coded);
+      {quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid}, most);
+  if (!few && budget < kGenerous * lossy.coded->counted()) return {};
+  FewValues exact{{exactHeightsFor(inputs, kAnyError, most)}};
+  if (!exact.heights.coded || exact.heights.bytes() > most) return {};
+  const CodedHeights& coded = *exact.heights.coded;
+  const bool shapes = coded.header.drawn || (few && coded.hasCorrections());
+  if (!shapes && coded.layers.table_bytes == 0) return {};
+  const uint64_t bytes = exact.heights.bytes();
+  exact.fit = shapes ? bytes <= room : 2 * bytes <= inputs.options.bytes;
+  exact.heights.curve = curveOfHeights(inputs, coded);
   return exact;
+}
+
+bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
+              const HeightsCandidate& lossy, uint64_t room) {
+  const auto error_of = [&](const HeightsCandidate& heights) {
+    const Codewords prefix = prefixAfter(heights.coded->accounted(), heights.curve->packets, room);
+    return sampleErrorsOf(*heights.coded, prefix, inputs.options.threads).mean_square;
+  };
+  return error_of(exact) < error_of(lossy);
 }
 
 HeightsCandidate shortExactHeights(const EncodeInputs& inputs) {

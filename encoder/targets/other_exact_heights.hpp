@@ -14,8 +14,16 @@ namespace tetrakis::inline targets {
 /// drawings or tables of values, and may never come as near; so prefixes may be somewhat worse. A
 /// table has to save half of the budget for that; a drawing, or corrections in the place of one,
 /// have saved enough by what they are.
-std::optional<HeightsCandidate> fewValues(const EncodeInputs& inputs,
-                                          const HeightsCandidate& lossy);
+struct FewValues {
+  HeightsCandidate heights;  ///< with their curve; `coded` is null: these are no such heights
+  bool fit = false;          ///< in the budget; else it holds a large part of them
+};
+FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy);
+
+/// Whether the part that the budget holds of exact heights is nearer to the samples than its part
+/// of the lossy ones. Both have curves. room: bytes for packets.
+bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
+              const HeightsCandidate& lossy, uint64_t room);
 
 /// The shortest heights to the last bit, if they take clearly less than the budget; else `coded` is
 /// null. Their prefixes are those of lossless heights: for budgets in which no others are exact.

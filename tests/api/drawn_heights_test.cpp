@@ -86,6 +86,18 @@ TEST(DrawnHeights, NoTargetTakesMoreBytesThanTheLastBit) {
 }
 
 /// Of all bytes the texture gets those that the drawing leaves.
+/// Budgets that hold most of the exact heights are no further from the samples than that part.
+TEST(DrawnHeights, BudgetsBelowTheLastBitAreAsGoodAsItsPrefixes) {
+  const Raster heights = patches(200, 160);
+  const Bytes exact = encode(&heights, nullptr, lossless());
+  for (const double part : {0.8, 0.9, 0.97}) {
+    const auto bytes = static_cast<size_t>(part * static_cast<double>(exact.size()));
+    Stream made(encode(&heights, nullptr, budget(bytes))), cut(Prefix(exact).first(bytes));
+    EXPECT_LE(squaredError(heights, made.heights()), 1.05 * squaredError(heights, cut.heights()))
+        << part;
+  }
+}
+
 TEST(DrawnHeights, AreExactBesideATexture) {
   const Raster heights = patches(90, 81);
   const Raster image = make({Pattern::kRidges, 90, 81, 3, TKS_U8, 9});
