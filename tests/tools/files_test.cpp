@@ -188,6 +188,18 @@ TEST_F(HeightFiles, HgtIsBigEndianAndKnowsItsPlace) {
   EXPECT_EQ(elsewhere->spacing_x, 0);
 }
 
+/// As of one arc-second beyond 50 degrees.
+TEST_F(HeightFiles, HgtMayHaveHalfTheColumns) {
+  const auto read = readHeights(save("N60E007.hgt", std::vector<uint8_t>(2 * 1801 * 3601)));
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->width, 1801U);
+  EXPECT_EQ(read->height, 3601U);
+  ASSERT_TRUE(read->geotransform);
+  EXPECT_DOUBLE_EQ((*read->geotransform)[1], 1. / 1800);
+  EXPECT_DOUBLE_EQ((*read->geotransform)[5], -1. / 3600);
+  EXPECT_NEAR(read->spacing_y, 30.95, 0.01);
+}
+
 TEST_F(HeightFiles, RawIsLittleEndian) {
   const std::string file = save("a.raw", std::vector<uint8_t>{1, 0, 2, 0, 0, 1, 0xFF, 0xFF});
   expectSameSamples(readHeights(file + ":2x2:u16"),

@@ -52,9 +52,19 @@ std::optional<Corner> hgtCorner(const std::string& path) {
 }
 
 /// The first sample lies on the north-western corner, the last on the south-eastern one.
-GeoTransform tileAt(const Corner& corner, uint32_t side) {
-  const double step = 1.0 / (side - 1);
-  return {corner.east - 0.5 * step, step, 0, corner.north + 1 + 0.5 * step, 0, -step};
+GeoTransform tileAt(const Corner& corner, uint32_t width, uint32_t height) {
+  const double across = 1.0 / (width - 1), down = 1.0 / (height - 1);
+  return {corner.east - 0.5 * across, across, 0, corner.north + 1 + 0.5 * down, 0, -down};
+}
+
+/// Tiles are square, but for those of one arc-second beyond 50 degrees, which have half the
+/// columns. Nothing for other numbers of samples.
+std::optional<std::array<uint32_t, 2>> tileSides(uint64_t samples) {
+  constexpr std::array<uint32_t, 2> kNorthern{1801, 3601};
+  if (samples == uint64_t{kNorthern[0]} * kNorthern[1]) return kNorthern;
+  const auto side = static_cast<uint32_t>(std::lround(std::sqrt(samples)));
+  if (side < 2 || uint64_t{side} * side != samples) return {};
+  return std::array{side, side};
 }
 
 }  // namespace
@@ -112,13 +122,14 @@ Status writeRaw(const std::string& path, const HeightFile& heights) {
 Result<HeightFile> readHgt(const std::string& path) {
   auto bytes = readBytes(path);
   if (!bytes.ok()) return bytes.status();
-  const auto side = static_cast<uint32_t>(std::lround(std::sqrt(bytes->size() / sizeof(int16_t))));
-  if (side < 2 || uint64_t{side} * side * sizeof(int16_t) != bytes->size()) {
+  const auto sides = tileSides(bytes->size() / sizeof(int16_t));
+  if (!sides || bytes->size() % sizeof(int16_t) != 0) {
     return Status(TKS_IO, quoted(path) + " holds " + std::to_string(bytes->size()) +
                               " bytes, which is no square of 16-bit samples");
   }
   HeightFile heights;
-  heights.width = heights.height = side;
+  heights.width = (*sides)[0];
+  heights.height = (*sides)[1];
   heights.sample = TKS_I16;
   heights.data = std::move(*bytes);
   reorderBytes(heights.data, sizeof(int16_t), std::endian::big);
@@ -129,8 +140,9 @@ Result<HeightFile> readHgt(const std::string& path) {
   heights.registration = TKS_REGISTRATION_POINT;
   const auto corner = hgtCorner(path);
   if (!corner) return heights;
-  heights.geotransform = tileAt(*corner, side);
-  if (const auto spacing = groundSpacing(*heights.geotransform, side, side, {true, 0})) {
+  heights.geotransform = tileAt(*corner, heights.width, heights.height);
+  if (const auto spacing =
+          groundSpacing(*heights.geotransform, heights.width, heights.height, {true, 0})) {
     heights.spacing_x = (*spacing)[0];
     heights.spacing_y = (*spacing)[1];
   }
@@ -142,7 +154,7 @@ std::string hgtName(const HeightFile& heights) {
   const GeoTransform& t = *heights.geotransform;
   const Corner corner{static_cast<int>(std::lround(std::clamp(t[3] - 1, -90.0, 90.0))),
                       static_cast<int>(std::lround(std::clamp(t[0], -180.0, 180.0)))};
-  const GeoTransform tile = tileAt(corner, heights.width);
+  const GeoTransform tile = tileAt(corner, heights.width, heights.height);
   const double tolerance = 1e-3 * tile[1];
   for (size_t i = 0; i < tile.size(); ++i)
     if (!(std::abs(t[i] - tile[i]) <= (i % 3 == 0 ? tolerance : tolerance / heights.width)))
