@@ -160,8 +160,8 @@ std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates
 }
 
 /// Heights whose shortest stream takes clearly less than the budget.
-std::optional<Selection> shortIfExact(const EncodeInputs& inputs) {
-  HeightsCandidate heights = shortExactHeights(inputs);
+std::optional<Selection> shortIfExact(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
+  HeightsCandidate heights = shortExactHeights(inputs, lossy);
   if (!heights.coded) return {};
   return selectIfLossless(inputs, {std::move(heights), {}});
 }
@@ -318,7 +318,7 @@ std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Can
     if (exact) return exact;
   }
   if (!lossy.texture.coded) {
-    std::optional<Selection> exact = shortIfExact(inputs);
+    std::optional<Selection> exact = shortIfExact(inputs, lossy.heights);
     return exact ? std::move(exact) : nearerPart(inputs, lossy, selection, of_few.heights);
   }
   if (!lossy.errors) return {};

@@ -11,8 +11,25 @@
 
 namespace tetrakis::inline targets {
 
+namespace {
+
+constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
+
+bool isGenerous(const EncodeInputs& inputs, const CodedHeights& heights) {
+  return static_cast<double>(inputs.options.bytes) >= kGenerous * heights.counted();
+}
+
+/// Whether exact heights may take no more than the room, as far as that is known without another
+/// look at all samples.
+bool mayBeShort(const EncodeInputs& inputs, const HeightsCandidate& lossy, uint64_t room) {
+  const HeightSteps& steps = lossy.coded->quantised->steps;
+  if (!steps.exact) return isGenerous(inputs, *lossy.coded) || lossy.bytes() < room;
+  return mayTakeNoMore(steps, extentOf(*inputs.heights), room);
+}
+
+}  // namespace
+
 FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
-  constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
   constexpr double kAnyError = std::numeric_limits<double>::infinity();
   constexpr double kLargePart = 0.7;
   if (!lossy.coded) return {};
@@ -22,7 +39,7 @@ FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
   const QuantisedHeights& quantised = *lossy.coded->quantised;
   const bool few = drawingMayFit(
       {quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid}, most);
-  if (!few && budget < kGenerous * lossy.coded->counted()) return {};
+  if (!few && !isGenerous(inputs, *lossy.coded)) return {};
   FewValues exact{{exactHeightsFor(inputs, kAnyError, most)}};
   if (!exact.heights.coded || exact.heights.bytes() > most) return {};
   const CodedHeights& coded = *exact.heights.coded;
@@ -43,9 +60,10 @@ bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
   return error_of(exact) < error_of(lossy);
 }
 
-HeightsCandidate shortExactHeights(const EncodeInputs& inputs) {
+HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
   constexpr double kClearly = 0.8;
   const auto room = static_cast<uint64_t>(kClearly * static_cast<double>(inputs.options.bytes));
+  if (!mayBeShort(inputs, lossy, room)) return {};
   HeightsCandidate exact = {exactHeightsFor(inputs, 0, room)};
   if (!exact.coded || exact.bytes() > room) return {};
   return exact;

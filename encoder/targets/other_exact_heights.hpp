@@ -27,6 +27,6 @@ bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
 
 /// The shortest heights to the last bit, if they take clearly less than the budget; else `coded` is
 /// null. Their prefixes are those of lossless heights: for budgets in which no others are exact.
-HeightsCandidate shortExactHeights(const EncodeInputs& inputs);
+HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCandidate& lossy);
 
 }  // namespace tetrakis::inline targets

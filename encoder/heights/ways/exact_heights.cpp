@@ -11,10 +11,15 @@
 
 namespace tetrakis::inline ways {
 
+bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes) {
+  constexpr double kClearly = 1.4;  // 14 DEMs take 0.88 to 1.15 of what is estimated
+  const double estimated = typicalCost(steps.lifting(extent), steps.range_bits, 0).bits / 8;
+  return estimated <= kClearly * static_cast<double>(bytes);
+}
+
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
                                                     uint64_t lossy_bytes) {
   constexpr double kMostSteps = 2;  // of error, if heights are multiples of a step
-  constexpr double kClearly = 1.4;  // 14 DEMs take 0.88 to 1.15 of what is estimated
   assert(inputs.heights != nullptr && inputs.options.lossless == 0);
   tks_encode_options options = inputs.options;
   options.bytes = 0;
@@ -31,8 +36,7 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   if (const auto facets = facetsOf(**heights); facets && mayFit(*facets, **heights, lossy_bytes))
     return codeLosslessHeights(lossless, *heights);
   if (error > kMostSteps * steps.step) return nullptr;
-  const double bytes = typicalCost(steps.lifting(plane.extent()), steps.range_bits, 0).bits / 8;
-  if (bytes > kClearly * static_cast<double>(lossy_bytes)) return nullptr;
+  if (!mayTakeNoMore(steps, plane.extent(), lossy_bytes)) return nullptr;
   return codeLosslessHeights(lossless, *heights);
 }
 

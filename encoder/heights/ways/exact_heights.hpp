@@ -13,6 +13,9 @@
 
 namespace tetrakis::inline ways {
 
+/// Whether exact steps may take no more bytes than so many to the last bit, by typical parts.
+bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes);
+
 /// The heights as the target `lossless` has them. error: what the target of inputs allows, in
 /// sample units, as the largest or the mean one; lossy_bytes: what heights take that use it. Null
 /// where the error is so much that exact ones cannot pay, unless they have few values: a table of
