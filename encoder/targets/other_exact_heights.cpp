@@ -54,7 +54,9 @@ FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
 bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
               const HeightsCandidate& lossy, uint64_t room) {
   const auto error_of = [&](const HeightsCandidate& heights) {
-    const Codewords prefix = prefixAfter(heights.coded->accounted(), heights.curve->packets, room);
+    const std::vector<Packet>& packets = heights.curve->packets;
+    const Codewords prefix =
+        prefixAfter(heights.coded->accounted(), packets, std::min(room, payloadOf(packets)));
     return sampleErrorsOf(*heights.coded, prefix, inputs.options.threads).mean_square;
   };
   return error_of(exact) < error_of(lossy);
