@@ -160,8 +160,9 @@ std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates
 }
 
 /// Heights whose shortest stream takes clearly less than the budget.
-std::optional<Selection> shortIfExact(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
-  HeightsCandidate heights = shortExactHeights(inputs, lossy);
+std::optional<Selection> shortIfExact(const EncodeInputs& inputs, const HeightsCandidate& lossy,
+                                      const HeightsCandidate& few) {
+  HeightsCandidate heights = shortExactHeights(inputs, lossy, few);
   if (!heights.coded) return {};
   return selectIfLossless(inputs, {std::move(heights), {}});
 }
@@ -318,7 +319,7 @@ std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Can
     if (exact) return exact;
   }
   if (!lossy.texture.coded) {
-    std::optional<Selection> exact = shortIfExact(inputs, lossy.heights);
+    std::optional<Selection> exact = shortIfExact(inputs, lossy.heights, of_few.heights);
     return exact ? std::move(exact) : nearerPart(inputs, lossy, selection, of_few.heights);
   }
   if (!lossy.errors) return {};

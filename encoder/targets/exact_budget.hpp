@@ -13,8 +13,10 @@
 namespace tetrakis::inline targets {
 
 /// All packets of components that end exact: of both, if that fits the budget and takes nothing
-/// from prefixes, else of the heights, if the cameras see fewer errors for it. Nothing where it
-/// does not pay. lossy: with curves, and what they come to: selection.
+/// from prefixes; else of the heights, if the cameras see fewer errors for it or, without a
+/// texture, if the shortest ones take clearly less than the budget or are of few values and nearer
+/// than lossy ones as far as the budget holds them. Nothing where none of this pays. lossy: with
+/// curves, and what they come to: selection.
 std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
                                            const Selection& selection);
 

@@ -62,11 +62,12 @@ bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
   return error_of(exact) < error_of(lossy);
 }
 
-HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
+HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCandidate& lossy,
+                                   const HeightsCandidate& few) {
   constexpr double kClearly = 0.8;
   const auto room = static_cast<uint64_t>(kClearly * static_cast<double>(inputs.options.bytes));
-  if (!mayBeShort(inputs, lossy, room)) return {};
-  HeightsCandidate exact = {exactHeightsFor(inputs, 0, room)};
+  HeightsCandidate exact = few;
+  if (!few.coded && mayBeShort(inputs, lossy, room)) exact = {exactHeightsFor(inputs, 0, room)};
   if (!exact.coded || exact.bytes() > room) return {};
   return exact;
 }

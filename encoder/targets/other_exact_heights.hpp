@@ -10,14 +10,15 @@
 
 namespace tetrakis::inline targets {
 
-/// Heights of few values to the last bit, in less than the budget. Lossy heights know nothing of
-/// drawings or tables of values, and may never come as near; so prefixes may be somewhat worse. A
-/// table has to save half of the budget for that; a drawing, or corrections in the place of one,
-/// have saved enough by what they are.
+/// Heights of few values to the last bit, of which the budget holds a large part. Lossy heights
+/// know nothing of drawings or tables of values, and may never come as near.
 struct FewValues {
-  HeightsCandidate heights;  ///< with their curve; `coded` is null: these are no such heights
-  bool fit = false;          ///< in the budget; else it holds a large part of them
+  HeightsCandidate heights;  ///< with their curve; `coded` is null: there are none
+  bool fit = false;          ///< see fewValues()
 };
+
+/// They fit where they are taken whatever prefixes lose: a table has to save half of the budget for
+/// that; a drawing, or corrections in the place of one, have saved enough by what they are.
 FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy);
 
 /// Whether the part that the budget holds of exact heights is nearer to the samples than its part
@@ -27,6 +28,8 @@ bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
 
 /// The shortest heights to the last bit, if they take clearly less than the budget; else `coded` is
 /// null. Their prefixes are those of lossless heights: for budgets in which no others are exact.
-HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCandidate& lossy);
+/// few: of fewValues(), which need no second coding.
+HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCandidate& lossy,
+                                   const HeightsCandidate& few);
 
 }  // namespace tetrakis::inline targets

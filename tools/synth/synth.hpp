@@ -41,8 +41,7 @@ struct SynthOptions {
 
 /// heights: size x size samples, 30 m apart (a city's 1 m): TKS_U16 in steps of 0.1 m (a plain's of
 /// 0.01 m, turned ones of 1 m), steps, voids, rescaled, geoid, mosaic, facets and smooth TKS_F32 in
-/// metres;
-/// the sea is 0 and each lake one level.
+/// metres; the sea is 0 and each lake one level.
 /// texture and map: RGB8 of 2 (size - 1) texels a side over the same footprint.
 struct SynthTerrain {
   HeightFile heights;
