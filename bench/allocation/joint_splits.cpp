@@ -20,7 +20,7 @@ namespace {
 using tools::Split;
 using tools::SplitStream;
 
-constexpr uint64_t kLeastBytes = 2048, kMostBytes = 262144;
+constexpr uint64_t kLeastBudget = 2048, kMostBudget = 262144;
 constexpr uint64_t kLeastGain = 8192, kMostGain = 131072;  // where gains are counted
 constexpr int kFixed = 9;                                  // splits of 10/90 to 90/10
 
@@ -148,7 +148,7 @@ Result<std::vector<Order>> ordersOf(const Terrain& terrain, const SplitOptions& 
   std::vector<Order> orders;
   for (const auto& [name, knows] : kinds) {
     const auto coded =
-        encodeTerrain(terrain.original, {kMostBytes + kHeaderAndHeads, knows, 0, options.view});
+        encodeTerrain(terrain.original, {kMostBudget + kHeaderAndHeads, knows, 0, options.view});
     if (!coded.ok()) return coded.status();
     Result<Judge> judge = judgeOf(terrain, options.view, coded->stream.bytes());
     if (!judge.ok()) return judge.status();
@@ -235,7 +235,7 @@ Status studySplits(const Terrain& terrain, const SplitOptions& options,
   for (int i = 1; i <= kFixed; ++i)
     measured.fixed.push_back({"fixed_" + std::to_string(10 * i), {}});
   const std::vector<double> shares = sharesOf(options.grid);
-  for (uint64_t bytes = kLeastBytes; bytes <= kMostBytes; bytes *= 2) {
+  for (uint64_t bytes = kLeastBudget; bytes <= kMostBudget; bytes *= 2) {
     const bool enough = std::all_of(orders->begin(), orders->end(), [&](const Order& order) {
       return bytes <= order.judge.tracks().most().total();
     });

@@ -123,7 +123,7 @@ double groundError(bool declared) {
   }
   tks_encode_options options = makeEncodeOptions();
   options.bytes = 400;
-  const Result<Buffer> stream = encode(&heights, nullptr, options);
+  const Result<Buffer> stream = tetrakis::encode(&heights, nullptr, options);
   EXPECT_TRUE(stream.ok());
   Result<Decoder> decoder = Decoder::open(stream->bytes());
   EXPECT_TRUE(decoder.ok());

@@ -110,8 +110,8 @@ struct Coded {
   Codewords spans() const { return {codewords.begin(), codewords.end()}; }
 };
 
-Coded encode(const PlaneView<const int32_t>& heights, const WaveletSpec& spec, int fraction_bits,
-             int region_log2) {
+Coded encodeInRegions(const PlaneView<const int32_t>& heights, const WaveletSpec& spec,
+                      int fraction_bits, int region_log2) {
   Coded coded;
   coded.header.width = heights.width;
   coded.header.height = heights.height;
@@ -139,8 +139,8 @@ Window randomWindow(Random& random, const Size& size) {
           1 + static_cast<uint32_t>(random() % (size.height - y))};
 }
 
-void expectWindows(Random& random, const Coded& coded, const Size& size,
-                   const std::vector<uint8_t>& valid) {
+void expectCodedWindows(Random& random, const Coded& coded, const Size& size,
+                        const std::vector<uint8_t>& valid) {
   const DecodedGeometry whole = decodeCoefficients(coded.header, coded.spans(), valid);
   const DecodedGeometry again = decodeCoefficients(coded.header, coded.spans(), valid, {}, {5});
   ASSERT_EQ(whole.heights, again.heights);
@@ -170,12 +170,12 @@ TEST(Windows, HoldWhatThePlaneHoldsThere) {
       const auto shape = samples::kVoidShapes[random() % std::size(samples::kVoidShapes)];
       const auto valid =
           voids ? samples::validity(shape, size.width, size.height) : std::vector<uint8_t>();
-      Coded coded =
-          encode({heights, size.extent(), valid}, spec, fraction_bits, log2 == 0 ? 0 : 3 + log2);
-      expectWindows(random, coded, size, valid);
+      Coded coded = encodeInRegions({heights, size.extent(), valid}, spec, fraction_bits,
+                                    log2 == 0 ? 0 : 3 + log2);
+      expectCodedWindows(random, coded, size, valid);
       for (std::vector<uint8_t>& codeword : coded.codewords)
         codeword.resize(random() % (codeword.size() + 1));
-      expectWindows(random, coded, size, valid);
+      expectCodedWindows(random, coded, size, valid);
       if (HasFatalFailure()) return;
     }
   }
@@ -189,14 +189,14 @@ TEST(Windows, HoldForAnyBytes) {
       for (const int log2 : {0, 4}) {
         const auto valid = samples::validity(samples::VoidShape::kSpeckle, size.width, size.height);
         const Plane zeros(size.count(), 0);
-        Coded coded = encode({zeros, size.extent()}, spec, 0, log2);
+        Coded coded = encodeInRegions({zeros, size.extent()}, spec, 0, log2);
         coded.header.planes = 30;
         coded.header.wavelet.bits = static_cast<uint8_t>(random() % 33);
         for (std::vector<uint8_t>& codeword : coded.codewords) {
           codeword.resize(200);
           for (uint8_t& byte : codeword) byte = static_cast<uint8_t>(random() % 3 ? 255 : random());
         }
-        expectWindows(random, coded, size, random() % 2 ? valid : std::vector<uint8_t>());
+        expectCodedWindows(random, coded, size, random() % 2 ? valid : std::vector<uint8_t>());
         if (HasFatalFailure()) return;
       }
     }

@@ -30,16 +30,16 @@ tks_screen_camera cameraOver(uint32_t width, uint32_t height) {
   return camera;
 }
 
-struct DrawnMesh {
+struct SeenMesh {
   tks_status status = TKS_OK;
   std::string message;
   LatticeMesh mesh;
   std::vector<float> heights;
 };
 
-DrawnMesh decode(Stream& stream, const tks_screen* screen, uint32_t triangles) {
+SeenMesh decode(Stream& stream, const tks_screen* screen, uint32_t triangles) {
   tks_mesh mesh = {};
-  DrawnMesh drawn;
+  SeenMesh drawn;
   drawn.status = tks_decode_screen_mesh(stream.get(), screen, triangles, &mesh);
   drawn.message = tks_message(stream.get());
   drawn.mesh.vertices.assign(mesh.grid_index, mesh.grid_index + mesh.vertex_count);
@@ -73,7 +73,7 @@ TEST_F(ScreenMeshStream, EveryPrefixGivesAMeshOfNoMoreTriangles) {
   for (size_t size = header; size <= bytes_.size(); size += 1 + size / 12) {
     Stream stream(Prefix(bytes_).first(size));
     for (const tks_screen* screen : {&screen_, static_cast<tks_screen*>(nullptr)}) {
-      const DrawnMesh drawn = decode(stream, screen, 150);
+      const SeenMesh drawn = decode(stream, screen, 150);
       ASSERT_EQ(drawn.status, TKS_OK) << drawn.message;
       EXPECT_LE(drawn.mesh.triangleCount(), 150u);
       checks::expectConforming(drawn.mesh, 60, 47);
@@ -88,9 +88,9 @@ TEST_F(ScreenMeshStream, TwoCamerasOfOneWeightAreTheSameInAnyOrder) {
   beside.clip[3] = -2;
   std::array<tks_screen_camera, 2> both = {camera_, beside};
   screen_ = {sizeof screen_, both.data(), 2, nullptr};
-  const DrawnMesh one = decode(stream, &screen_, 200);
+  const SeenMesh one = decode(stream, &screen_, 200);
   std::swap(both[0], both[1]);
-  const DrawnMesh other = decode(stream, &screen_, 200);
+  const SeenMesh other = decode(stream, &screen_, 200);
   EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
   EXPECT_EQ(one.heights, other.heights);
   both[0].weight = both[1].weight = 7;
@@ -106,7 +106,7 @@ TEST_F(ScreenMeshStream, CamerasThatSeeNothingAreAsIfThereWereNone) {
 TEST_F(ScreenMeshStream, RefusesWithASentence) {
   Stream stream(bytes_);
   const auto refused = [&](const char* part, uint32_t triangles = 100) {
-    const DrawnMesh drawn = decode(stream, &screen_, triangles);
+    const SeenMesh drawn = decode(stream, &screen_, triangles);
     EXPECT_EQ(drawn.status, TKS_USAGE) << part;
     EXPECT_NE(drawn.message.find(part), std::string::npos) << drawn.message;
     EXPECT_TRUE(drawn.mesh.vertices.empty());
@@ -148,7 +148,7 @@ TEST_F(ScreenMeshStream, TouchesNoVoid) {
   const Bytes bytes = encodeHeights(given, lossless());
   Stream stream(bytes);
   for (const uint32_t triangles : {10u, 100u, 900u}) {
-    const DrawnMesh drawn = decode(stream, &screen_, triangles);
+    const SeenMesh drawn = decode(stream, &screen_, triangles);
     ASSERT_EQ(drawn.status, TKS_OK) << drawn.message;
     EXPECT_LE(drawn.mesh.triangleCount(), triangles);
     EXPECT_GT(drawn.mesh.triangleCount(), 0u);

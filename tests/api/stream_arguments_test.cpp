@@ -42,9 +42,6 @@ class Arguments : public ::testing::Test {
   }
 };
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 TEST_F(Arguments, UnspoiltCallWorks) {
   EXPECT_EQ(encodeWith([](Call&) {}), TKS_OK);
 }

@@ -17,9 +17,6 @@ using samples::make;
 using samples::Pattern;
 using samples::Raster;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// From above, to the north. The ground is a kilometre wide, and 255 metres high at most.
 tks_camera above() {
   return {"eagle", {0, 5000, 1}, {0, 0, 0}, {0, 1, 0}, 40, 768, 512, 1};

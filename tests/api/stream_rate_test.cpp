@@ -18,10 +18,6 @@ using samples::Raster;
 Raster terrain() {
   return make({Pattern::kRidges, 161, 140, 1, TKS_U16});
 }
-Raster photograph() {
-  return make({Pattern::kRidges, 192, 160, 3, TKS_U8, 7});
-}
-
 /// At most the budget; at least 99 % of it as long as the lossless stream has that much to send (95
 /// % below 4 kB, where a last packet that counts only when complete may not fit).
 void expectBudgetUsed(const Raster* heights, const Raster* image) {

@@ -10,10 +10,6 @@ using samples::make;
 using samples::Pattern;
 using samples::Raster;
 
-Raster photograph() {
-  return make({Pattern::kRidges, 192, 160, 3, TKS_U8, 7});
-}
-
 /// A bound above the range too, where heights take no bytes and have no slope that says what texels
 /// are worth. Single packets may be a tenth of a stream.
 TEST(TextureBesideBound, FallsAsTheBoundGrows) {

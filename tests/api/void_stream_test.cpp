@@ -51,7 +51,7 @@ Holed holed(VoidShape shape, tks_sample sample, uint32_t width, uint32_t height)
   return h;
 }
 
-Bytes encode(const Holed& h, const tks_encode_options& options) {
+Bytes encodeHoled(const Holed& h, const tks_encode_options& options) {
   return encodeHeights(h.heights(), options);
 }
 
@@ -81,7 +81,7 @@ TEST(VoidStream, LosslessRestoresEverything) {
     for (const tks_sample sample : {TKS_I16, TKS_F32}) {
       for (const uint32_t width : {2u, 5u, 70u}) {
         const Holed h = holed(shape, sample, width, width < 70 ? 9 : 33);
-        const Bytes bytes = encode(h, lossless());
+        const Bytes bytes = encodeHoled(h, lossless());
         Stream stream(bytes);
         ASSERT_EQ(stream.status(), TKS_OK);
         EXPECT_TRUE(stream.info().lossless);
@@ -97,7 +97,7 @@ TEST(VoidStream, BoundsHoldForValidSamples) {
   for (const VoidShape shape : kVoidShapes) {
     for (const double error : {40.0, 900.0}) {
       const Holed h = holed(shape, TKS_I16, 50, 41);
-      const Bytes bytes = encode(h, within(error));
+      const Bytes bytes = encodeHoled(h, within(error));
       Stream stream(bytes);
       EXPECT_LE(checkedError(h, stream), error);
     }
@@ -133,7 +133,7 @@ TEST(VoidStream, BoundsHoldForTheLastHeightOfAColumn) {
     h.valid[row] = 1;
   }
   for (const double error : {3., 8., 60.}) {
-    const Bytes bytes = encode(h, within(error));
+    const Bytes bytes = encodeHoled(h, within(error));
     Stream stream(bytes);
     EXPECT_LE(checkedError(h, stream), error);
   }
@@ -149,7 +149,7 @@ TEST(VoidStream, PsnrIsReachedByOneHeightAndByNone) {
       put(h.raster, i, int32_t{-5});
       h.valid[i] = 0;
     }
-    const Bytes bytes = encode(h, psnr);
+    const Bytes bytes = encodeHoled(h, psnr);
     Stream stream(bytes);
     EXPECT_EQ(checkedError(h, stream), 0) << voids;
   }
@@ -163,14 +163,14 @@ TEST(VoidStream, NodataDoesNotBleed) {
     if (!h.valid[i]) put(h.raster, i, static_cast<float>(*h.nodata));
   }
   h.nodata = static_cast<double>(static_cast<float>(*h.nodata));
-  const Bytes bytes = encode(h, budget(1200));
+  const Bytes bytes = encodeHoled(h, budget(1200));
   Stream stream(bytes);
   EXPECT_LT(checkedError(h, stream), 1500) << "the heights span 4096";
 }
 
 TEST(VoidStream, EveryPrefixDecodes) {
   const Holed h = holed(VoidShape::kCoast, TKS_I16, 28, 25);
-  const Bytes bytes = encode(h, lossless());
+  const Bytes bytes = encodeHoled(h, lossless());
   size_t before = SIZE_MAX;
   for (size_t n = 0; n <= bytes.size(); ++n) {
     Stream stream(Prefix(bytes).first(n));
@@ -194,7 +194,7 @@ TEST(VoidStream, HeightsNeverReadAsNodata) {
     put(h.raster, i, h.valid[i] ? static_cast<int16_t>(height == 0 ? 1 : height) : int16_t{0});
   }
   for (const double error : {1.0, 3.0}) {
-    const Bytes bytes = encode(h, within(error));
+    const Bytes bytes = encodeHoled(h, within(error));
     Stream stream(bytes);
     EXPECT_LE(checkedError(h, stream), error);
   }
@@ -254,7 +254,7 @@ void expectNoValidSampleReadsAsNodata(tks_sample sample, T nodata, bool holes) {
   for (tks_encode_options options : {lossless(), budget(400), within(2)}) {
     for (const uint32_t regions : {1u, 16u}) {
       options.regions = regions;
-      const Bytes bytes = encode(h, options);
+      const Bytes bytes = encodeHoled(h, options);
       for (const size_t n : {bytes.size() * 2 / 3, bytes.size()}) {
         Stream stream(Prefix(bytes).first(n));
         ASSERT_EQ(stream.status(), TKS_OK);
@@ -287,7 +287,7 @@ TEST(VoidStream, NoValidSampleReadsAsNodata) {
 
 TEST(VoidStream, SurfaceIsNaNWhereVoidsAre) {
   const Holed h = holed(VoidShape::kCoast, TKS_I16, 20, 30);
-  const Bytes bytes = encode(h, lossless());
+  const Bytes bytes = encodeHoled(h, lossless());
   Stream stream(bytes);
   std::vector<float> surface(h.valid.size());
   ASSERT_EQ(tks_decode_surface(stream.get(), surface.data(), surface.size()), TKS_OK);
@@ -298,7 +298,7 @@ TEST(VoidStream, DeclaredNodataThatNoSampleHasStaysDeclared) {
   Holed h = holed(VoidShape::kOneVoid, TKS_I16, 9, 9);
   h.nodata = 12345.5;
   h.valid.assign(h.valid.size(), 1);
-  const Bytes bytes = encode(h, lossless());
+  const Bytes bytes = encodeHoled(h, lossless());
   Stream stream(bytes);
   EXPECT_FALSE(stream.info().has_voids);
   EXPECT_TRUE(stream.info().has_nodata);
@@ -310,7 +310,7 @@ class VoidMesh : public ::testing::TestWithParam<VoidShape> {};
 
 TEST_P(VoidMesh, StaysOffVoids) {
   const Holed h = holed(GetParam(), TKS_I16, 70, 45);
-  const Bytes bytes = encode(h, budget(3000));
+  const Bytes bytes = encodeHoled(h, budget(3000));
   Stream stream(bytes);
   const auto valid = decodedValidity(stream);
   for (const uint32_t triangles : {0u, 30u, 200u, 1500u}) {
@@ -335,7 +335,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, VoidMesh, ::testing::ValuesIn(kVoidShapes),
 /// The full mesh has every triangle whose corners are all valid, the budget mesh most of the land.
 TEST(VoidMeshes, CoastIsNotEaten) {
   const Holed h = holed(VoidShape::kCoast, TKS_I16, 129, 129);
-  const Bytes bytes = encode(h, lossless());
+  const Bytes bytes = encodeHoled(h, lossless());
   Stream stream(bytes);
   const auto areaOf = [&](uint32_t triangles) {
     tks_mesh mesh = {};

@@ -12,16 +12,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kWest = 7.31, kSouth = 46.2, kStep = 0.001;
-constexpr uint32_t kSide = 70;
+constexpr double kWest = 7.31, kSouth = 46.2, kPhotoStep = 0.001;
+constexpr uint32_t kPhotoSide = 70;
 constexpr double kMargin = 0.013;  ///< of the texture around the heights
-constexpr uint32_t kTexels = 384;
-constexpr double kTexel = (kSide * kStep + 2 * kMargin) / kTexels;
+constexpr uint32_t kPhotoTexels = 384;
+constexpr double kTexel = (kPhotoSide * kPhotoStep + 2 * kMargin) / kPhotoTexels;
 
 /// Red grows to the east, green to the north.
 std::array<double, 2> colourAt(double longitude, double latitude) {
-  return {(longitude - kWest + kMargin) / (kTexels * kTexel) * 240 + 8,
-          (latitude - kSouth + kMargin) / (kTexels * kTexel) * 240 + 8};
+  return {(longitude - kWest + kMargin) / (kPhotoTexels * kTexel) * 240 + 8,
+          (latitude - kSouth + kMargin) / (kPhotoTexels * kTexel) * 240 + 8};
 }
 
 using Point = std::array<double, 3>;
@@ -41,25 +41,27 @@ class CliTileTexture : public CliTest {
   void SetUp() override {
     CliTest::SetUp();
     tools::HeightFile heights;
-    heights.width = heights.height = kSide;
+    heights.width = heights.height = kPhotoSide;
     heights.sample = TKS_U8;
-    heights.data.resize(kSide * kSide);
+    heights.data.resize(kPhotoSide * kPhotoSide);
     for (size_t i = 0; i < heights.data.size(); ++i)
       heights.data[i] = static_cast<std::byte>(i * i / 997 % 13);
     heights.crs = "EPSG:4326";
     heights.unit = "m";
-    heights.geotransform = tools::GeoTransform{kWest, kStep, 0, kSouth + kSide * kStep, 0, -kStep};
+    heights.geotransform =
+        tools::GeoTransform{kWest, kPhotoStep, 0, kSouth + kPhotoSide * kPhotoStep, 0, -kPhotoStep};
     ASSERT_TRUE(tools::writeHeights(path("h.tif"), heights).ok());
   }
 
   /// channels: 3, or 4 with an alpha that is 0 over the eastern half.
   void encode(uint32_t channels) {
-    tools::ImageFile texture{kTexels, kTexels, channels, TKS_U8, {}};
-    const double north = kSouth + kSide * kStep + kMargin;
-    for (uint32_t i = 0; i < kTexels * kTexels; ++i) {
-      const auto [red, green] = colourAt(kWest - kMargin + (i % kTexels + 0.5) * kTexel,
-                                         north - (i / kTexels + 0.5) * kTexel);
-      for (const double value : {red, green, 90.0, i % kTexels < kTexels / 2 ? 255.0 : 0.0})
+    tools::ImageFile texture{kPhotoTexels, kPhotoTexels, channels, TKS_U8, {}};
+    const double north = kSouth + kPhotoSide * kPhotoStep + kMargin;
+    for (uint32_t i = 0; i < kPhotoTexels * kPhotoTexels; ++i) {
+      const auto [red, green] = colourAt(kWest - kMargin + (i % kPhotoTexels + 0.5) * kTexel,
+                                         north - (i / kPhotoTexels + 0.5) * kTexel);
+      for (const double value :
+           {red, green, 90.0, i % kPhotoTexels < kPhotoTexels / 2 ? 255.0 : 0.0})
         texture.data.push_back(static_cast<std::byte>(std::lround(value)));
       if (channels == 3) texture.data.pop_back();
     }

@@ -89,10 +89,10 @@ inline void expectAgreementOnLayers(const tks_heights& heights, const tks_encode
 
 /// Floats with voids.
 inline Raster withCoast(Raster heights) {
-  constexpr uint32_t kNan = 0x7fc00000;
+  constexpr uint32_t kQuietNan = 0x7fc00000;
   const auto valid = samples::validity(samples::VoidShape::kCoast, heights.width, heights.height);
   for (size_t i = 0; i < valid.size(); ++i) {
-    if (!valid[i]) std::memcpy(heights.data.data() + 4 * i, &kNan, sizeof kNan);
+    if (!valid[i]) std::memcpy(heights.data.data() + 4 * i, &kQuietNan, sizeof kQuietNan);
   }
   return heights;
 }

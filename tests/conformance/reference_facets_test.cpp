@@ -21,7 +21,7 @@
 namespace tetrakis::test {
 namespace {
 
-constexpr Extent kPlane = {43, 31};
+constexpr Extent kFaceted = {43, 31};
 
 /// Floats that exceed every limit there is: of units, sums, forecasts, steps.
 std::vector<std::function<float(uint32_t x, uint32_t y, uint32_t random)>> extremeFloats() {
@@ -54,43 +54,43 @@ TEST(Reference, AgreesOnFacetsOfExtremeFloats) {
     const int f = static_cast<int>(trial % 9);
     std::vector<float> samples;
     DecodedHeights near;
-    near.geometry.width = kPlane.width;
-    near.geometry.height = kPlane.height;
+    near.geometry.width = kFaceted.width;
+    near.geometry.height = kFaceted.height;
     near.geometry.fraction_bits = f;
-    for (uint32_t i = 0; i < kPlane.samples(); ++i) {
-      samples.push_back(kind(i % kPlane.width, i / kPlane.width, random()));
+    for (uint32_t i = 0; i < kFaceted.samples(); ++i) {
+      samples.push_back(kind(i % kFaceted.width, i / kFaceted.width, random()));
       near.geometry.valid.push_back(trial % 3 > 0 || random() % 3 > 0);
       near.geometry.heights.push_back(static_cast<int32_t>(random()) >> (trial % 16));
     }
     GeometryHeader header;
-    header.width = kPlane.width;
-    header.height = kPlane.height;
+    header.width = kFaceted.width;
+    header.height = kFaceted.height;
     header.sample = TKS_F32;
     header.base = trial % 2 == 0 ? 3.25 : -1e30;
     header.step = std::array{0.125, 1e-40, 1e30, 77.}[trial % 4];
     tks_heights input = {};
     input.size = sizeof input;
     input.data = samples.data();
-    input.width = kPlane.width;
-    input.height = kPlane.height;
+    input.width = kFaceted.width;
+    input.height = kFaceted.height;
     input.sample = TKS_F32;
     input.scale = 1;
     const std::vector<int32_t> steps = wholeSteps(near.geometry);
     const std::vector<uint8_t> whole =
-        encodeFacets(input, {steps, kPlane, near.geometry.valid},
-                     {0, 0, kPlane.width, kPlane.height}, header, unit);
+        encodeFacets(input, {steps, kFaceted, near.geometry.valid},
+                     {0, 0, kFaceted.width, kFaceted.height}, header, unit);
     for (const size_t bytes : {whole.size(), whole.size() / 2, size_t{3}}) {
       const auto codeword = std::span(whole).first(std::min(bytes, whole.size()));
       const DecodedHeights restored = restoreFacets(near, header, unit, codeword);
-      std::vector<float> out(kPlane.samples());
+      std::vector<float> out(kFaceted.samples());
       GeometryLayers layers;
       layers.has_nodata = 1;
       layers.nodata = 1e9;  // which no sample has
       fromSteps(restored, header, layers, reinterpret_cast<std::byte*>(out.data()));
 
       reference::GeometryHeader stated;
-      stated.width = static_cast<int>(kPlane.width);
-      stated.height = static_cast<int>(kPlane.height);
+      stated.width = static_cast<int>(kFaceted.width);
+      stated.height = static_cast<int>(kFaceted.height);
       stated.sample = reference::kF32;
       stated.base = header.base;
       stated.step = header.step;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ namespace tetrakis::test {
 
 using Bytes = std::vector<uint8_t>;
 using Prefix = std::span<const uint8_t>;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline samples::Raster photograph() {
+  return samples::make({samples::Pattern::kRidges, 192, 160, 3, TKS_U8, 7});
+}
 
 inline tks_encode_options lossless() {
   tks_encode_options options = {};

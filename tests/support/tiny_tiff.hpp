@@ -30,7 +30,9 @@ class TinyTiff {
     kInkSet = 332,
     kExtraSamples = 338,
     kColorMap = 320,
-    kSampleFormat = 339
+    kSampleFormat = 339,
+    kGdalMetadata = 42112,
+    kGdalNodata = 42113
   };
 
   TinyTiff(uint32_t width, uint32_t height, uint16_t channels, uint16_t bits,

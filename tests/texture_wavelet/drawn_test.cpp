@@ -7,6 +7,7 @@
 #include <random>
 
 #include "bitstream/stream/fields.hpp"
+#include "tests/support/texel_errors.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
 #include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/texture_choice.hpp"
@@ -56,15 +57,6 @@ Texels noise(Size size, uint32_t channels, int colour_bits) {
   for (size_t i = 0; i < size_t{size.width} * size.height * channels; ++i)
     texels.samples.push_back(static_cast<uint16_t>((random() % (1u << colour_bits)) * 3));
   return texels;
-}
-
-double squaredError(const Texels& a, const Texels& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.samples.size(); ++i) {
-    const double difference = double{1} * a.samples[i] - b.samples[i];
-    sum += difference * difference;
-  }
-  return sum;
 }
 
 std::span<const uint8_t> prefixOf(const EncodedTexture& encoded, size_t bytes) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/texel_errors.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
@@ -27,12 +28,6 @@ Texels makeTexels(uint32_t width, uint32_t height, uint32_t channels, int bits, 
     }
   }
   return texels;
-}
-
-double squaredError(const Texels& a, const Texels& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.samples.size(); ++i) sum += std::pow(a.samples[i] - b.samples[i], 2);
-  return sum;
 }
 
 TEST(TextureTrack, IsLosslessAtItsEnd) {

@@ -14,8 +14,7 @@ using test::ScratchFolder;
 using test::TinyTiff;
 
 constexpr uint16_t kPixelScale = 33550, kTiepoint = 33922, kTransformation = 34264;
-constexpr uint16_t kGeoKeys = 34735, kGeoDoubles = 34736, kGeoAscii = 34737, kGdalMetadata = 42112,
-                   kGdalNodata = 42113;
+constexpr uint16_t kGeoKeys = 34735, kGeoDoubles = 34736, kGeoAscii = 34737;
 
 class GeoTiff : public ScratchFolder {
  protected:
@@ -156,13 +155,13 @@ TEST_F(GeoTiff, CitationsAndVerticalKeys) {
 }
 
 TEST_F(GeoTiff, GdalMetadata) {
-  tiff.ascii(kGdalMetadata,
+  tiff.ascii(TinyTiff::kGdalMetadata,
              "<GDALMetadata><Item name=\"STATISTICS_MEAN\" sample=\"0\">5</Item>"
              "<Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.25</Item>"
              "<Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item>"
              "<Item name=\"OFFSET\" sample=\"0\" role=\"offset\">-12</Item>"
              "<Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">metre</Item></GDALMetadata>");
-  tiff.ascii(kGdalNodata, " 8");
+  tiff.ascii(TinyTiff::kGdalNodata, " 8");
   const HeightFile heights = read();
   EXPECT_EQ(heights.scale, 0.25);
   EXPECT_EQ(heights.offset, -12);
@@ -284,18 +283,20 @@ TEST_F(GeoTiff, BrokenTagsCountAsMissing) {
   tiff.shorts(kGeoKeys, {1, 1, 0, 1, 4097, kGeoAscii, 65535, 65535});
   tiff.ascii(kGeoAscii, "x");
   expectPlain("text outside the text tag");
-  tiff.ascii(kGdalMetadata, "<GDALMetadata><Item sample=\"0\" role=\"scale\">0</Item><Item");
-  tiff.ascii(kGdalNodata, "none");
+  tiff.ascii(TinyTiff::kGdalMetadata,
+             "<GDALMetadata><Item sample=\"0\" role=\"scale\">0</Item><Item");
+  tiff.ascii(TinyTiff::kGdalNodata, "none");
   expectPlain("metadata that does not parse");
-  tiff.ascii(kGdalMetadata,
+  tiff.ascii(TinyTiff::kGdalMetadata,
              "<GDALMetadata><Item sample=\"0\" role=\"scale\">0</Item></GDALMetadata>");
   Notes told;
   EXPECT_EQ(readHeights(save("a.tif", tiff.bytes()), {}, &told)->scale, 1);
   ASSERT_FALSE(told.empty());
   EXPECT_NE(told[0].text.find("scale '0' is none"), std::string::npos) << told[0].text;
   EXPECT_EQ(told[0].option, "--scale");
-  tiff.ascii(kGdalMetadata, "<GDALMetadata><Item role=\"offset\">inf</Item></GDALMetadata>");
-  tiff.ascii(kGdalNodata, "");
+  tiff.ascii(TinyTiff::kGdalMetadata,
+             "<GDALMetadata><Item role=\"offset\">inf</Item></GDALMetadata>");
+  tiff.ascii(TinyTiff::kGdalNodata, "");
   expectPlain("metadata that is no number");
 }
 

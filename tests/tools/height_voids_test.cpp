@@ -17,7 +17,6 @@ namespace {
 using test::ScratchFolder;
 using test::TinyTiff;
 
-constexpr uint16_t kGdalNodata = 42113, kGdalMetadata = 42112;
 constexpr float kLowest = std::numeric_limits<float>::lowest();
 
 class HeightVoids : public ScratchFolder {
@@ -77,7 +76,7 @@ TEST_F(HeightVoids, FloatsThatGdalTakesForNodataBecomeIt) {
   TinyTiff tiff = tiffOf<float>({1, -3.40282306e+38F, kLowest, -1e30F, 0, -9999, -9998.9F});
   for (const char* text : {"-3.4028234663852886e+38", "-3.40282306e+38", "-3.4028235e+38",
                            "-3.40282347e+38", "-3.4028236e+38", "-3.40282e+38"}) {
-    tiff.ascii(kGdalNodata, text);
+    tiff.ascii(TinyTiff::kGdalNodata, text);
     const auto heights = read(tiff);
     ASSERT_TRUE(heights.ok() && heights->nodata) << text;
     const auto samples = samplesOf<float>(*heights);
@@ -91,7 +90,7 @@ TEST_F(HeightVoids, FloatsThatGdalTakesForNodataBecomeIt) {
   EXPECT_EQ(samplesOf<float>(*given)[5], static_cast<float>(-9999.0001));
   EXPECT_EQ(*given->nodata, double{static_cast<float>(-9999.0001)});
   EXPECT_EQ(samplesOf<float>(*given)[6], -9998.9F);
-  tiff.ascii(kGdalNodata, "-1.7976931348623157e+308");
+  tiff.ascii(TinyTiff::kGdalNodata, "-1.7976931348623157e+308");
   EXPECT_FALSE(read(tiff)->nodata);
 }
 
@@ -132,19 +131,19 @@ TEST_F(HeightVoids, NodataInWordsOfOldLibrariesIsNoNumber) {
   TinyTiff tiff = tiffOf<float>({1, -1, nan, 5});
   for (const char* text :
        {"nan", "-nan", "-1.#IND", "1.#QNAN", "1.#QNAN00", "-1.#IND00", "1.#SNAN"}) {
-    tiff.ascii(kGdalNodata, text);
+    tiff.ascii(TinyTiff::kGdalNodata, text);
     const auto heights = read(tiff);
     ASSERT_TRUE(heights.ok());
     ASSERT_TRUE(heights->nodata) << text;
     EXPECT_TRUE(std::isnan(*heights->nodata)) << text;
     EXPECT_TRUE(notes.empty()) << text;
   }
-  tiff.ascii(kGdalNodata, "-1.#INF");
+  tiff.ascii(TinyTiff::kGdalNodata, "-1.#INF");
   EXPECT_EQ(read(tiff)->nodata, -HUGE_VAL);
-  tiff.ascii(kGdalNodata, " -1 \n");
+  tiff.ascii(TinyTiff::kGdalNodata, " -1 \n");
   EXPECT_EQ(read(tiff)->nodata, -1);
   for (const char* text : {"-1 m", "1.#", "1,5", "none"}) {
-    tiff.ascii(kGdalNodata, text);
+    tiff.ascii(TinyTiff::kGdalNodata, text);
     EXPECT_FALSE(read(tiff)->nodata) << text;
     ASSERT_FALSE(notes.empty()) << text;
     EXPECT_NE(notes[0].text.find("--nodata"), std::string::npos) << text;
@@ -158,7 +157,7 @@ TEST_F(HeightVoids, SamplesFarFromNodataKeepTheirBits) {
   row[7] = -0.0F;
   for (const char* text : {"-9999", "0", "nan", "inf", "1e30"}) {
     TinyTiff tiff = tiffOf(row);
-    tiff.ascii(kGdalNodata, text);
+    tiff.ascii(TinyTiff::kGdalNodata, text);
     const auto heights = read(tiff);
     ASSERT_TRUE(heights.ok());
     EXPECT_EQ(std::memcmp(heights->data.data(), row.data(), row.size() * sizeof(float)), 0) << text;
@@ -169,7 +168,7 @@ TEST_F(HeightVoids, MasksBecomeTheDeclaredNodataValue) {
   for (const uint16_t bits : {uint16_t{1}, uint16_t{8}}) {
     TinyTiff tiff = tiffOf<int16_t>({5, 4, 3, 2, 1, 0, -1, -2, -3, -4, -5});
     tiff.addPage(maskOf(pattern(), 11, bits));
-    tiff.ascii(kGdalNodata, "-999");
+    tiff.ascii(TinyTiff::kGdalNodata, "-999");
     for (const std::optional<double> given : {std::optional<double>(), std::optional(-77.0)}) {
       const auto heights = read(tiff, given);
       ASSERT_TRUE(heights.ok()) << heights.status().message();
@@ -255,7 +254,7 @@ TEST_F(HeightVoids, IsolatedValuesAreNotedUnlessDeclared) {
     EXPECT_NE(notes[0].text.find(value + ": if"), std::string::npos) << notes[0].text;
     ASSERT_TRUE(read(tiff, std::numeric_limits<double>::quiet_NaN()).ok());
     EXPECT_TRUE(notes.empty());
-    tiff.ascii(kGdalNodata, value);
+    tiff.ascii(TinyTiff::kGdalNodata, value);
     ASSERT_TRUE(read(tiff).ok());
     EXPECT_TRUE(notes.empty());
   };
@@ -304,7 +303,7 @@ TEST_F(HeightVoids, NodataOfDoublesNeedNotBeAFloat) {
     TinyTiff tiff = tiffOf<double>({1, nodata, 3});
     char text[40];
     std::snprintf(text, sizeof text, "%.17g", nodata);
-    tiff.ascii(kGdalNodata, text);
+    tiff.ascii(TinyTiff::kGdalNodata, text);
     const auto heights = read(tiff);
     ASSERT_TRUE(heights.ok()) << heights.status().message();
     const float sample = samplesOf<float>(*heights)[1];
@@ -316,7 +315,7 @@ TEST_F(HeightVoids, NodataOfDoublesNeedNotBeAFloat) {
 TEST_F(HeightVoids, NodataThatNoSampleCanHaveIsNoted) {
   TinyTiff tiff = tiffOf<int16_t>({1, -9999, 3});
   for (const char* text : {"-9999.4", "70000", "nan", "-9999"}) {
-    tiff.ascii(kGdalNodata, text);
+    tiff.ascii(TinyTiff::kGdalNodata, text);
     ASSERT_TRUE(read(tiff).ok());
     if (std::string(text) == "-9999") {
       EXPECT_TRUE(notes.empty());
@@ -326,7 +325,7 @@ TEST_F(HeightVoids, NodataThatNoSampleCanHaveIsNoted) {
     EXPECT_EQ(notes[0].text, "no sample of its type can have the nodata value " +
                                  std::string(text) + ", which makes nothing void");
   }
-  tiff.ascii(kGdalNodata, "-9999");
+  tiff.ascii(TinyTiff::kGdalNodata, "-9999");
   ASSERT_TRUE(read(tiff, 0.5).ok());
   EXPECT_EQ(notes.size(), 1U) << "a slip of the pen";
   ASSERT_TRUE(read(tiff, std::numeric_limits<double>::quiet_NaN()).ok());
@@ -335,7 +334,7 @@ TEST_F(HeightVoids, NodataThatNoSampleCanHaveIsNoted) {
 
 TEST_F(HeightVoids, UnitsOfGdalGetOneName) {
   TinyTiff tiff = tiffOf<float>({1, 2});
-  tiff.ascii(kGdalMetadata,
+  tiff.ascii(TinyTiff::kGdalMetadata,
              "<GDALMetadata><Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">US survey foot"
              "</Item></GDALMetadata>");
   EXPECT_EQ(read(tiff)->unit, "us-ft");

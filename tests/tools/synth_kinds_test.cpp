@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "tests/support/synth_digest.hpp"
 #include "tools/synth/synth.hpp"
 
 namespace tetrakis::tools {
@@ -79,11 +80,6 @@ std::vector<std::pair<double, size_t>> areasOf(const std::vector<double>& metres
   return areas;
 }
 
-uint64_t digest(std::span<const std::byte> bytes, uint64_t h) {
-  for (const std::byte b : bytes) h = (h ^ static_cast<uint64_t>(b)) * 0x100000001b3u;
-  return h;
-}
-
 TEST(SynthKinds, MakeTheSameBytesEverywhere) {
   constexpr uint64_t kDigests[] = {0x4034d9316f42ecb5u, 0xe16895c828fac842u, 0x258a0ae1a04cdb93u,
                                    0xea646d0c221fbf14u, 0x45a49728f8f1c229u, 0x43987c57ef155ac7u,
@@ -93,8 +89,7 @@ TEST(SynthKinds, MakeTheSameBytesEverywhere) {
   static_assert(std::size(kDigests) == kSynthKinds.size());
   for (size_t kind = 0; kind < kSynthKinds.size(); ++kind) {
     const SynthTerrain t = synthesize({65, 7, static_cast<SynthKind>(kind)});
-    const uint64_t all =
-        digest(t.map.data, digest(t.texture.data, digest(t.heights.data, 0xcbf29ce484222325u)));
+    const uint64_t all = test::digest(t);
     EXPECT_EQ(all, kDigests[kind]) << kSynthKinds[kind] << std::hex << " 0x" << all;
   }
 }

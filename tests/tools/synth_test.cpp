@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "tests/support/synth_digest.hpp"
 #include "tools/synth/synth_drainage.hpp"
 #include "tools/synth/synth_parcels.hpp"
 
@@ -24,19 +25,9 @@ std::vector<uint16_t> samplesOf(const HeightFile& heights) {
   return samples;
 }
 
-/// FNV-1a, 64 bits.
-uint64_t digest(std::span<const std::byte> bytes, uint64_t h = 0xcbf29ce484222325u) {
-  for (const std::byte b : bytes) h = (h ^ static_cast<uint64_t>(b)) * 0x100000001b3u;
-  return h;
-}
-
-uint64_t digest(const SynthTerrain& terrain) {
-  return digest(terrain.map.data, digest(terrain.texture.data, digest(terrain.heights.data)));
-}
-
 TEST(Synth, MakesTheSameBytesEverywhere) {
-  EXPECT_EQ(digest(synthesize({65, 7})), 0x4034d9316f42ecb5u);
-  EXPECT_EQ(digest(synthesize({150, 1})), 0xb7f0748379c5bd7du);
+  EXPECT_EQ(test::digest(synthesize({65, 7})), 0x4034d9316f42ecb5u);
+  EXPECT_EQ(test::digest(synthesize({150, 1})), 0xb7f0748379c5bd7du);
 }
 
 TEST(Synth, HasTheStatedShape) {
@@ -74,7 +65,7 @@ TEST(Synth, MapsHaveFewColours) {
 TEST(Synth, SeedsDiffer) {
   std::vector<uint64_t> digests;
   for (const uint64_t seed : {uint64_t{0}, uint64_t{1}, uint64_t{2}, ~uint64_t{0}})
-    digests.push_back(digest(synthesize({33, seed})));
+    digests.push_back(test::digest(synthesize({33, seed})));
   std::sort(digests.begin(), digests.end());
   EXPECT_TRUE(std::unique(digests.begin(), digests.end()) == digests.end());
 }

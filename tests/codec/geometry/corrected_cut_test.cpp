@@ -14,7 +14,7 @@
 namespace tetrakis::test {
 namespace {
 
-constexpr Extent kExtent = {120, 90};
+constexpr Extent kRough = {120, 90};
 
 /// Noisy waves, and their coefficients.
 class CorrectedCuts : public testing::Test {
@@ -22,14 +22,14 @@ class CorrectedCuts : public testing::Test {
   void SetUp() override {
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0, 6);
-    for (uint32_t y = 0; y < kExtent.height; ++y)
-      for (uint32_t x = 0; x < kExtent.width; ++x)
+    for (uint32_t y = 0; y < kRough.height; ++y)
+      for (uint32_t x = 0; x < kRough.width; ++x)
         steps_.steps.push_back(
             static_cast<int32_t>(400 * std::sin(0.05 * x) * std::cos(0.07 * y) + noise(random)));
     steps_.range_bits = 10;
-    const PlaneView<const int32_t> plane(steps_.steps, kExtent);
-    header_.width = kExtent.width;
-    header_.height = kExtent.height;
+    const PlaneView<const int32_t> plane(steps_.steps, kRough);
+    header_.width = kRough.width;
+    header_.height = kRough.height;
     header_.wavelet = chooseWavelet(plane, steps_.range_bits, Purpose::kLossy);
     track_ = encodeCoefficients(plane, header_.wavelet, {}).front();
     header_.planes = static_cast<uint8_t>(track_.planes);

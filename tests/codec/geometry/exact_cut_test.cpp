@@ -16,7 +16,7 @@
 namespace tetrakis::test {
 namespace {
 
-constexpr Extent kExtent = {300, 280};
+constexpr Extent kCopied = {300, 280};
 constexpr int kRangeBits = 12;
 
 using Surface = std::function<double(double x, double y)>;
@@ -36,15 +36,15 @@ struct Grid {
 
   explicit Grid(const Surface& surface) {
     steps.range_bits = kRangeBits;
-    for (uint32_t y = 0; y < kExtent.height; ++y)
-      for (uint32_t x = 0; x < kExtent.width; ++x)
+    for (uint32_t y = 0; y < kCopied.height; ++y)
+      for (uint32_t x = 0; x < kCopied.width; ++x)
         steps.steps.push_back(static_cast<int32_t>(std::lround(surface(x, y))));
   }
-  PlaneView<const int32_t> plane() const { return {steps.steps, kExtent}; }
+  PlaneView<const int32_t> plane() const { return {steps.steps, kCopied}; }
 
   EncodedTrack coded(Purpose purpose, GeometryHeader& header) const {
-    header.width = kExtent.width;
-    header.height = kExtent.height;
+    header.width = kCopied.width;
+    header.height = kCopied.height;
     header.wavelet = chooseWavelet(plane(), kRangeBits, purpose);
     EncodedTrack track = encodeCoefficients(plane(), header.wavelet, {}).front();
     header.planes = static_cast<uint8_t>(track.planes);

@@ -18,7 +18,8 @@ using samples::kVoidShapes;
 using samples::validity;
 using samples::VoidShape;
 
-constexpr Size kSizes[] = {{1, 1}, {1, 9}, {9, 1}, {2, 2}, {5, 3}, {40, 23}, {64, 65}, {2, 300}};
+constexpr Size kMaskSizes[] = {{1, 1}, {1, 9},   {9, 1},   {2, 2},
+                               {5, 3}, {40, 23}, {64, 65}, {2, 300}};
 
 /// Random heights, of which some are equal.
 FlatAreas areasOf(const std::vector<uint8_t>& flat, const Size& size, Random& random) {
@@ -42,7 +43,7 @@ TEST(FlatAreas, AreNumberedByTheirFirstSamples) {
 
 TEST(FlatAreas, ComeBackAndNoPrefixShowsOthers) {
   Random random(1);
-  for (const Size& size : kSizes) {
+  for (const Size& size : kMaskSizes) {
     for (const VoidShape shape : kVoidShapes) {
       for (const VoidShape voids : {VoidShape::kOneVoid, VoidShape::kSpeckle}) {
         const std::vector<uint8_t> valid = validity(voids, size.width, size.height);

@@ -21,8 +21,9 @@ using samples::kVoidShapes;
 using samples::validity;
 using samples::VoidShape;
 
-const std::vector<Size> kSizes = {{2, 2}, {2, 3},   {3, 2},   {2, 9},    {3, 17},    {5, 5},
-                                  {8, 8}, {17, 31}, {33, 65}, {3, 1000}, {300, 200}, {127, 64}};
+const std::vector<Size> kPlaneSizes = {{2, 2},   {2, 3},    {3, 2},     {2, 9},
+                                       {3, 17},  {5, 5},    {8, 8},     {17, 31},
+                                       {33, 65}, {3, 1000}, {300, 200}, {127, 64}};
 
 struct Coded {
   GeometryHeader header;
@@ -63,7 +64,7 @@ Plane waves(const Size& size, double amplitude) {
 
 TEST(GeometryTrack, IsLosslessAtItsEnd) {
   Random random(2);
-  for (const Size& size : kSizes) {
+  for (const Size& size : kPlaneSizes) {
     for (const int32_t bound : {1, 300, (1 << 26) - 1}) {
       const Plane heights = randomPlane(random, size.count(), -bound, bound - 1);
       for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {

@@ -67,13 +67,13 @@ void expectHolds(const SemilinearQuadtree& tree, const std::map<QuadtreePlace, f
 // The thesis names nodes 8 and 16, but prints the coordinates, (3, 1) and (3, 3), of nodes 12 and
 // 20: 8 lies at (1, 1), as in its example 4.2. The entries 4 and 6 are those of 12 and 20.
 TEST(ThesisExample, FourFourEntriesOfTheBorderTrees) {
-  constexpr QuadtreeShape kTree{3};
-  const Square east = kTree.squareOf(12), south = kTree.squareOf(20);
+  constexpr QuadtreeShape kOfThesis{3};
+  const Square east = kOfThesis.squareOf(12), south = kOfThesis.squareOf(20);
   EXPECT_EQ(east, (Square{2, 3, 1}));
   EXPECT_EQ(south, (Square{2, 3, 3}));
   EXPECT_EQ((1u << east.level) - 1 + east.row, 4u);       // (4.25)
   EXPECT_EQ((1u << south.level) - 1 + south.column, 6u);  // (4.26)
-  SemilinearQuadtree tree = emptyTree(kTree);
+  SemilinearQuadtree tree = emptyTree(kOfThesis);
   const QuadtreePlace in_c{2, QuadtreePlace::kEastBorder, kCentre, east.row};
   const QuadtreePlace in_b{2, QuadtreePlace::kSouthBorder, kCentre, south.column};
   tree.update({{in_c, 12.0f}, {in_b, 20.0f}}, {});

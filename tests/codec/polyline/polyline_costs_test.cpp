@@ -10,7 +10,7 @@
 namespace tetrakis::test {
 namespace {
 
-constexpr uint32_t kSizes[] = {17, 33, 65, 129, 257, 513, 1025, 2049};
+constexpr uint32_t kDyadicSizes[] = {17, 33, 65, 129, 257, 513, 1025, 2049};
 
 double total(const Polylines& polylines) {
   return static_cast<double>(polylines.operations.total());
@@ -25,7 +25,7 @@ double sortingCost(uint32_t knots) {
 /// Walks are what the means of the thesis are about: curves like terrain. Beside the leading term
 /// there are at most 1.5 m operations, those of (2.34) and (2.35).
 TEST(PolylineCosts, OfWalksAreThoseOfTable23) {
-  for (const uint32_t size : kSizes) {
+  for (const uint32_t size : kDyadicSizes) {
     constexpr uint32_t kWalks = 12;
     std::vector<double> operations(kAlgorithms.size(), 0);
     for (uint32_t seed = 1; seed <= kWalks; ++seed) {
@@ -43,7 +43,7 @@ TEST(PolylineCosts, OfWalksAreThoseOfTable23) {
 /// thesis; in the trees of a std::multiset it may take twice as many, which the algorithms of one
 /// m log m feel.
 TEST(PolylineCosts, OfAnyCurvesHaveTheirOrder) {
-  for (const uint32_t size : kSizes)
+  for (const uint32_t size : kDyadicSizes)
     for (const NamedCurve& named : namedCurves(size, size)) {
       const Curve curve(named.heights);
       for (const Algorithm& algorithm : kAlgorithms) {
@@ -57,7 +57,7 @@ TEST(PolylineCosts, OfAnyCurvesHaveTheirOrder) {
 
 /// (2.23) and the list. Straight lines, where every knot is as far as all others, are the worst.
 TEST(PolylineCosts, OfUrefineAreAtMostSquare) {
-  for (const uint32_t size : kSizes)
+  for (const uint32_t size : kDyadicSizes)
     for (const NamedCurve& named : namedCurves(size, size)) {
       const double m = size - 2;
       EXPECT_LE(total(urefine(Curve(named.heights))), m * m + m + 2 * sortingCost(size))
