@@ -209,7 +209,8 @@ CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
   constexpr double kBeforeEnd = 4;  // of squared error: the mask comes 6 dB before the target
-  layers.mask_room = {target.before_mask, kBeforeEnd * target.mean_square * quantised->counted()};
+  layers.mask_room = target.mask_room;
+  layers.mask_room.squares = kBeforeEnd * target.mean_square * quantised->counted();
   std::vector<EncodedTrack> coefficients =
       codeCoefficients(*quantised, layers.wavelet, layers.flat.beside(options));
   std::vector<Account> accounts = accountsOf(coefficients);

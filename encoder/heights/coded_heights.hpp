@@ -86,9 +86,9 @@ CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
 /// What coefficients are coded for.
 struct HeightTarget {
   Purpose purpose;
-  uint64_t bytes = UINT64_MAX;        ///< a budget for them and the opening
-  double mean_square = 0;             ///< > 0: the error that is wanted, in squared steps
-  uint64_t before_mask = UINT64_MAX;  ///< bytes of coefficients that may precede a late mask
+  uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
+  double mean_square = 0;       ///< > 0: the error that is wanted, in squared steps
+  MaskRoom mask_room = {};      ///< of a late mask, by the budget
 
   HeightTarget(Purpose of) : purpose(of) {}
 };

@@ -50,12 +50,17 @@ std::optional<uint64_t> roomBesideMask(uint64_t mask_bytes, uint64_t budget) {
   return room - mask_bytes;
 }
 
+uint64_t besideMaskAtLeast(uint64_t bytes) {
+  return bytes / 3;
+}
+
 MaskPlace placeOfMask(std::span<const EncodedTrack> coefficients, uint64_t bytes,
                       const MaskRoom& room) {
   constexpr double kLess = 0.9;  // than the last coefficients
   const OrderedTracks order =
       orderTracks({Component::kGeometry, coefficients, 0, 0}, TrackOrder::kSlopes);
-  const uint64_t most = std::min(bytes, room.bytes);
+  const uint64_t fair = besideMaskAtLeast(std::min(room.shared, order.points.back().bytes));
+  const uint64_t most = room.bytes < fair ? UINT64_MAX : std::min(bytes, room.bytes);
   size_t packets = 0;
   MaskPlace place;
   while (packets < order.packets.size() && order.points[packets + 1].bytes <= most &&

@@ -32,21 +32,27 @@ struct LateMask {
 LateMask lateMaskOf(const PlaneView<const uint8_t>& valid, Mask lifted, uint64_t first_bytes,
                     const BridgeTarget& target);
 
-/// What a budget leaves beside a mask of so many bytes; nothing: it has no room for the mask.
-std::optional<uint64_t> roomBesideMask(uint64_t mask_bytes, uint64_t budget);
-
 /// What has to lie behind a late mask, so that a stream holds it.
 struct MaskRoom {
   uint64_t bytes = UINT64_MAX;  ///< that coefficients before it may take at most
+  uint64_t shared = 0;          ///< bytes for both
   double squares = 0;           ///< squared error that they may come down to
 };
+
+/// What a budget leaves beside a mask of so many bytes; nothing: it has no room for the mask.
+std::optional<uint64_t> roomBesideMask(uint64_t mask_bytes, uint64_t budget);
+
+/// What coefficients are to have of bytes that they share with a mask. With less, few bytes more
+/// may hold the mask and next to nothing of the heights.
+uint64_t besideMaskAtLeast(uint64_t bytes);
 
 struct MaskPlace {
   uint64_t after = 0;  ///< bytes of the first track's coefficients
   double worth = 0;    ///< squared error while it is missing: as much a byte as coefficients there
 };
 
-/// Where a mask of so many bytes lies best. coefficients: of all tracks.
+/// Where a mask of so many bytes lies best: behind all coefficients if it would leave them too few
+/// of what both share, or of all there are. coefficients: of all tracks.
 MaskPlace placeOfMask(std::span<const EncodedTrack> coefficients, uint64_t bytes,
                       const MaskRoom& room);
 

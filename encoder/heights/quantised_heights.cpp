@@ -85,7 +85,8 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
     late = lateMaskOf({valid, extentOf(samples)}, lifted, validity.size(), target);
     return !late.none();
   };
-  if (target.bytes < UINT64_MAX && roomBesideMask(validity.size(), target.bytes))
+  if (target.bytes < UINT64_MAX &&
+      roomBesideMask(validity.size(), target.bytes).value_or(0) >= besideMaskAtLeast(target.bytes))
     target.bytes -= validity.size();
   steps = withBridgesFor(target, std::move(steps), extentOf(samples));
   GeometryLayers layers = layersOf(samples, validity.size());

@@ -27,13 +27,14 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
          error < heights.steps.step / (any_step ? 2 : 1);
 }
 
-/// Bytes of coefficients that may come before a late mask, so that the budget holds all of it.
-/// Where it has no room for that the mask may as well come behind it.
-uint64_t bytesBeforeMask(const EncodeInputs& inputs, const QuantisedHeights& heights) {
+/// What may come before a late mask, so that the budget holds all of it. Where it has no room for
+/// that the mask may as well come behind it.
+MaskRoom maskRoomOf(const EncodeInputs& inputs, const QuantisedHeights& heights) {
   constexpr uint64_t kShareBesideTexture = 8;
-  const std::optional<uint64_t> room = roomBesideMask(heights.late.bytes(), inputs.options.bytes);
-  if (!room) return UINT64_MAX;
-  return inputs.image == nullptr ? *room : *room / kShareBesideTexture;
+  const uint64_t budget = inputs.options.bytes,
+                 share = inputs.image == nullptr ? 1 : kShareBesideTexture;
+  const std::optional<uint64_t> room = roomBesideMask(heights.late.bytes(), budget);
+  return {room ? *room / share : 0, budget / share};
 }
 
 /// Codes the heights within the largest error, or exactly where that takes fewer bytes.
@@ -76,7 +77,7 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
   constexpr uint64_t kShareBesideTexture = 4;
   if (inputs.budgeted()) {
     target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
-    target.before_mask = bytesBeforeMask(inputs, *quantised);
+    target.mask_room = maskRoomOf(inputs, *quantised);
   }
   if (inputs.options.psnr > 0)
     return std::make_shared<const CodedHeights>(codeUntilReached(inputs, quantised, target));
