@@ -138,10 +138,11 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
   heights.width = static_cast<uint32_t>(raster->shape.width);
   heights.height = static_cast<uint32_t>(raster->shape.height);
   heights.sample = *sample;
-  if (raster->is_tiff()) {
-    const Status tags = readGeoTags(raster->file.path(), heights, notes);
+  if (const std::string tagged = raster->tagged(); !tagged.empty()) {
+    const Status tags = readGeoTags(tagged, heights, notes);
     if (!tags.ok()) return tags;
   }
+  if (raster->unread_place) notes.push_back({"its place in GML is not read", ""});
   takePam(path, heights);
   if (nodata) heights.nodata = nodata;
   const bool none = nodata && std::isnan(*nodata);  // says that all samples are heights

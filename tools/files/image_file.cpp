@@ -75,6 +75,7 @@ std::string noteOn(const Raster& raster, bool widened, Masked masked) {
   if (masked == Masked::kAsAlpha) add("mask kept as alpha");
   if (masked == Masked::kBesideAlpha) add("mask not applied and not kept beside its last channel");
   if (raster.further_pages) add("further pages left out");
+  if (raster.unread_place) add("place in GML not read");
   return note.empty() ? note : raster.name + ": " + note;
 }
 
@@ -110,8 +111,8 @@ ImageFile turnedUpright(const ImageFile& stored, int orientation) {
 /// Of the pixels as they are stored. Tags and what GDAL keeps go before a world file beside.
 Result<Georeference> placeOf(const Raster& raster, const std::string& path, Notes& notes) {
   Georeference place;
-  if (raster.is_tiff()) {
-    auto tags = readGeoreference(raster.file.path(), notes);
+  if (const std::string tagged = raster.tagged(); !tagged.empty()) {
+    auto tags = readGeoreference(tagged, notes);
     if (!tags.ok()) return tags;
     place = std::move(*tags);
   }

@@ -33,11 +33,15 @@ struct Raster {
   bool unnamed_alpha = false;  ///< the last of two or four channels, not said to be alpha
   bool sparse = false;         ///< parts of a TIFF are missing, which reading leaves at 0
   bool profile = false;        ///< an ICC profile that is not applied
+  Temporary geo_box{};         ///< JPEG 2000: a TIFF with the tags of a GeoTIFF
+  bool unread_place = false;   ///< JPEG 2000: a place in GML, or tags that are damaged
   int orientation = 1;         ///< as TIFF counts; not applied by reading
   /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
   enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
   std::vector<std::byte> decoded{};  ///< samples of a PNG or of a PNM of 16 bits
   bool is_tiff() const { return reader && reader->format() == "tiff"; }
+  /// Of a TIFF with tags that may tell the place; "": there is none.
+  std::string tagged() const { return is_tiff() ? file.path() : geo_box.path().string(); }
 };
 
 /// Opens the file (or standard input for "-") by its content, whatever it is called.

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "tools/files/pictures/exif.hpp"
+#include "tools/files/pictures/geo_box.hpp"
 #include "tools/files/pictures/jpeg.hpp"
 #include "tools/files/pictures/pnm.hpp"
 #include "tools/files/pictures/tiff.hpp"
@@ -53,6 +55,21 @@ Status noteJpeg(Raster& raster) {
   return checkJpeg(*bytes, raster.name);
 }
 
+/// Tags that no TIFF reader opens are none.
+Status keepGeoBox(std::span<const std::byte> bytes, Raster& raster) {
+  const GeoBox box = geoBoxOf(bytes);
+  raster.unread_place = box.gml || !box.tiff.empty();
+  if (box.tiff.empty()) return {};
+  auto file = Temporary::makeFile();
+  if (!file.ok()) return file.status();
+  const Status written = writeBytes(file->path(), box.tiff);
+  if (!written.ok()) return written;
+  if (!TiffFile::open(file->path(), "r").ok()) return {};
+  raster.geo_box = std::move(*file);
+  raster.unread_place = false;
+  return {};
+}
+
 /// OpenImageIO hands signed samples over shifted, and others than 8 and 16 bits rescaled. SIZ
 /// marker segment (ITU-T T.800, A.5.1): 38 bytes behind its length, for each component bits - 1,
 /// and 128 if signed.
@@ -72,7 +89,7 @@ Status noteJpeg2000(Raster& raster) {
                            "convert it to TIFF"};
   }
   raster.stored_bits = static_cast<int>(depth) + 1;
-  return {};
+  return keepGeoBox(*bytes, raster);
 }
 
 /// Greymaps say which value is white, and OpenImageIO stretches the others to that.
