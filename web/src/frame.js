@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
+import {groundScale} from './ground.js';
 
 /** Mip level at which neither side has more than `most` samples. */
 function levelFor(width, height, most, coarsest) {
@@ -29,17 +30,6 @@ function normalsOf(mesh, width, level, surface, scale) {
     normals.set([nx / length, 1 / length, nz / length], 3 * i);
   });
   return normals;
-}
-
-const METRES = {ft: 0.3048, foot: 0.3048, feet: 0.3048, 'us-ft': 1200 / 3937};
-
-/** Metres of one unit of height, of one column and of one row; where nothing is stated, 1. */
-export function groundScale(info) {
-  return {
-    height: METRES[info.unit.toLowerCase()] ?? 1,
-    x: info.spacingX > 0 ? info.spacingX : 1,
-    y: info.spacingY > 0 ? info.spacingY : info.spacingX > 0 ? info.spacingX : 1,
-  };
 }
 
 /** Enough for shading, in the time of a first picture. */

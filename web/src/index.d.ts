@@ -186,5 +186,8 @@ export function open(
   input: string | URL | ArrayBuffer | ArrayBufferView | Blob, options?: OpenOptions,
 ): Promise<Terrain>;
 
-/** Metres of one unit of height, of one column and of one row; where nothing is stated, 1. */
+/**
+ * Metres of one unit of height, of one column and of one row: as the stream states them, or as its
+ * place tells, of degrees in the middle of the ground; where nothing is known, 1.
+ */
 export function groundScale(info: TerrainInfo): {height: number; x: number; y: number};

@@ -3,7 +3,7 @@
 import {abortable, stoppedBy} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
-import {groundScale} from './frame.js';
+import {groundScale} from './ground.js';
 import {checkBytes, checkSides, trianglesOf} from './limits.js';
 import {FIRST_BYTES, FIRST_FRAME, Flow, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';

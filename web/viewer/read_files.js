@@ -2,9 +2,8 @@
 // Heights and images as the viewer's users have them, as encode() takes them: GeoTIFFs by geotiff.js,
 // other images by the browser. Loaded when the first such file is opened.
 import {fromArrayBuffer} from 'geotiff';
+import {metresPerDegree} from '../src/ground.js';
 
-/** WGS 84: half the longer axis in metres, and the square of the eccentricity. */
-const AXIS = 6378137, ECCENTRICITY = 0.00669437999014;
 /** EPSG codes of units of length, in metres. */
 const UNITS = {9001: ['m', 1], 9002: ['ft', 0.3048], 9003: ['us-ft', 1200 / 3937]};
 const UNIT_NAMES = {metre: 'm', meter: 'm', metres: 'm', foot: 'ft', feet: 'ft'};
@@ -42,10 +41,7 @@ function spacingOf(t, keys, height) {
   if (!t) return 0;
   let east = UNITS[keys.ProjLinearUnitsGeoKey ?? 9001]?.[1], north = east;
   if (keys.GTModelTypeGeoKey === 2) {
-    const latitude = ((t[3] + (height / 2) * t[5]) * Math.PI) / 180;
-    const bend = 1 - ECCENTRICITY * Math.sin(latitude) ** 2;
-    east = (AXIS * Math.cos(latitude) * Math.PI) / 180 / Math.sqrt(bend);
-    north = (AXIS * (1 - ECCENTRICITY) * Math.PI) / 180 / bend ** 1.5;
+    [east, north] = metresPerDegree(t[3] + (height / 2) * t[5]);
   } else if (keys.GTModelTypeGeoKey !== 1) return 0;
   const x = Math.hypot(t[1] * east, t[4] * north), y = Math.hypot(t[2] * east, t[5] * north);
   return x > 0 && y > 0 && isFinite(x) && isFinite(y) ? [x, y] : 0;

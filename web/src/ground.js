@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Metres on the ground: as a stream states them, or as its place tells. Encoders that know no CRS
+// state a place alone.
+const METRES = {ft: 0.3048, foot: 0.3048, feet: 0.3048, 'us-ft': 1200 / 3937};
+/** Of WGS 84: half of its long axis, and the square of its eccentricity. */
+const AXIS = 6378137, ECCENTRICITY = 0.00669437999014;
+const RADIANS = Math.PI / 180;
+
+/** EPSG numbers geographic CRSs from 4000 to 4999; WKT says GEOGCRS, GEODCRS or GEOGCS. */
+const isInDegrees = (crs) =>
+  /^EPSG:4\d{3}(\D|$)/i.test(crs) || /^(COMP\w+\["[^"]*",\s*)?GEO[DG]/i.test(crs);
+
+/** Of a degree to the east and to the north: radii of curvature times a degree; 0: no latitude. */
+export function metresPerDegree(latitude) {
+  if (!(Math.abs(latitude) < 90)) return [0, 0];
+  const bend = 1 - ECCENTRICITY * Math.sin(latitude * RADIANS) ** 2;
+  return [
+    (AXIS * RADIANS * Math.cos(latitude * RADIANS)) / Math.sqrt(bend),
+    (AXIS * RADIANS * (1 - ECCENTRICITY)) / bend ** 1.5,
+  ];
+}
+
+/**
+ * Metres between columns and between rows, of degrees in the middle; other coordinates count as
+ * metres. Nothing if there is no place, no CRS, or no distance.
+ */
+function placedSpacing({hasGeotransform, geotransform, crs, width, height}) {
+  if (!hasGeotransform || !crs) return null;
+  const [, a, b, north, c, d] = geotransform;
+  const [east, up] =
+    isInDegrees(crs) ? metresPerDegree(north + (width * c + height * d) / 2) : [1, 1];
+  const spacing = [Math.hypot(a * east, c * up), Math.hypot(b * east, d * up)];
+  return spacing.every((metres) => metres > 0 && Number.isFinite(metres)) ? spacing : null;
+}
+
+/** Metres of one unit of height, of one column and of one row; where nothing is known, 1. */
+export function groundScale(info) {
+  const stated = info.spacingX > 0 && [info.spacingX, info.spacingY || info.spacingX];
+  const [x, y] = stated || placedSpacing(info) || [1, 1];
+  return {height: METRES[info.unit.toLowerCase()] ?? 1, x, y};
+}

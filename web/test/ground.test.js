@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Metres on the ground, of streams that state a place alone.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import {encode} from '../src/encode.js';
+import {groundScale, open} from '../src/index.js';
+import {terrainOf} from './terrain.js';
+
+async function scaleOf(change) {
+  const {heights} = terrainOf(33);
+  const terrain = await open(await encode({heights: {...heights, spacing: 0, ...change}}));
+  const scale = groundScale(terrain.info);
+  terrain.dispose();
+  return scale;
+}
+
+const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-3 * b, `${a} beside ${b}`);
+
+test('what is stated counts, whatever the place says', async () => {
+  const {x, y} = await scaleOf({spacing: [30, 20]});
+  assert.deepEqual([x, y], [30, 20]);
+});
+
+test('a place in metres tells the spacing, turned or not', async () => {
+  const place = {crs: 'EPSG:2056', geotransform: [2600000, 25, 0, 1200000, 0, -20]};
+  const straight = await scaleOf(place);
+  assert.deepEqual([straight.x, straight.y], [25, 20]);
+  const turned = await scaleOf({...place, geotransform: [2600000, 3, 8, 1200000, 4, -6]});
+  assert.deepEqual([turned.x, turned.y], [5, 10]);
+});
+
+test('degrees are as long as in the middle of the ground', async () => {
+  const geotransform = [7, 0.001, 0, 60.0165, 0, -0.001];  // the middle lies at 60 degrees north
+  const wkt = 'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],' +
+    'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]';
+  for (const crs of ['EPSG:4326', 'EPSG:4326+5773', wkt]) {
+    const {x, y} = await scaleOf({crs, geotransform});
+    near(x, 55.8), near(y, 111.412);
+  }
+});
+
+test('without a CRS, an area or a latitude, nothing is known', async () => {
+  for (const place of [
+    {crs: '', geotransform: [0, 25, 0, 0, 0, -25]}, {crs: 'EPSG:2056', geotransform: undefined},
+    {crs: 'EPSG:2056', geotransform: [0, 0, 0, 0, 0, 0]},
+    {crs: 'EPSG:4326', geotransform: [0, 1e-3, 0, 91, 0, -1e-3]},
+  ]) {
+    const {x, y} = await scaleOf(place);
+    assert.deepEqual([x, y], [1, 1]);
+  }
+});
