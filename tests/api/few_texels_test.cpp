@@ -44,6 +44,23 @@ TEST(FewTexels, TakeLittleMoreThanTheirPlaces) {
   }
 }
 
+/// As a saturated texel of a sensor of ten bits, whose samples are kept in the high ones of 16.
+TEST(FewTexels, OneFarAboveAllOthersCostsNothing) {
+  Raster image = ridges(160, 150, 1);
+  image.sample = TKS_U16;
+  std::vector<std::byte> samples(2 * image.data.size());
+  for (size_t i = 0; i < image.data.size(); ++i) {
+    const auto sample = static_cast<uint16_t>(std::to_integer<int>(image.data[i]) * 4);
+    std::memcpy(&samples[2 * i], &sample, sizeof sample);
+  }
+  image.data = samples;
+  const size_t usual = encode(nullptr, &image, lossless()).size();
+  std::fill_n(image.data.begin() + 24000, 2, std::byte{0xff});
+  const Bytes stream = encode(nullptr, &image, lossless());
+  EXPECT_TRUE(Stream(stream).texture() == image.data);
+  EXPECT_LT(stream.size(), usual + usual / 50);
+}
+
 /// Channels of any kind, awkward sizes, masks, overlays: they come back, whatever is chosen.
 TEST(FewTexels, ComeBackInAnyShape) {
   for (uint32_t channels = 1; channels <= 4; ++channels) {

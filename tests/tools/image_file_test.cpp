@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images on disk: lossless formats are exact, conversions are told, the rest is refused.
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <span>
 #include <tuple>
 
 #include "conformance/samples/header_seal.hpp"
+#include "tests/support/same_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
 #include "tools/files/file_bytes.hpp"
@@ -392,6 +395,30 @@ TEST_F(ImageFiles, SixteenBitsThatHoldEightAreTold) {
     ASSERT_TRUE(readImage(path("a.png"), &note).ok());
     EXPECT_EQ(note.find("16 bits say no more than 8") != std::string::npos, odd == 0) << note;
   }
+}
+
+/// What samples of 32 bits stand for is not scaled: 16 hold them all, or they are refused.
+TEST_F(ImageFiles, WideSamplesKeepTheirValues) {
+  TinyTiff tiff(2, 1, 1, 32, {0x0c, 0x04, 0, 0, 0xff, 0xff, 0, 0});
+  std::string note;
+  const auto image = readImage(save("a.tif", tiff.bytes()), &note);
+  ASSERT_TRUE(image.ok()) << image.status().message();
+  EXPECT_EQ(image->sample, TKS_U16);
+  const std::array<uint16_t, 2> values{0x040c, 0xffff};
+  EXPECT_TRUE(test::sameBytes(image->data, std::as_bytes(std::span(values))));
+  EXPECT_NE(note.find("32 bits"), std::string::npos);
+  TinyTiff wider(2, 1, 1, 32, {0x0c, 0x04, 0, 0, 0, 0, 1, 0});
+  const Status refused = readImage(save("b.tif", wider.bytes())).status();
+  EXPECT_EQ(refused.code(), TKS_USAGE);
+  EXPECT_NE(refused.message().find("65535"), std::string::npos) << refused.message();
+}
+
+TEST_F(ImageFiles, ColoursThatAreNoRgbAreRefused) {
+  TinyTiff tiff(2, 1, 3, 8, {50, 128, 128, 90, 128, 128});
+  tiff.shorts(TinyTiff::kPhotometric, {8});
+  const Status refused = readImage(save("a.tif", tiff.bytes())).status();
+  EXPECT_EQ(refused.code(), TKS_USAGE);
+  EXPECT_NE(refused.message().find("L*a*b*"), std::string::npos) << refused.message();
 }
 
 TEST_F(ImageFiles, FewBitsAreWidenedToFullRange) {

@@ -28,12 +28,14 @@ struct Table {
   double squares = 1;  ///< FewValues::squares
 };
 
-/// Noise around a value spreads over as many places fewer as its gaps are wide.
+/// Noise around a value spreads over as many places fewer as its gaps are wide. Gaps count by their
+/// logarithms: one texel far above all others is no reason to think that all are far from each
+/// other.
 Table tableOf(const std::vector<uint32_t>& counts) {
   Table table;
   for (size_t v = 0; v < counts.size(); ++v)
     if (counts[v] > 0) table.values.push_back(static_cast<uint16_t>(v));
-  double weights = 0, saved = 0, squares = 0;
+  double weights = 0, saved = 0;
   for (size_t i = 0; i < table.values.size(); ++i) {
     for (const size_t above : {i, i + 1}) {
       if (above == 0 || above == table.values.size()) continue;
@@ -41,12 +43,11 @@ Table tableOf(const std::vector<uint32_t>& counts) {
       const double weight = counts[table.values[i]];
       weights += weight;
       saved += weight * std::log2(gap);
-      squares += weight * gap * gap;
     }
   }
   if (weights == 0) return table;
   table.saved = saved / weights;
-  table.squares = squares / weights;
+  table.squares = std::exp2(2 * table.saved);
   return table;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading texture images: 8 or 16 bits, 1 to 4 channels.
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "tools/files/file_bytes.hpp"
@@ -43,6 +45,31 @@ Result<tks_sample> sampleOf(const Raster& raster) {
   return Status(TKS_USAGE, raster.name + " holds samples of 64 bits: a texture is 8 or 16 bits");
 }
 
+/// Samples of 32 bits as 16, which have to hold them: what they stand for is not ours to scale.
+Result<std::vector<std::byte>> narrowed(const std::vector<std::byte>& wide,
+                                        const std::string& name) {
+  std::vector<std::byte> narrow(wide.size() / 2);
+  for (size_t i = 0; i < wide.size() / sizeof(uint32_t); ++i) {
+    uint32_t value = 0;
+    std::memcpy(&value, wide.data() + i * sizeof value, sizeof value);
+    if (value > UINT16_MAX) {
+      return Status(TKS_USAGE, name +
+                                   " holds values above 65535: a texture has 8 or 16 bits, which "
+                                   "gdal_translate -ot UInt16 -scale makes of them");
+    }
+    const auto sample = static_cast<uint16_t>(value);
+    std::memcpy(narrow.data() + i * sizeof sample, &sample, sizeof sample);
+  }
+  return narrow;
+}
+
+Result<std::vector<std::byte>> textureSamples(Raster& raster, tks_sample sample) {
+  if (raster.shape.sample != PictureSample::kU32)
+    return readSamples(raster, sample == TKS_U8 ? PictureSample::kU8 : PictureSample::kU16);
+  const auto wide = readSamples(raster, PictureSample::kU32);
+  return wide.ok() ? narrowed(*wide, raster.name) : wide.status();
+}
+
 /// Whether all samples are what 8 bits become as 16.
 bool isWidened(const ImageFile& image) {
   if (image.sample != TKS_U16) return false;
@@ -61,7 +88,7 @@ std::string noteOn(const Raster& raster, bool widened, Masked masked) {
   };
   if (raster.palette) add("palette converted to RGB");
   if (raster.cmyk) add("CMYK converted to RGB");
-  if (raster.shape.sample == PictureSample::kU32) add("32 bits reduced to 16");
+  if (raster.shape.sample == PictureSample::kU32) add("16 of its 32 bits hold all its values");
   if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
   if (raster.orientation != 1) add("turned upright as its orientation tag says");
   if (raster.profile) add("colour profile not applied and not kept");
@@ -147,7 +174,7 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
     return Status(TKS_IO, "cannot read " + raster->name + ": a part of its samples is missing");
   const auto sample = sampleOf(*raster);
   if (!sample.ok()) return sample.status();
-  auto data = readSamples(*raster, *sample == TKS_U8 ? PictureSample::kU8 : PictureSample::kU16);
+  auto data = textureSamples(*raster, *sample);
   if (!data.ok()) return data.status();
   ImageFile image{static_cast<uint32_t>(shape.width), static_cast<uint32_t>(shape.height),
                   static_cast<uint32_t>(shape.channels), *sample, std::move(*data)};

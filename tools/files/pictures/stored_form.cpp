@@ -19,6 +19,7 @@ namespace {
 
 Status noteTiff(Raster& raster) {
   constexpr const char* kPhotometric = "tiff:PhotometricInterpretation";
+  constexpr int kCieLab = 8, kIccLab = 9, kItuLab = 10;
   raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   const auto form = tiffForm(raster.file.path());
   if (!form.ok()) return form.status();
@@ -36,6 +37,10 @@ Status noteTiff(Raster& raster) {
       (raster.shape.sample != PictureSample::kU8 || raster.shape.channels > 1)) {
     return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
   }
+  // OpenImageIO hands these over as if they were RGB.
+  const int photometric = raster.reader->number(kPhotometric);
+  if (photometric == kCieLab || photometric == kIccLab || photometric == kItuLab)
+    return {TKS_USAGE, raster.name + " stores its colours as L*a*b*: convert it to RGB"};
   raster.further_pages = form->further_pages;
   raster.mask = form->mask;
   raster.nodata = form->nodata;
