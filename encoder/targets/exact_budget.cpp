@@ -135,7 +135,7 @@ std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
 }
 
 /// The texture likewise. Drawn and stored ones are lossless as they stand, but tables of values may
-/// take fewer bytes. Where losslessness leaves half of the budget, prefixes do not matter.
+/// take fewer bytes; where these leave half of the budget, prefixes do not matter.
 std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
                                              const TextureCandidate& lossy, uint64_t room) {
   if (!hasLosslessWay(*lossy.coded)) return lossy;
@@ -145,10 +145,8 @@ std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
   if (lossy.coded->header.direct() && lossy.bytes() <= whole.bytes()) return lossy;
   if (whole.bytes() >= room) return {};
   whole.curve = curveOfTexture(inputs, *whole.coded);
-  if (keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return whole;
-  if (!few) whole = codeLossless(inputs, *lossy.coded);
-  if (2 * whole.bytes() > inputs.options.bytes) return {};
-  if (!whole.curve) whole.curve = curveOfTexture(inputs, *whole.coded);
+  if (few && 2 * whole.bytes() <= inputs.options.bytes) return whole;
+  if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
   return whole;
 }
 

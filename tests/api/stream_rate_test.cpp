@@ -52,20 +52,6 @@ TEST(StreamRate, AmpleBudgetIsLossless) {
 }
 
 /// Each component takes its own way to the last bit, whatever the other one does.
-/// Smooth textures too, whose lossless streams have poor prefixes.
-TEST(StreamRate, TwiceTheLosslessBytesAreExact) {
-  Raster smooth = make({Pattern::kFlat, 120, 110, 3, TKS_U8});
-  for (size_t i = 0; i < smooth.data.size(); ++i) {
-    const double x = static_cast<double>(i / 3 % 120), y = static_cast<double>(i / 360);
-    const double wave = std::sin(x / 17 + static_cast<double>(i % 3)) * std::cos(y / 23);
-    smooth.data[i] = static_cast<std::byte>(std::lround(128 + 100 * wave));
-  }
-  const size_t everything = encode(nullptr, &smooth, lossless()).size();
-  const Bytes bytes = encode(nullptr, &smooth, budget(2 * everything + 100));
-  EXPECT_EQ(Stream(bytes).info().lossless, 1);
-  EXPECT_LE(bytes.size(), everything + everything / 50);
-}
-
 TEST(StreamRate, AmpleBudgetsOfBothTakeWhatEachTakes) {
   constexpr size_t kHeads = 1000;  // packets are shorter where two components take turns
   const Raster heights = make({Pattern::kRidges, 161, 140, 1, TKS_I16});
