@@ -10,6 +10,7 @@
 #include "texture_wavelet/colour/lossless_colour.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/texture_plan.hpp"
+#include "wavelet/choice/bridge_fill.hpp"
 
 namespace tetrakis::inline texture {
 
@@ -28,6 +29,15 @@ Planes channelsOf(const WaveletCoding& coding) {
   }
   for (size_t c = 0; c < channels.size(); ++c)
     if (!coding.few.tables[c].empty()) samplesToPlaces(coding.few.tables[c], channels[c]);
+  return channels;
+}
+
+/// Nobody sees colours where alpha is 0, so what takes few bytes is put there. The last channel is
+/// alpha.
+Planes withFreeColours(const TextureSource& source, Planes channels) {
+  const Extent extent = source.texels.extent();
+  for (size_t c = 0; c + 1 < channels.size(); ++c)
+    channels[c] = bridged({channels[c], extent, source.softly_seen}, {});
   return channels;
 }
 
@@ -109,7 +119,10 @@ WaveletHeader forWindows(const WaveletHeader& wavelet, const TextureOptions& opt
 ColourPlanes colourPlanesOf(const WaveletCoding& coding, Mask coded, uint64_t opening_bytes) {
   const Extent extent = coding.source.texels.extent();
   const TextureHeader* like = coding.like;
-  ChannelPlanes channels{extent, coded, withMeanColour(coded, channelsOf(coding))};
+  Planes all = channelsOf(coding);
+  if (coding.purpose == Purpose::kLossy && !coding.source.softly_seen.empty())
+    all = withFreeColours(coding.source, std::move(all));
+  ChannelPlanes channels{extent, coded, withMeanColour(coded, std::move(all))};
   TextureBridges bridges =
       like != nullptr
           ? textureBridges(extent, coded, like->bridge)

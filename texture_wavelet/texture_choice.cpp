@@ -68,7 +68,7 @@ Attempts attempt(const TextureSource& source, Purpose purpose, const TextureOpti
 
 bool overlayPays(const TextureSource& source, Purpose purpose, const TextureOptions& options,
                  const Attempts& attempts) {
-  const Mask seen = source.counted(purpose == Purpose::kLossy);
+  const Mask seen = source.counted(purpose);
   return attempts.overlaid && showsBetter(*attempts.overlaid, *attempts.plain, options,
                                           countedSamples(source.texels, seen));
 }
@@ -93,7 +93,7 @@ bool isMostlyPhotograph(const std::vector<uint8_t>& photograph) {
 }
 
 std::vector<uint8_t> photographOf(const TextureSource& source, Purpose purpose) {
-  return photographOf(source.texels, source.counted(purpose == Purpose::kLossy));
+  return photographOf(source.texels, source.coloured(purpose == Purpose::kLossy));
 }
 
 /// What a drawn texture is compared with.
@@ -245,7 +245,7 @@ EncodedTexture encodeReversibly(const TextureSource& source, TextureHeader lossy
   assert(!lossy.direct());
   std::vector<uint8_t> photograph;
   if (lossy.overlay_bytes > 0)
-    photograph = photographOf(source.texels, source.counted(lossy.hidden));
+    photograph = photographOf(source.texels, source.coloured(lossy.hidden));
   lossy.wavelet = withoutFraction(lossy.wavelet);
   return encodeByWavelet(source, Purpose::kLossless, options, photograph, &lossy);
 }

@@ -242,7 +242,7 @@ EncodedTexture encode(const WaveletCoding& coding) {
                                          std::move(colours.planes)),
                            colours.bridges.share * std::exp2(-2 * header.wavelet.fraction_bits),
                            worthOf(priorityMapOf(header.priorities, header.extent()))};
-  const uint64_t counted = countedSamples(source.texels, source.counted(header.hidden));
+  const uint64_t counted = countedSamples(source.texels, source.counted(purpose));
   encoded.tracks = encodePlanes(std::move(planes), untilReached(options, counted));
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   if (whole) header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, rounded_squares);

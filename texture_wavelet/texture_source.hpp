@@ -10,23 +10,31 @@
 
 #include "base/texels.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
+#include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline texture {
 
 struct TextureSource {
   /// Any image is a source.
-  TextureSource(Texels image) : texels(std::move(image)), cutout(cutoutOf(texels)) {}
+  TextureSource(Texels image)
+      : texels(std::move(image)), cutout(cutoutOf(texels)), softly_seen(softlySeen(texels)) {}
 
-  /// Marks the texels whose colours count in errors. hidden: colours that a cut-out does not show
-  /// are not coded.
-  Mask counted(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
+  /// Marks the texels that have colours. hidden: those that a cut-out does not show have none.
+  Mask coloured(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
+
+  /// Marks the texels whose colours count in errors: lossy ones are free where alpha is 0.
+  Mask counted(Purpose purpose) const {
+    if (purpose == Purpose::kLossless) return {};
+    return Mask(cutout.empty() ? softly_seen : cutout);
+  }
 
   /// Channels that are colour planes: all but the alpha of a cut-out.
   uint32_t colours() const { return texels.channels - (cutout.empty() ? 0 : 1); }
 
   Texels texels;
-  std::vector<uint8_t> cutout;  ///< cutoutOf(texels)
+  std::vector<uint8_t> cutout;       ///< cutoutOf(texels)
+  std::vector<uint8_t> softly_seen;  ///< softlySeen(texels)
 };
 
 struct TextureOptions {

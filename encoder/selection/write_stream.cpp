@@ -69,8 +69,8 @@ bool restoresEverything(const Selection& selection) {
   for (const Packet& packet : packets)
     exact[static_cast<size_t>(packet.component)] = packet.quality == 0;
   const bool restored = !heights || heights->restoresSamples();
-  const bool hidden = texture && texture->header.hidden;
-  return exact[0] && exact[1] && restored && !hidden;
+  const bool all_counts = !texture || texture->seen().all();
+  return exact[0] && exact[1] && restored && all_counts;
 }
 
 }  // namespace

@@ -36,8 +36,12 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image) {
   return std::make_shared<const TextureSource>(std::move(texels));
 }
 
+Mask CodedTexture::seen() const {
+  return source->counted(header.wavelet.fraction_bits > 0 ? Purpose::kLossy : Purpose::kLossless);
+}
+
 double CodedTexture::counted() const {
-  return static_cast<double>(countedSamples(source->texels, source->counted(header.hidden)));
+  return static_cast<double>(countedSamples(source->texels, seen()));
 }
 
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
@@ -79,8 +83,7 @@ double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t 
                  TextureMemory* memory) {
   assert(prefix.size() == texture.tracks.size());
   const Texels shown = decodeTexture(texture.header, prefix, {}, {threads, memory});
-  return countedSquares(texture.source->texels, shown,
-                        texture.source->counted(texture.header.hidden));
+  return countedSquares(texture.source->texels, shown, texture.seen());
 }
 
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix) {

@@ -24,6 +24,8 @@ struct CodedTexture {
 
   /// Bytes of the header that not every way to code it has.
   uint64_t inHeader() const { return header.tables.code.size(); }
+  /// The texels whose colours count in the error.
+  Mask seen() const;
   /// Samples that count in the error.
   double counted() const;
   /// Behind the opening there is one codeword, of coefficients.

@@ -121,7 +121,7 @@ typedef struct tks_heights {
  * the colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their
  * channels: exact in the complete stream, which is sent whole.) Unless the stream is lossless, the
  * colours of texels with alpha 0 are not kept (they come back as the mean of the others) and count
- * in no error.
+ * in no error. Nor are those of another alpha, which is coded as a channel; they come back as any.
  *
  * Georeference: as that of tks_heights. */
 typedef struct tks_image {

@@ -156,6 +156,60 @@ TEST(Cutout, OtherAlphasStayAComponent) {
   EXPECT_TRUE(sameBytes(stream.texture(), image.data));
 }
 
+/// One texel is half seen: alpha is a channel then. Colours where it is 0 are noise.
+Raster softlyCutOut(uint32_t seed = 1) {
+  Raster image = cutOutImage({90, 80, 4, TKS_U8}, VoidShape::kCoast);
+  for (size_t i = 0; i < image.data.size(); ++i) {
+    if (i % 4 < 3 && image.data[i - i % 4 + 3] == std::byte{0})
+      image.data[i] = static_cast<std::byte>(samples::hash(static_cast<uint32_t>(i), seed, 2));
+  }
+  image.data[3] = std::byte{200};
+  return image;
+}
+
+TEST(SoftAlpha, HiddenColoursCostNothingAndCountInNoError) {
+  const Raster image = softlyCutOut(1), other = softlyCutOut(2);
+  tks_encode_options to_quality = {};
+  to_quality.size = sizeof to_quality;
+  to_quality.psnr = 36;
+  for (const tks_encode_options& options : {budget(2500), to_quality}) {
+    const Bytes bytes = encode(nullptr, &image, options);
+    EXPECT_EQ(bytes, encode(nullptr, &other, options));
+    Stream stream(bytes);
+    EXPECT_EQ(stream.info().texture_cutout, 0);
+    EXPECT_EQ(stream.info().lossless, 0);
+    const double reached = 10 * std::log10(255 * 255 / meanSquare(image, stream.texture()));
+    if (options.psnr > 0) {
+      EXPECT_GE(reached, 36);
+      EXPECT_LT(reached, 40);
+    }
+    EXPECT_LE(stream.info().texture_psnr, reached + 0.1);
+    EXPECT_GE(stream.info().texture_psnr, reached - 4);  // what is free has errors as well
+  }
+}
+
+/// No stream is called lossless that has lost them.
+TEST(SoftAlpha, LosslessRestoresHiddenColours) {
+  const Raster image = softlyCutOut();
+  const Bytes whole = encode(nullptr, &image, lossless());
+  EXPECT_TRUE(sameBytes(Stream(whole).texture(), image.data));
+  for (const double part : {0.5, 0.9, 1., 1.2, 2., 4.}) {
+    const Bytes bytes = encode(
+        nullptr, &image, budget(static_cast<uint64_t>(part * static_cast<double>(whole.size()))));
+    Stream stream(bytes);
+    const bool restored = stream.texture() == image.data;
+    EXPECT_EQ(stream.info().lossless, restored ? 1 : 0) << part;
+    if (part >= 2) {
+      EXPECT_TRUE(restored) << part;
+    }
+  }
+  tks_encode_options finest = {};
+  finest.size = sizeof finest;
+  finest.psnr = 90;
+  Stream stream(encode(nullptr, &image, finest));
+  EXPECT_EQ(stream.info().lossless, stream.texture() == image.data ? 1 : 0);
+}
+
 TEST(Cutout, NothingSeenCostsNothing) {
   const Raster image = cutOutImage({60, 50, 4, TKS_U8}, VoidShape::kAll);
   const Bytes whole = encode(nullptr, &image, lossless());

@@ -209,7 +209,7 @@ TEST(Windows, OfTextures) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       Texels texels{size.width, size.height, channels, 8, {}};
       for (size_t i = 0; i < size.count() * channels; ++i)
-        texels.samples.push_back(static_cast<uint16_t>((i / 50 + random() % 40) % 256));
+        texels.samples.push_back(static_cast<uint16_t>(1 + (i / 50 + random() % 40) % 255));
       for (const Purpose purpose : {Purpose::kLossless, Purpose::kLossy}) {
         const EncodedTexture coded = encodeTexture(texels, purpose, {UINT64_MAX, 4, 3});
         Codewords codewords;

@@ -84,7 +84,7 @@ TEST(TextureBridges, AccountsTellTheErrorOfWhatIsSeen) {
       const std::span<const uint8_t> codeword = track.codeword;
       const Texels shown =
           decodeTexture(encoded.header, {codeword.first(static_cast<size_t>(point->bytes))});
-      const double squares = countedSquares(texels, shown, source.counted(true));
+      const double squares = countedSquares(texels, shown, source.coloured(true));
       EXPECT_NEAR(point->distortion / squares, 1, 0.25) << shape << ", reach " << int{reach};
     }
   }

@@ -23,6 +23,19 @@ std::vector<uint8_t> cutoutOf(const Texels& texels) {
   return seen;
 }
 
+std::vector<uint8_t> softlySeen(const Texels& texels) {
+  if (!texels.hasAlpha()) return {};
+  std::vector<uint8_t> seen(texels.extent().samples());
+  bool soft = false;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const uint16_t alpha = texels.samples[(i + 1) * texels.channels - 1];
+    seen[i] = alpha != 0;
+    soft = soft || (alpha != 0 && alpha != texels.most());
+  }
+  if (!soft || std::find(seen.begin(), seen.end(), 0) == seen.end()) return {};
+  return seen;
+}
+
 std::vector<std::vector<int32_t>> withMeanColour(Mask mask,
                                                  std::vector<std::vector<int32_t>> channels) {
   if (mask.all()) return channels;

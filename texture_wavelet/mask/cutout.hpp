@@ -14,6 +14,10 @@ namespace tetrakis::inline mask {
 /// 0; or nothing if alpha has any other value, or the largest one everywhere.
 std::vector<uint8_t> cutoutOf(const Texels& texels);
 
+/// Returns one byte for each texel, which is 0 where alpha is 0; or nothing if it is 0 nowhere, or
+/// if the image is a cut-out.
+std::vector<uint8_t> softlySeen(const Texels& texels);
+
 /// Gives texels that are not coded the mean colour of those that are, or 0 if there are none.
 /// channels: the colours.
 std::vector<std::vector<int32_t>> withMeanColour(Mask coded,

@@ -43,6 +43,12 @@ HeightErrors heightErrors(const Surface& reference, const Surface& test) {
   return errors;
 }
 
+/// Whether colours count only where alpha is not 0: streams are free to hold others there, unless
+/// they hold those of a cut-out.
+bool hidesColours(const ImageFile& reference, const tks_info& info) {
+  return reference.channels % 2 == 0 && !reference.opaque && info.texture_cutout != 1;
+}
+
 /// hidden: colours count where the reference's alpha is not 0.
 double imagePsnr(const ImageFile& reference, const ImageFile& test, bool hidden) {
   const uint32_t row = reference.width * reference.channels;
@@ -225,7 +231,7 @@ Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t 
   }
   if (reference_->image)
     result.texture_psnr =
-        imagePsnr(*reference_->image, *texture, decoder->info().texture_cutout == 2);
+        imagePsnr(*reference_->image, *texture, hidesColours(*reference_->image, decoder->info()));
   const ImageFile* const texels = texture ? &*texture : nullptr;
   Result<MeshFile> mesh = makes_mesh            ? measureMesh(*decoder, triangles, texels, result)
                           : reference_->heights ? measureSurface(*decoder, result)
