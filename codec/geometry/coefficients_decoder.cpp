@@ -110,7 +110,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   std::vector<int32_t> area_heights(known.flat.values.begin(), known.flat.values.end());
   const HeldSamples flat{known.flat.numbers, area_heights};
   const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.extent(), known.lifted.value_or(valid), flat,
+  const PlaneLayout layout(spec, Pyramid(header.extent(), known.lifted.value_or(valid), flat),
                            priorityMapOf(header.priorities, header.extent()),
                            context.memory ? context.memory->norms : std::nullopt);
   if (context.memory != nullptr) context.memory->norms = layout.norms();
