@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "codec/geometry/corrected_heights.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
+#include "codec/geometry/plane_corrections.hpp"
 #include "codec/geometry/shown_heights.hpp"
 #include "codec/geometry/stored_heights_decoder.hpp"
 #include "codec/geometry/taken_layers.hpp"
@@ -90,8 +90,7 @@ DecodedHeights decodeTaken(const TakenLayers& taken, const View& view,
   }
   DecodedHeights decoded = heightsOf(decodeSteps(taken, view, context), taken);
   if (view.level > 0 || !taken.isCorrected()) return decoded;
-  return corrected(std::move(decoded), header, taken.stated, taken.corrections, view,
-                   context.threads);
+  return corrected(std::move(decoded), taken, view, context.threads);
 }
 
 /// Decodes a view of the coded lines; a window is cut out of what decodedView() says.

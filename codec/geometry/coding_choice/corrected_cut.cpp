@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/corrected_heights.hpp"
+#include "codec/geometry/corrections/activity_hints.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/corrections/exact_corrections_encoder.hpp"
 
