@@ -3,18 +3,17 @@
 
 #include <cassert>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "encoder/heights/lines_to_code.hpp"
+#include "encoder/heights/height_lines.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
 #include "encoder/selection/selection.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/meet_target.hpp"
 #include "encoder/textures/coded_texture.hpp"
-#include "encoder/textures/texel_lines_to_code.hpp"
+#include "encoder/textures/texel_lines.hpp"
 #include "encoder/views/camera_checks.hpp"
 #include "encoder/views/map_worth.hpp"
 #include "encoder/views/view_priorities.hpp"
@@ -97,14 +96,11 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   assert(given.heights != nullptr || given.image != nullptr);
   if (Status status = reportProgress(given.options, 0); !status.ok()) return status;
   if (Status status = checkCameras(given); !status.ok()) return status;
-  const CodedLines lines = linesToCode(given);
-  std::optional<tks_heights> some;
-  if (!lines.repeats.none()) some = lines.of(*given.heights);
-  const CodedLines texel_lines = texelLinesToCode(given);
-  std::optional<tks_image> some_texels;
-  if (!texel_lines.repeats.none()) some_texels = texel_lines.of(*given.image);
-  const EncodeInputs of_lines = some ? given.ofLines(*some, lines) : given;
-  const EncodeInputs inputs = some_texels ? of_lines.ofLines(*some_texels, texel_lines) : of_lines;
+  const CodedLines height_lines = heightLines(given), texel_lines = texelLines(given);
+  tks_heights coded_heights = {};
+  tks_image coded_image = {};
+  const EncodeInputs inputs =
+      given.ofLines(height_lines, coded_heights).ofLines(texel_lines, coded_image);
   const ViewPriorities priorities = prioritiesOf(inputs);
   const Result<Selection> selection = selectWithMaps(inputs, priorities);
   if (!selection.ok()) return selection.status();
