@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "api/outlook.hpp"
 #include "api/ranges.hpp"
 #include "api/screen_camera.hpp"
-#include "api/sighting.hpp"
 #include "api/sized.hpp"
 
 namespace tetrakis::inline api {

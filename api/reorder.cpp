@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "api/outlook.hpp"
 #include "api/screen_camera.hpp"
-#include "api/sighting.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
 
 namespace tetrakis::inline api {

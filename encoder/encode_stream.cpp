@@ -3,18 +3,17 @@
 
 #include <cassert>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "encoder/heights/lines_to_code.hpp"
+#include "encoder/heights/height_lines.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
 #include "encoder/selection/selection.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/meet_target.hpp"
 #include "encoder/textures/coded_texture.hpp"
-#include "encoder/textures/texel_lines_to_code.hpp"
+#include "encoder/textures/texel_lines.hpp"
 #include "encoder/views/camera_checks.hpp"
 #include "encoder/views/map_worth.hpp"
 #include "encoder/views/view_priorities.hpp"
@@ -69,7 +68,8 @@ Result<Coded> code(const EncodeInputs& inputs, Quantised quantised) {
   return coded;
 }
 
-Result<Selection> select(const EncodeInputs& inputs) {
+/// Quantises and codes both components, and selects of them what the target needs.
+Result<Selection> codeForTarget(const EncodeInputs& inputs) {
   Result<Quantised> quantised = quantise(inputs);
   if (!quantised.ok()) return quantised.status();
   Result<Coded> coded = code(inputs, *std::move(quantised));
@@ -77,16 +77,22 @@ Result<Selection> select(const EncodeInputs& inputs) {
   return meetTarget(inputs, std::move(coded->heights), std::move(coded->texture));
 }
 
-/// Codes with maps of priorities where these pay. Maps take too little of large budgets to be in
-/// doubt (docs/EXPERIMENTS.md), and coding twice takes twice the time.
-Result<Selection> selectWithMaps(const EncodeInputs& inputs, const ViewPriorities& priorities) {
+/// Maps of priorities take so much of the budget that they may not pay. Of larger budgets they take
+/// too little to be in doubt (docs/EXPERIMENTS.md), and coding twice takes twice the time.
+bool mapsAreInDoubt(const EncodeInputs& inputs, const Selection& with) {
   constexpr uint64_t kCertain = 16;
-  Result<Selection> with = select(inputs.with(inputs.options, &priorities));
-  if (!inputs.budgeted() || !with.ok() || !with->heights || !with->texture) return with;
-  if (bytesOfMaps(*with) * kCertain <= inputs.options.bytes) return with;
+  return inputs.budgeted() && with.heights && with.texture &&
+         bytesOfMaps(with) * kCertain > inputs.options.bytes;
+}
+
+/// The same with the maps of priorities that the cameras ask for, unless they do not pay.
+Result<Selection> codeWithPriorities(const EncodeInputs& inputs) {
+  const ViewPriorities priorities = prioritiesOf(inputs);
+  Result<Selection> with = codeForTarget(inputs.with(inputs.options, &priorities));
+  if (!with.ok() || !mapsAreInDoubt(inputs, *with)) return with;
   tks_encode_options options = inputs.options;
   options.progress = nullptr;  // it has been told of all this
-  Result<Selection> without = select(inputs.with(options, nullptr));
+  Result<Selection> without = codeForTarget(inputs.with(options, nullptr));
   if (without.ok() && !mapsPay(inputs, *with, *without)) return without;
   return with;
 }
@@ -97,16 +103,12 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   assert(given.heights != nullptr || given.image != nullptr);
   if (Status status = reportProgress(given.options, 0); !status.ok()) return status;
   if (Status status = checkCameras(given); !status.ok()) return status;
-  const CodedLines lines = linesToCode(given);
-  std::optional<tks_heights> some;
-  if (!lines.repeats.none()) some = lines.of(*given.heights);
-  const CodedLines texel_lines = texelLinesToCode(given);
-  std::optional<tks_image> some_texels;
-  if (!texel_lines.repeats.none()) some_texels = texel_lines.of(*given.image);
-  const EncodeInputs of_lines = some ? given.ofLines(*some, lines) : given;
-  const EncodeInputs inputs = some_texels ? of_lines.ofLines(*some_texels, texel_lines) : of_lines;
-  const ViewPriorities priorities = prioritiesOf(inputs);
-  const Result<Selection> selection = selectWithMaps(inputs, priorities);
+  const CodedLines height_lines = heightLines(given), texel_lines = texelLines(given);
+  tks_heights coded_heights = {};
+  tks_image coded_image = {};
+  const EncodeInputs inputs =
+      given.ofLines(height_lines, coded_heights).ofLines(texel_lines, coded_image);
+  const Result<Selection> selection = codeWithPriorities(inputs);
   if (!selection.ok()) return selection.status();
   if (Status status = reportProgress(inputs.options, 0.9); !status.ok()) return status;
   Result<std::vector<uint8_t>> stream = writeStream(inputs, *selection);

@@ -19,7 +19,7 @@ uint32_t modelsOf(const TextureHeader& header, uint32_t plane) {
 
 TexturePlan::TexturePlan(const TextureHeader& header, Mask coded,
                          const std::optional<SynthesisNorms>& norms)
-    : layout_(specOf(header.wavelet), header.extent(), coded, {},
+    : layout_(specOf(header.wavelet), Pyramid(header.extent(), coded),
               priorityMapOf(header.priorities, header.extent()), norms),
       regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
       weights_(header.weights) {

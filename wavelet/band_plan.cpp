@@ -31,10 +31,10 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
 
 }  // namespace
 
-PlaneLayout::PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid, HeldSamples held,
-                         const PriorityMap& priorities, const std::optional<SynthesisNorms>& norms)
+PlaneLayout::PlaneLayout(const WaveletSpec& spec, Pyramid pyramid, const PriorityMap& priorities,
+                         const std::optional<SynthesisNorms>& norms)
     : whole_(spec.whole),
-      pyramid_(plane, valid, held),
+      pyramid_(std::move(pyramid)),
       norms_(norms ? *norms : SynthesisNorms(spec, pyramid_.levels())) {
   if (!priorities.empty()) priorities_.emplace(priorities);
 }

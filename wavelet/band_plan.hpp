@@ -34,10 +34,9 @@ std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& r
 /// held.
 class PlaneLayout {
  public:
-  /// The bytes of the mask, and what is held, outlive the layout. norms: those of an earlier layout
-  /// of the same transform and size.
-  PlaneLayout(const WaveletSpec& spec, Extent plane, Mask valid = {}, HeldSamples held = {},
-              const PriorityMap& priorities = {}, const std::optional<SynthesisNorms>& norms = {});
+  /// norms: those of an earlier layout of the same transform and size.
+  PlaneLayout(const WaveletSpec& spec, Pyramid pyramid, const PriorityMap& priorities = {},
+              const std::optional<SynthesisNorms>& norms = {});
 
   const Pyramid& pyramid() const { return pyramid_; }
   const std::vector<Subband>& subbands() const { return pyramid_.subbands(); }

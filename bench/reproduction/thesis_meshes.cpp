@@ -219,8 +219,8 @@ Status pictureMeshes(const Terrain& terrain, const MeshSequence& sequence,
                      const std::string& folder) {
   for (const uint32_t triangles : kPictured) {
     const std::string path = folder + "/mesh_" + std::to_string(triangles) + ".csv";
-    if (Status status = writeMesh(terrain, sequence.meshWithAtMost(triangles), path); !status.ok())
-      return status;
+    const LatticeMesh mesh = sequence.mesh(sequence.bestPrefix(triangles));
+    if (Status status = writeMesh(terrain, mesh, path); !status.ok()) return status;
   }
   return {};
 }

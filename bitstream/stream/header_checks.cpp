@@ -17,43 +17,50 @@ bool holds(uint8_t sample, double value) {
   return kLeast[sample] <= value && value <= kMost[sample] && value == std::trunc(value);
 }
 
+/// Corrections, and the table that they may stand beside. sample: the type of the heights.
+Status checkCorrections(const GeometryLayers& layers, uint8_t sample) {
+  const CorrectionKind kind = layers.corrections;
+  if (layers.table_bytes > 0 && kind != CorrectionKind::kNone && kind != CorrectionKind::kSamples)
+    return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
+  if (kind == CorrectionKind::kRelative &&
+      !(std::isfinite(layers.relative.step) && layers.relative.step > 0)) {
+    return {TKS_CORRUPT, "Corrupt stream: the relative step of its heights is out of range."};
+  }
+  if (kind == CorrectionKind::kFacets && sample != TKS_F32)
+    return {TKS_CORRUPT, "Corrupt stream: its heights have facets but are no floats."};
+  const bool steep =
+      std::any_of(layers.table_knots.begin(), layers.table_knots.end(),
+                  [](const TableKnot& k) { return std::abs(k.rise) > GeometryLayers::kMostRise; });
+  if (steep)
+    return {TKS_CORRUPT, "Corrupt stream: a knot of its table of values lies too far off."};
+  return {};
+}
+
+Status checkVoids(const GeometryLayers& layers, uint8_t sample) {
+  if ((layers.bridge > 0 || layers.late_mask) && layers.validity_bytes == 0)
+    return {TKS_CORRUPT, "Corrupt stream: its heights have bridges but no voids."};
+  const bool integer = sample != TKS_F32;
+  if (integer && layers.validity_bytes > 0 &&
+      !(layers.has_nodata && holds(sample, layers.nodata))) {
+    return {TKS_CORRUPT, "Corrupt stream: integer heights have voids but no value for them."};
+  }
+  if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata)))
+    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no number."};
+  return {};
+}
+
 Status checkLayers(const StreamHeader& header) {
   const GeometryLayers& layers = header.layers;
   if (layers.isDefault()) return {};
   if (!header.geometry) {
     return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
   }
-  if (layers.table_bytes > 0 && layers.corrections != CorrectionKind::kNone &&
-      layers.corrections != CorrectionKind::kSamples) {
-    return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
-  }
-  if (layers.corrections == CorrectionKind::kRelative &&
-      !(std::isfinite(layers.relative.step) && layers.relative.step > 0)) {
-    return {TKS_CORRUPT, "Corrupt stream: the relative step of its heights is out of range."};
-  }
-  if (layers.corrections == CorrectionKind::kFacets && header.geometry->sample != TKS_F32)
-    return {TKS_CORRUPT, "Corrupt stream: its heights have facets but are no floats."};
-  const bool steep =
-      std::any_of(layers.table_knots.begin(), layers.table_knots.end(),
-                  [](const TableKnot& k) { return std::abs(k.rise) > GeometryLayers::kMostRise; });
-  if (steep) {
-    return {TKS_CORRUPT, "Corrupt stream: a knot of its table of values lies too far off."};
-  }
-  if ((layers.bridge > 0 || layers.late_mask) && layers.validity_bytes == 0)
-    return {TKS_CORRUPT, "Corrupt stream: its heights have bridges but no voids."};
-  if (layers.flat_bytes > 0 &&
-      header.geometry->extent().samples() > GeometryLayers::kMostFlatSamples) {
+  const GeometryHeader& heights = *header.geometry;
+  if (Status status = checkCorrections(layers, heights.sample); !status.ok()) return status;
+  if (layers.flat_bytes > 0 && heights.extent().samples() > GeometryLayers::kMostFlatSamples) {
     return {TKS_CORRUPT, "Corrupt stream: so large a height field has no flat areas."};
   }
-  const bool integer = header.geometry->sample != TKS_F32;
-  if (integer && layers.validity_bytes > 0 &&
-      !(layers.has_nodata && holds(header.geometry->sample, layers.nodata))) {
-    return {TKS_CORRUPT, "Corrupt stream: integer heights have voids but no value for them."};
-  }
-  if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata))) {
-    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no number."};
-  }
-  return {};
+  return checkVoids(layers, heights.sample);
 }
 
 Status checkRegions(const StreamHeader& header) {

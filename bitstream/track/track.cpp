@@ -7,16 +7,6 @@
 
 namespace tetrakis::inline track {
 
-bool BandPlan::vacant() const {
-  if (shape.empty() || absent.empty()) return shape.empty();
-  for (uint32_t row = 0; row < shape.rows; ++row) {
-    for (uint32_t x = 0; x < shape.words(); ++x) {
-      if ((shape.valid(x) & ~absent[shape.word(row, x)]) != 0) return false;
-    }
-  }
-  return true;
-}
-
 uint32_t BandPlan::members(size_t tier) const {
   uint32_t count = 0;
   if (tiers != nullptr) {

@@ -32,8 +32,6 @@ struct BandPlan {
   std::shared_ptr<const BandTiers> tiers = nullptr;
   bool needed = true;  ///< by a decoder
 
-  /// There is no coefficient to code.
-  bool vacant() const;
   /// The coefficients of a tier.
   uint32_t members(size_t tier) const;
 };

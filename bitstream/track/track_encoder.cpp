@@ -185,11 +185,6 @@ uint64_t exactBytes(std::span<const EncodedTrack> tracks) {
   return bytesOf(tracks) + (complete ? 0 : 1);
 }
 
-EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
-                         uint64_t limit) {
-  return std::move(encodeTracks({{plan, sources}}, {limit}).front());
-}
-
 std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
                                        const TrackOptions& options) {
   assert(!sources.empty());

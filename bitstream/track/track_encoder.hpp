@@ -57,10 +57,6 @@ struct TrackSource {
   std::vector<BandSource> bands;
 };
 
-/// Stops after the pass in which the codeword passes `limit` bytes.
-EncodedTrack encodeTrack(const std::vector<BandPlan>& plan, const std::vector<BandSource>& sources,
-                         uint64_t limit);
-
 /// Where the coding of a component's tracks ends.
 struct TrackOptions {
   /// An error of which the account, a sum of floats, never falls short: all passes are coded.

@@ -2,12 +2,12 @@
 #include "codec/geometry/coefficients_decoder.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "codec/geometry/shown_significance.hpp"
 #include "wavelet/band_plan.hpp"
 #include "wavelet/held_lifting.hpp"
 #include "wavelet/synthesis/view_synthesis.hpp"
@@ -16,71 +16,6 @@
 namespace tetrakis::inline geometry {
 
 namespace {
-
-/// What the significant coefficients that a view shows say of its vertices.
-class Significance {
- public:
-  Significance(const Pyramid& pyramid, const View& view, size_t tracks)
-      : pyramid_(pyramid),
-        level_(view.level),
-        low_(pyramid.low(view.level)),
-        shown_(view.window.value_or(Window{0, 0, low_.extent.width, low_.extent.height})),
-        is_window_(view.window.has_value()),
-        marks_(shown_.extent().samples()),
-        quiet_(tracks, pyramid.levels() - view.level) {}
-
-  /// Takes the bands of a track. Called for different tracks at the same time.
-  void take(size_t track, const TrackState& state, std::span<const BandPart> parts) {
-    const size_t subbands = pyramid_.subbandsOf(level_).size();
-    for (size_t i = 0; i < parts.size(); ++i) {
-      if (parts[i].subband >= subbands) continue;
-      const Subband& subband = pyramid_.subbands()[parts[i].subband];
-      mark(state.bands[i], subband, parts[i]);
-      if (state.bands[i].nonzero() && subband.orientation != Orientation::kLL)
-        quiet_[track] = std::min(quiet_[track], subband.level - 1 - level_);
-    }
-  }
-
-  void giveTo(DecodedGeometry& geometry) {
-    assert(!quiet_.empty());
-    if (!is_window_) {
-      geometry.quiet_levels =
-          static_cast<uint32_t>(*std::min_element(quiet_.begin(), quiet_.end()));
-      marks_.resize(thin(pyramid_, level_, std::span(marks_)));
-    }
-    geometry.significant = std::move(marks_);
-  }
-
- private:
-  /// Marks the vertices that the part's significant coefficients belong to.
-  void mark(const Band& band, const Subband& subband, const BandPart& part) {
-    if (band.shape.empty()) return;
-    const int splits = subband.splits_x - low_.splits_x;
-    const size_t first = (subband.isHighX() ? size_t{1} << (splits - 1) : 0) - shown_.x;
-    for (uint32_t row = 0; row < part.rows; ++row) {
-      const uint32_t y = (subband.planeRow(part.row + row) >> low_.splits_y) - shown_.y;
-      if (y >= shown_.height) continue;
-      uint8_t* out = marks_.data() + size_t{y} * shown_.width;
-      for (uint32_t x = 0; x < band.shape.words(); ++x) {
-        uint32_t todo = band.significant[band.shape.word(row, x)];
-        for (; todo != 0; todo &= todo - 1) {
-          const size_t column =
-              part.column + 32 * size_t{x} + static_cast<size_t>(std::countr_zero(todo));
-          const size_t shown = first + (column << splits);
-          if (shown < shown_.width) out[shown] = 1;
-        }
-      }
-    }
-  }
-
-  const Pyramid& pyramid_;
-  int level_;
-  const LowBand& low_;
-  Window shown_;  ///< samples of the low band
-  bool is_window_;
-  std::vector<uint8_t> marks_;  ///< of those
-  std::vector<int> quiet_;      ///< of each track, the finest levels without such a coefficient
-};
 
 /// Where the plane is flat, its heights are exact at all mip levels.
 void holdShown(const HeldSamples& flat, Extent plane, const View& view,
@@ -101,28 +36,33 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
   return plan.empty() ? plan : layout.marked(parts, std::move(plan));
 }
 
+/// The mask and what is held outlive the layout. memory: null, or what earlier calls know.
+PlaneLayout layoutOf(const GeometryHeader& header, Mask lifted, HeldSamples flat,
+                     TrackMemory* memory) {
+  PlaneLayout layout(specOf(header.wavelet), Pyramid(header.extent(), lifted, flat),
+                     priorityMapOf(header.priorities, header.extent()),
+                     memory != nullptr ? memory->norms : std::nullopt);
+  if (memory != nullptr) memory->norms = layout.norms();
+  return layout;
+}
+
 }  // namespace
 
 DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords& codewords,
                                    KnownSamples known, const View& view,
                                    const DecodeContext<TrackMemory>& context) {
-  std::vector<uint8_t>& valid = known.valid;
+  assert(context.memory == nullptr || !view.window);
   std::vector<int32_t> area_heights(known.flat.values.begin(), known.flat.values.end());
   const HeldSamples flat{known.flat.numbers, area_heights};
-  const WaveletSpec spec = specOf(header.wavelet);
-  const PlaneLayout layout(spec, header.extent(), known.lifted.value_or(valid), flat,
-                           priorityMapOf(header.priorities, header.extent()),
-                           context.memory ? context.memory->norms : std::nullopt);
-  if (context.memory != nullptr) context.memory->norms = layout.norms();
+  const PlaneLayout layout =
+      layoutOf(header, known.lifted.value_or(known.valid), flat, context.memory);
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
   assert(codewords.size() == regions.size());
-  assert(context.memory == nullptr || !view.window);
-  ViewSynthesis synthesis(spec, layout.pyramid(), view);
+  ViewSynthesis synthesis(specOf(header.wavelet), layout.pyramid(), view);
   synthesis.allocate();
-  Significance significance(layout.pyramid(), view, regions.size());
+  ShownSignificance significance(layout.pyramid(), view, regions.size());
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, view.level, context};
-  DecodedGeometry out;
   const Precision precision = tracks.run(
       codewords, [&](size_t i) { return planOf(layout, layout.parts(regions[i]), synthesis); },
       [&](size_t i, const TrackState& state, int more_bits) {
@@ -131,15 +71,16 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
           synthesis.put(state.bands[k], more_bits, parts[k]);
         significance.take(i, state, parts);
       });
-  out.fraction_bits = precision.fraction_bits;
-  for (int32_t& height : area_heights)  // of what the layout holds, as it is needed from here on
-    height <<= out.fraction_bits;
-  out.heights = synthesis.run(context.threads, precision.rounds);
+  // The layout holds these values, which get fraction bits like those of the synthesis.
+  for (int32_t& height : area_heights) height <<= precision.fraction_bits;
   const Extent extent = view.extentIn(header.extent());
+  DecodedGeometry out;
   out.width = extent.width;
   out.height = extent.height;
-  out.valid = view.isWhole() ? std::move(valid)
-                             : cut(std::span<const uint8_t>(valid), header.extent(), view);
+  out.heights = synthesis.run(context.threads, precision.rounds);
+  out.fraction_bits = precision.fraction_bits;
+  out.valid = view.isWhole() ? std::move(known.valid)
+                             : cut(std::span<const uint8_t>(known.valid), header.extent(), view);
   clearUnmarked(std::span(out.heights), out.valid);
   significance.giveTo(out);
   clearUnmarked(std::span(out.significant), out.valid);

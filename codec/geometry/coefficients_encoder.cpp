@@ -53,8 +53,8 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   const FlatAreas& flat = options.flat == nullptr ? kNone : *options.flat;
   const PriorityMap& priorities = options.priorities == nullptr ? kAlike : *options.priorities;
   const std::vector<int32_t> areas = withFractions(flat.heights, wavelet.fraction_bits);
-  const PlaneLayout layout(specOf(wavelet), heights.extent(), heights.valid, {flat.numbers, areas},
-                           priorities);
+  const PlaneLayout layout(
+      specOf(wavelet), Pyramid(heights.extent(), heights.valid, {flat.numbers, areas}), priorities);
   Transformed of{layout, transformed(heights, wavelet, layout, options.threads),
                  options.share * std::exp2(-2 * wavelet.fraction_bits), worthOf(priorities)};
   const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);

@@ -30,10 +30,9 @@ struct HeightsMemory {
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view);
 
 /// Decodes what a view shows of the heights. In a window the time follows its size if there are
-/// regions. Levels above 0
-/// have no corrections: those belong to the samples. codewords: any prefix of each track; the
-/// layers are those of the first. Safe on any bytes. The memory is that of earlier calls with the
-/// same headers and view, which is no window.
+/// regions. Levels above 0 have no corrections: those belong to the samples. codewords: any prefix
+/// of each track; the layers are those of the first. Safe on any bytes. The memory is that of
+/// earlier calls with the same headers and view, which is no window.
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,
                              const Codewords& codewords, const View& view = {},
                              const DecodeContext<HeightsMemory>& context = {});

@@ -242,7 +242,7 @@ class FacetDecoder {
 }  // namespace
 
 void correctFromFacets(const GeometryHeader& header, const Layers& layers,
-                       std::span<const uint8_t> codeword, const Plane& plane, int f,
+                       std::span<const uint8_t> codeword, const Plane& plane,
                        std::vector<uint32_t>& samples) {
   const Units units(layers.facetUnit);
   RangeDecoder decoder(codeword);
@@ -253,7 +253,7 @@ void correctFromFacets(const GeometryHeader& header, const Layers& layers,
     for (int x = 0; x < plane.width; ++x) {
       if (!plane.isValid(x, y)) continue;
       const size_t i = static_cast<size_t>(y) * plane.width + x;
-      const int32_t q = stepOf(plane.values[i], f);
+      const int32_t q = plane.values[i];
       const int64_t p = forecast.look(x, y);
       About about;
       about.u = static_cast<int32_t>(q + p);

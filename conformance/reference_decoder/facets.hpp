@@ -11,9 +11,9 @@
 
 namespace tetrakis::reference {
 
-/// Corrects the samples, as far as they are decided. plane: heights in units of 2^-f steps.
+/// Corrects the samples, as far as they are decided. plane: heights in whole steps.
 void correctFromFacets(const GeometryHeader& header, const Layers& layers,
-                       std::span<const uint8_t> codeword, const Plane& plane, int f,
+                       std::span<const uint8_t> codeword, const Plane& plane,
                        std::vector<uint32_t>& samples);
 
 }  // namespace tetrakis::reference

@@ -11,6 +11,64 @@
 
 namespace tetrakis::reference {
 
+namespace {
+
+/// FORMAT 8.1, "From relative steps": p of a sample, and which hint its rest has.
+struct Prediction {
+  double p = 0;
+  bool planar = false, beside = false;  ///< from three samples or more; from one at least
+
+  int restHint(double apart) const {
+    if (planar) return static_cast<int>(std::min(std::abs(apart) * 16, 7.0));
+    return beside ? 8 : 9;
+  }
+};
+
+/// K: what is known of the samples before one.
+class KnownSamples {
+ public:
+  KnownSamples(const Plane& plane, double g) : plane_(plane), g_(g), known_(plane.values.size()) {}
+
+  /// d: the number that the decoded height is.
+  Prediction predict(int x, int y, double d) const {
+    const auto w = at(x - 1, y), n = at(x, y - 1), o = at(x - 1, y - 1);
+    const Prediction one{w ? *w : n ? *n : d, false, w || n};
+    if (!w || !n || !o) return one;
+    const double h = (*w + *n) - *o, z = std::abs(h) * 0x1p-22;
+    const auto e = at(x + 1, y - 1), a = at(x - 2, y), b = at(x, y - 2);
+    double sum = 0;
+    int count = 1;
+    const auto add = [&](double other) {
+      const double apart = other - h;
+      const double off = apart - std::floor(apart / g_ + 0.5) * g_;
+      if (!(std::abs(off) <= z)) return;
+      sum += off;
+      ++count;
+    };
+    if (a) add(2 * *w - *a);
+    if (b) add(2 * *n - *b);
+    if (e) add((*w + *e) - *n);
+    const double mean = h + sum / count;
+    return std::isfinite(mean) ? Prediction{mean, true, true} : one;
+  }
+
+  void put(int x, int y, double value) {
+    if (std::isfinite(value)) known_[plane_.index(x, y)] = value;
+  }
+
+ private:
+  std::optional<double> at(int x, int y) const {
+    if (x < 0 || x >= plane_.width || y < 0) return std::nullopt;
+    return known_[plane_.index(x, y)];
+  }
+
+  const Plane& plane_;
+  double g_;
+  std::vector<std::optional<double>> known_;
+};
+
+}  // namespace
+
 void correctFromRelative(const GeometryHeader& header, const Layers& layers,
                          std::span<const uint8_t> codeword, const Plane& plane,
                          std::vector<uint32_t>& samples) {
@@ -18,39 +76,14 @@ void correctFromRelative(const GeometryHeader& header, const Layers& layers,
   const double g = layers.relativeStep;
   RangeDecoder decoder(codeword);
   CorrectionDecoder multiples(decoder, plane), rests(decoder, plane);
-  std::vector<std::optional<double>> known(samples.size());  // K
-  const auto knownAt = [&](int x, int y) -> std::optional<double> {
-    if (x < 0 || x >= plane.width || y < 0) return std::nullopt;
-    return known[static_cast<size_t>(y) * plane.width + x];
-  };
+  KnownSamples known(plane, g);
   for (int y = 0; y < plane.height; ++y) {
     for (int x = 0; x < plane.width; ++x) {
       if (!plane.isValid(x, y)) continue;
-      const size_t i = static_cast<size_t>(y) * plane.width + x;
-      const double d = numberOf(header, samples[i]);
-      const auto w = knownAt(x - 1, y), n = knownAt(x, y - 1), o = knownAt(x - 1, y - 1);
-      double p = w ? *w : n ? *n : d;
-      bool planar = false;
-      if (w && n && o) {
-        const double h = (*w + *n) - *o, z = std::abs(h) * 0x1p-22;
-        const auto e = knownAt(x + 1, y - 1), a = knownAt(x - 2, y), b = knownAt(x, y - 2);
-        double sum = 0;
-        int count = 1;
-        const auto add = [&](double other) {
-          const double apart = other - h;
-          const double off = apart - std::floor(apart / g + 0.5) * g;
-          if (!(std::abs(off) <= z)) return;
-          sum += off;
-          ++count;
-        };
-        if (a) add(2 * *w - *a);
-        if (b) add(2 * *n - *b);
-        if (e) add((*w + *e) - *n);
-        if (const double mean = h + sum / count; std::isfinite(mean)) {
-          p = mean;
-          planar = true;
-        }
-      }
+      uint32_t& sample = samples[plane.index(x, y)];
+      const double d = numberOf(header, sample);
+      const Prediction prediction = known.predict(x, y, d);
+      const double p = prediction.p;
       const double t = std::clamp((d - p) / g, -kFarthest, kFarthest);
       const double k = std::floor(t + 0.5);
       const int hint = static_cast<int>(std::min(std::floor(std::abs(k - t) * 16), 7.0));
@@ -60,20 +93,16 @@ void correctFromRelative(const GeometryHeader& header, const Layers& layers,
       const auto number = static_cast<int32_t>(k > t ? nearest - *m : nearest + *m);
       const double multiple = p + number * g;
       const uint32_t c = heightSampleOf(header, p, g, number);
-      const double beside = std::ldexp(multiple - numberOf(header, c), -spacingOf(header, c));
-      const int rest_hint = planar   ? static_cast<int>(std::min(std::abs(beside) * 16, 7.0))
-                            : w || n ? 8
-                                     : 9;
-      const std::optional<uint32_t> r = rests.next(rest_hint, x, y);
+      const double apart = std::ldexp(multiple - numberOf(header, c), -spacingOf(header, c));
+      const std::optional<uint32_t> r = rests.next(prediction.restHint(apart), x, y);
       if (!r) return;
       const uint32_t order = orderOf(header, c);
-      samples[i] = narrow(header, orderOf(header, beside < 0 ? order - *r : order + *r));
-      const double s = numberOf(header, samples[i]);
+      sample = narrow(header, orderOf(header, apart < 0 ? order - *r : order + *r));
+      const double s = numberOf(header, sample);
       const auto rest = static_cast<int32_t>(*r);
       const bool rounded = rest >= -1 && rest <= 1;
       const double pulled = multiple + (s - multiple) * (layers.relativeQuarters / 4.0);
-      const double now = rounded ? pulled : s;
-      if (std::isfinite(now)) known[i] = now;
+      known.put(x, y, rounded ? pulled : s);
     }
   }
 }

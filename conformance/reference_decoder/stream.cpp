@@ -103,6 +103,35 @@ void readKnots(Reader& in, Layers& layers) {
   }
 }
 
+/// FORMAT 2, the fields of table Layers from coefficient_bytes on.
+void readCorrections(Reader& in, Layers& layers) {
+  if (layers.corrections == 0) return;
+  const uint64_t least = std::max(layers.tableAfter, layers.validityAfter);
+  layers.coefficientBytes = in.varint(least, INT64_MAX);
+  if (layers.corrections == 1) {
+    layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
+  }
+  if (layers.corrections == 3) {
+    layers.relativeStep = in.f64();
+    layers.relativeQuarters = in.u8(1, 4);
+    if (!std::isfinite(layers.relativeStep) || layers.relativeStep <= 0) in.fail(Outcome::kCorrupt);
+  }
+  if (layers.corrections == 4) layers.facetUnit = in.u8(1, 254);
+}
+
+/// Whether such heights may have the layers. kinds: which there are.
+bool suit(const GeometryHeader& geometry, const Layers& layers, int kinds) {
+  const bool integer = geometry.sample != kF32, direct = geometry.planes == kStoredPlanes;
+  if (layers.corrections == 4 && integer) return false;
+  if (layers.flatBytes > 0 && uint64_t(geometry.width) * uint64_t(geometry.height) > 1u << 31)
+    return false;
+  if (direct && !geometry.drawn && kinds > 0) return false;
+  if (direct && (kinds >= 7 || layers.corrections % 2 == 1)) return false;
+  if (integer && std::isinf(layers.nodata)) return false;
+  return !integer || layers.validityBytes == 0 ||
+         (layers.hasNodata && holds(geometry.sample, layers.nodata));
+}
+
 /// FORMAT 2, table Layers.
 Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   Layers layers;
@@ -121,48 +150,18 @@ Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
   if (kinds & 8) {
     layers.flatBytes = in.varint(1, INT64_MAX);
     layers.flatAreas = static_cast<uint32_t>(in.varint(1, 65535));
-    const bool small =
-        geometry && uint64_t(geometry->width) * uint64_t(geometry->height) <= 1u << 31;
-    if (!small) in.fail(Outcome::kCorrupt);
   }
-  if (kinds & 16) {
-    layers.bridge = in.u8(1, 255);
-    if (layers.validityBytes == 0) in.fail(Outcome::kCorrupt);
-  }
+  if (kinds & 16) layers.bridge = in.u8(1, 255);
   if (kinds & 32) {
     layers.lateMask = true;
     layers.liftedBytes = in.varint(0, INT64_MAX);
     layers.validityAfter = in.varint(0, INT64_MAX);
-    if (layers.validityBytes == 0) in.fail(Outcome::kCorrupt);
   }
-  if (layers.corrections > 0) {
-    const uint64_t least = std::max(layers.tableAfter, layers.validityAfter);
-    layers.coefficientBytes = in.varint(least, INT64_MAX);
-  }
-  if (layers.corrections == 1) {
-    layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
-  }
-  if (layers.corrections == 3) {
-    layers.relativeStep = in.f64();
-    layers.relativeQuarters = in.u8(1, 4);
-    if (!std::isfinite(layers.relativeStep) || layers.relativeStep <= 0) in.fail(Outcome::kCorrupt);
-  }
-  if (layers.corrections == 4) {
-    layers.facetUnit = in.u8(1, 254);
-    if (geometry && geometry->sample != kF32) in.fail(Outcome::kCorrupt);
-  }
+  if (kinds & (16 | 32) && layers.validityBytes == 0) in.fail(Outcome::kCorrupt);
+  readCorrections(in, layers);
   const bool meant = layers.validityBytes > 0 || layers.hasNodata || kinds > 0;
-  if (meant && !geometry) in.fail(Outcome::kCorrupt);
-  const bool direct = geometry && geometry->planes == kStoredPlanes;
-  if (direct && !geometry->drawn && kinds > 0) in.fail(Outcome::kCorrupt);
-  if (direct && (kinds >= 7 || layers.corrections % 2 == 1)) in.fail(Outcome::kCorrupt);
-  const bool integer = geometry && geometry->sample != kF32;
-  if (integer && layers.validityBytes > 0) {
-    const bool held = layers.hasNodata && holds(geometry->sample, layers.nodata);
-    if (!held) in.fail(Outcome::kCorrupt);
-  }
-  if (std::isnan(layers.nodata)) in.fail(Outcome::kCorrupt);
-  if (integer && std::isinf(layers.nodata)) in.fail(Outcome::kCorrupt);
+  const bool suits = geometry ? suit(*geometry, layers, kinds) : !meant;
+  if (!suits || std::isnan(layers.nodata)) in.fail(Outcome::kCorrupt);
   return layers;
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "codec/geometry/corrections/corrections_encoder.hpp"
-#include "codec/geometry/quantiser/bridges.hpp"
+#include "codec/geometry/quantiser/bridged_steps.hpp"
 #include "codec/geometry/quantiser/stand_in_choice.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"

@@ -21,13 +21,12 @@ struct CodedLines {
   /// most often, beside the mean weight: the mean squared error of all samples is at most so many
   /// times that of the coded ones.
   double heaviest = 1;
-  std::vector<uint32_t> shown_by;  ///< how many samples each coded one stands for
+  static constexpr double kNearlyAlike = 1.1;  ///< `heaviest` where the difference is no matter
+  std::vector<uint32_t> shown_by;              ///< how many samples each coded one stands for
 
   /// What is coded of these; the data is `samples`, which outlives it.
   tks_heights of(const tks_heights& whole) const;
   tks_image of(const tks_image& whole) const;
-  /// The map takes too much of so small a budget.
-  bool codeIsLongFor(uint64_t budget) const { return repeats.code.size() > budget / 8; }
 };
 
 }  // namespace tetrakis::inline inputs

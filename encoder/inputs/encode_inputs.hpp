@@ -45,18 +45,22 @@ struct EncodeInputs {
   const tks_image* allTexels() const { return texel_lines != nullptr ? whole_image : image; }
   /// The mean squared error of all texels is at most so many times that of the coded ones.
   double heaviestTexel() const { return texel_lines != nullptr ? texel_lines->heaviest : 1; }
-  /// The same inputs with some lines of the heights alone, which are `coded`; both outlive the
-  /// result.
-  EncodeInputs ofLines(const tks_heights& coded, const CodedLines& some) const {
+  /// The same inputs without the lines of the heights that repeat others, if any do. What is left
+  /// of the heights is put to `coded`, which outlives the result as the lines do.
+  EncodeInputs ofLines(const CodedLines& some, tks_heights& coded) const {
     EncodeInputs inputs = *this;
+    if (some.repeats.none()) return inputs;
+    coded = some.of(*heights);
     inputs.whole = heights;
     inputs.heights = &coded;
     inputs.lines = &some;
     return inputs;
   }
   /// The same of the image.
-  EncodeInputs ofLines(const tks_image& coded, const CodedLines& some) const {
+  EncodeInputs ofLines(const CodedLines& some, tks_image& coded) const {
     EncodeInputs inputs = *this;
+    if (some.repeats.none()) return inputs;
+    coded = some.of(*image);
     inputs.whole_image = image;
     inputs.image = &coded;
     inputs.texel_lines = &some;

@@ -133,4 +133,12 @@ CodedLines findRepeatedLines(const SampleGrid& grid, uint32_t least) {
   return lines;
 }
 
+CodedLines linesThatPay(const tks_encode_options& options, const SampleGrid& grid, uint32_t least) {
+  constexpr uint64_t kPart = 8;  // of a budget is too much for a map
+  if (options.picture_error != nullptr) return {};
+  CodedLines lines = findRepeatedLines(grid, least);
+  const bool long_map = options.bytes != 0 && lines.repeats.code.size() > options.bytes / kPart;
+  return long_map ? CodedLines() : lines;
+}
+
 }  // namespace tetrakis::inline inputs

@@ -6,6 +6,7 @@
 
 #include "base/plane.hpp"
 #include "encoder/inputs/coded_lines.hpp"
+#include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline inputs {
 
@@ -21,5 +22,9 @@ struct SampleGrid {
 /// is no reason to code one of them. least: how many columns, and how many rows, are coded at least
 /// where there are as many.
 CodedLines findRepeatedLines(const SampleGrid& grid, uint32_t least);
+
+/// The same for an encoding. All lines are coded for a judge of pictures, who takes whole inputs,
+/// and for budgets so small that the map of lines takes too much of them.
+CodedLines linesThatPay(const tks_encode_options& options, const SampleGrid& grid, uint32_t least);
 
 }  // namespace tetrakis::inline inputs

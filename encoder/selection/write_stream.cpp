@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bitstream/stream/header.hpp"
-#include "encoder/selection/georeference.hpp"
+#include "encoder/selection/stated_place.hpp"
 #include "ratecontrol/needs/target.hpp"
 
 namespace tetrakis::inline selection {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/targets/component_curves.hpp"

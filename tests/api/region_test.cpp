@@ -26,7 +26,7 @@ constexpr Size kSizes[] = {{2, 2},   {17, 23},  {24, 24}, {40, 8},   {40, 3}, {3
 /// Samples lie in the region, levels are those it holds, and nothing is missing or held twice.
 TEST(Regions, ShareOutAllCoefficients) {
   for (const Size& size : kSizes) {
-    const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
+    const PlaneLayout layout(uniform(FilterId::kShort), Pyramid(size.extent()));
     for (const int log2 : {0, 4, 5, 6, 20}) {
       const std::vector<Region> regions = regionsOf(size.width, size.height, log2);
       ASSERT_EQ(regions.size(), regionCount(size.width, size.height, log2));
@@ -58,7 +58,7 @@ TEST(Regions, ShareOutAllCoefficients) {
 template <class Visit>
 void forEachRegion(const Visit& visit) {
   for (const Size& size : kSizes) {
-    const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
+    const PlaneLayout layout(uniform(FilterId::kShort), Pyramid(size.extent()));
     for (const Region& region : regionsOf(size.width, size.height, 4)) {
       const std::vector<BandPart> parts = layout.parts(region);
       visit(layout, parts, layout.plan(parts));

@@ -49,8 +49,8 @@ TEST(PassQueue, HoldsEveryPassOnceAndPlanesOfABandInTurn) {
     PassQueue queue(plan, planes);
     size_t count = 0, wanted = 0, left = 0;
     for (const BandPlan& band : plan) {
-      wanted += band.vacant() ? 0 : 3 * static_cast<size_t>(planes);
-      left += band.vacant() || !band.needed ? 0 : 3 * static_cast<size_t>(planes);
+      wanted += band.shape.empty() ? 0 : 3 * static_cast<size_t>(planes);
+      left += band.shape.empty() || !band.needed ? 0 : 3 * static_cast<size_t>(planes);
     }
     for (; !queue.empty(); ++count) {
       EXPECT_EQ(queue.needed(), left > 0);

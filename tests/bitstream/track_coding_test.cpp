@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bitstream/track/reconstruction.hpp"
 #include "bitstream/track/track_decoder.hpp"
@@ -21,6 +22,11 @@ struct Material {
   std::vector<BandPlan> plan;
   std::vector<BandSource> sources;
 };
+
+EncodedTrack encodeTrack(const std::vector<BandPlan>& plan,
+                         const std::vector<BandSource>& sources) {
+  return std::move(encodeTracks({{plan, sources}}, {}).front());
+}
 
 Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
   Random random(seed);
@@ -93,7 +99,7 @@ TEST(TrackCoding, EveryPrefixTellsTheTruth) {
   for (const BandShape& coarse : {BandShape{1, 1}, {5, 5}, {9, 40}, {20, 17}, {3, 70}}) {
     for (const int scale_bits : {0, 1, 5, 29}) {
       const Material m = material(++seed, coarse, scale_bits);
-      const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+      const EncodedTrack track = encodeTrack(m.plan, m.sources);
       ASSERT_TRUE(track.complete);
       const int places = track.planes < 27 ? 4 : 0;
       const size_t size = track.codeword.size(), stride = 1 + size / 60;
@@ -137,7 +143,7 @@ bool sameKnowledge(const TrackState& a, const TrackState& b) {
 /// A growing track knows what the prefix alone tells, whatever was asked before.
 TEST(TrackCoding, GrowingTracksForgetNothingAndInventNothing) {
   const Material m = material(3, {9, 40}, 5);
-  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources);
   for (const size_t stride : {1u, 2u, 3u, 7u, 50u}) {
     GrowingTrack growing(m.plan, track.planes);
     for (size_t bytes = 0; bytes <= track.codeword.size(); bytes += stride) {
@@ -151,7 +157,7 @@ TEST(TrackCoding, GrowingTracksForgetNothingAndInventNothing) {
 /// Not even if a prefix ends in a pass that takes much more than all passes before it.
 TEST(TrackCoding, GrowingTracksEndInLongPasses) {
   const Material m = material(7, {60, 90}, 3);
-  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources);
   ASSERT_GT(track.codeword.size(), 8000u);
   for (const size_t first : {300u, 1500u, 4000u}) {
     GrowingTrack growing(m.plan, track.planes);
@@ -177,7 +183,7 @@ bool isWithin(const TrackState& a, const TrackState& b) {
 TEST(TrackCoding, WholePassesKnowWhatPrefixesTell) {
   constexpr size_t kAhead = 4;
   const Material m = material(3, {9, 40}, 5);
-  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources);
   const TrackState all = decodeTrack(m.plan, track.planes, track.codeword);
   for (const size_t stride : {1u, 7u, 50u}) {
     GrowingTrack growing(m.plan, track.planes);
@@ -204,7 +210,7 @@ TEST(TrackCoding, TheLargestMagnitudesComeBack) {
       }
     }
   }
-  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources);
   ASSERT_EQ(track.planes, kMaxPlanes);
   const TrackState state = decodeTrack(m.plan, track.planes, track.codeword);
   ASSERT_TRUE(state.complete);
@@ -216,7 +222,7 @@ TEST(TrackCoding, TheLargestMagnitudesComeBack) {
 TEST(TrackCoding, ZerosCostNothing) {
   Material m = material(10, {20, 40}, 5);
   for (BandSource& source : m.sources) std::fill(source.values.begin(), source.values.end(), 0);
-  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources);
   EXPECT_EQ(track.planes, 0);
   EXPECT_LE(track.codeword.size(), 1u);
   const TrackState state = decodeTrack(m.plan, 0, {});
@@ -256,7 +262,7 @@ TEST(TrackCoding, EveryPrefixIsTrueWhereCoefficientsAreAbsent) {
     const BandShape coarse = kBandShapes[random() % std::size(kBandShapes)];
     Material m = material(static_cast<uint32_t>(random()), coarse, 1 + trial);
     takeAway(random, m);
-    const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+    const EncodedTrack track = encodeTrack(m.plan, m.sources);
     const size_t stride = std::max<size_t>(1, track.codeword.size() / 20);
     for (size_t n = 0; n <= track.codeword.size(); n += stride) {
       const auto prefix = std::span(track.codeword).first(n);
@@ -297,7 +303,7 @@ TEST(TrackCoding, AbsentCoefficientsCostNothing) {
     BandSource source;
     source.values.assign(band.shape.cells(), 0);
     source.values[band.shape.cell(side / 2, 2)] = 1000;
-    const EncodedTrack track = encodeTrack({band}, {source}, UINT64_MAX);
+    const EncodedTrack track = encodeTrack({band}, {source});
     ASSERT_NO_FATAL_FAILURE(
         expectTruth(decodeTrack({band}, track.planes, track.codeword), 0, source, 4));
     EXPECT_LE(track.codeword.size(), 4u) << side;
@@ -317,7 +323,7 @@ TEST(TrackCoding, LoneCoefficientsAreCheap) {
     source.values.assign(band.shape.cells(), 0);
     source.values[band.shape.cell(random() % 256, random() % 256)] =
         static_cast<int32_t>(1 + random() % 1000);
-    const EncodedTrack track = encodeTrack({band}, {source}, UINT64_MAX);
+    const EncodedTrack track = encodeTrack({band}, {source});
     const TrackState state = decodeTrack({band}, track.planes, track.codeword);
     ASSERT_NO_FATAL_FAILURE(expectTruth(state, 0, source, 4));
     bytes += track.codeword.size();
@@ -328,7 +334,7 @@ TEST(TrackCoding, LoneCoefficientsAreCheap) {
 /// Estimates serve: after half of the bytes they are better than the low ends of the intervals.
 TEST(Reconstruction, EstimatesReduceTheError) {
   const Material m = material(12, {30, 40}, 9);
-  const EncodedTrack track = encodeTrack(m.plan, m.sources, UINT64_MAX);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources);
   for (const size_t part : {3, 4, 5}) {
     const TrackState state = decodeTrack(
         m.plan, track.planes, std::span(track.codeword).first(track.codeword.size() * part / 8));

@@ -51,12 +51,11 @@ TEST(Reference, AgreesOnFacetsOfExtremeFloats) {
   for (size_t trial = 0; trial < 6 * kinds.size(); ++trial) {
     const auto& kind = kinds[trial % kinds.size()];
     const int unit = std::array{1, 60, 98, 150, 254, 92}[trial / kinds.size()];
-    const int f = static_cast<int>(trial % 9);
     std::vector<float> samples;
     DecodedHeights near;
     near.geometry.width = kFaceted.width;
     near.geometry.height = kFaceted.height;
-    near.geometry.fraction_bits = f;
+    near.geometry.fraction_bits = static_cast<int>(trial % 9);
     for (uint32_t i = 0; i < kFaceted.samples(); ++i) {
       samples.push_back(kind(i % kFaceted.width, i / kFaceted.width, random()));
       near.geometry.valid.push_back(trial % 3 > 0 || random() % 3 > 0);
@@ -96,12 +95,10 @@ TEST(Reference, AgreesOnFacetsOfExtremeFloats) {
       stated.step = header.step;
       reference::Layers of_facets;
       of_facets.facetUnit = unit;
-      const reference::Plane plane{stated.width, stated.height, near.geometry.heights,
-                                   near.geometry.valid};
+      const reference::Plane plane{stated.width, stated.height, steps, near.geometry.valid};
       std::vector<uint32_t> expected;
-      for (const int32_t v : near.geometry.heights)
-        expected.push_back(reference::heightSampleOf(stated, reference::stepOf(v, f)));
-      reference::correctFromFacets(stated, of_facets, codeword, plane, f, expected);
+      for (const int32_t step : steps) expected.push_back(reference::heightSampleOf(stated, step));
+      reference::correctFromFacets(stated, of_facets, codeword, plane, expected);
       for (size_t i = 0; i < out.size(); ++i) {
         if (!near.geometry.valid[i]) continue;
         ASSERT_EQ(std::bit_cast<uint32_t>(out[i]), expected[i]) << trial << ", " << bytes;

@@ -80,7 +80,7 @@ std::vector<BandPart> allParts(const PlaneLayout& layout, uint32_t width, uint32
 
 void expectNorms(const Size& size) {
   for (const WaveletSpec& spec : allSpecs()) {
-    const PlaneLayout layout(spec, size.extent());
+    const PlaneLayout layout(spec, Pyramid(size.extent()));
     const std::vector<BandPlan> plan = layout.plan(allParts(layout, size.width, size.height));
     for (size_t i = 0; i < layout.subbands().size(); ++i) {
       const Subband& band = layout.subbands()[i];
@@ -132,7 +132,7 @@ TEST(Norms, IntegerSynthesisFollowsTheReference) {
 TEST(PlaneLayout, ParentsCoverTheirChildren) {
   for (uint32_t height = 1; height <= 40; ++height) {
     for (uint32_t width = 1; width <= 70; width += 3) {
-      const PlaneLayout layout(uniform(FilterId::kLong), {width, height});
+      const PlaneLayout layout(uniform(FilterId::kLong), Pyramid({width, height}));
       const std::vector<BandPlan> plan = layout.plan(allParts(layout, width, height), 100, 7, 5);
       for (const BandPlan& band : plan) {
         ASSERT_TRUE(band.models >= 5 && band.models < 5 + kPlaneModels);
@@ -155,7 +155,7 @@ TEST(PlaneLayout, ParentsCoverTheirChildren) {
 TEST(PlaneLayout, SiblingsHaveThePlacesOfEachOther) {
   for (uint32_t height = 1; height <= 40; ++height) {
     for (uint32_t width = 1; width <= 70; width += 3) {
-      const PlaneLayout layout(uniform(FilterId::kLong), {width, height});
+      const PlaneLayout layout(uniform(FilterId::kLong), Pyramid({width, height}));
       const std::vector<BandPart> parts = allParts(layout, width, height);
       const std::vector<BandPlan> plan = layout.plan(parts, 100, 7, 5);
       for (size_t i = 0; i < plan.size(); ++i) {
@@ -183,7 +183,7 @@ TEST(PlaneLayout, GatheredCoefficientsArePutBack) {
   Random random(3);
   for (const Size& size : {Size{1, 1}, Size{37, 70}, Size{130, 5}, Size{3, 64}}) {
     const Plane plane = randomPlane(random, size.count(), -5000, 5000);
-    const PlaneLayout layout(uniform(FilterId::kShort), size.extent());
+    const PlaneLayout layout(uniform(FilterId::kShort), Pyramid(size.extent()));
     ViewSynthesis back(uniform(FilterId::kShort), layout.pyramid(), {});
     back.allocate();
     for (const BandPart& part : allParts(layout, size.width, size.height)) {

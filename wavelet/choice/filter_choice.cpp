@@ -63,7 +63,7 @@ void appendDetails(const PlanePart& part, const WaveletHeader& header, bool plai
   const WaveletSpec spec = specOf(header);
   std::vector<int32_t> plane = withFractions(part.values, header.fraction_bits);
   const std::vector<int32_t> areas = withFractions(part.area_values, header.fraction_bits);
-  const PlaneLayout layout(spec, part.extent, part.valid, {part.held, areas});
+  const PlaneLayout layout(spec, Pyramid(part.extent, part.valid, {part.held, areas}));
   forwardWavelet(spec, layout.pyramid(), plane);
   for (size_t i = 1; i < layout.subbands().size(); ++i) {
     const Subband& band = layout.subbands()[i];

@@ -54,7 +54,8 @@ class CodedPart {
       : part_(std::move(part)),
         coded_(static_cast<double>(codedIn(part_.valid, part_.held, part_.values.size()))),
         spec_(specOf(wavelet)) {
-    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, part_.area_values});
+    const PlaneLayout layout(spec_,
+                             Pyramid(part_.extent, part_.valid, {part_.held, part_.area_values}));
     std::vector<int32_t> values = part_.values;
     forwardWavelet(spec_, layout.pyramid(), values);
     bands_ = layout.parts(regionsOf(part_.extent.width, part_.extent.height, 0).front());
@@ -84,7 +85,7 @@ class CodedPart {
  private:
   double squaresWith(const TrackState& state, Precision precision) const {
     const std::vector<int32_t> areas = withFractions(part_.area_values, precision.fraction_bits);
-    const PlaneLayout layout(spec_, part_.extent, part_.valid, {part_.held, areas});
+    const PlaneLayout layout(spec_, Pyramid(part_.extent, part_.valid, {part_.held, areas}));
     ViewSynthesis synthesis(spec_, layout.pyramid(), {});
     synthesis.allocate();
     for (size_t i = 0; i < bands_.size(); ++i)

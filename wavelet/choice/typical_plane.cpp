@@ -12,7 +12,7 @@ namespace tetrakis::inline choice {
 
 TypicalPlane::Part::Part(PlanePart part, const WaveletHeader& header, size_t shown)
     : samples(std::move(part)),
-      layout(specOf(header), samples.extent, samples.valid, {}),
+      layout(specOf(header), Pyramid(samples.extent, samples.valid)),
       coefficients(withFractions(samples.values, header.fraction_bits)),
       wavelet(header) {
   forwardWavelet(specOf(header), layout.pyramid(), coefficients);

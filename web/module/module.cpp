@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <iterator>
 
 #include "tetrakis/tetrakis.h"
 
@@ -20,78 +19,77 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
   return tks_open(data, size, &limits, out, message, message_size);
 }
 
-/// How many numbers web_numbers() writes, and in their order the names that the loader gives them.
-/// Both are read by the loader, so that there is one list.
+// What the loader calls each number of a stream, and the field of tks_info that holds it.
+#define TKS_WEB_NUMBERS(NUMBER)                            \
+  NUMBER(formatVersion, format_version)                    \
+  NUMBER(profile, profile)                                 \
+  NUMBER(level, level)                                     \
+  NUMBER(headerBytes, header_bytes)                        \
+  NUMBER(streamBytes, stream_bytes)                        \
+  NUMBER(availableBytes, available_bytes)                  \
+  NUMBER(packets, packets)                                 \
+  NUMBER(geometryBytes, geometry_bytes)                    \
+  NUMBER(textureBytes, texture_bytes)                      \
+  NUMBER(hasHeights, has_heights)                          \
+  NUMBER(hasTexture, has_texture)                          \
+  NUMBER(width, width)                                     \
+  NUMBER(height, height)                                   \
+  NUMBER(coarsestLevel, coarsest_level)                    \
+  NUMBER(sample, sample)                                   \
+  NUMBER(scale, scale)                                     \
+  NUMBER(offset, offset)                                   \
+  NUMBER(step, step)                                       \
+  NUMBER(spacingX, spacing_x)                              \
+  NUMBER(spacingY, spacing_y)                              \
+  NUMBER(lossless, lossless)                               \
+  NUMBER(hasVoids, has_voids)                              \
+  NUMBER(hasNodata, has_nodata)                            \
+  NUMBER(nodata, nodata)                                   \
+  NUMBER(maxError, max_error)                              \
+  NUMBER(trianglesHint, triangles)                         \
+  NUMBER(regions, regions)                                 \
+  NUMBER(textureRegions, texture_regions)                  \
+  NUMBER(textureWidth, texture_width)                      \
+  NUMBER(textureHeight, texture_height)                    \
+  NUMBER(textureChannels, texture_channels)                \
+  NUMBER(textureCoarsestLevel, texture_coarsest_level)     \
+  NUMBER(textureCutout, texture_cutout)                    \
+  NUMBER(textureSample, texture_sample)                    \
+  NUMBER(heightsRmse, heights_rmse)                        \
+  NUMBER(texturePsnr, texture_psnr)                        \
+  NUMBER(hasGeotransform, has_geotransform)                \
+  NUMBER(g0, geotransform[0])                              \
+  NUMBER(g1, geotransform[1])                              \
+  NUMBER(g2, geotransform[2])                              \
+  NUMBER(g3, geotransform[3])                              \
+  NUMBER(g4, geotransform[4])                              \
+  NUMBER(g5, geotransform[5])                              \
+  NUMBER(registration, registration)                       \
+  NUMBER(textureHasGeotransform, texture_has_geotransform) \
+  NUMBER(t0, texture_geotransform[0])                      \
+  NUMBER(t1, texture_geotransform[1])                      \
+  NUMBER(t2, texture_geotransform[2])                      \
+  NUMBER(t3, texture_geotransform[3])                      \
+  NUMBER(t4, texture_geotransform[4])                      \
+  NUMBER(t5, texture_geotransform[5])                      \
+  NUMBER(textureRegistration, texture_registration)        \
+  NUMBER(textureOpaque, texture_opaque)                    \
+  NUMBER(voidsKnown, voids_known)
+
+/// The names, in the order in which web_numbers() writes the numbers.
 const char* web_names() {
-  return "formatVersion profile level headerBytes streamBytes availableBytes packets geometryBytes "
-         "textureBytes hasHeights hasTexture width height coarsestLevel sample scale offset step "
-         "spacingX spacingY lossless hasVoids hasNodata nodata maxError trianglesHint regions "
-         "textureRegions textureWidth textureHeight textureChannels textureCoarsestLevel "
-         "textureCutout textureSample heightsRmse texturePsnr hasGeotransform g0 g1 g2 g3 g4 g5 "
-         "registration textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration "
-         "textureOpaque voidsKnown";
+#define TKS_NAME(name, field) " " #name
+  return &(TKS_WEB_NUMBERS(TKS_NAME))[1];  // without the first blank
+#undef TKS_NAME
 }
 
 tks_status web_numbers(const tks_decoder* decoder, double* out) {
-  tks_info i{};
-  i.size = sizeof i;
-  if (const tks_status status = tks_get_info(decoder, &i); status != TKS_OK) return status;
-  const auto number = [](uint64_t value) { return static_cast<double>(value); };
-  const double numbers[] = {number(i.format_version),
-                            number(i.profile),
-                            number(i.level),
-                            number(i.header_bytes),
-                            number(i.stream_bytes),
-                            number(i.available_bytes),
-                            number(i.packets),
-                            number(i.geometry_bytes),
-                            number(i.texture_bytes),
-                            double(i.has_heights),
-                            double(i.has_texture),
-                            number(i.width),
-                            number(i.height),
-                            number(i.coarsest_level),
-                            double(i.sample),
-                            i.scale,
-                            i.offset,
-                            i.step,
-                            i.spacing_x,
-                            i.spacing_y,
-                            double(i.lossless),
-                            double(i.has_voids),
-                            double(i.has_nodata),
-                            i.nodata,
-                            i.max_error,
-                            number(i.triangles),
-                            number(i.regions),
-                            number(i.texture_regions),
-                            number(i.texture_width),
-                            number(i.texture_height),
-                            number(i.texture_channels),
-                            number(i.texture_coarsest_level),
-                            double(i.texture_cutout),
-                            double(i.texture_sample),
-                            i.heights_rmse,
-                            i.texture_psnr,
-                            double(i.has_geotransform),
-                            i.geotransform[0],
-                            i.geotransform[1],
-                            i.geotransform[2],
-                            i.geotransform[3],
-                            i.geotransform[4],
-                            i.geotransform[5],
-                            double(i.registration),
-                            double(i.texture_has_geotransform),
-                            i.texture_geotransform[0],
-                            i.texture_geotransform[1],
-                            i.texture_geotransform[2],
-                            i.texture_geotransform[3],
-                            i.texture_geotransform[4],
-                            i.texture_geotransform[5],
-                            double(i.texture_registration),
-                            double(i.texture_opaque),
-                            double(i.voids_known)};
-  std::copy(std::begin(numbers), std::end(numbers), out);
+  tks_info info{};
+  info.size = sizeof info;
+  if (const tks_status status = tks_get_info(decoder, &info); status != TKS_OK) return status;
+#define TKS_VALUE(name, field) *out++ = static_cast<double>(info.field);
+  TKS_WEB_NUMBERS(TKS_VALUE)
+#undef TKS_VALUE
   return TKS_OK;
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/corrected_heights.hpp"
+#include "codec/geometry/corrections/activity_hints.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/corrections/exact_corrections_encoder.hpp"
 
@@ -61,9 +61,8 @@ std::vector<uint8_t> encodeExact(const DecodedPart& part) {
                           part.fraction_bits);
 }
 
-Corrected correct(const HeightSteps& steps, Extent plane, const DecodedWindow& decoded,
-                  const Window& window, int32_t largest) {
-  const DecodedPart part(steps, plane, decoded, window);
+Corrected correctPart(const DecodedPart& part, std::span<const uint8_t> significant,
+                      int32_t largest) {
   Corrected result;
   for (size_t i = 0; i < part.extent.samples(); ++i) {
     const int64_t error = part.error(i), correction = nearestMultiple(error, largest);
@@ -76,33 +75,38 @@ Corrected correct(const HeightSteps& steps, Extent plane, const DecodedWindow& d
     result.codewords.push_back(encodeExact(part));
     return result;
   }
-  const CutOut<uint8_t> significant(decoded.heights.significant, decoded.window.extent(),
-                                    DecodedPart::inside(decoded, window));
-  result.codewords.push_back(encodeWithinBound(part, significant.values(), largest));
+  result.codewords.push_back(encodeWithinBound(part, significant, largest));
   return result;
 }
 
 }  // namespace
 
+void Corrected::append(Corrected more) {
+  for (std::vector<uint8_t>& codeword : more.codewords) codewords.push_back(std::move(codeword));
+  any |= more.any;
+  before += more.before;
+  after += more.after;
+}
+
 Corrected correct(const HeightSteps& steps, uint32_t width, const DecodedWindow& decoded,
-                  std::span<const Window> parts, int32_t largest, uint32_t threads) {
+                  int32_t largest, uint32_t threads) {
   const Extent plane = {width, static_cast<uint32_t>(steps.steps.size() / width)};
-  std::vector<Corrected> of_parts(parts.size());
-  parallelFor(threads, parts.size(),
-              [&](size_t i) { of_parts[i] = correct(steps, plane, decoded, parts[i], largest); });
+  std::vector<Corrected> of_parts(decoded.parts.size());
+  parallelFor(threads, decoded.parts.size(), [&](size_t i) {
+    const Window& part = decoded.parts[i];
+    const CutOut<uint8_t> significant(decoded.heights.significant, decoded.window.extent(),
+                                      DecodedPart::inside(decoded, part));
+    of_parts[i] =
+        correctPart(DecodedPart(steps, plane, decoded, part), significant.values(), largest);
+  });
   Corrected all;
-  for (Corrected& part : of_parts) {
-    all.codewords.push_back(std::move(part.codewords.front()));
-    all.any |= part.any;
-    all.before += part.before;
-    all.after += part.after;
-  }
+  for (Corrected& part : of_parts) all.append(std::move(part));
   return all;
 }
 
 Corrected correct(const HeightSteps& steps, const DecodedGeometry& decoded, int32_t largest) {
   const Window whole = {0, 0, decoded.width, decoded.height};
-  return correct(steps, decoded.extent(), {decoded, whole}, whole, largest);
+  return correct(steps, decoded.width, {decoded, whole, {&whole, 1}}, largest, 1);
 }
 
 /// Decodes a cut, from where the longest known cut ends that is no longer than it.

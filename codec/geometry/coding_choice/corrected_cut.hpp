@@ -25,18 +25,22 @@ struct Corrected {
   PartCodewords codewords;       ///< of each part
   bool any = false;              ///< some sample is off by more than allowed
   double before = 0, after = 0;  ///< squared errors in steps
+
+  /// Adds the parts that follow these.
+  void append(Corrected more);
 };
 
 /// What a decoder makes of a window of the plane.
 struct DecodedWindow {
   const DecodedGeometry& heights;
   Window window;
+  std::span<const Window> parts;  ///< that it consists of
 };
 
 /// Corrections of decoded heights that leave a largest error, in steps. steps: of the whole plane,
-/// which is so wide. parts: those that the window consists of. threads: nothing depends on them.
+/// which is so wide. threads: nothing depends on them.
 Corrected correct(const HeightSteps& steps, uint32_t width, const DecodedWindow& decoded,
-                  std::span<const Window> parts, int32_t largest, uint32_t threads);
+                  int32_t largest, uint32_t threads);
 
 /// The same for a plane that is one part.
 Corrected correct(const HeightSteps& steps, const DecodedGeometry& decoded, int32_t largest);

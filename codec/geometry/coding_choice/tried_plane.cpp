@@ -32,7 +32,8 @@ TriedPart::TriedPart(const CopiedPart& part, FlatAreas flat, const WaveletHeader
     : flat_(std::move(flat)),
       values_(scaled(part.heights, wavelet)),
       area_heights_(scaled(flat_.heights, wavelet)),
-      layout_(specOf(wavelet), part.extent(), part.lifted, {flat_.numbers, area_heights_}) {
+      layout_(specOf(wavelet),
+              Pyramid(part.extent(), part.lifted, {flat_.numbers, area_heights_})) {
   clearUnmarked(std::span(values_), part.lifted);
   forwardWavelet(specOf(wavelet), layout_.pyramid(), values_, 1);
   if (!flat_.empty()) bytes_of_areas_ = encodeFlatAreas(flat_, part.extent(), part.valid).size();

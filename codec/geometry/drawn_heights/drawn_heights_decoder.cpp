@@ -4,7 +4,7 @@
 #include "base/view.hpp"
 #include "codec/drawing/drawing_decoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
-#include "codec/geometry/drawn_heights/drawn_fill.hpp"
+#include "codec/geometry/drawn_heights/drawn_surface.hpp"
 
 namespace tetrakis::inline drawn_heights {
 

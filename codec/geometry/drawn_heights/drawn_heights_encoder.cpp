@@ -8,7 +8,7 @@
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
-#include "codec/geometry/drawn_heights/drawn_fill.hpp"
+#include "codec/geometry/drawn_heights/drawn_surface.hpp"
 
 namespace tetrakis::inline drawn_heights {
 

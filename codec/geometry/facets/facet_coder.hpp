@@ -192,13 +192,20 @@ class FacetCoder {
   const OddsTable odds_ = makeOddsTable();
 };
 
-/// heights: in units of 2^-fraction_bits steps. exact(sample): the float that it comes from, or
-/// anything in decoders. take(sample, float): takes these one after the other, up to the first
-/// undecided one.
+/// What facets are restored from.
+struct FacetedHeights {
+  const GeometryHeader& header;  ///< base and step
+  FacetUnit unit;
+  PlaneView<const int32_t> plane;  ///< in units of 2^-fraction_bits steps
+  int fraction_bits;
+};
+
+/// exact(sample): the float that it comes from, or anything in decoders. take(sample, float): takes
+/// these one after the other, up to the first undecided one.
 template <class Io, class ExactSample, class TakeSample>
-void codeFacets(const PlaneView<const int32_t>& heights, int fraction_bits,
-                const GeometryHeader& header, const FacetUnit& unit, Io& io,
-                const ExactSample& exact, const TakeSample& take) {
+void codeFacets(const FacetedHeights& faceted, Io& io, const ExactSample& exact,
+                const TakeSample& take) {
+  const auto& [header, unit, heights, fraction_bits] = faceted;
   ErrorForecast forecast(heights.width);
   FacetRows rows(heights.width);
   FacetCoder<Io> coder(header, unit, io);

@@ -14,9 +14,9 @@ DecodedHeights restoreFacets(DecodedHeights decoded, const GeometryHeader& heade
   DecodedGeometry& geometry = decoded.geometry;
   decoded.corrections.assign(geometry.heights.size(), 0);
   DecisionDecoding reader(codeword);
+  const PlaneView<const int32_t> plane(geometry.heights, geometry.extent(), geometry.valid);
   codeFacets(
-      {geometry.heights, geometry.extent(), geometry.valid}, geometry.fraction_bits, header,
-      FacetUnit(unit), reader, [](size_t) { return 0.f; },
+      {header, FacetUnit(unit), plane, geometry.fraction_bits}, reader, [](size_t) { return 0.f; },
       [&](size_t i, float sample) {
         const ValueInSteps value = inSteps(sample, header, geometry.fraction_bits);
         geometry.heights[i] = value.height;

@@ -18,7 +18,7 @@ std::vector<uint8_t> encodeFacets(const tks_heights& samples, PlaneView<const in
       static_cast<const float*>(samples.data) + size_t{part.y} * samples.width + part.x;
   DecisionEncoding writer;
   codeFacets(
-      {heights.values(), part.extent(), valid.values()}, 0, header, FacetUnit(unit), writer,
+      {header, FacetUnit(unit), {heights.values(), part.extent(), valid.values()}, 0}, writer,
       [&](size_t i) { return first[i / part.width * samples.width + i % part.width]; },
       [](size_t, float) {});
   return writer.finish();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "base/samples.hpp"
 #include "codec/geometry/corrections/correction_writer.hpp"
@@ -26,19 +27,20 @@ int32_t multiplesBeside(const RelativePrediction& prediction, double sample, dou
   return static_cast<int32_t>(prediction.above ? 0u - beside : beside);
 }
 
+/// samples, steps: of the same part.
 template <class T>
-void writeRows(const T* samples, const PlaneView<const int32_t>& steps, const Window& part,
+void writeRows(std::span<const T> samples, const PlaneView<const int32_t>& steps,
                const GeometryHeader& header, const RelativeSteps& relative,
                CorrectionWriter& writer) {
-  const uint32_t width = part.width;
+  const uint32_t width = steps.width;
   KnownMultiples known(width, relative);
   CorrectionCoder multiples(width, kMultipleHints, writer), rests(width, kRestHints, writer);
-  for (uint32_t y = 0; y < part.height; ++y) {
+  for (uint32_t y = 0; y < steps.height; ++y) {
     known.nextRow();
     multiples.nextRow();
     rests.nextRow();
     for (uint32_t x = 0; x < width; ++x) {
-      const size_t i = (size_t{part.y} + y) * steps.width + part.x + x;
+      const size_t i = size_t{y} * width + x;
       if (!steps.valid[i]) continue;
       const auto near = static_cast<double>(restore<T>(header.base, header.step, steps.data[i]));
       const RelativePrediction prediction = known.predict(x, near);
@@ -60,10 +62,15 @@ std::vector<uint8_t> encodeRelative(const tks_heights& samples, PlaneView<const 
                                     const RelativeSteps& relative) {
   assert(samples.width == steps.width && samples.height == steps.height);
   assert(std::isfinite(relative.step) && relative.step > 0);
+  const Extent plane = steps.extent();
+  const CutOut<int32_t> heights(steps.values(), plane, part);
+  const CutOut<uint8_t> valid(steps.valid.bytes(), plane, part);
   CorrectionWriter writer;
   withSampleType(samples.sample, [&](auto type) {
     using T = decltype(type);
-    writeRows(static_cast<const T*>(samples.data), steps, part, header, relative, writer);
+    const CutOut<T> exact({static_cast<const T*>(samples.data), plane.samples()}, plane, part);
+    writeRows<T>(exact.values(), {heights.values(), part.extent(), valid.values()}, header,
+                 relative, writer);
   });
   return writer.finish();
 }

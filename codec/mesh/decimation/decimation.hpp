@@ -32,7 +32,6 @@ class MeshSequence {
   /// roots alone, where even they have more.
   size_t bestPrefix(uint32_t triangles) const;
   LatticeMesh mesh(size_t inserted) const;
-  LatticeMesh meshWithAtMost(uint32_t triangles) const { return mesh(bestPrefix(triangles)); }
 
  private:
   Lattice lattice_;

@@ -11,7 +11,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <vector>
 
 #include "codec/mesh/quadtree/location_code.hpp"
 
@@ -20,7 +19,8 @@ namespace tetrakis::inline quadtree {
 constexpr int64_t powerOfFour(uint32_t exponent) {
   return int64_t{1} << 2 * exponent;
 }
-/// (4.1): between horizontal neighbours at relative level distance r.
+/// (4.1): between horizontal neighbours at relative level distance r. Vertical differences are
+/// twice as large: (4.3), (4.4).
 constexpr int64_t horizontalDifference(uint32_t r) {
   return (2 * powerOfFour(r) + 1) / 3;
 }
@@ -28,14 +28,6 @@ constexpr int64_t horizontalDifference(uint32_t r) {
 constexpr int64_t toroidalHorizontalDifference(uint32_t r) {
   return (powerOfFour(r + 1) - 1) / 3;
 }
-/// (4.3), (4.4).
-constexpr int64_t verticalDifference(uint32_t r) {
-  return 2 * horizontalDifference(r);
-}
-constexpr int64_t toroidalVerticalDifference(uint32_t r) {
-  return 2 * toroidalHorizontalDifference(r);
-}
-
 /// All differences of a forest. Additions are modulo 2^32, so that steps back need no sign.
 class IndexDifferences {
  public:
@@ -68,20 +60,6 @@ class IndexDifferences {
     if (r < level) return 2 * within_[r];
     const bool wraps = g == 0 || g == shape_.rowsOf(level);
     return wraps ? borders_[level].wrap_south : borders_[level].enter_south;
-  }
-
-  /// The delta-vectors of (4.7), (4.8) as the thesis prints them: entries g = 0 ... columns (rows).
-  std::vector<int32_t> horizontalVector(uint32_t level) const {
-    std::vector<int32_t> vector;
-    for (uint32_t g = 0; g <= shape_.columnsOf(level); ++g)
-      vector.push_back(static_cast<int32_t>(horizontal(level, g)));
-    return vector;
-  }
-  std::vector<int32_t> verticalVector(uint32_t level) const {
-    std::vector<int32_t> vector;
-    for (uint32_t g = 0; g <= shape_.rowsOf(level); ++g)
-      vector.push_back(static_cast<int32_t>(vertical(level, g)));
-    return vector;
   }
 
  private:

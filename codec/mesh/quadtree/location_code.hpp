@@ -62,12 +62,6 @@ struct QuadtreeShape {
   constexpr uint32_t levelOf(uint32_t code) const {
     return static_cast<uint32_t>(std::bit_width(uint64_t{3} * (code / patches()) + 1) - 1) / 2;
   }
-  /// code >= patches(): roots have no parent.
-  constexpr uint32_t parentOf(uint32_t code) const { return (code - patches()) / 4; }
-  constexpr uint32_t childOf(uint32_t code, uint32_t child) const {
-    return 4 * code + patches() + child;
-  }
-
   constexpr uint32_t codeOf(Square s) const { return firstOf(s.level) + nodeOf(s); }
   constexpr Square squareOf(uint32_t code) const {
     const uint32_t level = levelOf(code);

@@ -47,12 +47,7 @@ class Traversal {
     return *this;
   }
 
-  /// One level up or down: the scaling function (4.23). `child`: 0 ... 3 along the z-curve.
-  Traversal& toParent() {
-    node_ /= 4;
-    square_ = {square_.level - 1, square_.column / 2, square_.row / 2};
-    return *this;
-  }
+  /// One level down: the scaling function (4.23). `child`: 0 ... 3 along the z-curve.
   Traversal& toChild(uint32_t child) {
     node_ = 4 * node_ + child;
     square_ = {square_.level + 1, 2 * square_.column + child % 2, 2 * square_.row + child / 2};

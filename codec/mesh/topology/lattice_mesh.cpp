@@ -129,13 +129,6 @@ std::vector<VertexId> allVertices(const Lattice& lattice) {
   return all;
 }
 
-std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId> vertices) {
-  std::vector<bool> marks(lattice.vertexCount());
-  for (const VertexId v : vertices) marks[v] = true;
-  close(lattice, marks);
-  return idsOf(marks);
-}
-
 std::vector<VertexId> codedVertices(const Lattice& lattice, std::span<const uint8_t> marks) {
   assert(marks.size() == lattice.sampleCount());
   std::vector<bool> chosen(lattice.vertexCount());

@@ -27,10 +27,6 @@ LatticeMesh meshOf(const Lattice& lattice, std::span<const VertexId> vertices);
 /// Returns all vertices, coarse ones first. Their mesh has every sample.
 std::vector<VertexId> allVertices(const Lattice& lattice);
 
-/// Returns the smallest closed set that holds `vertices`: these vertices and their ancestors, in
-/// the order of their ids.
-std::vector<VertexId> closureOf(const Lattice& lattice, std::span<const VertexId> vertices);
-
 /// The closure of all samples whose mark is not zero (thesis 3.2.3: splitting domains), in order of
 /// id. marks: one for each sample, row by row.
 std::vector<VertexId> codedVertices(const Lattice& lattice, std::span<const uint8_t> marks);

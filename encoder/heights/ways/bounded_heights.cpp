@@ -10,7 +10,7 @@
 
 #include "codec/geometry/coding_choice/bound_choice.hpp"
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
-#include "codec/geometry/quantiser/bridges.hpp"
+#include "codec/geometry/quantiser/bridged_steps.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"
 #include "codec/geometry/quantiser/voids.hpp"

@@ -99,22 +99,22 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
   return *codeCut(heights, codeUncut(heights, choice, 0), target);
 }
 
-/// The parts of rows of regions, as many rows as make a window of a million samples: what decoding
-/// takes is of a window.
-std::vector<std::vector<Window>> bandsOf(const std::vector<Window>& parts) {
+/// The parts in windows of whole rows of regions, each of a million samples or more, since what
+/// decoding takes of memory follows the window.
+std::vector<std::vector<Window>> windowsOf(const std::vector<Window>& parts) {
   constexpr uint64_t kEnough = 1 << 20;
-  std::vector<std::vector<Window>> bands;
+  std::vector<std::vector<Window>> windows;
   uint64_t samples = kEnough;
   for (const Window& part : parts) {
-    const bool new_row = bands.empty() || part.y != bands.back().back().y;
+    const bool new_row = windows.empty() || part.y != windows.back().back().y;
     if (new_row && samples >= kEnough) {
-      bands.emplace_back();
+      windows.emplace_back();
       samples = 0;
     }
-    bands.back().push_back(part);
+    windows.back().push_back(part);
     samples += part.extent().samples();
   }
-  return bands;
+  return windows;
 }
 
 Window around(const std::vector<Window>& parts) {
@@ -127,16 +127,12 @@ CodedHeights withCorrections(CodedHeights cut, int32_t largest, uint32_t threads
   const Codewords codewords = codewordsOf(cut.tracks);
   Corrected all;
   for (const std::vector<Window>& parts :
-       bandsOf(correctionParts(cut.header.extent(), cut.header.regions.side_log2))) {
+       windowsOf(correctionParts(cut.header.extent(), cut.header.regions.side_log2))) {
     const View view = {0, around(parts)};
     const DecodedHeights decoded =
         decodeHeights(cut.header, cut.layers, codewords, view, {threads, nullptr});
-    Corrected band = correct(cut.quantised->steps, cut.header.width,
-                             {decoded.geometry, *view.window}, parts, largest, threads);
-    for (auto& codeword : band.codewords) all.codewords.push_back(std::move(codeword));
-    all.any |= band.any;
-    all.before += band.before;
-    all.after += band.after;
+    all.append(correct(cut.quantised->steps, cut.header.width,
+                       {decoded.geometry, *view.window, parts}, largest, threads));
   }
   return followedBy(std::move(cut), all, largest);
 }

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "codec/geometry/coding_choice/exact_cut.hpp"
-#include "codec/geometry/drawn_heights/drawing_estimate.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"

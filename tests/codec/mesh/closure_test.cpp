@@ -11,6 +11,7 @@
 #include "codec/mesh/closure/closure_flow.hpp"
 #include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/mesh_hull.hpp"
+#include "tests/support/closed_sets.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_values.hpp"
 

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "codec/mesh/topology/lattice_mesh.hpp"
+#include "tests/support/closed_sets.hpp"
 
 namespace tetrakis {
 namespace {

@@ -15,6 +15,7 @@
 #include "codec/mesh/study/decimation_policies.hpp"
 #include "codec/mesh/study/local_errors.hpp"
 #include "codec/mesh/topology/ancestors.hpp"
+#include "tests/support/closed_sets.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"
 

@@ -172,11 +172,11 @@ TEST(Decimation, OrderHoldsEveryVertexAfterItsParents) {
 TEST(Decimation, MeshesOfGrowingBudgetsAreNestedAndNeverWorse) {
   const Terrain terrain(70, 50, Relief::kTerrain);
   const Result<MeshSequence> sequence = decimate(terrain.view());
-  LatticeMesh coarser = sequence->meshWithAtMost(0);
+  LatticeMesh coarser = sequence->mesh(sequence->bestPrefix(0));
   EXPECT_EQ(coarser.triangleCount(), sequence->triangleCount(0));
   double error = sequence->squaredError(0);
   for (const uint32_t budget : {5u, 6u, 7u, 30u, 31u, 100u, 1000u, 4000u, 100000u}) {
-    const LatticeMesh mesh = sequence->meshWithAtMost(budget);
+    const LatticeMesh mesh = sequence->mesh(sequence->bestPrefix(budget));
     EXPECT_LE(mesh.triangleCount(), std::max(budget, sequence->triangleCount(0)));
     ASSERT_GE(mesh.vertices.size(), coarser.vertices.size());
     EXPECT_TRUE(

@@ -15,6 +15,7 @@
 
 #include "codec/mesh/decimation/decimation.hpp"
 #include "codec/mesh/fitting/fitted_solver.hpp"
+#include "tests/support/closed_sets.hpp"
 #include "tests/support/mesh_checks.hpp"
 
 namespace tetrakis {

@@ -8,6 +8,7 @@
 #include "codec/mesh/topology/ancestors.hpp"
 #include "codec/mesh/topology/lattice.hpp"
 #include "codec/mesh/topology/lattice_mesh.hpp"
+#include "tests/support/closed_sets.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_values.hpp"
 

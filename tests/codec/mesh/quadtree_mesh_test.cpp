@@ -10,6 +10,7 @@
 #include <set>
 
 #include "codec/mesh/quadtree/mesh_tree.hpp"
+#include "tests/support/closed_sets.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_values.hpp"
 

@@ -15,6 +15,20 @@ using Steps = std::vector<int32_t>;
 
 constexpr QuadtreeShape kTree{4};
 
+/// The delta-vectors of (4.7), (4.8) as the thesis prints them: entries g = 0 ... columns (rows).
+Steps horizontalVector(const IndexDifferences& differences, uint32_t level) {
+  Steps vector;
+  for (uint32_t g = 0; g <= differences.shape().columnsOf(level); ++g)
+    vector.push_back(static_cast<int32_t>(differences.horizontal(level, g)));
+  return vector;
+}
+Steps verticalVector(const IndexDifferences& differences, uint32_t level) {
+  Steps vector;
+  for (uint32_t g = 0; g <= differences.shape().rowsOf(level); ++g)
+    vector.push_back(static_cast<int32_t>(differences.vertical(level, g)));
+  return vector;
+}
+
 TEST(ThesisExample, FourOneCoordinatesOfNode59) {
   EXPECT_EQ(kTree.levelOf(59), 3u);
   EXPECT_EQ(59 - kTree.firstOf(3), 38u);  // quaternary 212
@@ -37,7 +51,8 @@ TEST(ThesisExample, FourTwoNeighboursOfNode8) {
 TEST(ThesisExample, FourThreeEndsInNode23) {
   const IndexDifferences differences(kTree);
   EXPECT_EQ(kTree.squareOf(12), (Square{2, 3, 1}));
-  EXPECT_EQ(4 * 12 + 2 + differences.horizontalVector(3)[8] - differences.verticalVector(3)[2], 23);
+  EXPECT_EQ(4 * 12 + 2 + horizontalVector(differences, 3)[8] - verticalVector(differences, 3)[2],
+            23);
   Traversal path(differences, kTree.squareOf(12));
   EXPECT_EQ(path.toChild(1).code(), 50u);
   EXPECT_EQ(path.east().code(), 29u);
@@ -48,12 +63,12 @@ TEST(ThesisExample, FourThreeEndsInNode23) {
 
 TEST(ClosedForm, DeltaVectorsAreThoseOfTheThesis) {  // (4.9), (4.10)
   const IndexDifferences differences(kTree);
-  EXPECT_EQ(differences.horizontalVector(1), (Steps{-1, 1, -1}));
-  EXPECT_EQ(differences.horizontalVector(2), (Steps{-5, 1, 3, 1, -5}));
-  EXPECT_EQ(differences.horizontalVector(3), (Steps{-21, 1, 3, 1, 11, 1, 3, 1, -21}));
-  EXPECT_EQ(differences.verticalVector(1), (Steps{-2, 2, -2}));
-  EXPECT_EQ(differences.verticalVector(2), (Steps{-10, 2, 6, 2, -10}));
-  EXPECT_EQ(differences.verticalVector(3), (Steps{-42, 2, 6, 2, 22, 2, 6, 2, -42}));
+  EXPECT_EQ(horizontalVector(differences, 1), (Steps{-1, 1, -1}));
+  EXPECT_EQ(horizontalVector(differences, 2), (Steps{-5, 1, 3, 1, -5}));
+  EXPECT_EQ(horizontalVector(differences, 3), (Steps{-21, 1, 3, 1, 11, 1, 3, 1, -21}));
+  EXPECT_EQ(verticalVector(differences, 1), (Steps{-2, 2, -2}));
+  EXPECT_EQ(verticalVector(differences, 2), (Steps{-10, 2, 6, 2, -10}));
+  EXPECT_EQ(verticalVector(differences, 3), (Steps{-42, 2, 6, 2, 22, 2, 6, 2, -42}));
 }
 
 TEST(ClosedForm, RecurrencesOfTheorem41HoldAtEveryDistance) {  // (4.27), (4.28), (4.33), (4.34)
@@ -61,8 +76,8 @@ TEST(ClosedForm, RecurrencesOfTheorem41HoldAtEveryDistance) {  // (4.27), (4.28)
   for (uint32_t r = 0; r < 16; ++r) {
     EXPECT_EQ(horizontalDifference(r), east - west);
     EXPECT_EQ(toroidalHorizontalDifference(r), last - first);
-    EXPECT_EQ(verticalDifference(r), south - north);
-    EXPECT_EQ(toroidalVerticalDifference(r), bottom - top);
+    EXPECT_EQ(2 * horizontalDifference(r), south - north);
+    EXPECT_EQ(2 * toroidalHorizontalDifference(r), bottom - top);
     west = 4 * west + 2, east = 4 * east + 1, first = 4 * first + 1, last = 4 * last + 2;
     north = 4 * north + 3, south = 4 * south + 1, top = 4 * top + 1, bottom = 4 * bottom + 3;
   }
@@ -73,7 +88,7 @@ TEST(ClosedForm, RecurrencesOfTheorem41HoldAtEveryDistance) {  // (4.27), (4.28)
 TEST(ClosedForm, EasternAndWesternPairsDifferAlike) {
   int64_t north = 1, south = 3;
   for (uint32_t r = 0; r < 16; ++r) {
-    EXPECT_EQ(verticalDifference(r), south - north);
+    EXPECT_EQ(2 * horizontalDifference(r), south - north);
     north = 4 * north + 4, south = 4 * south + 2;
   }
 }
@@ -109,19 +124,6 @@ TEST_P(EveryForest, CodesAreARangeWithoutGapsAndHoldTheirLevel) {
   EXPECT_EQ(uses, std::vector<int>(uses.size(), 1));
 }
 
-TEST_P(EveryForest, ParentsAndChildrenAreThoseOfTheSquares) {
-  forEachSquare([&](Square square) {
-    if (square.level + 1 == shape_.depth) return;
-    const uint32_t code = shape_.codeOf(square);
-    for (uint32_t child = 0; child < 4; ++child) {
-      const Square below{square.level + 1, 2 * square.column + child % 2,
-                         2 * square.row + child / 2};
-      ASSERT_EQ(shape_.childOf(code, child), shape_.codeOf(below));
-      ASSERT_EQ(shape_.parentOf(shape_.codeOf(below)), code);
-    }
-  });
-}
-
 TEST_P(EveryForest, NeighboursAreThoseOfTheSquaresAcrossPatchesAndAroundTheTorus) {
   forEachSquare([&](Square s) {
     const uint32_t columns = shape_.columnsOf(s.level), rows = shape_.rowsOf(s.level);
@@ -152,8 +154,8 @@ TEST_P(EveryForest, LongPathsEndWhereTheirStepsLead) {
     if (move == 2) path.south(), expected.row = (expected.row + 1) % rows;
     if (move == 3) path.north(), expected.row = (expected.row + rows - 1) % rows;
     if (move == 4 && expected.level > 0) {
-      path.toParent();
       expected = {expected.level - 1, expected.column / 2, expected.row / 2};
+      path = Traversal(differences_, expected);
     }
     if (move == 5 && expected.level + 1 < shape_.depth) {
       path.toChild(child);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/quantiser/bridges.hpp"
+#include "codec/geometry/quantiser/bridged_steps.hpp"
 
 #include <utility>
 

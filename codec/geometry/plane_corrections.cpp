@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/corrected_heights.hpp"
+#include "codec/geometry/plane_corrections.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "bitstream/stream/correction_tracks.hpp"
+#include "codec/geometry/corrections/activity_hints.hpp"
 #include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/corrections/exact_corrections_decoder.hpp"
 #include "codec/geometry/facets/facets_decoder.hpp"
@@ -105,8 +106,7 @@ struct ShownPart {
   std::span<const uint8_t> codeword;
 };
 
-std::vector<ShownPart> shownParts(const std::vector<Window>& parts,
-                                  const std::vector<std::span<const uint8_t>>& codewords,
+std::vector<ShownPart> shownParts(const std::vector<Window>& parts, const Codewords& codewords,
                                   const View& view, Extent shown) {
   assert(codewords.size() == parts.size());
   std::vector<ShownPart> some;
@@ -149,24 +149,24 @@ View correctedView(const GeometryHeader& header, const GeometryLayers& layers, c
   return {0, Window{0, 0, header.width, rows}};
 }
 
-DecodedHeights corrected(DecodedHeights decoded, const GeometryHeader& header,
-                         const GeometryLayers& layers,
-                         const std::vector<std::span<const uint8_t>>& codewords, const View& view,
+DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const View& view,
                          uint32_t threads) {
   assert(view.level == 0);
-  if (correctionTracks(header, layers) == 0) {
+  const GeometryHeader& header = taken.header;
+  const GeometryLayers& stated = taken.stated;
+  if (correctionTracks(header, stated) == 0) {
     decoded.geometry.quiet_levels = 0;
-    return correctedPart(std::move(decoded), header, layers, codewords.front());
+    return correctedPart(std::move(decoded), header, stated, taken.corrections.front());
   }
   const std::vector<ShownPart> parts =
-      shownParts(correctionParts(header.extent(), header.regions.side_log2), codewords, view,
-                 decoded.geometry.extent());
+      shownParts(correctionParts(header.extent(), header.regions.side_log2), taken.corrections,
+                 view, decoded.geometry.extent());
   if (parts.empty()) return decoded;
   decoded.geometry.quiet_levels = 0;
-  if (layers.restoresSamples()) decoded.corrections.resize(decoded.geometry.heights.size());
+  if (stated.restoresSamples()) decoded.corrections.resize(decoded.geometry.heights.size());
   parallelFor(threads, parts.size(), [&](size_t i) {
     const auto& [window, codeword] = parts[i];
-    put(correctedPart(windowOf(decoded, window), header, layers, codeword), window, decoded);
+    put(correctedPart(windowOf(decoded, window), header, stated, codeword), window, decoded);
   });
   return decoded;
 }
@@ -185,22 +185,6 @@ DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window) {
   part.geometry.valid = cut_out(geometry.valid);
   part.corrections = cut_out(decoded.corrections);
   return part;
-}
-
-std::vector<uint8_t> activityHints(std::span<const uint8_t> significant, Extent extent) {
-  assert(significant.size() == extent.samples());
-  const auto [width, height] = extent;
-  std::vector<uint8_t> hints(significant.begin(), significant.end());
-  for (uint32_t y = 0; y < height; ++y) {
-    for (uint32_t x = 0; x < width; ++x) {
-      const size_t i = size_t{y} * width + x;
-      if (x > 0) hints[i] += significant[i - 1];
-      if (x + 1 < width) hints[i] += significant[i + 1];
-      if (y > 0) hints[i] += significant[i - width];
-      if (y + 1 < height) hints[i] += significant[i + width];
-    }
-  }
-  return hints;
 }
 
 }  // namespace tetrakis::inline geometry

@@ -7,9 +7,8 @@
 
 namespace tetrakis::inline heights {
 
-/// The lines to code; none where all are. A judge of pictures takes whole heights. A PSNR is that
-/// of all samples, of which those of long runs count more: with voids nobody knows by how much.
-/// Small budgets have no bytes for a long map.
-CodedLines linesToCode(const EncodeInputs& inputs);
+/// The lines of the heights to code; none where all are. A PSNR is that of all samples, of which
+/// those of long runs count more: beside voids nobody knows by how much.
+CodedLines heightLines(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline heights

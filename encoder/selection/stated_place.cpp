@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/selection/georeference.hpp"
+#include "encoder/selection/stated_place.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/sighting.hpp"
+#include "api/outlook.hpp"
 
 #include <algorithm>
 #include <cmath>

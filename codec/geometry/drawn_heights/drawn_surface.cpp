@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/drawn_heights/drawn_fill.hpp"
+#include "codec/geometry/drawn_heights/drawn_surface.hpp"
 
 #include <cstddef>
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/texture_bytes.hpp"
+
+#include <algorithm>
+
+#include "api/plane_bytes.hpp"
+#include "codec/lines/shown_lines.hpp"
+#include "texture_wavelet/tables/channel_tables.hpp"
+
+namespace tetrakis::inline api {
+
+namespace {
+
+class TextureBytes {
+ public:
+  TextureBytes(const tks_decoder& decoder, const View& view)
+      : decoder_(decoder),
+        header_(*decoder.parsed.header.texture),
+        view_(codedView(header_, view)),
+        shown_(area(view_.extentIn(header_.extent()))),
+        copied_(header_.repeats.none() ? 0 : area(view.extentIn(header_.shown()))),
+        seen_(header_.alpha_bytes > 0),
+        masked_(header_.hidden || header_.overlay_bytes > 0) {}
+
+  uint64_t decoding() const { return decodingLines() + copyBytes(header_, copied_, texel()); }
+
+ private:
+  uint64_t texel() const { return header_.channels * sizeof(uint16_t); }
+  uint64_t decodingLines() const {
+    const uint64_t out = shown_ * texel();
+    if (header_.direct())
+      return kDrawnOnceBytes + direct(view_.window ? area(header_) : shown_) +
+             (view_.window ? out : 0);
+    const uint32_t colour_planes = header_.colourPlanes();
+    const PlanesBytes planes(decoder_, header_, view_, colour_planes, masked_);
+    const uint64_t all = colour_planes * planes.coefficients;
+    const uint64_t masks = shown_ * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));
+    // A window's samples are apart from its coefficients, which are gone then.
+    const uint64_t samples = view_.window ? colour_planes * kValueBytes * shown_ : all;
+    const uint64_t state =
+        stateBytes(decoder_, header_, colour_planes, masked_, Component::kTexture);
+    const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnceBytes : kOnceBytes;
+    return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
+           std::max({bridged() ? area(header_) : 0, all + state, all + masks + planes.work,
+                     samples + masks + out});
+  }
+  /// A distance for each texel is there while bridges are found.
+  bool bridged() const { return header_.bridge > 0; }
+  uint64_t direct(uint64_t count) const {
+    return count * ((header_.drawn() ? sizeof(DrawnIndex) : 0) + texel());
+  }
+  /// What the opening takes: a mask of the texels that can be seen, the colours of the overlay, a
+  /// mask of the texels that are coded and one of those that are lifted, each of a whole plane.
+  uint64_t opening() const {
+    const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(DrawnIndex) : 0;
+    return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0) + (bridged() ? 1 : 0));
+  }
+
+  const tks_decoder& decoder_;
+  const TextureHeader& header_;
+  const View view_;
+  uint64_t shown_;   ///< texels of the view, of coded lines
+  uint64_t copied_;  ///< of the view; 0: no lines are copied
+  bool seen_, masked_;
+};
+
+}  // namespace
+
+uint64_t textureBytes(const tks_decoder& decoder, const View& view) {
+  return TextureBytes(decoder, view).decoding();
+}
+
+}  // namespace tetrakis::inline api

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What significant coefficients say of the corrections of steps near them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline corrections {
+
+/// Returns the hints (corrections_pass.hpp) of corrections of steps: how many of a vertex and its
+/// four neighbours are significant. significant: of the samples of a part.
+std::vector<uint8_t> activityHints(std::span<const uint8_t> significant, Extent extent);
+
+}  // namespace tetrakis::inline corrections

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The coded mesh of a view: which of its vertices have a significant coefficient.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/view.hpp"
+#include "bitstream/track/track_decoder.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+#include "wavelet/band_plan.hpp"
+#include "wavelet/pyramid.hpp"
+
+namespace tetrakis::inline geometry {
+
+/// Collects the marks of vertices from the tracks of a view. The pyramid outlives it.
+class ShownSignificance {
+ public:
+  ShownSignificance(const Pyramid& pyramid, const View& view, size_t tracks);
+
+  /// Takes the bands of a track. Called for different tracks at the same time.
+  void take(size_t track, const TrackState& state, std::span<const BandPart> parts);
+
+  /// Moves the marks, and how many of the finest levels have none, to the heights of the view.
+  void giveTo(DecodedGeometry& geometry);
+
+ private:
+  void mark(const Band& band, const Subband& subband, const BandPart& part);
+
+  const Pyramid& pyramid_;
+  int level_;
+  const LowBand& low_;
+  Window shown_;  ///< samples of the low band
+  bool is_window_;
+  std::vector<uint8_t> marks_;  ///< of those
+  std::vector<int> quiet_;      ///< of each track, the finest levels without such a coefficient
+};
+
+}  // namespace tetrakis::inline geometry

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes the tracks of heights apart into their layers (bitstream/stream/geometry_header.hpp).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "bitstream/stream/packet.hpp"
+
+namespace tetrakis::inline geometry {
+
+/// The bytes of each layer, as many as there are. What it is taken from outlives it.
+struct TakenLayers {
+  const GeometryHeader& header;
+  const GeometryLayers& stated;  ///< what the stream header says of the layers
+  std::span<const uint8_t> validity = {};
+  std::span<const uint8_t> lifted = {};  ///< of heights whose mask comes late
+  std::span<const uint8_t> flat = {};
+  std::span<const uint8_t> table = {};
+  /// The coefficients of the first track: what lies among them cuts them into pieces.
+  Codewords first_coefficients = {};
+  Codewords other_coefficients = {};  ///< of each of the other tracks
+  Codewords corrections = {};         ///< of each part of the plane
+
+  bool isCorrected() const;
+  /// All is there that comes before the coefficients.
+  bool isOpened() const;
+};
+
+/// codewords: any prefix of each track.
+TakenLayers takeApart(const Codewords& codewords, const GeometryHeader& header,
+                      const GeometryLayers& layers);
+
+/// One codeword of coefficients, a drawing or stored samples for each track.
+struct JoinedCoefficients {
+  std::vector<uint8_t> bytes;  ///< of the first, if it was in pieces
+  Codewords codewords;
+};
+
+/// The layers outlive the result.
+JoinedCoefficients joinCoefficients(const TakenLayers& taken);
+
+}  // namespace tetrakis::inline geometry

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/reference_decoder/surface.hpp"
+
+#include <utility>
+
+namespace tetrakis::reference {
+
+namespace {
+
+/// FORMAT 8.1, "Flat areas": held samples have the heights of their areas, at all mip levels.
+void putFlat(const Plane& whole, int level, Plane& image) {
+  for (int y = 0; y < whole.height; y += 1 << level) {
+    for (int x = 0; x < whole.width; x += 1 << level) {
+      const uint32_t area = whole.areaOf(x, y);
+      if (area > 0) image.at(x >> level, y >> level) = whole.flat.heights.at(area - 1);
+    }
+  }
+}
+
+/// FORMAT 7.1: the samples at the places of a level.
+Plane placesOf(const Plane& whole, int level) {
+  Plane image{((whole.width - 1) >> level) + 1, ((whole.height - 1) >> level) + 1, {}, {}};
+  for (int y = 0; y < whole.height; y += 1 << level) {
+    for (int x = 0; x < whole.width; x += 1 << level) {
+      const size_t i = static_cast<size_t>(y) * whole.width + x;
+      image.values.push_back(whole.values[i]);
+      if (!whole.valid.empty()) image.valid.push_back(whole.valid[i]);
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& lifted,
+                      const std::vector<std::span<const uint8_t>>& coefficients, Plane known,
+                      int level) {
+  Surface surface;
+  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
+  surface.plane = std::move(known);
+  if (header.drawn) {
+    surface.plane.values = decodeDrawnHeights(header, coefficients[0], surface.plane.valid);
+    surface.plane = placesOf(surface.plane, level);
+    surface.f = 4;
+    return surface;
+  }
+  surface.plane.values.resize(static_cast<size_t>(header.width) * header.height);
+  const std::vector<uint8_t> valid = surface.plane.valid;
+  surface.plane.valid = lifted;
+  const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
+  for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
+    const size_t track = surface.parts.size();
+    surface.parts.push_back(partsOf(subbands, region));
+    std::vector<Band>& bands = surface.bands.emplace_back();
+    bands = bandsOf(header.wavelet, surface.parts.back(), 0);
+    markAbsent(surface.parts.back(), surface.plane, bands);
+    setPriorities(surface.parts.back(), priorities, bands);
+    dropFiner(surface.parts.back(), level, bands);
+    decodeTrack(coefficients[track], header.planes, bands);
+  }
+  const Fraction fraction = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
+  surface.f = fraction.f;
+  for (size_t i = 0; i < surface.parts.size(); ++i) {
+    place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
+          surface.plane);
+  }
+  for (int32_t& height : surface.plane.flat.heights) height = wrap(int64_t{height} << surface.f);
+  synthesise(header.wavelet, subbands, level, fraction.rounds, surface.plane);
+  surface.plane.valid = valid;
+  const Plane whole = surface.plane;
+  if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);
+  putFlat(whole, level, surface.plane);
+  return surface;
+}
+
+Plane significanceOf(const Surface& surface) {
+  Plane marks{surface.plane.width, surface.plane.height, {}};
+  marks.values.resize(surface.plane.values.size());
+  for (size_t track = 0; track < surface.parts.size(); ++track) {
+    for (size_t i = 0; i < surface.parts[track].size(); ++i) {
+      const Part& part = surface.parts[track][i];
+      for (int r = 0; r < part.rows; ++r) {
+        for (int a = 0; a < part.columns; ++a) {
+          const bool significant = surface.bands[track][i].get(r, a).magnitude > 0;
+          marks.at(part.x(a), part.y(r)) =
+              surface.plane.isValid(part.x(a), part.y(r)) && significant;
+        }
+      }
+    }
+  }
+  return marks;
+}
+
+}  // namespace tetrakis::reference

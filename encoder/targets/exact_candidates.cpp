@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/targets/exact_candidates.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/ways/corrected_heights.hpp"
+#include "encoder/heights/ways/relative_heights.hpp"
+#include "encoder/heights/ways/restored_heights.hpp"
+#include "encoder/targets/component_curves.hpp"
+
+namespace tetrakis::inline targets {
+
+namespace {
+
+/// The lossy heights with what restores them, each way in less than so many bytes.
+std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const CodedHeights& lossy,
+                                             const ByNeighbours& neighbours, uint64_t room) {
+  const uint32_t threads = inputs.options.threads;
+  std::vector<HeightsCandidate> ways;
+  const auto add = [&](std::optional<CodedHeights> way) {
+    if (way && bytesOf(way->tracks) < room) ways.push_back(candidateOf(*std::move(way)));
+  };
+  if (neighbours.relative_step > 0) add(codeRelative(lossy, neighbours.relative_step, threads));
+  if (neighbours.facets) {
+    std::optional<CodedHeights> way = codeFacets(lossy, *neighbours.facets, room, threads);
+    add(way ? std::move(way) : codeFacets(inputs, *neighbours.facets));
+  }
+  if (canBeRestored(lossy)) add(codeRestored(inputs, lossy));
+  return ways;
+}
+
+/// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
+constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
+
+/// Whether prefixes of the first candidate are as good, in the mean, as prefixes of the second that
+/// have 3 % fewer bytes: those up to a part of it. Both have curves.
+template <class Coded>
+bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
+                   const Candidate<Coded>& lossy, double most) {
+  const auto squares_after = [&](const Candidate<Coded>& candidate, double bytes) {
+    const Codewords prefix = prefixAfter(candidate.coded->accounted(), candidate.curve->packets,
+                                         static_cast<uint64_t>(bytes));
+    return squaresOf(*candidate.coded, prefix, inputs.options.threads);
+  };
+  double logarithms = 0;
+  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.}) {
+    const double bytes = part * most * static_cast<double>(tried.bytes());
+    logarithms += std::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
+  }
+  return logarithms <= 0;
+}
+
+bool canBeCorrected(const CodedHeights& heights) {
+  return hasLosslessWay(heights) && heights.quantised->table.empty();
+}
+
+/// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
+/// all, and behind coarser ones prefixes lose quality.
+constexpr double kExactCut = 0.3;
+/// Beside a texture that is not exact: it makes more of the 3 % of bytes than prefixes lose.
+constexpr double kSharedExactCut = 0.5;
+
+/// The heights with corrections in less than so many bytes: behind a fine cut, so that prefixes are
+/// those of the lossy heights for long, unless that takes far more bytes than another.
+std::optional<HeightsCandidate> correctedHeights(const EncodeInputs& inputs,
+                                                 const CodedHeights& lossy, uint64_t room) {
+  std::optional<CodedHeights> corrected = codeCorrected(inputs, lossy, kExactCut);
+  const uint64_t bytes = corrected ? bytesOf(corrected->tracks) : room;
+  if (const std::optional<double> rmse = farShorterCut(lossy, bytes))
+    corrected = codeCorrected(inputs, lossy, std::max(*rmse, kExactCut));
+  if (!corrected || bytesOf(corrected->tracks) >= room) return {};
+  return candidateOf(*std::move(corrected));
+}
+
+}  // namespace
+
+ByNeighbours::ByNeighbours(const HeightsCandidate& lossy, uint64_t room) {
+  if (!lossy.coded) return;
+  relative_step = relativeStepOf(*lossy.coded);
+  facets = facetsOf(*lossy.coded, room);
+}
+
+std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
+                                             const HeightsCandidate& lossy,
+                                             const ByNeighbours& neighbours, uint64_t room) {
+  std::vector<HeightsCandidate> ways = restoredWithin(inputs, *lossy.coded, neighbours, room);
+  if (!ways.empty()) return fewestBytes(std::move(ways));
+  if (!hasLosslessWay(*lossy.coded)) return {};
+  if (canBeCorrected(*lossy.coded)) {
+    if (auto corrected = correctedHeights(inputs, *lossy.coded, room)) return corrected;
+  }
+  HeightsCandidate whole = codeLossless(inputs, *lossy.coded);
+  if (whole.bytes() >= room) return {};
+  whole.curve = curveOfHeights(inputs, *whole.coded);
+  if (!keepsPrefixes(inputs, whole, lossy, kMostOfHeights)) return {};
+  return whole;
+}
+
+std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
+                                             const TextureCandidate& lossy, uint64_t room) {
+  if (!hasLosslessWay(*lossy.coded)) return lossy;
+  const bool few = gapOfValues(*lossy.coded) > 1;
+  TextureCandidate whole =
+      few ? codeLossless(inputs, *lossy.coded) : candidateOf(codeReversibly(inputs, *lossy.coded));
+  if (lossy.coded->header.direct() && lossy.bytes() <= whole.bytes()) return lossy;
+  if (whole.bytes() >= room) return {};
+  whole.curve = curveOfTexture(inputs, *whole.coded);
+  if (few && 2 * whole.bytes() <= inputs.options.bytes) return whole;
+  if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
+  return whole;
+}
+
+std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy,
+                                        const ByNeighbours& neighbours) {
+  std::vector<HeightsCandidate> ways;
+  const auto add = [&](HeightsCandidate way) {
+    if (way.bytes() >= inputs.options.bytes) return;
+    way.curve = curveOfHeights(inputs, *way.coded);
+    if (!way.coded->hasCorrections() && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
+    ways.push_back(std::move(way));
+  };
+  for (HeightsCandidate& way :
+       restoredWithin(inputs, *lossy.coded, neighbours, inputs.options.bytes))
+    add(std::move(way));
+  if (canBeCorrected(*lossy.coded)) {
+    if (auto corrected = codeCorrected(inputs, *lossy.coded, kSharedExactCut))
+      add(candidateOf(*std::move(corrected)));
+  }
+  if (hasLosslessWay(*lossy.coded)) add(codeLossless(inputs, *lossy.coded));
+  return ways;
+}
+
+}  // namespace tetrakis::inline targets

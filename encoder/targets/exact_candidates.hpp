@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Candidates that end exact within a byte budget: ways of one component to its last bit, beside the
+// lossy candidate that a budget is met with first.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "encoder/heights/ways/facet_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/targets/candidates.hpp"
+
+namespace tetrakis::inline targets {
+
+/// How neighbours restore samples that are on no grid of steps.
+struct ByNeighbours {
+  double relative_step = 0;  ///< in sample units; 0: none
+  std::optional<FacetShare> facets = {};
+
+  /// lossy: the heights, if there are any. room: bytes that there are for them.
+  ByNeighbours(const HeightsCandidate& lossy, uint64_t room);
+};
+
+/// The heights to the last bit in less than so many bytes, if their prefixes are as good as those
+/// of the lossy heights. Where samples are on no grid the way of fewer bytes is taken.
+std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
+                                             const HeightsCandidate& lossy,
+                                             const ByNeighbours& neighbours, uint64_t room);
+
+/// The texture likewise. Drawn and stored ones are lossless as they stand, but tables of values may
+/// take fewer bytes; where these leave half of the budget, prefixes do not matter.
+std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
+                                             const TextureCandidate& lossy, uint64_t room);
+
+/// All ways of heights to the last bit in less than the budget whose prefixes are as good as those
+/// of the lossy heights, which have a curve. Coefficients of a cut are those of the lossy heights,
+/// unless only the lossless way fits.
+std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const HeightsCandidate& lossy,
+                                        const ByNeighbours& neighbours);
+
+}  // namespace tetrakis::inline targets

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// This file finds the columns and rows of an image that repeat the one before them.
+#pragma once
+
+#include "encoder/inputs/coded_lines.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+
+namespace tetrakis::inline textures {
+
+/// The lines of the image to code; none where all are. A PSNR is that of all texels, of which those
+/// of long runs count more: beside an alpha nobody knows by how much.
+CodedLines texelLines(const EncodeInputs& inputs);
+
+}  // namespace tetrakis::inline textures

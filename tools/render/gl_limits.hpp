@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the driver can take, and what it says went wrong.
+#pragma once
+
+#include <cstdint>
+
+#include "base/status.hpp"
+
+namespace tetrakis::tools {
+
+/// Largest sizes of the driver.
+struct GlLimits {
+  uint32_t texture = 0, target = 0;
+
+  static GlLimits query();
+};
+
+/// The error since the last call, if there is one. what: was drawn or handed over.
+Status checkGl(const char* what);
+
+}  // namespace tetrakis::tools
