@@ -421,6 +421,24 @@ TEST_F(ImageFiles, ColoursThatAreNoRgbAreRefused) {
   EXPECT_NE(refused.message().find("L*a*b*"), std::string::npos) << refused.message();
 }
 
+/// A PSNR and pictures count 65535 as white, also of sensors that have 12 bits.
+TEST_F(ImageFiles, DarkPicturesAreTold) {
+  for (const uint32_t channels : {1U, 3U, 4U}) {
+    for (const uint16_t most : {uint16_t{3124}, uint16_t{30000}}) {
+      ImageFile image{8, 8, channels, TKS_U16, std::vector<std::byte>(size_t{128} * channels)};
+      for (size_t i = 0; i < size_t{64} * channels; ++i) {
+        const bool alpha = channels == 4 && i % 4 == 3;
+        const uint16_t sample = alpha ? UINT16_MAX : i % 7 == 0 ? most : uint16_t{900};
+        std::memcpy(&image.data[2 * i], &sample, sizeof sample);
+      }
+      ASSERT_TRUE(writeImage(path("a.tif"), image).ok());
+      std::string note;
+      ASSERT_TRUE(readImage(path("a.tif"), &note).ok());
+      EXPECT_EQ(note.find("3124 of 65535") != std::string::npos, most == 3124) << note;
+    }
+  }
+}
+
 TEST_F(ImageFiles, FewBitsAreWidenedToFullRange) {
   const TinyTiff tiff(4, 1, 1, 4, {0x0F, 0x50});
   expectPixels(readImage(save("a.tif", tiff.bytes())), {0, 255, 85, 0});
