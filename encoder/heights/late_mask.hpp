@@ -3,7 +3,8 @@
 // the coefficients follow from which samples are lifted, which often are all; so the mask comes
 // late, behind some of the coefficients, and until then voids are shown as the ground that bridges
 // fill them with. Of every prefix half or more are coefficients, and the mask is whole after twice
-// its bytes: neither comes later than twice as late as it could.
+// its bytes: neither comes later than twice as late as it could. A budget may bring the mask
+// earlier, but leaves the coefficients a third of its bytes, or else leaves the mask out.
 #pragma once
 
 #include <cstdint>

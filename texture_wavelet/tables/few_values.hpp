@@ -13,7 +13,8 @@ namespace tetrakis::inline tables {
 
 struct FewValues {
   ChannelTables tables;  ///< of the channels for which they save bits
-  /// For each channel, the squared error of samples per squared error of places.
+  /// For each channel, the squared error of samples per squared error of places: by the geometric
+  /// mean of the gaps between its values.
   std::array<double, 4> squares = {1, 1, 1, 1};
 
   bool none() const;

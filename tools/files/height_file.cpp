@@ -142,7 +142,8 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
     const Status tags = readGeoTags(tagged, heights, notes);
     if (!tags.ok()) return tags;
   }
-  if (raster->unread_place) notes.push_back({"its place in GML is not read", ""});
+  if (raster->unread_place)
+    notes.push_back({"its place in GML, or in damaged tags, is not read", ""});
   takePam(path, heights);
   if (nodata) heights.nodata = nodata;
   const bool none = nodata && std::isnan(*nodata);  // says that all samples are heights

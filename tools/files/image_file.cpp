@@ -94,6 +94,13 @@ uint16_t dimPeak(const ImageFile& image) {
   return most;
 }
 
+std::string darkNote(uint16_t peak) {
+  const std::string most = std::to_string(peak);
+  return "no colour is above " + most +
+         " of 65535, so it counts as a dark picture: gdal_translate -ot UInt16 -scale 0 " + most +
+         " 0 65535 makes it a bright one";
+}
+
 /// What has become of the mask.
 enum class Masked { kNo, kAsAlpha, kBesideAlpha };
 
@@ -110,11 +117,7 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked) 
   if (raster.profile) add("colour profile not applied and not kept");
   const int bits = raster.stored_bits;
   if (isWidened(image)) add("its 16 bits say no more than 8, which would take far fewer bytes");
-  if (const std::string peak = std::to_string(dimPeak(image)); peak != "0")
-    add(("no sample is above " + peak +
-         " of 65535, so it counts as a dark picture: gdal_translate -ot UInt16 -scale 0 " + peak +
-         " 0 65535 makes it a bright one")
-            .c_str());
+  if (const uint16_t peak = dimPeak(image); peak > 0) add(darkNote(peak).c_str());
   if (raster.shape.sample == PictureSample::kU16 && bits > 8 && bits < 16)
     add((std::to_string(bits) + " bits stretched to 16").c_str());
   if (raster.unnamed_alpha)
@@ -123,7 +126,7 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked) 
   if (masked == Masked::kAsAlpha) add("mask kept as alpha");
   if (masked == Masked::kBesideAlpha) add("mask not applied and not kept beside its last channel");
   if (raster.further_pages) add("further pages left out");
-  if (raster.unread_place) add("place in GML not read");
+  if (raster.unread_place) add("place in GML, or in damaged tags, not read");
   return note.empty() ? note : raster.name + ": " + note;
 }
 

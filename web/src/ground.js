@@ -6,9 +6,21 @@ const METRES = {ft: 0.3048, foot: 0.3048, feet: 0.3048, 'us-ft': 1200 / 3937};
 const AXIS = 6378137, ECCENTRICITY = 0.00669437999014;
 const RADIANS = Math.PI / 180;
 
-/** EPSG numbers geographic CRSs from 4000 to 4999; WKT says GEOGCRS, GEODCRS or GEOGCS. */
-const isInDegrees = (crs) =>
-  /^EPSG:4\d{3}(\D|$)/i.test(crs) || /^(COMP\w+\["[^"]*",\s*)?GEO[DG]/i.test(crs);
+/** WKT says what a CRS is first, or behind the name of the compound that it is a part of. */
+const WKT = /^(?:COMP\w+\["[^"]*",\s*)?(GEO|PROJ)/i;
+/** Of other codes no rule tells: 4547 is in metres, 6318 in degrees. */
+const DEGREES = /^EPSG:(4326|4269|4258|4979)(\D|$)/i;
+
+/**
+ * Whether coordinates are degrees: as the CRS says, or else if all lie where longitudes and
+ * latitudes do. Metres so near to the origin of a projection are next to none.
+ */
+function isInDegrees({geotransform: [x0, a, b, y0, c, d], crs, width, height}) {
+  const kind = WKT.exec(crs)?.[1].toUpperCase();
+  if (kind || DEGREES.test(crs)) return kind !== 'PROJ';
+  return [[0, 0], [width, 0], [0, height], [width, height]].every(([column, row]) =>
+    Math.abs(x0 + a * column + b * row) <= 360 && Math.abs(y0 + c * column + d * row) <= 90);
+}
 
 /** Of a degree to the east and to the north: radii of curvature times a degree; 0: no latitude. */
 export function metresPerDegree(latitude) {
@@ -24,11 +36,12 @@ export function metresPerDegree(latitude) {
  * Metres between columns and between rows, of degrees in the middle; other coordinates count as
  * metres. Nothing if there is no place, no CRS, or no distance.
  */
-function placedSpacing({hasGeotransform, geotransform, crs, width, height}) {
+function placedSpacing(info) {
+  const {hasGeotransform, geotransform, crs, width, height} = info;
   if (!hasGeotransform || !crs) return null;
   const [, a, b, north, c, d] = geotransform;
   const [east, up] =
-    isInDegrees(crs) ? metresPerDegree(north + (width * c + height * d) / 2) : [1, 1];
+    isInDegrees(info) ? metresPerDegree(north + (width * c + height * d) / 2) : [1, 1];
   const spacing = [Math.hypot(a * east, c * up), Math.hypot(b * east, d * up)];
   return spacing.every((metres) => metres > 0 && Number.isFinite(metres)) ? spacing : null;
 }

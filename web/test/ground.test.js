@@ -34,9 +34,18 @@ test('degrees are as long as in the middle of the ground', async () => {
   const geotransform = [7, 0.001, 0, 60.0165, 0, -0.001];  // the middle lies at 60 degrees north
   const wkt = 'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],' +
     'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]';
-  for (const crs of ['EPSG:4326', 'EPSG:4326+5773', wkt]) {
+  // 6318 is NAD83 (2011), as of the United States' elevation programme.
+  for (const crs of ['EPSG:4326', 'EPSG:4326+5773', 'EPSG:6318', wkt]) {
     const {x, y} = await scaleOf({crs, geotransform});
     near(x, 55.8), near(y, 111.412);
+  }
+});
+
+test('metres whose code looks like degrees are metres', async () => {
+  const geotransform = [500000, 25, 0, 4400000, 0, -25];
+  for (const crs of ['EPSG:4547', 'PROJCS["CGCS2000 / 3-degree Gauss-Kruger CM 114E"]']) {
+    const {x, y} = await scaleOf({crs, geotransform});
+    assert.deepEqual([x, y], [25, 25]);
   }
 });
 

@@ -3,8 +3,6 @@
 // up to the end. Big endian.
 #include "tools/files/pictures/geo_box.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string_view>

@@ -34,7 +34,7 @@ struct Raster {
   bool sparse = false;         ///< parts of a TIFF are missing, which reading leaves at 0
   bool profile = false;        ///< an ICC profile that is not applied
   Temporary geo_box{};         ///< JPEG 2000: a TIFF with the tags of a GeoTIFF
-  bool unread_place = false;   ///< JPEG 2000: a place in GML, or tags that are damaged
+  bool unread_place = false;   ///< JPEG 2000: a place in GML alone, or damaged tags
   int orientation = 1;         ///< as TIFF counts; not applied by reading
   /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
   enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
